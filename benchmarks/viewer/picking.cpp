@@ -159,8 +159,7 @@ std::optional<glm::vec3> pickHair(
     glm::vec2 pixel, float reach) {
     std::optional<glm::vec3> best;
     for (std::size_t i = 0; i + 1 < guides.size(); ++i) {
-        if ((i + 1) % vertices_per_guide == 0) continue;  // from the tip of one guide to the root
-                                                          // of the next
+        if ((i + 1) % vertices_per_guide == 0) continue;  // a tip and the next root
         const auto a = view.pixel(guides[i]);
         const auto b = view.pixel(guides[i + 1]);
         if (!a || !b) continue;

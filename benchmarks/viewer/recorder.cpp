@@ -12,7 +12,7 @@
 namespace benchmarks::viewer {
 namespace {
 
-// "0012"; larger numbers have as many digits as they need.
+// "0012"; larger numbers have more digits.
 std::string fourDigits(std::uint32_t number) {
     std::string digits = std::to_string(number);
     return std::string(4 - std::min<std::size_t>(digits.size(), 4), '0') + digits;
@@ -29,7 +29,7 @@ std::filesystem::path pictureOf(const std::filesystem::path& folder, std::uint32
 void Recorder::start(const std::filesystem::path& folder) {
     const std::filesystem::path first = pictureOf(folder, 0);
     std::error_code error;
-    // A shorter recording would leave the end of the old one behind its own.
+    // A shorter recording would leave the end of the old one in place.
     if (std::filesystem::exists(first, error))
         throw engine::Error(folder.string(), "has a recording already");
     engine::checkWritable(first);
@@ -79,7 +79,7 @@ std::filesystem::path freeName(
         if (std::filesystem::symlink_status(path, error).type() ==
             std::filesystem::file_type::not_found)
             return path;
-        // A folder that can't be looked into has no free name to find: writing says why.
+        // In an unreadable folder, no free name can be found. Writing will report the error.
         if (error) return path;
     }
 }

@@ -37,8 +37,8 @@ struct Argument {
     bool in_name;  // -a, otherwise --set
 };
 
-// Whether text is taken for a string as it is: it is no JSON, and has nothing that means something
-// to the parser of axes.
+// Whether the command line reads the text as a string: it is not JSON and has no special characters
+// of the axis parser.
 bool isPlain(const std::string& text) {
     constexpr std::string_view kFirst = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ_./";
     const std::string allowed = std::string(kFirst) + "0123456789-";
@@ -67,7 +67,7 @@ bool isInside(const std::string& pointer, const std::string& outer) {
     return pointer == outer || pointer.starts_with(outer + '/');
 }
 
-// The sweep's axes, each with the one value that it has in the settings.
+// Returns the sweep's axes, each with its single value in the settings.
 std::vector<Argument> axisArguments(const scene::Scene& scene, scene::Json& wanted) {
     std::vector<Argument> arguments;
     for (const scene::Axis& axis : scene.axes) {
@@ -80,7 +80,7 @@ std::vector<Argument> axisArguments(const scene::Scene& scene, scene::Json& want
     return arguments;
 }
 
-// Adds the fields that differ and are no axes.
+// Adds the fields that differ and are not axes.
 void addChanges(
     const scene::Json& original, const scene::Json& wanted, const std::string& pointer,
     const std::vector<scene::Axis>& axes, std::vector<Argument>& arguments) {
@@ -98,7 +98,7 @@ void addChanges(
     arguments.push_back({pointer, wanted, !is_list && pointer != "/description"});
 }
 
-// Leaves out of lists the members that have their defaults.
+// Removes members with default values from lists.
 void shorten(std::vector<Argument>& arguments, const hair::Settings& settings) {
     const scene::Json changed = scene::changedFields(settings);
     for (Argument& argument : arguments) {
@@ -108,7 +108,7 @@ void shorten(std::vector<Argument>& arguments, const hair::Settings& settings) {
     }
 }
 
-// Throws unless the program makes of the arguments the settings that they were made of.
+// Throws engine::Error unless the arguments reproduce the settings exactly.
 void check(scene::Scene scene, const std::vector<Argument>& arguments, const scene::Json& wanted) {
     std::vector<scene::Axis> axes;
     for (const Argument& argument : arguments) {
@@ -123,7 +123,7 @@ void check(scene::Scene scene, const std::vector<Argument>& arguments, const sce
             scene.path.string(), "a command line can't say it; save a scene instead");
 }
 
-// ---- JSON that people read ----------------------------------------------------------------------
+// ---- Readable JSON ------------------------------------------------------------------------------
 
 constexpr std::size_t kColumns = 100;
 constexpr std::size_t kIndent = 2;
@@ -143,7 +143,7 @@ std::string onOneLine(const scene::Json& value) {
 
 std::string onLines(const scene::Json& value, std::size_t indent);
 
-// `column` is where the text begins.
+// `column` is the column at which the text begins.
 std::string text(const scene::Json& value, std::size_t indent, std::size_t column) {
     std::string line = onOneLine(value);
     constexpr std::size_t kComma = 1;
@@ -169,14 +169,14 @@ std::string onLines(const scene::Json& value, std::size_t indent) {
 
 constexpr const char* kSchema = "scene.schema.json";
 
-// A folder's path without links, so that ".." leads where it says.
+// Returns a folder's path with links resolved, so that ".." stays correct.
 fs::path folderOf(const fs::path& folder) {
     return fs::weakly_canonical(fs::absolute(folder.empty() ? fs::path(".") : folder));
 }
 
 using FileNameVisitor = std::function<void(std::string& name)>;
 
-// Calls `visit` for every member that names a file, also within lists.
+// Calls `visit` for every member that is a file name, also in lists.
 void forEachFileName(hair::SettingsRef settings, const FileNameVisitor& visit);
 
 void visitFileNames(const hair::Place&, hair::SettingsRef, const FileNameVisitor&) {}
@@ -209,7 +209,7 @@ void forEachFileName(hair::SettingsRef settings, const FileNameVisitor& visit) {
 
 // ---- Files dropped on the window ----------------------------------------------------------------
 
-// Whether a picture has a scene in it. A damaged scene counts: opening it says what is wrong.
+// Whether a picture contains a scene. A damaged scene counts, because opening it reports the error.
 bool hasScene(const fs::path& picture) {
     try {
         return scene::sceneOfScreenshot(picture).has_value();
@@ -227,14 +227,14 @@ bool isMesh(const std::string& extension) {
 
 bool isGroom(const fs::path& file) {
     try {
-        hair::groom::strandImporterOf(file);  // knows some by their first bytes
+        hair::groom::strandImporterOf(file);  // recognises some by their first bytes
         return true;
     } catch (const engine::Error&) {
         return false;
     }
 }
 
-// What settings call a file: relative to the folder if it is below it, otherwise absolute.
+// Returns the name of a file for settings: relative if it is below the folder, otherwise absolute.
 std::string nameIn(const fs::path& directory, const fs::path& file) {
     const fs::path folder = fs::weakly_canonical(directory.empty() ? fs::path(".") : directory);
     const fs::path absolute =
@@ -301,7 +301,7 @@ Holds inGltf(const fs::path& path) {
     return lines ? Holds::strands : Holds::triangles;
 }
 
-// USD with curves is strands, and so is what can't be read.
+// USD with curves counts as strands, and so does a file that cannot be read.
 Holds inUsd(const fs::path& file) {
     try {
         hair::groom::importStrands(file, 0);
@@ -316,12 +316,12 @@ Holds inUsd(const fs::path& file) {
     }
 }
 
-// What is in a file of a format that can hold strands and meshes: OBJ, PLY, glTF, USD. Triangles
-// where the file has any: an OBJ with an `f` line, a glTF with a primitive of triangles (or of no
-// stated mode), a PLY with faces and without an element of strands. (Faces of two corners, as which
-// assimp writes lines, are not told from others.) Of an OBJ it reads up to the first face, of a PLY
-// the header, of a glTF the JSON; USD is read whole. Another file that can't be read counts as
-// triangles: its import says what is wrong.
+// Returns the contents of a file in a format for both strands and meshes: OBJ, PLY, glTF, USD.
+// Triangles if the file has any: an OBJ with an `f` line, a glTF with a primitive of triangles (or
+// without a stated mode), a PLY with faces and without an element of strands. (Faces with two
+// corners, as assimp writes lines, count as faces.) Reads an OBJ up to the first face, a PLY's
+// header, a glTF's JSON, but all of a USD file. Other unreadable files count as triangles, because
+// their import reports the error.
 Holds strandsOrTriangles(const fs::path& file) {
     const std::string extension = hair::groom::lowerCaseExtension(file);
     try {
@@ -331,14 +331,14 @@ Holds strandsOrTriangles(const fs::path& file) {
         return inGltf(file);
     } catch (const engine::Error&) {
         return Holds::triangles;
-    } catch (const scene::Json::exception&) {  // JSON, but no glTF
+    } catch (const scene::Json::exception&) {  // JSON, but not glTF
         return Holds::triangles;
     }
 }
 
-constexpr std::uint32_t kMostAsGuides = 1000;  // strands that all become guides
+constexpr std::uint32_t kMostAsGuides = 1000;  // up to this many strands, all become guides
 constexpr std::uint32_t kGuides = 300;  // guides of a dense groom: docs/grooms.md
-constexpr std::uint32_t kRootsAsked = 1000;  // roots that are held against the mesh, about
+constexpr std::uint32_t kRootsAsked = 1000;  // approximate number of roots to compare with the mesh
 constexpr double kOnSurface = 0.01;  // m
 
 bool growOn(
@@ -353,7 +353,7 @@ bool growOn(
     return hair::groom::spreadOf(distances).quartile3 <= kOnSurface;
 }
 
-// Removes what moves with a head that is no longer there.
+// Removes bodies that move with a head that is gone.
 void removeBodiesOfHead(hair::SimulationSettings& simulation) {
     std::erase_if(simulation.colliders, [](const hair::Collider& collider) {
         return collider.follows == hair::Follows::head;
@@ -363,13 +363,14 @@ void removeBodiesOfHead(hair::SimulationSettings& simulation) {
     });
 }
 
-// Settings whose hair is that of a file, without what belonged to the hair before: its style, its
-// placement and the hands that pull at it.
-//   - A unit that the file doesn't state is guessed as `groom info` does.
-//   - Of more than 1,000 strands 300 become guides, and all are drawn, each moved by three of them.
-//   - The mesh stays where the roots are on it (three quarters of them within 1 cm); otherwise it
-//     goes, with the bodies that follow it, and the strands float.
-// `name` is what the settings call the file; other names in them are relative to `directory`.
+// Returns settings with the hair of a file, without the style, placement and pulls of the previous
+// hair.
+//   - A unit that the file does not state is guessed as in `groom info`.
+//   - With more than 1,000 strands, 300 become guides, and all strands are drawn, each moved by
+//     three guides.
+//   - The mesh stays if the roots are on it (three quarters of them within 1 cm). Otherwise it is
+//     removed with the bodies that follow it, and the strands float.
+// Settings call the file `name`; other names in them are relative to `directory`.
 hair::Settings withGroom(
     hair::Settings settings, const fs::path& directory, const fs::path& file,
     const std::string& name) {
@@ -420,7 +421,7 @@ std::string caseArguments(const scene::Scene& scene, const hair::Settings& setti
     return text;
 }
 
-// ---- JSON that people read ----------------------------------------------------------------------
+// ---- Readable JSON ------------------------------------------------------------------------------
 
 std::string readableJson(const scene::Json& document) {
     const bool lines = document.is_structured() && !document.empty();
@@ -441,7 +442,7 @@ hair::Settings movedFiles(hair::Settings settings, const fs::path& from, const f
     forEachFileName(settings, [&](std::string& name) {
         if (name.empty() || fs::path(name).is_absolute()) return;
         const fs::path old = old_folder / name;
-        // A link that a name is itself stays one: what it leads to may change.
+        // A name that is itself a link stays a link, because its target may change.
         const fs::path file = folderOf(old.parent_path()) / old.filename();
         name = file.lexically_relative(folder).generic_string();
     });

@@ -13,7 +13,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-// Lines of the list before it scrolls, however little room there is.
+// Minimum number of visible lines, however little room there is.
 constexpr float kFewestLines = 4.0f;
 
 fs::path sameName(const fs::path& path) {
@@ -26,7 +26,7 @@ float widthOf(const char* button) {
     return ImGui::CalcTextSize(button).x + 2.0f * ImGui::GetStyle().FramePadding.x;
 }
 
-// The next item takes what is left of the line beside a button.
+// The next item takes the rest of the line beside a button.
 void leaveRoomFor(const char* button) {
     ImGui::SetNextItemWidth(-widthOf(button) - ImGui::GetStyle().ItemSpacing.x);
 }

@@ -10,25 +10,25 @@
 // The panel of scenes to open: those of a folder, any other by its path, and recent ones.
 namespace benchmarks::viewer {
 
-// A scene file of a folder.
+// A scene file in a folder.
 struct ListedScene {
     std::string name;
     std::string description;
-    std::string problem;  // why it can't be opened; empty: it can
+    std::string problem;  // why it cannot be opened; empty if it can
 };
 ListedScene listedScene(const std::filesystem::path& path);
 
-// The .json files of a folder but JSON Schemas, sorted by name; none where the folder can't be
-// read.
+// Returns the .json files of a folder except JSON Schemas, sorted by name; none if the folder
+// cannot be read.
 std::vector<std::filesystem::path> sceneFilesIn(const std::filesystem::path& folder);
 
-// The scenes beside the one that is open, and any other by its path: within the current window of
-// Dear ImGui.
+// Lists the scenes beside the open one, within the current Dear ImGui window, and accepts any other
+// by its path.
 class SceneList {
 public:
     explicit SceneList(const std::filesystem::path& folder);
 
-    // The scene that was chosen. `open` is marked.
+    // Returns the chosen scene, if any. Marks the scene `open`.
     std::optional<std::filesystem::path> show(const std::filesystem::path& open);
 
 private:
@@ -38,12 +38,12 @@ private:
 
     std::filesystem::path folder_;
     std::vector<std::filesystem::path> files_;
-    std::vector<std::optional<ListedScene>> scenes_;  // [file], read when they are first in view
-    std::array<char, 4096> typed_{};                  // the longest path of a system
+    std::vector<std::optional<ListedScene>> scenes_;  // [file], read when first visible
+    std::array<char, 4096> typed_{};  // the system's longest path
     std::array<char, 64> filter_{};
 };
 
-// Scenes that were open before, within the current window of Dear ImGui; the one that was chosen.
+// Shows recent scenes within the current Dear ImGui window. Returns the chosen one, if any.
 std::optional<std::filesystem::path> recentScenes(std::span<const std::filesystem::path> scenes);
 
 }  // namespace benchmarks::viewer

@@ -25,7 +25,7 @@ constexpr std::array kSigns{
     std::pair<std::string_view, std::string_view>{"^3", "³"},
     std::pair<std::string_view, std::string_view>{"deg", "°"}};
 
-// Makes room where Dear ImGui has more to write.
+// Resizes the string when Dear ImGui needs more room.
 int resize(ImGuiInputTextCallbackData* data) {
     if (data->EventFlag != ImGuiInputTextFlags_CallbackResize) return 0;
     auto& text = *static_cast<std::string*>(data->UserData);
@@ -108,9 +108,10 @@ std::string numberFormat(const char* conversion, const char* unit) {
 
 double dragSpeed(double value, double minimum, double maximum) {
     const double range = maximum - minimum;
-    // A drag across a panel covers all of a small range.
+    // In a small range, a drag across a panel covers the whole range.
     if (range <= 4.0) return range / 400.0;
-    // In a large range a pixel is a hundredth of the number, so that the digits that matter move.
+    // In a large range, a pixel changes the number by a hundredth of itself, so that its leading
+    // digits move.
     return std::max(std::abs(value) * 0.01, std::min(range / 4000.0, 0.01));
 }
 

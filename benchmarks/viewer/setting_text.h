@@ -4,7 +4,7 @@
 #include <string>
 #include <string_view>
 
-// How the settings panel writes names, numbers and units, and turns pages of long lists.
+// Formats names, numbers and units for the settings panel, and pages through long lists.
 namespace benchmarks::viewer {
 
 // Elements [first, last) of a list.
@@ -16,27 +16,28 @@ struct ElementRange {
 // The elements of a page. Pages count from 0; a page past the end is the last one.
 ElementRange elementsOf(std::size_t page, std::size_t count);
 
-// The elements of the page that the user turned to, in a list of `count`. Where there are several
-// pages, shows buttons that turn them, within the current window and ID of Dear ImGui.
+// Returns the elements of the current page of a list of `count`. With several pages, shows buttons
+// to turn them, within Dear ImGui's current window and ID.
 ElementRange turnPages(std::size_t count);
 
-// A setting's name as people read it: "Field of view" of "field_of_view".
+// Returns a setting's readable name: "Field of view" for "field_of_view".
 std::string shownName(std::string_view name);
 
-// Text as a search compares it: lower case, spaces for underscores.
+// Returns text in its form for searches: lower case, spaces for underscores.
 std::string searchable(std::string_view text);
 
-// A unit of the settings' tables as people read it, such as "m/s²"; empty for ratios and counts.
+// Returns a unit of the settings' tables in readable form, such as "m/s²"; empty for ratios and
+// counts.
 std::string shownUnit(const char* unit);
 
-// The format with which Dear ImGui writes a number and its unit; `conversion` is one of printf's.
+// Returns Dear ImGui's format for a number and its unit; `conversion` is one of printf's.
 std::string numberFormat(const char* conversion, const char* unit);
 
-// By how much a number changes when it is dragged by a pixel.
+// Returns the change of a number per pixel of a drag.
 double dragSpeed(double value, double minimum, double maximum);
 
-// A line of text of any length within the current window of Dear ImGui; true where it was changed.
-// `hint` stands in an empty field.
+// A text field of any length within the current Dear ImGui window. Returns whether the text
+// changed. `hint` stands in an empty field.
 bool textInput(const char* label, std::string& text, const char* hint = "");
 
 }  // namespace benchmarks::viewer

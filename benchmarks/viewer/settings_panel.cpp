@@ -20,29 +20,29 @@ namespace {
 
 // ---- The line of a field ------------------------------------------------------------------------
 
-// How a setting's name and widget share a panel.
+// Placement of a setting's name and widget.
 enum class FieldShape {
-    beside,  // the name left of the widget, or above it where the name is long
-    below,  // always above: the widget needs the width
-    check,  // the widget is a box, and its name is right of it
+    beside,  // name left of the widget, or above it if it is long
+    below,  // name always above, because the widget needs the width
+    check,  // checkbox with its name on the right
 };
 
-// What there is to say of a setting.
+// Texts about a setting.
 struct FieldText {
     std::string pointer;
-    std::string name;  // as people read it
-    std::string unit;  // that the widget has no room for; empty: none
+    std::string name;  // readable
+    std::string unit;  // if the widget has no room for it; otherwise empty
     std::string help;
     std::string range;  // empty: none
 };
 
 enum class FieldMark { as_in_scene, changed };
 
-constexpr float kNameShare = 0.46f;  // of the line
+constexpr float kNameShare = 0.46f;  // share of the line
 
 float resetWidth() { return ImGui::GetFrameHeight(); }
 
-// Not every font has the arrow.
+// Some fonts lack the arrow.
 const char* resetLabel() { return ImGui::GetFont()->FindGlyphNoFallback(0x21ba) ? "↺" : "x"; }
 
 void explain(const FieldText& text) {
@@ -65,7 +65,7 @@ void showName(const FieldText& text) {
     ImGui::TextDisabled("%s", text.unit.c_str());
 }
 
-// A button that sets a value back, at the right end of the line that the last item is on.
+// A button that resets a value, at the right end of the last item's line.
 bool reset(const FieldText& text, float end) {
     ImGui::SameLine(end - resetWidth());
     const std::string label = std::string(resetLabel()) + "##" + text.pointer + "/reset";
@@ -75,9 +75,9 @@ bool reset(const FieldText& text, float end) {
     return pressed;
 }
 
-// The line of a setting, or two of them, within the current window of Dear ImGui: its name and its
-// widget, whose width is set and which is the last item that `widget` makes. A box has its name by
-// itself. True where the value is to be set back.
+// Shows a setting in one or two lines within the current Dear ImGui window: its name and its
+// widget. `widget` makes the widget as its last item, with the width already set. A checkbox shows
+// its own name. Returns whether to reset the value.
 bool fieldLine(
     const FieldText& text, FieldShape shape, FieldMark mark, const std::function<void()>& widget) {
     const bool changed = mark == FieldMark::changed;
@@ -108,8 +108,8 @@ bool fieldLine(
 
 // ---- The widget of one value --------------------------------------------------------------------
 
-// Each editValue() shows the widget of one value, of the next item's width, within the current
-// window of Dear ImGui. True where it changed the value.
+// Each editValue() shows the widget of one value, with the next item's width, within the current
+// Dear ImGui window. Returns whether it changed the value.
 
 bool isColor(const std::string& name, const hair::Range& range) {
     return range.minimum == 0.0 && range.maximum == 1.0 &&
@@ -190,7 +190,7 @@ bool editValue(const char* label, const char*, const hair::OneOf& row, hair::Set
     return changed;
 }
 
-// Half a file name is none: it counts once it is entered.
+// Takes the text only when the field loses focus, because a partial file name is not valid.
 bool editValue(const char* label, const char*, const hair::Text& row, hair::SettingsRef settings) {
     std::string& value = row.in(settings);
     std::string text = value;
@@ -219,7 +219,7 @@ bool editValue(
     return changed;
 }
 
-// Names, and below them a file: the entry is its path.
+// Lists names, and below them a field for a file's path.
 bool editValue(
     const char* label, const char* name, const hair::ChoiceOrFile& row,
     hair::SettingsRef settings) {
@@ -244,7 +244,7 @@ bool editValue(
     return changed;
 }
 
-// ---- The value as it was ------------------------------------------------------------------------
+// ---- The original value -------------------------------------------------------------------------
 
 template <class Value>
 void reset(const hair::Member<Value>& row, hair::SettingsRef settings, hair::SettingsView before) {
@@ -262,7 +262,7 @@ void reset(const hair::ChoiceOrFile& row, hair::SettingsRef settings, hair::Sett
         row.chooseFile(settings, row.file.in(before));
 }
 
-// ---- What a row looks like ----------------------------------------------------------------------
+// ---- Appearance of a row ------------------------------------------------------------------------
 
 FieldShape shapeOf(const hair::Place&) { return FieldShape::beside; }
 FieldShape shapeOf(const hair::Number<glm::vec3>&) { return FieldShape::below; }
@@ -292,8 +292,8 @@ std::string rangeOf(const Row& row) {
 
 FieldMark markOf(bool changed) { return changed ? FieldMark::changed : FieldMark::as_in_scene; }
 
-// A widget for each row of a settings table; a group or list is a node that opens. A widget's label
-// is "##" and the JSON pointer of what it changes.
+// Shows a widget for each row of a settings table. A group or list is a collapsible node. A
+// widget's label is "##" and the JSON pointer of its field.
 class FieldWidgets {
 public:
     explicit FieldWidgets(const std::string& search) : search_(searchable(search)) {}
@@ -343,7 +343,7 @@ private:
         });
     }
 
-    // What the file declares, as if each were a struct of one member.
+    // Shows the parameters that the file declares, each like a struct with one member.
     void show(
         const hair::Field& field, const hair::Parameters& row, hair::SettingsRef settings,
         hair::SettingsView original) {
@@ -382,7 +382,7 @@ private:
             showAs(hair::Number<float>{{hair::Place(&value, &value.value.x)}, range});
     }
 
-    // True where the element is to be removed.
+    // Returns whether to remove the element.
     bool showElement(std::size_t index, hair::SettingsRef element, hair::SettingsView before) {
         const std::string name = std::to_string(index);
         bool removed = false;
@@ -393,7 +393,7 @@ private:
         return removed;
     }
 
-    // A row of one value.
+    // Shows a row with one value.
     template <class Row>
     void show(
         const hair::Field& field, const Row& row, hair::SettingsRef settings,
@@ -452,7 +452,7 @@ private:
         const char* name, const std::string& title, const char* help, FieldMark mark, Body&& body) {
         const std::string path = path_;
         path_ += std::string("/") + name;
-        // Nodes that a search opens are others than those that the user opens.
+        // Nodes opened by a search have other ids than nodes opened by the user.
         if (!search_.empty()) ImGui::SetNextItemOpen(true, ImGuiCond_Appearing);
         const std::string id = title + "###" + path_ + (search_.empty() ? "" : "?");
         if (mark == FieldMark::changed)
@@ -470,7 +470,7 @@ private:
     }
 
     std::string search_;
-    std::string path_;  // of the group that is shown: "/strands/curl"
+    std::string path_;  // pointer of the group being shown: "/strands/curl"
     Edit edit_;
 };
 

@@ -7,9 +7,9 @@
 
 namespace benchmarks::viewer {
 
-// Every parameter as a widget, made from the tables of hair/settings.h: within the current window
-// of Dear ImGui. Fields whose pointer or help has `search` in it are shown, all for an empty one.
-// Fields that differ from `original` are marked, and can be set back.
+// Shows every parameter as a widget, from the tables of hair/settings.h, within the current Dear
+// ImGui window. Shows fields with `search` in their pointer or help, or all if it is empty. Marks
+// fields that differ from `original`; they can be reset.
 Edit settingsPanel(
     hair::Settings& settings, const hair::Settings& original, const std::string& search);
 

@@ -21,9 +21,9 @@
 namespace benchmarks::viewer {
 namespace {
 
-// ---- Text that can be copied --------------------------------------------------------------------
+// ---- Selectable text ----------------------------------------------------------------------------
 
-// Text with line breaks where words go on in the next line.
+// Inserts line breaks where text wraps.
 std::string wrapped(const std::string& text, float width) {
     std::string lines;
     const char* const end = text.data() + text.size();
@@ -31,7 +31,7 @@ std::string wrapped(const std::string& text, float width) {
         const char* const line_end = std::find(from, end, '\n');
         const char* to = ImGui::GetFont()->CalcWordWrapPositionA(
             ImGui::GetFontSize() / ImGui::GetFont()->FontSize, from, line_end, width);
-        if (to == from && to < line_end) ++to;  // no room for a single letter
+        if (to == from && to < line_end) ++to;  // no room for even one letter
         lines.append(from, to);
         from = to;
         if (from < end) lines += '\n';
@@ -43,7 +43,7 @@ std::string wrapped(const std::string& text, float width) {
     return lines;
 }
 
-// Text in lines as wide as the window, of which parts can be selected and copied.
+// Text wrapped to the window's width, parts of which can be selected and copied.
 void selectableText(const char* id, const std::string& text, const ImVec4& color) {
     std::string lines = wrapped(text, ImGui::GetContentRegionAvail().x - ImGui::GetFontSize());
     const auto count = static_cast<float>(1 + std::ranges::count(lines, '\n'));
@@ -51,7 +51,7 @@ void selectableText(const char* id, const std::string& text, const ImVec4& color
     ImGui::PushStyleColor(ImGuiCol_Text, color);
     ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, ImVec2(0, 0));
     ImGui::PushStyleVar(ImGuiStyleVar_FrameBorderSize, 0.0f);
-    // A little more than its lines, or it gets a scroll bar.
+    // Slightly higher than its lines; otherwise it gets a scroll bar.
     ImGui::InputTextMultiline(
         id, lines.data(), lines.size() + 1,
         ImVec2(-1.0f, (count + 0.2f) * ImGui::GetTextLineHeight()),
@@ -78,7 +78,7 @@ std::string lineOf(const WatchedFiles::Text& text, int line) {
 
 ImVec4 textColor() { return ImGui::GetStyleColorVec4(ImGuiCol_Text); }
 
-// Red, and readable on dark as on light.
+// A red that is readable on dark and light backgrounds.
 ImVec4 problemColor() {
     const ImVec4 text = textColor();
     return {
@@ -156,7 +156,7 @@ void showChanged(const std::vector<std::string>& changed) {
 
 }  // namespace
 
-// ---- Files that are watched ---------------------------------------------------------------------
+// ---- Watched files ------------------------------------------------------------------------------
 
 void WatchedFiles::watch(const std::string& file, Text text) {
     files_.try_emplace(file, File{.text = std::move(text), .read = {}, .seen = {}});
@@ -225,18 +225,18 @@ struct ShaderReload::Parts {
     ReloadedShaders reloaded;
 
     engine::ShaderSources built;  // the texts of all files when the program was built
-    // By entry point: itself and what it includes, when the program was built and as it is now.
-    // While new code is not accepted, also what the code in use includes.
+    // By entry point: its file and includes, when the program was built and now. While new code is
+    // not accepted yet, the latter also has the includes of the code in use.
     using Files = std::map<std::string, std::set<std::string>>;
     Files built_files;
     Files now_files;
     std::map<std::string, WatchedFiles::Text> used;  // of files that differ from `built`
 
-    // New code that is neither accepted nor rejected, and what was there before.
+    // New code that is neither accepted nor rejected, and the previous state.
     struct Attempt {
         engine::ShaderLibrary::Replacements before;
         std::map<std::string, WatchedFiles::Text> used;
-        Files files;  // of the new code alone
+        Files files;  // of the new code only
         Clock::time_point start;
     };
     std::optional<Attempt> attempt;
@@ -271,7 +271,7 @@ WatchedFiles::Text ShaderReload::Parts::textFor(const std::string& file) {
     return found == built.end() ? std::nullopt : WatchedFiles::Text(found->second);
 }
 
-// Whether a file differs from the code in use.
+// Whether a file differs from its version in the code in use.
 bool ShaderReload::Parts::differs(const std::string& file) {
     if (needsRebuild(file)) return false;
     if (const auto other = used.find(file); other != used.end())
@@ -301,7 +301,7 @@ void ShaderReload::Parts::compile(
         if (needsRebuild(file) && !built.contains(file))
             addProblem(file, 0, "is shared with C++ and new: build the program anew");
     attempt->files[path] = {compiled.files.begin(), compiled.files.end()};
-    // The fix of an error may be in any of these files.
+    // Any of these files may contain the fix of an error.
     now_files[path].insert(compiled.files.begin(), compiled.files.end());
     if (compiled.error) return;
 

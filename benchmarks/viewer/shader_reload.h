@@ -12,66 +12,65 @@
 
 #include "engine/device.h"
 
-// Shaders that are compiled and drawn with as soon as they are saved.
+// Compiles shaders when they are saved, and draws with them.
 namespace benchmarks::viewer {
 
-// What a compiler says of a shader.
+// A compiler's message about a shader.
 struct ShaderProblem {
-    std::string file;  // relative to the folder of shaders; empty where it is no single file's
-    int line = 0;      // from 1; 0: of no line
+    std::string file;  // relative to the folder of shaders; empty if it concerns no single file
+    int line = 0;  // from 1; 0: no line
     std::string text;
-    std::string source;  // the line as it was compiled
+    std::string source;  // the compiled line
 };
 
-// Shaders that took the place of others.
+// Reloaded shaders.
 struct ReloadedShaders {
-    std::vector<std::string> paths;  // entry points that were compiled
-    double seconds = 0;              // until pipelines were made of them
+    std::vector<std::string> paths;  // compiled entry points
+    double seconds = 0;  // until their pipelines were created
     std::chrono::system_clock::time_point when;
 };
 
-// What is known of shaders that are watched: a value.
+// State of the watched shaders, as plain values.
 struct ShaderStatus {
-    bool watches = false;  // whether the folder has shaders of the program
+    bool watches = false;  // whether the folder has the program's shaders
     std::filesystem::path folder;
-    std::vector<ShaderProblem> problems;  // of what was compiled last
-    std::vector<std::string> changed;  // files that differ from what the program was built with
-    ReloadedShaders reloaded;  // what was taken last
-    std::vector<std::string> replaced;  // shaders that are not those of the build
+    std::vector<ShaderProblem> problems;  // from the last compilation
+    std::vector<std::string> changed;  // files that differ from those of the build
+    ReloadedShaders reloaded;  // last accepted shaders
+    std::vector<std::string> replaced;  // shaders that differ from the build's
 };
 
-// Watches the GLSL that the program was built from and compiles what was saved since, in process.
-// Pipelines that are made from then on have the new code: that of all files that were saved, or,
-// while one of them does not compile, of none.
+// Watches the GLSL sources of the program and compiles saved changes in process. New pipelines then
+// have the code of all saved files, or of none while one of them does not compile.
 class ShaderReload {
 public:
-    // `folder` is a copy of shaders/. Nothing is watched where it does not exist.
+    // `folder` is a copy of shaders/. If it does not exist, nothing is watched.
     ShaderReload(const engine::Device& device, const std::filesystem::path& folder);
     ~ShaderReload();
     ShaderReload(const ShaderReload&) = delete;
     ShaderReload& operator=(const ShaderReload&) = delete;
 
-    // Looks at the files, at most a few times a second. True where new code compiled: then all
-    // pipelines have to be made anew, and accept() or reject() says how that went.
+    // Checks the files, at most a few times a second. Returns true if new code was compiled. The
+    // caller then recreates all pipelines and calls accept() or reject().
     bool poll();
-    // The new code stays.
+    // Keeps the new code.
     void accept();
-    // The code before comes back; `reason` is a problem of the shaders that were new.
+    // Restores the previous code; `reason` becomes a problem of the new shaders.
     void reject(const std::string& reason);
 
-    // What is wrong with what was compiled last; empty: nothing.
+    // Problems of the last compilation; empty if there are none.
     const std::vector<ShaderProblem>& problems() const;
-    // Files that differ from what the program was built with, relative to the folder.
+    // Files that differ from those of the build, relative to the folder.
     const std::vector<std::string>& changed() const;
-    // Whether C++ includes a file too. It is compiled as the program was built with it, whatever it
-    // says now, for buffers are laid out so.
+    // Whether C++ also includes the file. It is always compiled as in the build, because C++ has
+    // that buffer layout.
     static bool needsRebuild(std::string_view file) { return file.starts_with("shared/"); }
-    // What accept() took last; it has no paths where that is nothing.
+    // What accept() accepted last; without paths if that is nothing.
     const ReloadedShaders& reloaded() const;
-    // Whether the folder has shaders of the program.
+    // Whether the folder has the program's shaders.
     bool watches() const;
     const std::filesystem::path& folder() const;
-    // All of this.
+    // Returns all of this.
     ShaderStatus status() const;
 
 private:
@@ -79,24 +78,24 @@ private:
     std::unique_ptr<Parts> parts_;
 };
 
-// What was reloaded and what the compiler says, within the current window of Dear ImGui.
+// Shows reloaded shaders and compiler messages within the current Dear ImGui window.
 void shaderPanel(const ShaderStatus& status);
 
-// The texts of files that others write. Editors save in steps (truncate, then write; or write
-// beside, then rename), so that a file may be gone, empty or cut short for a moment: it counts as
-// changed only once it looks the same at two looks running.
+// Texts of files that other programs write. Editors save in steps (truncate, then write; or write a
+// copy, then rename), so a file may be missing, empty or incomplete for a moment. A file counts as
+// changed only when two successive checks find the same state.
 class WatchedFiles {
 public:
-    using Text = std::optional<std::string>;  // none: there is no such file
+    using Text = std::optional<std::string>;  // absent: the file does not exist
 
     explicit WatchedFiles(std::filesystem::path folder) : folder_(std::move(folder)) {}
 
-    // Watches a file. It counts as having `text` until a look finds another.
+    // Watches a file. It counts as having `text` until a check finds another.
     void watch(const std::string& file, Text text);
-    // A file's text. A file that isn't watched yet is read, and watched from now on.
+    // Returns a file's text. Reads a file that is not watched yet, and watches it from then on.
     const Text& text(const std::string& file);
 
-    // Looks at the files on disk. True where a text became another.
+    // Checks the files on disk. Returns true if a text changed.
     bool look();
 
     const std::filesystem::path& folder() const { return folder_; }
@@ -111,8 +110,8 @@ private:
     };
     struct File {
         Text text;
-        std::optional<Stamp> read;  // when `text` was read; none: never
-        std::optional<Stamp> seen;  // at the last look
+        std::optional<Stamp> read;  // when `text` was read; absent: never
+        std::optional<Stamp> seen;  // at the last check
     };
 
     Stamp stampOf(const std::string& file) const;

@@ -15,8 +15,8 @@
 namespace benchmarks::viewer {
 namespace {
 
-constexpr double kLong = 1.0;  // s from which on a picture of the scene is said to take long
-constexpr double kToldFor = 12.0;  // s that a message is shown for
+constexpr double kLong = 1.0;  // s; a picture of the scene that takes longer is mentioned
+constexpr double kToldFor = 12.0;  // s; duration of a message
 
 constexpr std::array kSides{
     Choice<std::size_t>{"A", 0, "The settings below are those of A."},
@@ -76,7 +76,7 @@ std::optional<Tab> tabOf(Action action) {
 
 }  // namespace
 
-// ---- What the window shows ----------------------------------------------------------------------
+// ---- Contents of the window ---------------------------------------------------------------------
 
 void Viewer::Parts::showScene() {
     Side& side = scene.editedSide();
@@ -176,7 +176,7 @@ void Viewer::Parts::showPicture() {
         Side& side = scene.editedSide();
         hair::Settings settings = side.wanted();
         Edit edit;
-        // Tools point at what is shown.
+        // Tools need a shown picture to point at.
         ImGui::BeginDisabled(!side.shown().isThere());
         if (ImGui::BeginChild("toolbar", {0.0f, 0.0f}, ImGuiChildFlags_AutoResizeY))
             edit = tools.toolbar(settings, side.shown());
@@ -203,7 +203,7 @@ void Viewer::Parts::showPicture() {
     ImGui::EndChild();
 }
 
-// What there is to know of the pictures as they are.
+// Returns notes about the current pictures.
 std::string Viewer::Parts::drawingNote() const {
     const Shown& shown = scene.side(0).shown();
     std::string note;
@@ -303,7 +303,7 @@ std::optional<std::filesystem::path> PathPopup::show() {
     return accepted;
 }
 
-// ---- What menus and keys do ---------------------------------------------------------------------
+// ---- Effects of menus and keys ------------------------------------------------------------------
 
 void Viewer::Parts::compare() {
     if (scene.sideCount() > 1) {
@@ -315,7 +315,7 @@ void Viewer::Parts::compare() {
     }
 }
 
-// Changes settings; false where the action is none on settings.
+// Changes settings; false if the action does not concern settings.
 bool Viewer::Parts::changeSetting(Action action) {
     hair::Settings settings = scene.editedSide().wanted();
     const Shown& shown = scene.editedSide().shown();
@@ -336,7 +336,7 @@ bool Viewer::Parts::changeSetting(Action action) {
     return true;
 }
 
-// Where there is room for one column only, both are shown or hidden.
+// If only one column fits, toggles both.
 void Viewer::Parts::toggleColumn(Column& column) {
     Preferences& now = preferences.now;
     if (merged)
@@ -345,7 +345,7 @@ void Viewer::Parts::toggleColumn(Column& column) {
         column.shown = !column.shown;
 }
 
-// Changes the window's arrangement; false where the action is none on it.
+// Changes the window's arrangement; false if the action does not concern it.
 bool Viewer::Parts::changeWindow(Action action) {
     Preferences& now = preferences.now;
     const auto zoomTo = [&](float zoom) {

@@ -32,10 +32,10 @@
 #include "engine/ui.h"
 #include "engine/window.h"
 
-// The inside of the viewer, for viewer.cpp and shell.cpp alone.
+// Internals of the viewer, only for viewer.cpp and shell.cpp.
 namespace benchmarks::viewer {
 
-// The last thing that the user was told.
+// The last message to the user.
 class Message {
 public:
     enum class Tone { told, problem };
@@ -45,10 +45,10 @@ public:
 
     const std::string& text() const { return text_; }
     Tone tone() const { return tone_; }
-    // Counts messages, so that the same text again is a new one.
+    // Counts messages, so that a repeated text counts as a new message.
     unsigned count() const { return count_; }
 
-    // What `work` throws, a lost device apart, becomes a complaint.
+    // Turns exceptions of `work` into complaints, except a lost device.
     template <class Work>
     void attempt(Work&& work) {
         try {
@@ -72,13 +72,13 @@ private:
     unsigned count_ = 0;
 };
 
-// A box over everything else that asks for the path of a file to write.
+// A box above everything else that asks for the path of a file to write.
 class PathPopup {
 public:
-    // Opens the box, from the next picture of the window on, with a path to begin with.
+    // Opens the box in the window's next picture, with an initial path.
     void open(const std::filesystem::path& suggested);
 
-    // Shows the box while it is open, and returns the path that was accepted.
+    // Shows the box while it is open. Returns the accepted path, if any.
     std::optional<std::filesystem::path> show();
 
 private:
@@ -86,7 +86,7 @@ private:
     bool opens_ = false;
 };
 
-// What the viewer is made of.
+// The parts of the viewer.
 struct Viewer::Parts {
     Parts(
         const ViewOptions& options, const SceneFile& file, const hair::Settings& settings,
@@ -94,7 +94,7 @@ struct Viewer::Parts {
 
     // ---- viewer.cpp: the window, picture by picture
 
-    // Draws one picture of the window; false once it is closed.
+    // Draws one picture of the window; false if it was closed.
     bool frame();
     void drawPicture();
     void waitForEvents();
@@ -102,7 +102,7 @@ struct Viewer::Parts {
     void followScale();
     void present();
     void keepPreferences();
-    double seconds() const;  // since it was opened, by a clock that scripts don't set
+    double seconds() const;  // since it was opened, by a clock that scripts do not control
 
     // ---- viewer.cpp: the thread that draws
 
@@ -117,15 +117,15 @@ struct Viewer::Parts {
     unsigned levelFor(const Order& order);
     double picturesPerSecond() const;
     void stopDrawing(const std::string& why);
-    // Does something once what a side was asked for last is followed and, where that is wanted,
-    // shown as the runner draws it.
+    // Calls `act` once the side's last request is applied and, with Needs::picture, shown as the
+    // runner draws it.
     enum class Needs { settings, picture };
     void whenFollowed(Side& side, Needs needs, std::function<void(Side&)> act);
     void actOnFollowed();
 
     // ---- viewer.cpp: files that are opened and written
 
-    std::filesystem::path suggestedPath() const;  // where a scene might be saved
+    std::filesystem::path suggestedPath() const;  // a path to save a scene
     void open(const std::filesystem::path& path);
     void save();
     void saveAs(const std::filesystem::path& path);
@@ -134,7 +134,7 @@ struct Viewer::Parts {
     void record();
     void drop(const std::filesystem::path& file);
 
-    // ---- shell.cpp: what the window shows
+    // ---- shell.cpp: contents of the window
 
     void showWindow();
     void showColumn(const char* name, const Box& box, std::span<const Tab> shown, Tab& chosen);
@@ -146,7 +146,7 @@ struct Viewer::Parts {
     std::string drawingNote() const;
     void showStatus();
 
-    // ---- shell.cpp: what menus and keys do
+    // ---- shell.cpp: effects of menus and keys
 
     void perform(Action action);
     ActionState stateOf(Action action) const;
@@ -155,17 +155,17 @@ struct Viewer::Parts {
     void toggleColumn(Column& column);
     void compare();
 
-    scene::Outside outside;  // of scenes that are opened
+    scene::Outside outside;  // for opened scenes
     PreferencesFile preferences;
     bool driven;  // by a script, or for a number of pictures
-    bool live = false;  // though it is driven, it doesn't wait for what is drawn
-    float fixed_scale;  // the command line's, in place of the screen's; 0: none
+    bool live = false;  // does not wait for drawing although driven
+    float fixed_scale;  // from the command line, replaces the screen's; 0: none
     float styled_scale = 0.0f;
     Theme styled_theme = Theme::dark;
     engine::Window window;
-    bool gives_way;  // whether what draws the scene leaves the processors to the window
-    std::unique_ptr<engine::Device> scene_device;  // of the thread that draws
-    engine::Device device;  // of the window; the last one to be made
+    bool gives_way;  // the drawing thread leaves processors to the window
+    std::unique_ptr<engine::Device> scene_device;  // for the drawing thread
+    engine::Device device;  // for the window; created last
     engine::Presenter presenter;
     engine::Ui ui;
     PictureArea area;
@@ -174,24 +174,24 @@ struct Viewer::Parts {
     SceneList scenes;
     PictureTools tools;
     TimingsPanel timings;
-    ReportOrigin origin;  // what reports of the open scene quote
+    ReportOrigin origin;  // for reports of the open scene
     Recorder recorder;
     PlayState state;
     Message message;
-    std::string reported;  // the side's problem that the message was about
+    std::string reported;  // problem of the side that was last reported
     std::string reported_preferences;
     PathPopup path_popup;
     std::string search;
     Tabs tabs;
     bool help = false;
-    bool merged = false;  // there is room for one column only
-    std::string shown_note;  // drawingNote() of the last picture of the window
+    bool merged = false;  // only one column fits
+    std::string shown_note;  // drawingNote() in the window's last picture
     double awake_until = 0.0;  // s, as ImGui::GetTime()
-    double kept_at = -1e9;  // s; the first picture looks, so that a broken file is reported
+    double kept_at = -1e9;  // s; makes the first picture check, so that a broken file is reported
     double told_at = 0.0;  // s
-    unsigned told = 0;  // count of the message that is shown
+    unsigned told = 0;  // count of the shown message
 
-    // What waits for a side to be followed.
+    // An action that waits until a side's request is applied.
     struct Waiting {
         std::uint64_t side = 0;
         std::uint64_t revision = 0;
@@ -199,22 +199,22 @@ struct Viewer::Parts {
         std::function<void(Side&)> act;
     };
     std::vector<Waiting> waiting;
-    bool previews = true;  // what moves may be drawn coarser
+    bool previews = true;  // pictures in motion may be coarser
     PreviewControl control;
-    bool paused_crawling = false;  // since the scene was opened
+    bool paused_crawling = false;  // once per opened scene
     ShaderStatus shaders;
     double due = 0.0;  // s since the last order, by the window's clock
     double ordered_at = 0.0;  // s, as seconds()
-    double moved_at = 0.0;  // s, when something moved last
+    double moved_at = 0.0;  // s, time of the last motion
     std::chrono::steady_clock::time_point opened_at = std::chrono::steady_clock::now();
-    std::optional<double> looked_at;  // s: at mouse and keys, for the next picture
-    bool unseen = false;  // something came that the window has not shown
-    bool disturbed = false;  // the window drew while it was drawn
-    bool stopped = false;  // whoever draws has failed
+    std::optional<double> looked_at;  // s; time of reading mouse and keys, for the next picture
+    bool unseen = false;  // the window has not shown the latest replies
+    bool disturbed = false;  // the window drew during the scene's picture
+    bool stopped = false;  // the drawing thread has failed
     std::vector<double> answers;  // ms, of the last pictures of the window
-    std::vector<double> came;  // s, as seconds(), when pictures of the scene came of late
+    std::vector<double> came;  // s, like seconds(), of recent pictures of the scene
 
-    // Last, so that it is over before anything that it uses is gone.
+    // Last, so that it ends before anything that it uses is destroyed.
     Studio studio;
     OrderThread<Order, Reply> drawing;
 };

@@ -32,10 +32,12 @@ constexpr BrushRow kBrushes[] = {
 
 constexpr float kMetresOfCentimetre = 0.01f;
 constexpr float kLargest = 15.0f;  // cm, at the end of the slider
-constexpr float kSizeStep = 1.15f;  // of a key
-constexpr float kPlaceStep = 0.125f;  // of the radius, between places of a path
-constexpr float kSteepest = 0.5f;  // of the way along the picture that a brush goes into it
-constexpr std::size_t kMostForeseen = 1u << 15;  // guide vertices that are brushed in each picture
+constexpr float kSizeStep = 1.15f;  // per key press
+constexpr float kPlaceStep = 0.125f;  // share of the radius between points of a path
+constexpr float kSteepest = 0.5f;  // limit of the brush's movement in depth, over its movement
+                                   // along the picture
+constexpr std::size_t kMostForeseen = 1u << 15;  // guide vertices that can be brushed in each
+                                                 // picture
 
 std::optional<glm::vec3> hairUnder(const Pointer& pointer, const Shown& played) {
     return pickHair(
@@ -91,12 +93,12 @@ Edit StrokeTool::press(const Pointer& pointer, hair::Settings& settings, const S
     return {.changed = true, .continues = true};
 }
 
-// The brush follows what it passes over: hair in the picture, but never steeply into it, so that it
-// doesn't fall through between two strands.
+// The brush follows the hair under the mouse, but never steeply in depth, so that it does not fall
+// through between strands.
 Edit StrokeTool::drag(const Pointer& pointer, hair::Settings& settings, const Shown& played) {
     std::vector<hair::StrokeSettings>& strokes = settings.groom.edits;
     Edit edit{.changed = false, .continues = true};
-    // It may have been undone meanwhile.
+    // The stroke may have been undone in the meantime.
     if (drag_->stroke >= strokes.size()) {
         drag_.reset();
         return edit;
@@ -119,7 +121,7 @@ Edit StrokeTool::drag(const Pointer& pointer, hair::Settings& settings, const Sh
         edit.changed = true;
     }
     if (pointer.holds) return edit;
-    // A comb that went nowhere did nothing.
+    // A comb without movement has no effect.
     if (strokes[drag_->stroke].tool == hair::BrushTool::comb && path.size() == 1) {
         strokes.erase(strokes.begin() + static_cast<std::ptrdiff_t>(drag_->stroke));
         edit.changed = true;
@@ -128,7 +130,7 @@ Edit StrokeTool::drag(const Pointer& pointer, hair::Settings& settings, const Sh
     return edit;
 }
 
-// What the stroke makes of the guides; they are not kept out of the head yet.
+// Previews the stroke's effect on the guides, without keeping them out of the head.
 void StrokeTool::foresee(const hair::Settings& settings, const Shown& played) {
     drag_->guides.clear();
     const std::size_t vertices = played.vertices_per_guide;

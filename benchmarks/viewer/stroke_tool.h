@@ -13,12 +13,12 @@
 #include "benchmarks/viewer/player.h"
 #include "hair/settings.h"
 
-// The tool that grooms: brushes that comb, cut, lengthen, push and clump hair.
+// The grooming tool: brushes that comb, cut, lengthen, push and clump hair.
 namespace benchmarks::viewer {
 
-// From a picture of hair that may have moved to the hair at rest, which brushes act on. What is
-// there now at `now` was at rest where `toRest(now)` is: turned back with the head, and moved by as
-// much as the guide vertex nearest to `hit` has moved since.
+// Maps points from hair in its current state to hair at rest, on which brushes act. A point `now`
+// maps to `toRest(now)`: it is turned back with the head, and moved back by the movement of the
+// guide vertex nearest to `hit`.
 class RestPlace {
 public:
     // Needs Shown::has_guides.
@@ -28,27 +28,27 @@ public:
 
 private:
     hair::simulation::RigidMotion head_;
-    glm::vec3 moved_{0.0f};  // from rest, before the head's motion
+    glm::vec3 moved_{0.0f};  // from rest, without the head's motion
 };
 
-// Writes strokes to /groom/edits: one each time the button is held.
+// Writes strokes to /groom/edits, one per press of the button.
 class StrokeTool {
 public:
     Edit
     update(const Pointer& pointer, Handles& handles, hair::Settings& settings, const Shown& played);
     bool drags() const { return drag_.has_value(); }
 
-    // The brushes, radius and strength, and a button that takes all strokes back, in one line.
+    // Options in one line: brushes, radius and strength, and a button that removes all strokes.
     Edit options(OptionsLine& line, hair::Settings& settings);
 
 private:
     struct Drag {
-        const Shown* played;  // whose picture the mouse is in
+        const Shown* played;  // side of the picture under the mouse
         RestPlace rest;
-        glm::vec3 place;  // of the brush, where hair is now
-        glm::vec2 at;  // px, where it was there
-        std::size_t stroke;  // the entry that is written
-        // What the stroke makes of the guides at rest, [guide][vertex]; empty: not known.
+        glm::vec3 place;  // of the brush, on the current hair
+        glm::vec2 at;  // px, position of the mouse for that place
+        std::size_t stroke;  // the entry being written
+        // The guides at rest after the stroke, [guide][vertex]; empty: unknown.
         std::vector<glm::vec3> guides;
     };
     Edit press(const Pointer& pointer, hair::Settings& settings, const Shown& played);
@@ -61,7 +61,7 @@ private:
     float radius_ = hair::StrokeSettings{}.radius;  // m
     float strength_ = hair::StrokeSettings{}.strength;
     std::optional<Drag> drag_;
-    std::optional<glm::vec3> under_;  // where the mouse was over hair last
+    std::optional<glm::vec3> under_;  // last point of hair under the mouse
 };
 
 }  // namespace benchmarks::viewer

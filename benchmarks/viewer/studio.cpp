@@ -42,7 +42,7 @@ void Studio::reloadShaders() {
 
 // ---- Settings -----------------------------------------------------------------------------------
 
-// A side that was not played before.
+// Creates a side that was not played before.
 void Studio::make(const SideOrder& order, unsigned level, SideReply& reply) {
     try {
         auto played = std::make_unique<Played>(device_, order, order.directory, cache_, level);
@@ -75,7 +75,7 @@ void Studio::follow(Played& played, const SideOrder& order, SideReply& reply) {
     reply.restarts_timings |= differInMoreThanCamera(before, played.player.settings());
 }
 
-// The last good text is drawn until a new one is.
+// Keeps drawing the last valid text until there is a new one.
 void Studio::reread(Played& played, SideReply& reply) {
     try {
         if (!played.player.reread()) return;
@@ -88,7 +88,7 @@ void Studio::reread(Played& played, SideReply& reply) {
     reply.reread = reply.restarts_timings = true;
 }
 
-// Sides that are no longer wanted go, and new ones come.
+// Removes sides that are no longer wanted, and creates new ones.
 void Studio::admit(const Order& order, Reply& reply) {
     std::erase_if(played_, [&](const auto& entry) {
         return std::ranges::none_of(
@@ -98,7 +98,7 @@ void Studio::admit(const Order& order, Reply& reply) {
         reply.sides.push_back({.side = side.side, .revision = side.revision});
         if (played_.contains(side.side)) continue;
         make(side, order.level, reply.sides.back());
-        // What its first frame took, and not what it took to be made.
+        // Counts only the time of its first frame, not of its creation.
         if (const auto made = played_.find(side.side); made != played_.end())
             reply.milliseconds += made->second->player.record().wall;
     }
@@ -106,7 +106,7 @@ void Studio::admit(const Order& order, Reply& reply) {
 
 // ---- Frames -------------------------------------------------------------------------------------
 
-// The frames that are due, and a picture of the last one.
+// Plays the frames that are due and draws the last one.
 void Studio::advance(Player& player, const Order& order, const Stop& stop, SideReply& reply) {
     for (std::uint32_t frame = 0; frame < order.frames; ++frame) {
         if (frame + 1 < order.frames) {
@@ -144,7 +144,7 @@ void Studio::play(const Order& order, const Stop& stop, Reply& reply) {
     }
 }
 
-// ---- What is found out about them ---------------------------------------------------------------
+// ---- Facts about the sides ----------------------------------------------------------------------
 
 void Studio::measure(const MeasureOrder& order, Reply& reply) {
     const auto found = played_.find(order.side);
@@ -170,7 +170,7 @@ Reply Studio::perform(const Order& order, const Stop& stop) {
     try {
         play(order, stop, reply);
     } catch (const engine::Interrupted&) {
-        // Whoever asked to stop looks at no picture.
+        // After a stop, nobody looks at the picture.
     }
 
     if (order.count)
@@ -182,7 +182,7 @@ Reply Studio::perform(const Order& order, const Stop& stop) {
         const auto found = played_.find(side.side);
         if (found == played_.end()) continue;
         Played& played = *found->second;
-        // Guides come late where there are many: with the first order to play nothing.
+        // Many guides come late, with the first order without frames to play.
         const bool moves = order.frames > 0;
         if (played.pictures == played.player.pictures() && (moves || !played.lacks_guides))
             continue;

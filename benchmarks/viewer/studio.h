@@ -17,58 +17,58 @@
 #include "benchmarks/viewer/timings.h"
 #include "engine/device.h"
 
-// Where the scene is played and drawn, on a thread and a device of its own: it takes orders and
-// gives replies, both of them values.
+// Plays and draws the scene on a separate thread and device. It takes orders and gives replies,
+// both plain values.
 namespace benchmarks::viewer {
 
 // The runner's measurement of a side.
 struct MeasureOrder {
     std::uint64_t side = 0;
     std::string name;  // of the scene
-    // Called on the thread that measures.
+    // Called on the measuring thread.
     measure::MeasureHooks hooks;
 };
 
-// What the window asks for at once.
+// The window's requests in one order.
 struct Order {
-    std::vector<SideOrder> sides;  // all that there are to be: others go
+    std::vector<SideOrder> sides;  // all wanted sides; others are removed
     std::optional<std::uint32_t> seek;
-    std::uint32_t frames = 0;  // to be played, the last of which is drawn
+    std::uint32_t frames = 0;  // number to play; the last one is drawn
     engine::Timing timing = engine::Timing::isolated;
     unsigned level = 0;  // of preview.h
-    std::optional<std::uint64_t> count;  // the side whose picture's work is to be counted
+    std::optional<std::uint64_t> count;  // the side with a picture to count work of
     std::optional<MeasureOrder> measure;
 };
 
 struct Reply {
     std::vector<SideReply> sides;
-    unsigned level = 0;  // that was drawn
-    // That playing and drawing took, and of frames on the way to another one, as after a seek, what
-    // the last one took. 0: nothing was drawn.
+    unsigned level = 0;  // drawn level
+    // Time of playing and drawing. For frames on the way to another one, as after a seek, only the
+    // last one's time. 0: nothing was drawn.
     double milliseconds = 0.0;
     ShaderStatus shaders;
-    engine::MemoryLedger memory;  // who holds what of the device's
-    // Of sides whose number was asked for.
+    engine::MemoryLedger memory;  // the device's memory by owner
+    // For the sides in the order's requests.
     std::optional<report::CaseResult> counted;
     std::optional<SideMeasurement> measured;
-    std::string not_measured;  // why not, where it was asked for
+    std::string not_measured;  // why a requested measurement failed
 };
 
-// The players of all sides, and the shaders that are watched. One thread's at a time.
+// The players of all sides, and the watched shaders. Used by one thread at a time.
 class Studio {
 public:
-    // `before`: called with each order before anything is done, for those who want to hold it up;
-    // may be empty. `cache`: what sides have in common.
+    // `before` is called with each order before any work, for tests that delay it; may be empty.
+    // The sides share `cache`.
     Studio(
         const engine::Device& device, const std::filesystem::path& shaders,
         std::function<void()> before = {}, measure::HairCache cache = measure::HairCache());
 
-    // Where it is asked to stop it ends between two frames, and has no picture of those that were
-    // left out. Throws engine::DeviceLost; what else goes wrong is in the reply.
+    // Carries out an order. If asked to stop, ends between two frames without a picture of the
+    // skipped ones. Throws engine::DeviceLost; other errors are in the reply.
     Reply perform(const Order& order, const Stop& stop);
 
 private:
-    // A side, and which of its settings are played.
+    // A side, and the revision of its played settings.
     struct Played {
         Played(
             const engine::Device& device, const SideOrder& order,
@@ -76,10 +76,10 @@ private:
             : player(device, order.settings, directory, &cache, level) {}
 
         Player player;
-        std::uint64_t revision = 0;  // that was followed or refused
+        std::uint64_t revision = 0;  // last applied or refused
         std::string problem;
-        std::uint64_t pictures = 0;  // of the player's that were replied
-        bool lacks_guides = false;  // what was replied
+        std::uint64_t pictures = 0;  // the player's pictures at the last reply
+        bool lacks_guides = false;  // in the last reply
     };
 
     void reloadShaders();
@@ -95,8 +95,8 @@ private:
     std::function<void()> before_;
     measure::HairCache cache_;
     ShaderReload reload_;
-    std::map<std::uint64_t, std::unique_ptr<Played>> played_;  // by the side's number
-    std::uint64_t replied_ = 0;  // pictures
+    std::map<std::uint64_t, std::unique_ptr<Played>> played_;  // by side id
+    std::uint64_t replied_ = 0;  // number of replied pictures
 };
 
 }  // namespace benchmarks::viewer

@@ -10,11 +10,11 @@
 namespace benchmarks::viewer {
 namespace {
 
-constexpr double kAtLeast = 2.0;  // s that the bar has
+constexpr double kAtLeast = 2.0;  // s, minimum length of the bar
 constexpr double kMostFrames = 1e6;
 constexpr float kNarrowest = 8.0f;  // letters
 
-// Where a simulated time is, in frames: frame 0 ends after the first frame's time.
+// Returns a simulated time in frames: frame 0 ends after the first frame's time.
 float framesAt(const hair::Settings& settings, float time) {
     return static_cast<float>(
         std::min(double{time} / double{settings.run.frame_time} - 1.0, kMostFrames));
@@ -96,7 +96,7 @@ void timeline(PlayState& state, const Shown& shown) {
             {x, middle - size}, {x + size, middle}, {x, middle + size}, {x - size, middle},
             color(ImGuiCol_Text, 0.8f));
     }
-    // The frame that is played to, and the one that is shown.
+    // The target frame and the shown frame.
     if (state.scrub)
         list.AddLine(
             {at(static_cast<float>(*state.scrub)), corner.y},

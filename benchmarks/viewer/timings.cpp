@@ -27,7 +27,7 @@ namespace {
 
 // ---- Metrics of frames --------------------------------------------------------------------------
 
-// Whether a metric of overlapped frames holds where each frame has the device to itself.
+// Whether a metric of overlapped frames is valid when each frame has the device to itself.
 bool holdsForOneFrame(const report::MetricId& id) {
     return id == report::ofFrame(report::Measured::device_time) ||
            id == report::ofCpu(report::Measured::record_time) ||
@@ -48,12 +48,12 @@ void addIsolated(
     if (frames.size() == 0) return;
     measure::addIsolatedMetrics(frames.records, result);
     measure::addPassTimes(frames.records, report::Mode::isolated, result);
-    // What a software device costs is CPU time; of others it says little.
+    // The cost on a software device is CPU time; for other devices it says little.
     if (device_type == "cpu") measure::addFrameUse(frames.records, result);
     measure::addPassSum(frames.records, {}, device_type == "cpu", result);
 }
 
-// Share of the frames that are slower than the "1 % low" and "1 % high".
+// Share of the slowest frames, for "1 % low" and "1 % high".
 constexpr double kSlowest = 0.01;
 
 template <class Get>
@@ -69,7 +69,7 @@ std::optional<double> medianOf(const report::CaseResult& metrics, const report::
     return report::summarize(metric->samples).median;
 }
 
-// The split by a history and its frameMetrics(); none where there is no isolated frame.
+// Returns the median device time of the frames that have one; nothing if none has.
 std::optional<double> medianDevice(const TimedFrames& frames) {
     std::vector<double> times;
     for (const engine::FrameRecord& frame : frames.records)
@@ -92,7 +92,7 @@ frameSplit(const TimingHistory& history, const report::CaseResult& metrics) {
         .device_overlapped = medianOf(metrics, report::ofFrame(report::Measured::device_time))};
 }
 
-// Numbers of the frames that ran a pass: passTimes() has one time for each.
+// Returns the numbers of the frames that ran a pass; passTimes() has one time for each.
 std::vector<std::uint32_t> numbersOf(const TimedFrames& frames, const std::string& pass) {
     std::vector<std::uint32_t> numbers;
     for (std::size_t i = 0; i < frames.size(); ++i) {
@@ -112,18 +112,18 @@ std::optional<std::pair<std::uint32_t, std::uint32_t>> rangeOf(const TimingHisto
     return std::pair(first, last);
 }
 
-// ---- Memory of one thing ------------------------------------------------------------------------
+// ---- Memory of one owner ------------------------------------------------------------------------
 
-// What one thing holds of the device's memory while others hold some too: what has joined since the
-// beginning, but for what others did meanwhile.
+// Memory of one owner on a device that others also use: all growth since the start, except growth
+// caused by others.
 class OwnMemory {
 public:
     explicit OwnMemory(const engine::MemoryLedger& all) : all_(all), others_(all.bytes()) {}
 
-    // Does something whose memory is not the thing's.
+    // Runs an action that allocates for others.
     void others(const std::function<void()>& action);
 
-    // memory.device and memoryMetrics() of the thing alone.
+    // Returns memory.device and memoryMetrics() of the owner alone.
     std::vector<report::Metric> metrics() const;
 
 private:
@@ -135,7 +135,8 @@ void OwnMemory::others(const std::function<void()>& action) {
     const auto before = all_.bytes();
     action();
     for (const auto& [entry, bytes] : all_.bytes()) others_[entry] += bytes;
-    // What was there before is counted already. Sums are taken modulo 2^64, so that it may shrink.
+    // Subtracts the earlier memory, which is counted already. Unsigned sums wrap modulo 2^64, so
+    // memory may also shrink.
     for (const auto& [entry, bytes] : before) others_[entry] -= bytes;
 }
 
@@ -190,7 +191,7 @@ const report::Metric* metricOf(const report::CaseResult& result, const report::M
     return found && !found->samples.empty() ? found : nullptr;
 }
 
-// ---- Frame rate, and where a frame's time goes --------------------------------------------------
+// ---- Frame rate, and parts of a frame's time ----------------------------------------------------
 
 std::optional<FrameRate> frameRate(const report::CaseResult& metrics) {
     const report::Metric* const walls =
@@ -243,7 +244,7 @@ std::optional<PassRows> passRows(const TimedFrames& isolated) {
     return rows;
 }
 
-// ---- What is shown of a side --------------------------------------------------------------------
+// ---- Shown values of a side ---------------------------------------------------------------------
 
 ShownSide shownTimings(const TimingHistory& history, std::string_view device_type) {
     ShownSide shown;
@@ -270,7 +271,7 @@ std::string frameTimeCaption(const TimingHistory& history) {
     return times.empty() ? "" : report::shortNumber(report::summarize(times).median) + " ms";
 }
 
-// ---- Reports of what is shown or measured -------------------------------------------------------
+// ---- Reports of shown or measured values --------------------------------------------------------
 
 void warnOfChangedShaders(std::span<const std::string> replaced, report::Trust& trust) {
     std::string names;
@@ -297,7 +298,7 @@ FrozenSide frozenSide(const Side& side, ShownSide shown) {
         transparency.trust.warnings, std::back_inserter(shown.metrics.trust.warnings));
     if (seen.isExact()) {
         shown.metrics.image_hash = seen.pictureHash();
-        // Of very many guides the places may not be known while frames are played.
+        // With very many guides, their positions may be unknown while frames are played.
         if (seen.has_guides) shown.metrics.state_hash = seen.stateHash();
     }
     return {.shown = std::move(shown), .settings = seen.settings, .frame = seen.frame};
@@ -333,7 +334,7 @@ SideMeasurement measureSide(
     const measure::MeasureHooks own_hooks{
         .stop = hooks.stop, .progress = [&](const measure::SamplingState& state) {
             if (hooks.progress) memory.others([&] { hooks.progress(state); });
-            device.runOnce([](engine::Commands&) {});  // waits for all that was submitted
+            device.runOnce([](engine::Commands&) {});  // waits for all submitted work
         }};
     measure::Case test_case(device, settings, directory);
     measured.picture = measure::measure(device, test_case, settings.run, own_hooks, result);

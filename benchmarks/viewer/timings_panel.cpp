@@ -34,10 +34,10 @@ struct Share {
     ImU32 color = 0;
 };
 
-// A color of its own for each of the first eight, on dark and on light.
+// Returns a distinct colour for each of the first eight, for dark and light backgrounds.
 ImU32 seriesColor(std::size_t index) {
-    // Told apart by people with any color vision: Okabe and Ito 2008, Color universal design, but
-    // for black.
+    // Okabe and Ito 2008, Color universal design, without black: distinct for people with any
+    // colour vision.
     static constexpr std::array<ImU32, 8> kColors{
         IM_COL32(86, 180, 233, 255), IM_COL32(230, 159, 0, 255),   IM_COL32(0, 158, 115, 255),
         IM_COL32(213, 94, 0, 255),   IM_COL32(204, 121, 167, 255), IM_COL32(0, 114, 178, 255),
@@ -45,7 +45,7 @@ ImU32 seriesColor(std::size_t index) {
     return kColors[index % kColors.size()];
 }
 
-// A thin bar, as long as its share of the room that is left in a line or cell.
+// A thin bar whose length is its share of the rest of a line or cell.
 void shareBar(double share, ImU32 color) {
     const ImVec2 corner = ImGui::GetCursorScreenPos();
     const ImVec2 size(ImGui::GetContentRegionAvail().x, ImGui::GetFontSize() * 0.2f);
@@ -57,7 +57,7 @@ void shareBar(double share, ImU32 color) {
     ImGui::Dummy(size);
 }
 
-// Shares of a whole in one bar across the window; each tells the mouse its name, amount and part.
+// Shows shares of a whole in one bar across the window. Tooltips have their name, amount and share.
 void stackedBar(const char* id, std::span<const Share> shares, const char* unit) {
     const ImVec2 corner = ImGui::GetCursorScreenPos();
     const ImVec2 size(ImGui::GetContentRegionAvail().x, ImGui::GetFontSize() * 0.8f);
@@ -120,7 +120,7 @@ void trustFigure(const ShownSide& side, const ShownSide* compared, FigureTable& 
         compared ? compared->metrics.trust.pass_sum_over_wall : std::nullopt);
 }
 
-// How fast frames are, and how many are known. `compared` may be null.
+// Shows the frame rate and the number of frames. `compared` may be null.
 void frameFigures(const ShownSide& side, const ShownSide* compared) {
     FigureTable table("##frame", columnsFor(compared));
     const auto row = [&](const char* name, const char* help, auto get) {
@@ -148,7 +148,7 @@ void frameFigures(const ShownSide& side, const ShownSide* compared) {
         &ShownSide::overlapped);
 }
 
-// What a frame takes of the CPU and of the device, and what overlap saves.
+// Shows the CPU and device times of a frame, and the time saved by overlap.
 void splitFigures(const ShownSide& side, const ShownSide* compared) {
     if (!side.split) return;
     const std::array<Share, 3> cpu{
@@ -201,7 +201,7 @@ void line(
     rightText(report::sizeText(static_cast<std::uint64_t>(bytes)));
 }
 
-// Device memory by what it is for, as bars, the largest first.
+// Shows device memory by purpose as bars, the largest first.
 void memoryTable(const engine::MemoryLedger& ledger, double window) {
     std::vector<report::Metric> purposes = measure::memoryMetrics(ledger);
     double scene = 0.0;
@@ -225,7 +225,7 @@ void memoryTable(const engine::MemoryLedger& ledger, double window) {
     ImGui::EndTable();
 }
 
-// What draws the strands, and "guides", "strands", "segments", ... and how many.
+// Shows the back end, and the counts "guides", "strands", "segments" and others.
 void countTable(const report::CaseResult& shown, const report::CaseResult* compared) {
     FigureTable table(
         "##counts", compared ? FigureTable::Columns::compared : FigureTable::Columns::one);
@@ -245,8 +245,8 @@ void countTable(const report::CaseResult& shown, const report::CaseResult* compa
 
 // ---- Line of a history --------------------------------------------------------------------------
 
-// A line through values that are not negative, from 0 at the bottom to their maximum, as an item of
-// Dear ImGui. The index of the value that the mouse is at.
+// Draws a line through non-negative values as a Dear ImGui item, from 0 at the bottom to their
+// maximum. Returns the index of the value under the mouse.
 std::optional<std::size_t>
 sparkline(const char* id, std::span<const double> values, ImVec2 size, ImU32 color) {
     const ImVec2 corner = ImGui::GetCursorScreenPos();
@@ -278,7 +278,7 @@ sparkline(const char* id, std::span<const double> values, ImVec2 size, ImU32 col
 
 // ---- Table of passes ----------------------------------------------------------------------------
 
-constexpr float kLeastHistory = 4.0f;  // letters' heights that a history takes at least
+constexpr float kLeastHistory = 4.0f;  // minimum width of a history, in letter heights
 
 std::string percent(double share) {
     char text[16];
@@ -286,7 +286,7 @@ std::string percent(double share) {
     return text;
 }
 
-// The columns that a table of passes has room for.
+// The columns that fit a table of passes.
 struct PanelLayout {
     bool compared = false;
     bool history = false;
@@ -388,7 +388,7 @@ void titles(const PanelLayout& layout) {
 
 bool beginTable(const char* id, const PanelLayout& layout) {
     if (!ImGui::BeginTable(id, layout.columns(), ImGuiTableFlags_SizingFixedFit)) return false;
-    // Names are as wide as they are where a history takes the rest of the room.
+    // Beside a history, which takes the rest of the width, names have their own width.
     ImGui::TableSetupColumn(
         "", layout.history ? ImGuiTableColumnFlags_WidthFixed : ImGuiTableColumnFlags_WidthStretch);
     if (layout.history) ImGui::TableSetupColumn("", ImGuiTableColumnFlags_WidthStretch);
@@ -402,9 +402,9 @@ void bar(const PassRows& rows) {
     stackedBar("##passes", shares, "ms");
 }
 
-// A bar of all passes, and of each: median, share, history and, where it is compared, the other
-// side's median and the ratio. Below them and in no sum `ui`, the window itself; null: not known
-// yet. What has no room is left out, the share first; the tooltip of the name has it all.
+// Shows a bar of all passes, and for each its median, share, history and, when comparing, the other
+// side's median and the ratio. Below them, and in no sum, `ui` is the window itself; null: not
+// known yet. Columns without room are left out, the share first; the name's tooltip has everything.
 void passTable(const PassRows& rows, const PassRows* compared, const TimeSeries* ui) {
     bar(rows);
     const PanelLayout layout = layoutFor(rows, compared != nullptr);
@@ -437,7 +437,7 @@ void passTable(const PassRows& rows, const PassRows* compared, const TimeSeries*
 
 // ---- Pipeline statistics ------------------------------------------------------------------------
 
-// Colours that are read on dark and on light.
+// Colours that are readable on dark and light backgrounds.
 constexpr ImU32 kRight = IM_COL32(46, 160, 67, 255);
 constexpr ImU32 kWrong = IM_COL32(218, 54, 51, 255);
 
@@ -469,7 +469,8 @@ void show(const report::Statistic& statistic) {
     verdict(statistic);
 }
 
-// Pipeline statistics: each count, whether it is the expected one where there is one, and notes.
+// Shows pipeline statistics: each count, whether it equals its expected count if there is one, and
+// notes.
 void statisticsTable(const std::vector<report::Statistic>& statistics) {
     if (!ImGui::BeginTable("##statistics", 3, ImGuiTableFlags_SizingFixedFit)) return;
     ImGui::TableSetupColumn("", ImGuiTableColumnFlags_WidthStretch);
@@ -482,7 +483,7 @@ bool section(const char* name, ImGuiTreeNodeFlags flags = ImGuiTreeNodeFlags_Def
 }
 
 void remember(std::vector<double>& times, double time) {
-    if (time <= 0.0) return;  // no picture of the window is done yet
+    if (time <= 0.0) return;  // the window has no finished picture yet
     if (times.size() == TimingHistory::kFrames) times.erase(times.begin());
     times.push_back(time);
 }

@@ -12,41 +12,41 @@
 
 namespace benchmarks::viewer {
 
-// What is known of the window itself.
+// Figures of the window itself.
 struct WindowFigures {
-    double device = 0.0;  // ms on its device that its last picture took; in no other figure
-    double slowest_answer = 0.0;  // ms from input to the picture that shows it, at most
-    double pictures_per_second = 0.0;  // of the scene; 0: none came of late
+    double device = 0.0;  // ms, device time of its last picture; in no other figure
+    double slowest_answer = 0.0;  // ms, maximum from input to the picture that shows it
+    double pictures_per_second = 0.0;  // of the scene; 0: none recently
     std::uint64_t memory = 0;          // B of its device
 };
 
-// The panel that says where the time goes: bars and history of each pass with median and 1 % low,
-// CPU and device, overlap, pipeline statistics and memory.
+// The panel of frame times: bars and history of each pass with median and 1 % low, CPU and device,
+// overlap, pipeline statistics and memory.
 class TimingsPanel {
 public:
-    // `told`: called on the thread that measures when there is something to show of it.
+    // `told` is called on the measuring thread when there is progress to show.
     TimingsPanel(const engine::Device& device, std::function<void()> told)
         : device_(device), measure_(device, std::move(told)) {}
 
-    // Within the current window of Dear ImGui. `compared`: the other side, whose figures are shown
-    // beside; null: none. `origin` is what reports quote.
+    // Shows the panel within the current Dear ImGui window. `compared` is the other side, with
+    // figures beside; null: none. `origin` is for reports.
     void show(Side& side, Side* compared, const ReportOrigin& origin, const WindowFigures& window);
 
-    // What is known of the device on which the sides are drawn.
+    // Facts about the device that draws the sides.
     void setMemory(const engine::MemoryLedger& memory) { memory_ = memory; }
     void setReplacedShaders(std::vector<std::string> replaced) { replaced_ = std::move(replaced); }
 
-    // The side whose counts the user asked for; setCounts() answers.
+    // Returns the side with counts that the user requested; setCounts() answers.
     std::optional<std::uint64_t> wantsCounts() const { return wants_counts_; }
     void setCounts(report::CaseResult result, const Side& side);
-    void forgetCounts() { wants_counts_.reset(); }  // of a side that is gone
+    void forgetCounts() { wants_counts_.reset(); }  // for a side that is gone
 
-    // The part of the panel that measures as the runner does.
+    // The part of the panel that measures like the runner.
     MeasurePanel& measuring() { return measure_; }
     const MeasurePanel& measuring() const { return measure_; }
 
 private:
-    // Pipeline statistics, and the history and frame that they are of.
+    // Pipeline statistics, and their history and frame.
     struct Counted {
         report::CaseResult result;
         std::uint64_t side = 0;
@@ -61,13 +61,13 @@ private:
 
     const engine::Device& device_;
     MeasurePanel measure_;
-    std::vector<double> ui_;  // ms of the device for the last pictures of the window
+    std::vector<double> ui_;  // device time, ms, of the window's last pictures
     std::optional<FrozenSide> frozen_;
     std::optional<ShownSide> frozen_compared_;
     std::optional<std::uint64_t> wants_counts_;
     std::optional<Counted> counted_;
     engine::MemoryLedger memory_;
-    std::vector<std::string> replaced_;  // shaders that are not those of the build
+    std::vector<std::string> replaced_;  // shaders that differ from the build's
     SaveBox export_{"Export frozen…"};
 };
 

@@ -62,9 +62,9 @@ Edit PictureTools::update(
     const PictureRect& rect, const PictureRect& clip, bool hovered, bool held,
     hair::Settings& settings, const Shown& played) {
     const ImGuiIO& io = ImGui::GetIO();
-    // A press with Shift, Ctrl or Alt is the camera's, not a handle's.
+    // A press with Shift, Ctrl or Alt goes to the camera, not to a handle.
     const bool is_plain = !io.KeyShift && !io.KeyCtrl && !io.KeyAlt;
-    // The view is that of the settings that are shown: the wanted ones can be ahead of them.
+    // Uses the view of the shown settings; the wanted ones may be ahead of them.
     const Pointer pointer{
         .view = {played.settings.camera, played.settings.render, rect},
         .at = {io.MousePos.x, io.MousePos.y},

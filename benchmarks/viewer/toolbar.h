@@ -11,10 +11,10 @@
 #include "benchmarks/viewer/stroke_tool.h"
 #include "hair/settings.h"
 
-// The tools for the picture: which one the mouse has, and the line of buttons to choose it.
+// Tools for the picture: the selected one, and the line of buttons to choose it.
 namespace benchmarks::viewer {
 
-// What the mouse does in the picture; where it is on no handle, it moves the camera.
+// Action of the mouse in the picture. Away from handles, it moves the camera.
 enum class Tool {
     camera,     // orbit, pan, zoom, focus
     wind,       // turns and stretches the wind's arrow
@@ -25,26 +25,26 @@ enum class Tool {
     lights,     // moves lights and turns the environment
 };
 
-// The mouse and keys over a picture, and what is drawn over it for them.
+// Mouse and keys over a picture, and the handles that are drawn over it.
 class PictureTools {
 public:
     Tool tool = Tool::camera;
 
-    // Buttons of the tools and what the chosen one has, such as the camera's presets, in a line (or
-    // more where there is no room) within the current window.
+    // Shows buttons for the tools, and options of the chosen one, such as the camera's presets, in
+    // as many lines as needed within the current window.
     Edit toolbar(hair::Settings& settings, const Shown& played);
 
-    // Takes the mouse and keys over the picture shown in `rect`, of which `clip` is seen, and draws
+    // Handles mouse and keys over the picture in `rect`, with the visible part `clip`, and draws
     // handles into the current window. `hovered`: the mouse is over the picture; `held`: a button
-    // that was pressed on it is down. What is dragged changes settings.
+    // that was pressed on it is down. Drags change settings.
     Edit update(
         const PictureRect& rect, const PictureRect& clip, bool hovered, bool held,
         hair::Settings& settings, const Shown& played);
 
-    // Whether an edit goes on without a widget that is active: keys or the wheel move the camera.
+    // Whether an edit continues without an active widget: keys or the wheel move the camera.
     bool isBusy() const { return camera_.isMoving(); }
 
-    // Looks at the whole groom from where the camera is.
+    // Looks at the whole groom from the current direction.
     Edit frameGroom(hair::Settings& settings, const Shown& played) const;
     // Looks at the whole groom from a preset's direction.
     Edit look(hair::Settings& settings, const Shown& played, const CameraPreset& preset) const;

@@ -20,22 +20,22 @@
 namespace benchmarks::viewer {
 namespace {
 
-constexpr double kAwake = 1.0;    // s that the window is drawn on for after something happened
-constexpr double kAsleep = 0.25;  // s between pictures while nothing does
-constexpr double kKeeping = 2.0;  // s between looks at whether preferences changed
+constexpr double kAwake = 1.0;  // s of drawing the window after an event
+constexpr double kAsleep = 0.25;  // s between pictures without events
+constexpr double kKeeping = 2.0;  // s between checks whether preferences changed
 
-// s between pictures of the window while something moves that no event tells of, and while the
-// scene is drawn, whose processors a software device needs, too.
+// s between pictures of the window during motion without events, and while the scene is drawn: a
+// software device needs the processors for that.
 constexpr double kMoving = 1.0 / 60.0;
 constexpr double kMovingBeside = 1.0 / 15.0;
-constexpr double kHolding = 0.02;  // s between looks at events while it is measured
-constexpr double kLooking = 0.25;  // s between looks at files of shaders
+constexpr double kHolding = 0.02;  // s between checks of events during a measurement
+constexpr double kLooking = 0.25;  // s between checks of shader files
 
-// A scene's picture that is there so soon is waited for: nothing is drawn beside it, and nobody
-// notices.
+// Waits up to this long for a picture of the scene without drawing meanwhile, because so short a
+// delay is not noticed.
 constexpr std::chrono::milliseconds kSoon{8};
 constexpr double kOfLate = 2.0;  // s in which pictures of the scene are counted
-constexpr std::size_t kAnswers = 300;  // pictures of the window that are looked back on
+constexpr std::size_t kAnswers = 300;  // number of the window's pictures to remember
 
 engine::DeviceOptions windowed(engine::DeviceOptions options) {
     options.window_extensions = engine::Window::instanceExtensions();
@@ -47,7 +47,7 @@ bool computesOnProcessors(const engine::DeviceOptions& options) {
     return engine::chooseDevice(instance, options.wanted).type == "cpu";
 }
 
-// A device that computes on the processors does so with threads of the one that makes it.
+// A software device inherits the priority of the thread that creates it, so a new thread does that.
 std::unique_ptr<engine::Device>
 makeSceneDevice(const engine::DeviceOptions& options, bool gives_way) {
     std::packaged_task<std::unique_ptr<engine::Device>()> make([&] {
@@ -64,7 +64,7 @@ std::filesystem::path preferencesOf(const ViewOptions& options) {
     return usersPreferences().value_or("");
 }
 
-// The size that the command line gives, else that of the last time.
+// Returns the size from the command line, or otherwise that of the last session.
 engine::WindowDescription windowOf(const ViewOptions& options, const Preferences& preferences) {
     const ViewOptions unsaid;
     const bool as_it_was = options.width == unsaid.width && options.height == unsaid.height;
@@ -73,7 +73,7 @@ engine::WindowDescription windowOf(const ViewOptions& options, const Preferences
         .height = as_it_was ? preferences.height : options.height};
 }
 
-// What is read and grown to check the scene is left in the cache for its first picture.
+// Keeps assets that were read and grown for the check in the cache, for the scene's first picture.
 hair::Settings settingsOf(const ViewOptions& options, measure::HairCache& cache) {
     scene::Scene scene = scene::loadScene(options.scene.scene, options.scene.outside);
     return scene::singleCase(scene, options.scene, &cache.assets()).settings;
@@ -106,7 +106,7 @@ Viewer::Parts::Parts(
           &engine::Window::endWait) {
     origin.command = options.command;
     origin.validation = options.scene.device.validation;
-    // What the command line says is the whole scale.
+    // The scale on the command line is the total scale.
     if (options.scale > 0.0) preferences.now.zoom = 1.0f;
     window.setTitle("hairbench " + file.name);
     remember(preferences.now, file.path);
@@ -120,8 +120,8 @@ double Viewer::Parts::seconds() const {
     return passed.count();
 }
 
-// How long the window may sleep: until something happens, which includes that a picture of the
-// scene is there, or for so many s.
+// Returns how long the window may sleep, s. Events end the wait, including a finished picture of
+// the scene.
 double Viewer::Parts::patience() const {
     if (waitsForDrawing() || unseen) return 0.0;
     if (timings.measuring().isMeasuring()) return kHolding;
@@ -134,14 +134,14 @@ double Viewer::Parts::patience() const {
     return awake || state.playing || refines ? kMoving : kAsleep;
 }
 
-// A window in which nothing happens is drawn a few times a second.
+// Without events, the window is drawn a few times a second.
 void Viewer::Parts::waitForEvents() {
     window.poll(patience());
     looked_at = seconds();
     if (window.takeActivity()) awake_until = ImGui::GetTime() + kAwake;
 }
 
-// Letters as large as the screen and the user want them, and the style that goes with them.
+// Sets the size of letters for the screen and the user's choice, with a matching style.
 void Viewer::Parts::followScale() {
     const float screen = fixed_scale > 0.0f ? fixed_scale : window.contentScale();
     const float wanted = screen * preferences.now.zoom;
@@ -183,7 +183,8 @@ void Viewer::Parts::drawPicture() {
 
 void Viewer::Parts::keepPreferences() {
     if (presenter.extent().width > 0) {
-        // What the desktop made larger on a fine screen it will make larger again.
+        // The desktop will enlarge the window again on a high-resolution screen, so its scale is
+        // removed.
         const VkExtent2D size = window.size();
         const float scale = window.contentScale();
         preferences.now.width = static_cast<std::uint32_t>(static_cast<float>(size.width) / scale);
@@ -213,8 +214,8 @@ bool Viewer::Parts::frame() {
         return true;
     }
     if (is_minimised) return true;
-    // While the scene is drawn nothing changes in a window that nobody touches, but for what it
-    // says of a picture that takes long; frames that are played are not disturbed for that.
+    // While the scene is drawn, an untouched window does not change, except for its note about a
+    // slow picture. That note is no reason to disturb frames being played.
     const bool untouched = !driven && !unseen && !tools.isBusy() && now >= awake_until;
     if (untouched && drawing.busy() && (state.playing || drawingNote() == shown_note)) return true;
     drawPicture();
@@ -225,7 +226,7 @@ bool Viewer::Parts::frame() {
 
 // ---- The thread that draws ----------------------------------------------------------------------
 
-// The level of the next picture.
+// Returns the level of the next picture.
 unsigned Viewer::Parts::levelFor(const Order& order) {
     const bool moves = order.frames > 0 || order.seek || !scene.isFollowed() || scene.isDragged() ||
                        tools.isBusy();
@@ -238,8 +239,8 @@ unsigned Viewer::Parts::levelFor(const Order& order) {
                  : control.still(scene.side(0).shown().level, seconds() - moved_at);
 }
 
-// Asks for what the window wants next, if there is anything. One thing is done at a time: whatever
-// is wanted meanwhile is in the next order, as it is then.
+// Orders the window's next request, if any. Only one order runs at a time; later wishes go into the
+// next order in their then current state.
 void Viewer::Parts::orderWork() {
     if (drawing.busy() || stopped) return;
     MeasurePanel& measuring = timings.measuring();
@@ -254,7 +255,7 @@ void Viewer::Parts::orderWork() {
         beginWork(std::move(order));
         return;
     }
-    // A recording has every frame, however fast time is to go by.
+    // A recording has every frame, whatever the speed.
     const auto frames =
         recorder.records() ? OpenScene::Frames::every_one : OpenScene::Frames::as_due;
     Order order = scene.order(state, std::exchange(due, 0.0), frames);
@@ -270,7 +271,7 @@ void Viewer::Parts::orderWork() {
 }
 
 void Viewer::Parts::beginWork(Order order) {
-    // What the window's device still has to do would be in the frame's times.
+    // Keeps pending work of the window's device out of the frame's times.
     device.runOnce([](engine::Commands&) {});
     disturbed = false;
     ordered_at = seconds();
@@ -278,7 +279,7 @@ void Viewer::Parts::beginWork(Order order) {
     if (!waitsForDrawing() && drawing.waitFor(kSoon)) takeWork();
 }
 
-// Until the reply is there.
+// Waits until the reply arrives.
 void Viewer::Parts::waitForWork() {
     while (drawing.busy() && !engine::interrupted()) {
         if (drawing.waitFor(kSoon)) {
@@ -290,7 +291,7 @@ void Viewer::Parts::waitForWork() {
     }
 }
 
-// While something is measured the window is drawn between rounds alone.
+// During a measurement, the window is only drawn between rounds.
 void Viewer::Parts::holdStill() {
     MeasurePanel& measuring = timings.measuring();
     if (window.wantsToClose() || engine::interrupted()) measuring.cancel();
@@ -302,7 +303,7 @@ void Viewer::Parts::holdStill() {
     measuring.shown();
 }
 
-// Of the scene, while they come.
+// Counts recent pictures of the scene.
 double Viewer::Parts::picturesPerSecond() const {
     if (came.size() < 2 || came.back() < seconds() - kOfLate) return 0.0;
     return static_cast<double>(came.size() - 1) / (came.back() - came.front());
@@ -320,7 +321,7 @@ void Viewer::Parts::takeWork() {
     try {
         reply = drawing.take();
     } catch (const std::exception& error) {
-        // What was changed can be saved where there is a user to do it.
+        // If a user is there, the changes can still be saved.
         if (driven || !scene.side(0).shown().isThere()) throw;
         stopDrawing(error.what());
         return;
@@ -359,8 +360,8 @@ void Viewer::Parts::takeWork() {
     actOnFollowed();
 }
 
-// A picture that stands still is refined: more to look at than one that hardly moves. Who plays on
-// is left alone.
+// Pauses because a still picture is refined and shows more than one that hardly moves. Does not
+// pause again if the user continues.
 void Viewer::Parts::pauseIfCrawling() {
     if (!previews || driven || paused_crawling || !state.playing || !control.crawls()) return;
     paused_crawling = true;
@@ -370,7 +371,7 @@ void Viewer::Parts::pauseIfCrawling() {
 
 void Viewer::Parts::takeNews(const OpenScene::News& news) {
     if (news.failure) {
-        // Without a scene there is no viewer.
+        // Without a scene, the viewer cannot run.
         if (!scene.side(0).shown().isThere()) std::rethrow_exception(news.failure);
         message.attempt([&] { std::rethrow_exception(news.failure); });
     }
@@ -410,7 +411,7 @@ void Viewer::Parts::actOnFollowed() {
         } else if (
             stopped || (side->answered() >= each.revision &&
                         (each.needs == Needs::settings || side->shown().isExact()))) {
-            // It is followed, but for settings that are impossible.
+            // The request is applied, unless its settings are impossible.
             message.attempt([&] {
                 if (!side->problem().empty())
                     throw engine::Error("what the panel says can't be", side->problem());
@@ -428,7 +429,7 @@ void Viewer::Parts::actOnFollowed() {
 std::filesystem::path Viewer::Parts::suggestedPath() const {
     const SceneFile& file = scene.file();
     if (scene.wasSaved()) return file.path;
-    // The scenes of an installed program are not the user's.
+    // The user cannot write scenes of an installed program.
     const std::filesystem::path beside = file.path.parent_path();
     const bool is_users = access(beside.empty() ? "." : beside.c_str(), W_OK) == 0;
     return freeName(is_users ? beside : std::filesystem::current_path(), file.name, ".json");
@@ -441,8 +442,8 @@ void Viewer::Parts::open(const std::filesystem::path& path) {
     });
 }
 
-// A scene that somebody wrote has more than its state in it, such as a sweep: it is replaced only
-// where the user says so.
+// A scene written by hand contains more than its state, such as a sweep, so it is replaced only if
+// the user says so.
 void Viewer::Parts::save() {
     if (scene.wasSaved())
         saveAs(scene.file().path);
@@ -465,7 +466,7 @@ void Viewer::Parts::saveAs(const std::filesystem::path& path) {
 void Viewer::Parts::copyArguments() {
     message.attempt([&] {
         const scene::Scene saved = scene::loadScene(scene.file().path, scene::Outside::allowed);
-        // It may have been saved to another folder than the one that it was opened in.
+        // The scene may have been saved to another folder than it was opened from.
         const std::string arguments = caseArguments(
             saved,
             movedFiles(scene.editedSide().wanted(), scene.file().directory, saved.directory));
@@ -519,7 +520,7 @@ void Viewer::Parts::drop(const std::filesystem::path& file) {
     }
 }
 
-// ---- What is seen from outside ------------------------------------------------------------------
+// ---- Public interface ---------------------------------------------------------------------------
 
 Viewer::Viewer(const ViewOptions& options) {
     measure::HairCache cache = measure::userHairCache(options.scene.cache);
@@ -528,7 +529,7 @@ Viewer::Viewer(const ViewOptions& options) {
         options, openScene(options.scene.scene, options.scene.outside), settings, std::move(cache));
 }
 Viewer::~Viewer() {
-    // Whoever measures waits for the window between rounds.
+    // The measuring thread waits for the window between rounds.
     parts_->timings.measuring().cancel();
     parts_->keepPreferences();
 }

@@ -21,44 +21,44 @@ struct PlayState;   // player.h
 
 struct ViewOptions {
     scene::SceneOptions scene;
-    std::uint32_t width = 1600;  // the window's, in screen coordinates
+    std::uint32_t width = 1600;  // of the window, in screen coordinates
     std::uint32_t height = 900;
-    double scale = 0.0;                // scale of letters and widgets; 0: the screen's
-    std::uint32_t frames = 0;  // pictures after which the window closes; 0: it stays open
-    std::filesystem::path screenshot;  // written of the window's last picture; empty: none
+    double scale = 0.0;  // of letters and widgets; 0: the screen's
+    std::uint32_t frames = 0;  // the window closes after so many pictures; 0: it stays open
+    std::filesystem::path screenshot;  // file for the window's last picture; empty: none
     std::filesystem::path script;  // steps that drive the window; empty: none
-    bool live = false;  // though a script or a number of pictures drives it: Viewer::setLive()
-    std::filesystem::path shaders;  // folder that is watched; empty: that of the build
-    // File of preferences; empty: the user's own, or none where a script drives the window.
+    bool live = false;  // Viewer::setLive(), for scripts or a number of pictures
+    std::filesystem::path shaders;  // watched folder; empty: the build's
+    // File of preferences; empty: the user's file, or none with a script.
     std::filesystem::path preferences;
-    std::vector<std::string> command;  // the command line, as reports quote it
-    // Called by the thread that draws, with each order before anything is done. For tests, which
-    // hold it up there; empty: nothing is.
+    std::vector<std::string> command;  // for reports
+    // Called on the drawing thread with each order before any work, for tests that delay it; may be
+    // empty.
     std::function<void()> before_drawing{};
 };
 
-// A window in which a scene plays, and in which everything about it can be changed. It answers
-// while pictures of the scene are drawn: that is another thread's work.
+// A window that plays a scene and can change everything about it. It responds while pictures of the
+// scene are drawn, because another thread draws them.
 class Viewer {
 public:
     explicit Viewer(const ViewOptions& options);
-    // Waits for the picture that is being drawn.
+    // Waits for the picture in progress.
     ~Viewer();
     Viewer(const Viewer&) = delete;
     Viewer& operator=(const Viewer&) = delete;
 
-    // Draws one picture of the window; false once it is closed.
+    // Draws one picture of the window; false if it was closed.
     bool frame();
-    // Asks whoever draws to end; false where that takes longer.
+    // Asks the drawing thread to end; false if that takes longer than `patience`.
     bool finish(std::chrono::milliseconds patience);
-    void keepPreferences();  // as the destructor does
+    void keepPreferences();  // like the destructor
 
-    // Whether frame() returns while the scene's picture is being drawn. Scripts, and windows that
-    // close after some pictures, begin otherwise: then each picture of the window has all that was
-    // asked for before it.
+    // Whether frame() returns while the scene's picture is being drawn. Initially not, for scripts
+    // and for windows that close after some pictures: each picture of the window then shows all
+    // earlier requests.
     void setLive(bool live);
 
-    // What users do, for scripts. Sides are counted from 0; there are two while it compares.
+    // User actions, for scripts. Sides are counted from 0; there are two when comparing.
     std::size_t sideCount() const;
     const Side& side(std::size_t index) const;
     void edit(std::size_t index, const hair::Settings& settings);
@@ -67,19 +67,19 @@ public:
     void resize(std::uint32_t width, std::uint32_t height);  // screen coordinates
     PlayState& play();
 
-    // What the window shows.
+    // The shown state of the window.
     engine::Presenter::Picture picture() const;
-    // The last thing that went wrong or that the user was told; may be empty.
+    // Returns the last message or problem; may be empty.
     const std::string& message() const;
-    // ms from when the window looked at mouse and keys until the picture with what they did was
-    // handed to the desktop, at most, of its last 300 pictures.
+    // Returns the maximum ms from reading mouse and keys to handing the picture with their effect
+    // to the desktop, over the last 300 pictures.
     double slowestAnswer() const;
-    // Of the scene, previews among them, in the last 2 s; 0 where none came.
+    // Pictures of the scene, including previews, over the last 2 s; 0 if there were none.
     double picturesPerSecond() const;
     float scale() const;  // scale of letters and widgets
     engine::PresentMode presentMode() const;
 
-    // Warnings and errors of the validation layer, so far.
+    // Returns the warnings and errors of the validation layer since the last call.
     std::vector<std::string> takeMessages();
 
 private:

@@ -30,7 +30,7 @@ constexpr Named kModifiers[] = {
     {"alt", ImGuiMod_Alt},
     {"super", ImGuiMod_Super}};
 
-// Names beside Dear ImGui's own.
+// Names in addition to Dear ImGui's.
 constexpr Named kOthers[] = {
     {"left", ImGuiKey_LeftArrow}, {"right", ImGuiKey_RightArrow}, {"up", ImGuiKey_UpArrow},
     {"down", ImGuiKey_DownArrow}, {".", ImGuiKey_Period},         {",", ImGuiKey_Comma},
@@ -41,7 +41,7 @@ bool isIn(const std::string& window, const std::string& wanted) {
     return wanted.empty() || window == wanted || window.starts_with(wanted + '/');
 }
 
-// What "##" hides: "##/strands/density" is "/strands/density".
+// Returns the part after "##": "/strands/density" for "##/strands/density".
 std::string hiddenPart(const std::string& label) {
     const std::size_t at = label.find("##");
     if (at == std::string::npos) return {};
@@ -71,7 +71,7 @@ UserInput::UserInput() {
     hook.Callback = &UserInput::feed;
     hook.UserData = this;
     hook_ = ImGui::AddContextHook(context, &hook);
-    // Else what is called between two pictures is spread over more of them, and the rest dropped.
+    // Otherwise Dear ImGui would spread events between two pictures over several pictures.
     trickles_ = std::exchange(ImGui::GetIO().ConfigInputTrickleEventQueue, false);
 }
 
@@ -80,7 +80,7 @@ UserInput::~UserInput() {
     ImGui::GetIO().ConfigInputTrickleEventQueue = trickles_;
 }
 
-// After GLFW's back end has added what it knows, and before Dear ImGui looks at it.
+// Called after GLFW's back end has added its events, and before Dear ImGui reads them.
 void UserInput::feed(ImGuiContext* context, ImGuiContextHook* hook) {
     auto& self = *static_cast<UserInput*>(hook->UserData);
     ImGuiIO& io = context->IO;
@@ -139,7 +139,7 @@ int keyChord(const std::string& text, const std::string& pointer) {
     };
     while (takeModifier()) {
     }
-    if (rest.empty() && chord != 0) return chord;  // of a mouse button, say
+    if (rest.empty() && chord != 0) return chord;  // modifiers only, for example for a mouse button
     std::vector<std::string> known;
     for (const Named& other : kOthers) {
         if (other.name == rest) return chord | other.key;
@@ -164,7 +164,7 @@ std::optional<engine::UiItem> findItem(const engine::UiItems& items, const ItemN
     for (const engine::UiItem& item : items.items()) {
         if (!item.visible || !isCalled(item, name)) continue;
         if (found && !name.item.empty()) {
-            // A panel has its name on it, and so may a button.
+            // A panel's tab and a button may have the same name as the panel.
             if (item.is_window) continue;
             if (!found->is_window)
                 throw engine::Error(

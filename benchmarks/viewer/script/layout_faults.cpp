@@ -11,23 +11,22 @@
 namespace benchmarks::viewer {
 namespace {
 
-// ---- Letters as they were drawn -----------------------------------------------------------------
+// ---- Drawn letters ------------------------------------------------------------------------------
 
-// A letter as it is drawn, px.
+// A drawn letter, px.
 struct DrawnLetter {
     unsigned codepoint = 0;
-    float pen = 0.0f;  // where its advance begins, a little left of it
+    float pen = 0.0f;  // start of its advance, slightly left of it
     float left = 0.0f;
     float right = 0.0f;
     float top = 0.0f;
     float bottom = 0.0f;
-    bool cut = false;  // at the left or right side
+    bool cut = false;  // on the left or right
 };
 
-// Letters reach over their advance, and so over what was made as wide as their text, by parts of a
-// pixel.
+// Letters exceed their advance, and thus a box of their text's width, by fractions of a pixel.
 constexpr float kTolerance = 1.0f;  // px
-// Share of its part of the texture from which on a letter is whole.
+// Visible share of its texture rectangle above which a letter counts as whole.
 constexpr float kWhole = 0.999f;
 
 struct Quad {
@@ -35,7 +34,7 @@ struct Quad {
     ImDrawVert last;  // bottom right
 };
 
-// The rectangle that six indices draw, in the order in which Dear ImGui draws letters.
+// Returns the rectangle of six indices in the order in which Dear ImGui draws letters.
 std::optional<Quad> quadAt(const ImDrawList& list, const ImDrawCmd& command, unsigned index) {
     const ImDrawIdx* const i = &list.IdxBuffer[static_cast<int>(command.IdxOffset + index)];
     const unsigned v = i[0];
@@ -47,9 +46,9 @@ std::optional<Quad> quadAt(const ImDrawList& list, const ImDrawCmd& command, uns
     return Quad{vertex(v), vertex(v + 2)};
 }
 
-// The letter in whose part of the texture the middle of the rectangle is; none for a shape.
+// Returns the letter at the middle of the texture rectangle; null for a shape.
 const ImFontGlyph* glyphOf(const Quad& quad) {
-    if (quad.first.uv.x == quad.last.uv.x) return nullptr;  // one colour
+    if (quad.first.uv.x == quad.last.uv.x) return nullptr;  // single colour
     const float u = 0.5f * (quad.first.uv.x + quad.last.uv.x);
     const float v = 0.5f * (quad.first.uv.y + quad.last.uv.y);
     for (const ImFont* font : ImGui::GetIO().Fonts->Fonts)
@@ -63,7 +62,7 @@ bool isSeen(const Quad& quad, const ImVec4& clip) {
            quad.last.pos.y > clip.y && quad.first.pos.x < clip.z && quad.last.pos.x > clip.x;
 }
 
-// The share of the letter that its rectangle still has.
+// Returns the share of the letter in its rectangle.
 float shareOf(const Quad& quad, const ImFontGlyph& glyph) {
     return (quad.last.uv.x - quad.first.uv.x) / (glyph.U1 - glyph.U0);
 }
@@ -78,9 +77,8 @@ bool isCut(const Quad& quad, const ImFontGlyph& glyph, const ImVec4& clip) {
            quad.last.pos.x > clip.z + kTolerance;
 }
 
-// The letters of a list of drawing commands. Dear ImGui cuts letters in two ways: it makes the
-// rectangle of the letter smaller itself, or lets the device do so by a clip rectangle. What is cut
-// at the top or bottom was scrolled there.
+// Returns the letters of a draw list. Dear ImGui cuts letters in two ways: it shrinks the letter's
+// rectangle, or lets the device clip it. Cuts at the top or bottom come from scrolling.
 std::vector<DrawnLetter> drawnLetters(const ImDrawList& list) {
     std::vector<DrawnLetter> letters;
     const ImTextureID texture = ImGui::GetIO().Fonts->TexID;
@@ -128,7 +126,7 @@ bool isPanel(const ImGuiWindow& window) {
 }
 
 void addContents(const ImGuiWindow& window, std::vector<std::string>& faults) {
-    const ImVec2 end = window.DC.CursorMaxPos;  // of what was put into it
+    const ImVec2 end = window.DC.CursorMaxPos;  // of its contents
     const ImVec2 begin = window.DC.CursorStartPos;
     const ImRect& seen = window.InnerClipRect;
     const std::string name = window.Name;
@@ -146,10 +144,9 @@ bool isIn(const DrawnLetter& letter, const engine::UiRect& rect) {
            middle > rect.top && middle < rect.bottom;
 }
 
-// What a field says begins a padding from its left where it is text, and in the middle where it is
-// a number that fits; at the very left there is too much of it, if it goes on to the right end.
-// Text that was scrolled is cut at the left. Other windows say something where the field is out of
-// sight.
+// Whether a field's text is too long. Text normally starts one padding from the left, and a number
+// that fits is centred. Text that starts at the very left and reaches the right end is too long.
+// Scrolled text is cut at the left. Behind hidden fields, letters may come from other windows.
 bool isTooLong(const engine::UiItem& field, const std::vector<DrawnLetter>& letters) {
     const DrawnLetter* first = nullptr;
     float right = field.rect.left;
@@ -163,7 +160,7 @@ bool isTooLong(const engine::UiItem& field, const std::vector<DrawnLetter>& lett
            right > field.rect.right - narrowest;
 }
 
-// The letters are those of the window, and say nothing of fields that it lies on.
+// The letters belong to the window; letters of fields below it do not count.
 void addFields(
     const std::string& window, const engine::UiItems& items,
     const std::vector<DrawnLetter>& letters, std::vector<std::string>& faults) {
@@ -208,7 +205,7 @@ void addColumns(const ImGuiTable& table, std::vector<std::string>& faults) {
 void addLabel(const engine::UiItem& item, std::vector<std::string>& faults) {
     const std::string text = item.text();
     if (item.is_window || !item.visible || text.empty()) return;
-    // Whatever a widget draws, its label begins inside of it, a padding from its left.
+    // Every widget draws its label inside itself, starting one padding from its left.
     const float needed = ImGui::CalcTextSize(text.c_str()).x + ImGui::GetStyle().FramePadding.x;
     const float has = std::min(item.whole.right, item.clip.right) - item.whole.left;
     if (needed > has + kTolerance)
@@ -219,7 +216,7 @@ void addLabel(const engine::UiItem& item, std::vector<std::string>& faults) {
 bool isOutside(const engine::UiItem& item) {
     const engine::UiRect &rect = item.rect, &clip = item.clip;
     if (rect.width() <= 0.0f || rect.height() <= 0.0f) return false;
-    // What lights up in a list reaches over its row by half of the gap between rows.
+    // The highlight in a list exceeds its row by half of the gap between rows.
     const ImVec2 gap = ImGui::GetStyle().ItemSpacing;
     const float x = 0.5f * gap.x + kTolerance, y = 0.5f * gap.y + kTolerance;
     return rect.left < clip.left - x || rect.right > clip.right + x || rect.top < clip.top - y ||

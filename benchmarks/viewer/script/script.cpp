@@ -15,7 +15,7 @@
 namespace benchmarks::viewer {
 namespace {
 
-// Pictures until panels that fit their contents have their sizes.
+// Pictures until panels with automatic size have their final size.
 constexpr int kFirstPictures = 3;
 
 Act readStep(const scene::Json& step, const std::string& pointer, const ScriptFolders& folders) {
@@ -62,7 +62,7 @@ bool Script::step(Viewer& viewer) {
             viewer.play().playing = false;
             parts.driver->wait(kFirstPictures);
         }
-        // What takes no picture is done at once.
+        // Steps that need no picture run at once.
         while (!parts.driver->goOn()) {
             if (parts.next == parts.steps.size()) return false;
             parts.steps[parts.next++](*parts.driver);

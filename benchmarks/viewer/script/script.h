@@ -8,15 +8,15 @@
 
 namespace benchmarks::viewer {
 
-// A step could not be done, or an expectation does not hold.
+// A step could not be done, or an expectation was not met.
 class ScriptFailure : public engine::Error {
 public:
     using engine::Error::Error;
 };
 
-// A file of steps that drive the viewer as a user would: docs/viewer.md has them all. Meanwhile the
-// user's own mouse and keys do nothing, and every picture of the window is 1/60 s after
-// the one before, however long it took.
+// A file of steps that drive the viewer like a user: docs/viewer.md lists them all. Meanwhile the
+// user's own mouse and keys do nothing, and each picture of the window is 1/60 s after the previous
+// one, however long it took.
 class Script {
 public:
     // Throws engine::Error "<path>: <JSON pointer>: <reason>".
@@ -26,12 +26,11 @@ public:
     Script(const Script&) = delete;
     Script& operator=(const Script&) = delete;
 
-    // Does what comes before the window's next picture; false once all is done. Throws
-    // ScriptFailure
-    // "<path>: <JSON pointer of the step>: <reason>".
+    // Runs the actions before the window's next picture; false when all are done. Throws
+    // ScriptFailure "<path>: <JSON pointer of the step>: <reason>".
     bool step(Viewer& viewer);
 
-    // To be called once the window has closed. Throws ScriptFailure where steps are left.
+    // Call this after the window has closed. Throws ScriptFailure if steps remain.
     void finish() const;
 
 private:

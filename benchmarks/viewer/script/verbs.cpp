@@ -25,9 +25,9 @@
 namespace benchmarks::viewer {
 namespace {
 
-// ---- Steps that fail where what they say does not hold ------------------------------------------
+// ---- Steps that check expectations --------------------------------------------------------------
 
-// What one member of "expect" says of a side.
+// Checks one member of "expect" on a side.
 using Check = std::function<void(const Driver&, const Side& side)>;
 
 struct Expectation {
@@ -50,7 +50,7 @@ Check readHash(const scene::Json& value, const std::string& pointer, const Scrip
     };
 }
 
-// The picture's hash of the first side in a file that "state" wrote.
+// Returns the first side's picture hash from a file written by "state".
 std::string hashIn(const std::filesystem::path& file) {
     const scene::Json state = scene::parseJson(engine::readFile(file), file.string());
     const scene::Json::json_pointer place("/sides/0/image_hash");
@@ -168,7 +168,7 @@ Check readItem(const scene::Json& value, const std::string& pointer, const Scrip
     };
 }
 
-// Fails where there are faults, with the first few of them.
+// Fails if there are faults, and lists the first few.
 void checkNone(const std::vector<std::string>& faults) {
     constexpr std::size_t kMost = 5;
     if (faults.empty()) return;
@@ -249,7 +249,7 @@ scene::Json itemState(const engine::UiItem& item) {
     return state;
 }
 
-// What the window shows: its size in px, the scale of its letters, what it says, each side's frame,
+// Returns the window's state: its size in px, the scale of letters, the message, each side's frame,
 // hashes and settings, and every widget of the last picture.
 scene::Json shownState(const Driver& driver) {
     const Viewer& viewer = driver.viewer;
@@ -275,7 +275,7 @@ struct OneSide {
     std::uint32_t side = 0;
 };
 
-// A file's name, or an object that also has the side that it is of.
+// Reads a file name, or an object that also has a side.
 OneSide
 oneSide(const scene::Json& value, const std::string& pointer, const ScriptFolders& folders) {
     if (value.is_string()) return {folders.out / textOf(value, pointer)};
@@ -342,7 +342,7 @@ Act readType(const scene::Json& value, const std::string& pointer, const ScriptF
 
 using Change = UserInput::Change;
 
-constexpr int kDragPictures = 6;  // pictures that a drag takes from one end to the other
+constexpr int kDragPictures = 6;  // pictures per drag
 
 // In the order of ImGuiMouseButton.
 constexpr std::string_view kButtons[] = {"left", "right", "middle"};
@@ -357,7 +357,7 @@ int buttonOf(const Members& members) {
     return static_cast<int>(found - std::begin(kButtons));
 }
 
-// The keys that are held down while the mouse does something.
+// Returns the keys to hold during a mouse action.
 int keysOf(const Members& members) {
     const auto keys = members.text("keys");
     return keys ? keyChord(*keys, members.pointerOf("keys")) : 0;
@@ -381,7 +381,7 @@ void moveTo(Driver& driver, std::array<float, 2> to) {
     driver.then([=, &driver] { driver.input.move(to[0], to[1]); });
 }
 
-// A label alone is that of an item.
+// A bare label names an item.
 scene::Json asObject(const scene::Json& value) {
     return value.is_string() ? scene::Json{{"item", value}} : value;
 }
@@ -492,9 +492,9 @@ Act readSeek(const scene::Json& value, const std::string& pointer, const ScriptF
 
 // ---- Steps about the scene and the window -------------------------------------------------------
 
-constexpr int kLongestResize = 200;  // pictures: desktops answer when they like
+constexpr int kLongestResize = 200;  // pictures; a desktop may take a while to answer
 
-// "File/Open scene", without the dots that menus have.
+// "File/Open scene", without the dots of menu items.
 std::string fullName(const ActionRow& row) {
     std::string name = std::string(row.menu) + '/' + row.name;
     while (name.ends_with('.') || name.ends_with(' ')) name.pop_back();

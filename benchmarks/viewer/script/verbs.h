@@ -7,14 +7,14 @@
 #include "benchmarks/scene/json.h"
 #include "benchmarks/viewer/script/input.h"
 
-// The kinds of steps that scripts have.
+// The kinds of script steps.
 namespace benchmarks::viewer {
 
-// What one step does. Throws engine::Error, the reason alone.
+// Runs one step. Throws engine::Error with only the reason.
 using Act = std::function<void(Driver&)>;
 
-// Where a script's files are: it reads files beside it, and writes files to its "out", which is
-// relative to the current folder.
+// Folders of a script: it reads files beside itself and writes files to its "out", relative to the
+// current folder.
 struct ScriptFolders {
     std::filesystem::path script;
     std::filesystem::path out;
@@ -23,12 +23,12 @@ struct ScriptFolders {
 // A kind of step.
 struct Verb {
     const char* name;
-    // `value` is what the step gives it, at `pointer` in the script. Throws engine::Error
+    // `value` is the step's value, at `pointer` in the script. Throws engine::Error
     // "<JSON pointer>: <reason>".
     Act (*read)(const scene::Json& value, const std::string& pointer, const ScriptFolders& folders);
 };
 
-// Throws engine::Error for a verb that is not in the table; `pointer` is the step's.
+// Throws engine::Error for an unknown verb; `pointer` is the step's.
 const Verb& verbNamed(const std::string& name, const std::string& pointer);
 
 }  // namespace benchmarks::viewer
