@@ -102,9 +102,9 @@ TEST_F(DeviceTest, RefusesAPictureThatIsTooLarge) {
         HasSubstr("an image side of 1048576 px is over the device's"));
 }
 
-// strands/frames.comp reads guides and their first frames and writes normals, all of them here at
-// one place: in the only buffer that is there, and past its end. What the layer says of that
-// differs from version to version.
+// strands/frames.comp reads guides and their first frames and writes normals. Here all three are at
+// the same address, inside or past the end of the only buffer. The layer's messages about that
+// differ between versions.
 TEST_F(DeviceTest, ChecksAddressesInShadersWhereThatIsAskedFor) {
     struct Push {
         std::array<float, 16> head{1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};
@@ -112,7 +112,7 @@ TEST_F(DeviceTest, ChecksAddressesInShadersWhereThatIsAskedFor) {
         std::array<std::uint32_t, 2> counts{1, 2};  // guides, vertices of each
     };
     const Device checked({.wanted = "", .validation = Validation::gpu_assisted});
-    checked.messages().take();  // newer layers say what they switch on for that
+    checked.messages().take();  // newer layers report what they enable
     const ComputePipeline frames(
         checked, {.shader = "strands/frames.comp", .push_size = sizeof(Push)});
     const std::vector<float> zeros(64, 0.0f);

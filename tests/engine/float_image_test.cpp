@@ -34,8 +34,8 @@ TEST(FloatImage, ExrKeepsEveryBitThatWasWritten) {
 }
 
 // scenes/assets/make_sky.py writes half-precision zipped lines by the published layout, and Mitsuba
-// reads them. Its values: below the horizon BELOW, above ABOVE (where no box is), in the key light
-// its radiance; half precision rounds by 2^-11.
+// can read them. Its values: BELOW under the horizon, ABOVE over it (without a box), and the key
+// light's radiance. Half precision rounds by 2^-11.
 TEST(FloatImage, ReadsAnExrOfAnotherWriter) {
     const FloatPixels pixels = readFloatImage(kStudio);
     ASSERT_EQ(pixels.width, 256u);
@@ -53,7 +53,7 @@ TEST(FloatImage, ReadsAnExrOfAnotherWriter) {
 }
 
 // Greg Ward, Real Pixels, Graphics Gems II (1991), and the reference manual of Radiance: flat
-// pixels are mantissas of RGB and an exponent e of 2^(e - 136).
+// pixels are RGB mantissas with a common factor 2^(e - 136).
 TEST(FloatImage, ReadsRadiancePixels) {
     const TemporaryFolder folder;
     std::string bytes = "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 1 +X 2\n";
@@ -64,8 +64,8 @@ TEST(FloatImage, ReadsRadiancePixels) {
     EXPECT_EQ(pixels.rgb, (std::vector<float>{1.0f, 0.5f, 0.25f, 800.0f, 400.0f, 200.0f}));
 }
 
-// The same manual: rows of 8 pixels and more may have each channel in runs: 128 + n and a byte, or
-// n and n bytes.
+// The same manual: in rows of at least 8 pixels, each channel may be in runs: 128 + n and one byte,
+// or n and n bytes.
 TEST(FloatImage, ReadsRadianceRuns) {
     const TemporaryFolder folder;
     std::string bytes = "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 2 +X 8\n";
@@ -86,7 +86,7 @@ TEST(FloatImage, ReadsRadianceRuns) {
             EXPECT_EQ(pixels.rgb[at + 2], 0.0f) << x;
         }
     }
-    // Wherever it ends, and with any byte of the pixels changed.
+    // Truncates the file everywhere, and changes every byte of the pixels.
     for (std::size_t size = 0; size < bytes.size(); ++size) {
         const auto path = folder.write("cut.hdr", bytes.substr(0, size));
         EXPECT_THAT(errorText([&] { readFloatImage(path); }), StartsWith(path.string() + ": "))
@@ -101,18 +101,18 @@ TEST(FloatImage, ReadsRadianceRuns) {
     }
 }
 
-// 800 MB of floats from a kilobyte.
+// A kilobyte that claims 800 MB of floats.
 TEST(FloatImage, RefusesAnExrThatIsTooShortForItsSize) {
     const TemporaryFolder folder;
     const std::vector<float> rgb(3 * 8 * 8, 1.0f);
     writeExr(folder.file("a.exr"), 8, 8, rgb);
     std::string bytes = textOf(folder.file("a.exr"));
-    // OpenEXR itself asks for a table of the window's rows.
+    // OpenEXR itself requires a table of the window's rows.
     for (const auto& [window, reason] :
          {std::pair{std::string("dataWindow"), "ends too early"},
           {std::string("displayWindow"), "ends too early for a picture of its size"}}) {
         std::string huge = bytes;
-        // The name, "box2i" and a size, each with its end, then two corners.
+        // The name, "box2i" and a size, each with its terminator, then two corners.
         const std::size_t corner = huge.find(window) + window.size() + 1 + 6 + 4 + 8;
         ASSERT_EQ(huge.substr(corner, 8), std::string("\7\0\0\0\7\0\0\0", 8));
         huge.replace(corner, 8, std::string("\xff\x1f\0\0\xff\x1f\0\0", 8));  // 8192 by 8192
@@ -122,7 +122,7 @@ TEST(FloatImage, RefusesAnExrThatIsTooShortForItsSize) {
     }
 }
 
-// 2 GB for an attribute of the header.
+// A header attribute that claims 2 GB.
 TEST(FloatImage, RefusesAnExrThatIsTooShortForItsHeader) {
     const TemporaryFolder folder;
     writeExr(folder.file("a.exr"), 2, 2, std::vector<float>(12, 1.0f));
@@ -162,8 +162,8 @@ TEST(FloatImage, RefusesAnExrThatEnds) {
     }
 }
 
-// A damaged file gives an error or a picture, and nothing else. Bytes of the first 400 are the
-// header's and the table of blocks.
+// A damaged file gives an error or a picture, but never a crash. The first 400 bytes are the header
+// and the table of blocks.
 TEST(FloatImage, SurvivesDamage) {
     const TemporaryFolder folder;
     const std::string bytes = textOf(kStudio);
@@ -184,7 +184,7 @@ TEST(FloatImage, SurvivesDamage) {
         EXPECT_THAT(text, StartsWith(path.string() + ": "));
         ++refused;
     }
-    EXPECT_GT(refused, 30u);  // names and kinds of what a header must have are half of it
+    EXPECT_GT(refused, 30u);  // names and types of required attributes are half of the header
 }
 
 TEST(FloatImage, SaysWhichFileItCannotWrite) {

@@ -27,7 +27,7 @@ protected:
         GpuTest::TearDown();
     }
 
-    // Two passes of very different cost, the first of them in two parts.
+    // Two passes of very different cost. The first has two parts.
     void record(Passes& passes) {
         const auto fill = [&](const Buffer& buffer) {
             return [&](Commands& commands) {
@@ -41,7 +41,7 @@ protected:
         slots_.push_back(passes.slot());
     }
 
-    // Overlapped frames are stamped after each pass.
+    // Overlapped frames have a timestamp after each pass.
     std::vector<FrameRecord> play(Timing timing, int frames, std::uint32_t in_flight = 2) {
         FrameLoop loop(device(), timing, {.frames = in_flight, .stamps = Stamps::passes});
         slots_.clear();
@@ -69,8 +69,7 @@ TEST_F(FrameLoopTest, SumsPassesOfOneNameInEveryTimedMode) {
 }
 
 TEST_F(FrameLoopTest, ChargesWorkToThePassThatDidIt) {
-    // 128 MiB against 1 KiB: whichever way the machine is disturbed, the order stays in the fastest
-    // frame.
+    // 128 MiB against 1 KiB: despite disturbances, the order is correct in the fastest frame.
     for (const Timing timing : {Timing::isolated, Timing::wall_clock}) {
         Extremes big;
         Extremes small;
@@ -93,7 +92,7 @@ TEST_F(FrameLoopTest, KeepsAsManyFramesInFlightAsAskedForWhenOverlapped) {
     EXPECT_EQ(slots_, (std::vector<std::uint32_t>{0, 0, 0}));
 }
 
-// What passes took is then not known, and not 0.
+// The passes' times are then unknown, not 0.
 TEST_F(FrameLoopTest, StampsOverlappedFramesAtTheirEndsOnlyWhereNotAskedForMore) {
     FrameLoop loop(device(), Timing::overlapped);
     for (int i = 0; i < 3; ++i) loop.frame([&](Passes& passes) { record(passes); });
@@ -103,7 +102,7 @@ TEST_F(FrameLoopTest, StampsOverlappedFramesAtTheirEndsOnlyWhereNotAskedForMore)
     }
 }
 
-// Two barriers and two stamps: less than filling 64 MiB, however that is disturbed.
+// Two barriers and two timestamps take less than filling 64 MiB, despite disturbances.
 TEST_F(FrameLoopTest, TellsWhatAnEmptyPassTakes) {
     const std::optional<double> empty = emptyPassTime(device());
     ASSERT_EQ(empty.has_value(), device().info().timestamp_valid_bits > 0);
@@ -115,21 +114,21 @@ TEST_F(FrameLoopTest, TellsWhatAnEmptyPassTakes) {
     EXPECT_LT(*empty, big.least());
 }
 
-// An interval is waiting, recording and submitting one after the other, by one clock.
+// An interval consists of waiting, recording and submitting in sequence, by one clock.
 TEST_F(FrameLoopTest, SharesOutTheTimeOfTheCpu) {
     for (const Timing timing : {Timing::overlapped, Timing::isolated})
         for (const FrameRecord& frame : play(timing, 4)) {
             EXPECT_GE(frame.wait, 0.0);
             EXPECT_GT(frame.record, 0.0);
             EXPECT_GT(frame.submit, 0.0);
-            // 1 us for rounding of sums in ms.
+            // 1 us for the rounding of sums in ms.
             EXPECT_LE(frame.wait + frame.record + frame.submit, frame.interval + 1e-3);
         }
 }
 
-// A frame's device time runs from its first stamp to its last. In an overlapped frame a pass begins
-// with the stamp that ends the one before, so the passes share the whole of it out; isolated passes
-// have barriers between them, which belong to none. No time is shared out twice.
+// A frame's device time runs from its first timestamp to its last. In an overlapped frame, a pass
+// starts at the timestamp that ends the one before, so the passes add up to the whole. Isolated
+// passes have barriers between them that belong to no pass. No time is counted twice.
 TEST_F(FrameLoopTest, SharesOutTheTimeOfTheDevice) {
     constexpr double kRounding = 1e-6;  // 1 ns: of sums in ms
     const auto passSum = [](const FrameRecord& frame) {
@@ -149,7 +148,7 @@ TEST_F(FrameLoopTest, SharesOutTheTimeOfTheDevice) {
         EXPECT_NEAR(passSum(frame), frame.wall, kRounding);
 }
 
-// What a frame uses is its passes' and what is done between them.
+// A frame's use includes its passes and the work between them.
 TEST_F(FrameLoopTest, TellsWhatFramesAndPassesUseOfTheCpu) {
     double all = 0.0;
     for (const FrameRecord& frame : play(Timing::wall_clock, 5)) {
@@ -161,7 +160,7 @@ TEST_F(FrameLoopTest, TellsWhatFramesAndPassesUseOfTheCpu) {
         EXPECT_LE(passes, frame.use.cpu + 1e-3);
         all += passes;
     }
-    // Filling 640 MiB costs the processor something where it is what fills them.
+    // On a software device, filling 640 MiB uses CPU time.
     if (device().info().type == "cpu") {
         EXPECT_GT(all, 0.0);
     }

@@ -7,7 +7,7 @@
 #include "engine/frame_loop.h"
 #include "tests/gpu_fixture.h"
 
-// Expected: the synchronization chapter of the Vulkan specification, 7.1 to 7.6.
+// Expected results: synchronization chapter of the Vulkan specification, 7.1 to 7.6.
 namespace engine {
 namespace {
 
@@ -81,9 +81,9 @@ TEST(HazardChecker, HoldsStagesAndAccessesAgainstTheBarriers) {
         return hazards({use(1, kComputeWrite), barrier(before, after), use(1, kVertexRead)});
     };
     const auto kHazard = ElementsAre(Kind::read_after_write);
-    EXPECT_THAT(between(kComputeRead, kVertexRead), kHazard);    // not made available
-    EXPECT_THAT(between(kTransferWrite, kVertexRead), kHazard);  // of another stage
-    EXPECT_THAT(between(kComputeWrite, kFragmentRead), kHazard);  // seen by another stage
+    EXPECT_THAT(between(kComputeRead, kVertexRead), kHazard);  // not made available
+    EXPECT_THAT(between(kTransferWrite, kVertexRead), kHazard);  // another source stage
+    EXPECT_THAT(between(kComputeWrite, kFragmentRead), kHazard);  // another destination stage
     EXPECT_THAT(between(kComputeWrite, executionOnly(kVertexRead)), kHazard);
     EXPECT_THAT(
         between(
@@ -131,8 +131,8 @@ TEST(HazardChecker, WantsMemoryDependenciesBetweenWrites) {
         IsEmpty());
 }
 
-// What is available stays so: a second barrier makes it visible to others if it comes after the
-// first, by a stage in which that one ended.
+// Available memory stays available. A second barrier makes it visible to others if it chains to the
+// first by a stage in the first one's destination.
 TEST(HazardChecker, FollowsChainsOfBarriers) {
     const auto chained = [](Scope middle_after, Scope middle_before) {
         return hazards(
@@ -143,7 +143,7 @@ TEST(HazardChecker, FollowsChainsOfBarriers) {
     EXPECT_THAT(chained(kFragmentRead, executionOnly(kFill)), ElementsAre(Kind::read_after_write));
 }
 
-// The dependencies of one command all begin with what is recorded before it.
+// All dependencies of one command start from the commands recorded before it.
 TEST(HazardChecker, ChainsNoBarriersOfOneCommand) {
     Recorded both = barrier(kComputeWrite, kVertexRead);
     both.barriers.push_back(barrier(executionOnly(kVertexRead), kFragmentRead).barriers[0]);
@@ -153,8 +153,8 @@ TEST(HazardChecker, ChainsNoBarriersOfOneCommand) {
         ElementsAre(Kind::read_after_write));
 }
 
-// A barrier waits for the stages that a draw goes through before the one it names, and holds up
-// those after; but memory is seen by the named ones alone.
+// A barrier waits for the named stage and earlier stages of a draw, and delays the named stage and
+// later ones. But memory becomes visible only to the named stages.
 TEST(HazardChecker, KnowsTheOrderOfADrawsStages) {
     const auto read = [](Scope reads, Scope waited_for) {
         return hazards({use(1, reads), barrier(waited_for, kComputeWrite), use(1, kComputeWrite)});
@@ -169,7 +169,7 @@ TEST(HazardChecker, KnowsTheOrderOfADrawsStages) {
     EXPECT_THAT(hazards(sees_later), ElementsAre(Kind::read_after_write));
 }
 
-// Those of a draw of meshes are no part of a draw of vertices.
+// The stages of a mesh draw are not part of a vertex draw.
 TEST(HazardChecker, KnowsTheOrderOfTheStagesOfMeshes) {
     const auto read = [](Scope reads, Scope waited_for) {
         return hazards({use(1, reads), barrier(waited_for, kComputeWrite), use(1, kComputeWrite)});
@@ -215,7 +215,7 @@ TEST(HazardChecker, TakesAChangeOfLayoutForAWrite) {
         hazards({use(1, kFill), change, use(1, kColorWrite)}),
         ElementsAre(Kind::write_after_write));
     EXPECT_THAT(hazards({change, use(1, kFragmentRead)}), ElementsAre(Kind::read_after_write));
-    // A later change waits for the first by the stage in which that one ended.
+    // A later layout change waits for the first one by its destination stage.
     EXPECT_THAT(hazards({change, imageBarrier(1, kColorWrite, kFragmentRead, true)}), IsEmpty());
     EXPECT_THAT(hazards({change, change}), ElementsAre(Kind::write_after_write));
 }
@@ -256,7 +256,7 @@ TEST(SuperfluousBarriers, AreThoseWithoutWhichThereIsNoMoreHazard) {
         use(1, kComputeWrite), barrier(kComputeWrite, kVertexRead, "a"),
         barrier(kComputeWrite, kVertexRead, "b"), use(1, kVertexRead)};
     EXPECT_THAT(superfluousBarriers(std::span(&twice, 1)), ElementsAre("a", "b"));
-    // Needed by the next frame alone.
+    // Only the next frame needs it.
     const Recording frame{use(1, kComputeWrite), barrier(kComputeWrite, kComputeWrite, "last")};
     EXPECT_THAT(superfluousBarriers(std::span(&frame, 1)), ElementsAre("last"));
     EXPECT_THAT(superfluousBarriers(std::vector{frame, frame}), IsEmpty());
@@ -305,8 +305,8 @@ TEST_F(HazardLogTest, FindsAMissingBarrierBetweenBuffers) {
     EXPECT_THAT(device().hazards()->dropped().value_or(""), HasSubstr("hazard_checker_test.cpp:"));
 }
 
-// The layer sees images: so that it is there, and looks at synchronization, shows in what it says
-// of a copy that doesn't wait for the picture's change of layout.
+// The layer tracks images. Its message about a copy that does not wait for the picture's layout
+// change shows that synchronization validation is active.
 TEST_F(HazardLogTest, ThePlantedHazardOnAnImageIsSeenByTheValidationLayer) {
     const Image image = picture();
     const Buffer pixels(device(), {.size = 256, .usage = Usage::readback, .name = "pixels"});

@@ -21,7 +21,7 @@ std::uint32_t bigEndian(const std::string& bytes, std::size_t at) {
     return value;
 }
 
-// The PNG specification, 2nd edition: signature in 5.2, the header chunk in 11.2.2.
+// PNG specification, 2nd edition: signature in 5.2, header chunk in 11.2.2.
 TEST(ImageFile, WritesAPngOfTheSizeAndKindAsked) {
     const TemporaryFolder folder;
     const std::filesystem::path path = folder.path() / "made" / "picture.png";

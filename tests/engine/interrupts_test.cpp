@@ -1,5 +1,5 @@
-// What becomes of an interrupt, and what steps say of where they are. A process that is interrupted
-// is never as before: each test has one of its own.
+// Effects of an interrupt, and the texts of steps in progress. An interrupted process stays
+// interrupted, so each test has its own.
 #include <chrono>
 #include <csignal>
 #include <cstdlib>
@@ -26,7 +26,7 @@ class Interrupts : public testing::Test {
 protected:
     void SetUp() override { GTEST_FLAG_SET(death_test_style, "threadsafe"); }
 
-    // Waits for a device that is never done.
+    // Waits for a device that never finishes.
     [[noreturn]] static void waitForEver() {
         waitHeeding([](std::uint64_t nanoseconds) {
             std::this_thread::sleep_for(std::chrono::nanoseconds(nanoseconds));
@@ -93,7 +93,7 @@ TEST_F(Interrupts, LeaveTheEndToWhoAsked) {
             try {
                 checkInterrupted();
             } catch (const Interrupted&) {
-                std::this_thread::sleep_for(2s);  // writes what there is
+                std::this_thread::sleep_for(2s);  // stands for writing results
                 std::_Exit(7);
             }
         },
@@ -127,7 +127,7 @@ TEST(Steps, AreThoseUnderWayOutermostFirst) {
             Step inner("grows strands", 100);
             inner.advance(30);
             EXPECT_EQ(stepsUnderWay().text, "case 1  grows strands, 30 of 100");
-            inner.advance(100);  // more than it thought
+            inner.advance(100);  // more than expected
             EXPECT_EQ(stepsUnderWay().text, "case 1  grows strands, 100 of 100");
         }
         words = "case 2";

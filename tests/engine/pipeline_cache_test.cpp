@@ -19,7 +19,7 @@
 namespace engine {
 namespace {
 
-// Each test has a cache folder of its own for as long as it runs.
+// Each test has its own cache folder while it runs.
 class PipelineCacheTest : public GpuTest {
 protected:
     void SetUp() override {
@@ -37,7 +37,7 @@ protected:
         GpuTest::TearDown();
     }
 
-    // Makes a cache and lets go of it, which writes it.
+    // Creates a cache and destroys it, which writes the file.
     static void makeCache() { const PipelineCache cache(device().get(), device().info()); }
 
     std::vector<std::filesystem::path> files() const {
@@ -52,7 +52,7 @@ protected:
     std::optional<std::string> old_;
 };
 
-// The header's length and version: Vulkan 1.3, table "Layout for pipeline cache header version
+// Length and version of the header: Vulkan 1.3, table "Layout for pipeline cache header version
 // one".
 constexpr std::string_view kHeaderStart("\x20\0\0\0\1\0\0\0", 8);
 
@@ -70,7 +70,7 @@ TEST_F(PipelineCacheTest, IgnoresAFileThatIsNotACache) {
     ASSERT_EQ(files().size(), 1u);
     const std::string good = textOf(files()[0]);
     std::string other_device = good;
-    other_device[8] = static_cast<char>(~other_device[8]);  // the vendor
+    other_device[8] = static_cast<char>(~other_device[8]);  // vendor id
     for (const std::string& bad : {std::string("x"), std::string(1000, 'x'), other_device}) {
         std::ofstream(files()[0], std::ios::binary) << bad;
         makeCache();
@@ -78,7 +78,7 @@ TEST_F(PipelineCacheTest, IgnoresAFileThatIsNotACache) {
     }
 }
 
-// Drivers look at the first bytes alone, and not every one at more.
+// Drivers check the first bytes only, and not all drivers check more.
 TEST_F(PipelineCacheTest, IgnoresDamagedData) {
     makeCache();
     ASSERT_EQ(files().size(), 1u);
@@ -89,14 +89,14 @@ TEST_F(PipelineCacheTest, IgnoresDamagedData) {
         damaged[i] = static_cast<char>(damaged[i] ^ 1);
         std::ofstream(file, std::ios::binary) << damaged;
         makeCache();
-        EXPECT_EQ(textOf(file), good) << i;  // made anew and written
+        EXPECT_EQ(textOf(file), good) << i;  // recreated and written
     }
     std::ofstream(file, std::ios::binary) << good.substr(0, good.size() - 1);
     makeCache();
     EXPECT_EQ(textOf(file), good);
 }
 
-// What nobody writes to would be waited for, and what has no end read for ever.
+// Reading a pipe without a writer would wait forever, and an endless file would never finish.
 TEST_F(PipelineCacheTest, IgnoresWhatIsNoFile) {
     makeCache();
     ASSERT_EQ(files().size(), 1u);
@@ -115,7 +115,7 @@ TEST_F(PipelineCacheTest, IgnoresWhatIsNoFile) {
     EXPECT_EQ(textOf(file), good);
 }
 
-// Other drivers' files go, those that were used longest ago first.
+// Removes other drivers' files, the least recently used first.
 TEST_F(PipelineCacheTest, KeepsAQuarterGibibyteOfAll) {
     const std::filesystem::path folder = folder_.path() / "hairbench";
     const auto now = std::filesystem::file_time_type::clock::now();
@@ -157,7 +157,7 @@ TEST_F(PipelineStoreTest, GivesOnePipelineForEqualDescriptions) {
     EXPECT_NE(ComputePipeline(device(), resolveOf(3)).get(), one.get());
 }
 
-// As a shader that is saved while the viewer runs.
+// Like a shader that is saved while the viewer runs.
 TEST_F(PipelineStoreTest, GivesAnotherForOtherCode) {
     const ComputePipeline before(device(), resolveOf(2));
     const std::span<const std::uint32_t> other = shaderCode("busy/busy.comp");
@@ -169,7 +169,7 @@ TEST_F(PipelineStoreTest, GivesAnotherForOtherCode) {
     EXPECT_EQ(ComputePipeline(device(), resolveOf(2)).get(), before.get());
 }
 
-// What is in use stays, whatever else was made since.
+// Keeps pipelines in use, however many others were created since.
 TEST_F(PipelineStoreTest, LetsGoOfWhatWasAskedForLongAgo) {
     PipelineStore store;
     const auto made = [&](int i) {

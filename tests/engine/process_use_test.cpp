@@ -25,8 +25,8 @@ TEST(ProcessUse, AddsAndSubtracts) {
     EXPECT_EQ((ProcessUse{1.0, {}} + a).instructions, std::nullopt);
 }
 
-// Works until the process has used 5 ms, however long that takes; if its clock did not run for the
-// other thread's work this would never end.
+// Works until the process has used 5 ms. If its clock did not count the other thread's work, this
+// would never end.
 TEST(ProcessUse, IsThatOfAllThreads) {
     const ProcessUse before = processUse();
     std::atomic<bool> stop = false;
@@ -44,8 +44,8 @@ TEST(ProcessUse, IsThatOfAllThreads) {
     }
 }
 
-// Page faults, unlike instructions, are counted on machines whose counters are out of reach; the
-// rest is the same. Each new page that is written is one fault.
+// Page faults replace instructions, because they are counted on machines without access to hardware
+// counters. Everything else is equal. The first write to a new page is one fault.
 constexpr std::size_t kPages = 200;
 
 void touchPages() {
@@ -96,7 +96,7 @@ TEST_F(PerfCounterTest, CountsThreadsOfThreads) {
     EXPECT_GE(count() - before, double{kPages});
 }
 
-// Higher is less.
+// A higher value is a lower priority.
 int niceness() { return getpriority(PRIO_PROCESS, static_cast<id_t>(gettid())); }
 
 TEST(GiveWay, IsForAThreadAndThoseThatItStarts) {

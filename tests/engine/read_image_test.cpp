@@ -27,7 +27,7 @@ TEST(ReadImage, GivesWhatWasWritten) {
     EXPECT_EQ(pixels.rgba, rgba);
 }
 
-// Truevision TGA 2.0: 18 bytes, type 3 is uncompressed grey; bit 5 of the last byte: top row first.
+// Truevision TGA 2.0: 18 bytes. Type 3 is uncompressed grey; bit 5 of the last byte: top row first.
 TEST(ReadImage, MakesGreyRedGreenAndBlue) {
     const TemporaryFolder folder;
     std::string tga(18, '\0');
@@ -65,7 +65,7 @@ TEST(ReadImage, RefusesAPictureThatEnds) {
     }
 }
 
-// A picture of one pixel with 256 MiB of zeros, a megabyte when deflated.
+// A picture of one pixel with 256 MiB of zeros, which deflate to a megabyte.
 TEST(ReadImage, RefusesMoreDataThanThePictureHas) {
     const TemporaryFolder folder;
     const auto chunk = [](const std::string& type, const std::string& data) {
@@ -97,7 +97,7 @@ TEST(ReadImage, RefusesMoreDataThanThePictureHas) {
         HasSubstr("the data are more than a picture of this size has"));
 }
 
-// A Truevision TGA header alone, of 65,535 by 65,535 grey pixels: whoever believes it allocates
+// Only a Truevision TGA header, for 65,535 by 65,535 grey pixels. A reader that trusts it allocates
 // 4 to 16 GiB.
 TEST(ReadImage, ChecksTheSizeBeforeItDecodes) {
     const TemporaryFolder folder;
@@ -111,15 +111,15 @@ TEST(ReadImage, ChecksTheSizeBeforeItDecodes) {
         path.string() + ": 65535 by 65535 pixels are outside [1, 2^26] in all");
 }
 
-// Sizes that are allowed, in files of a few bytes: stb makes room for a JPEG's pixels and for a
-// TGA's, 1 GB and 64 MB, before it finds none.
+// Allowed sizes, in files of a few bytes: stb allocates a JPEG's 1 GB and a TGA's 64 MB of pixels
+// before it finds that they are missing.
 TEST(ReadImage, RefusesAPictureThatIsTooShortForItsSize) {
     const TemporaryFolder folder;
     std::string tga(18, '\0');
     tga[2] = 3;
     tga[13] = tga[15] = 0x1f;  // 7,936 by 7,936
     tga[16] = 8;
-    // ITU-T T.81, annex B: SOI, and a progressive frame (SOF2) of three channels.
+    // ITU-T T.81, annex B: SOI, and a progressive frame (SOF2) with three channels.
     const std::string jpeg(
         "\xff\xd8\xff\xc2\0\x11\x08\x1f\0\x1f\0\3\1\x11\0\2\x11\0\3\x11\0\xff\xd9", 23);
     for (const std::string& bytes : {tga, jpeg}) {
@@ -130,8 +130,8 @@ TEST(ReadImage, RefusesAPictureThatIsTooShortForItsSize) {
     }
 }
 
-// ITU-T T.81, B.2.4.2: 257 codes, one of 2 bits and 256 of 16. stb writes past the end of its own
-// table.
+// ITU-T T.81, B.2.4.2: 257 codes, one of 2 bits and 256 of 16 bits. stb would write past the end of
+// its own table.
 TEST(ReadImage, RefusesAHuffmanTableOfMoreCodesThanThereAre) {
     const TemporaryFolder folder;
     const auto jpeg = [](int last_count) {
@@ -146,7 +146,7 @@ TEST(ReadImage, RefusesAHuffmanTableOfMoreCodesThanThereAre) {
     const auto path = folder.write("a.jpg", jpeg(1));
     EXPECT_EQ(
         errorText([&] { readImage(path); }), path.string() + ": a Huffman table has 257 codes");
-    // One behind fill bytes, and one that its segment does not hold.
+    // A table after fill bytes, and one that exceeds its segment.
     folder.write("a.jpg", "\xff" + jpeg(1));
     EXPECT_EQ(
         errorText([&] { readImage(path); }), path.string() + ": a Huffman table has 257 codes");

@@ -44,7 +44,7 @@ TEST(RecordingMemory, GivesWhatIsAskedForAlignedAndToOneAtATime) {
             taken.erase(one);
             continue;
         }
-        // Of every kind of block, and beyond: 1 byte to 32 KiB, aligned to 1 to 256.
+        // Every block size and larger: 1 byte to 32 KiB, aligned to 1 to 256.
         const std::size_t size = 1 + random() % (std::size_t{1} << (random() % 16));
         const std::size_t alignment = std::size_t{1} << (random() % 9);
         auto* const given = static_cast<std::byte*>(take(memory, size, alignment));
@@ -61,7 +61,7 @@ TEST(RecordingMemory, HandsTheSameBlockOutAgain) {
     RecordingMemory memory;
     void* const first = take(memory, 100);
     giveBack(memory, first);
-    EXPECT_EQ(take(memory, 150), first);  // of the same power of two
+    EXPECT_EQ(take(memory, 150), first);  // rounds up to the same power of two
 }
 
 TEST(RecordingMemory, KeepsBytesWhereTheirNumberChanges) {
@@ -79,7 +79,7 @@ TEST(RecordingMemory, KeepsBytesWhereTheirNumberChanges) {
 TEST(RecordingMemory, MindsNothingGivenBack) {
     RecordingMemory memory;
     giveBack(memory, nullptr);
-    EXPECT_NE(take(memory, 0), nullptr);  // may be given, and given back
+    EXPECT_NE(take(memory, 0), nullptr);  // may be given out and returned
 }
 
 }  // namespace

@@ -38,7 +38,7 @@ TEST(RunApart, ReturnsWhatTheWorkReturns) {
             },
             {.seconds = 10, .bytes = std::size_t{1} << 30}),
         much);
-    EXPECT_EQ(here, 1);  // it was a copy
+    EXPECT_EQ(here, 1);  // the child changed its own copy
 }
 
 TEST(RunApart, EndsWhatTakesTooMuchOrCrashes) {
@@ -56,7 +56,7 @@ TEST(RunApart, EndsWhatTakesTooMuchOrCrashes) {
     EXPECT_EQ(failed([]() -> std::string { throw Error("anything"); }), "ended with status 1");
     EXPECT_EQ(
         failed([] {
-            std::signal(SIGSEGV, SIG_DFL);  // which sanitizers handle
+            std::signal(SIGSEGV, SIG_DFL);  // sanitizers handle the signal
             kill(getpid(), SIGSEGV);
             return std::string();
         }),
@@ -68,13 +68,13 @@ TEST(RunApart, EndsWhatTakesTooMuchOrCrashes) {
 #endif
 }
 
-// More than a pipe holds (64 KiB on Linux) on both of its outputs.
+// Writes more than a pipe holds (64 KiB on Linux) to both outputs.
 TEST(RunTool, TakesMuchOnBothOutputs) {
     const auto bytes = shell("head -c 1000000 /dev/zero >&2; head -c 2000000 /dev/zero");
     EXPECT_EQ(bytes.size(), 2000000u);
 }
 
-// Or this would never end.
+// Without the limit, this would never end.
 TEST(RunTool, EndsWhatWritesTooMuch) {
     const auto most = [](std::size_t bytes) {
         return errorText([&] { runTool({"cat", "/dev/zero"}, bytes); });
@@ -91,7 +91,7 @@ TEST(RunTool, HandsOverLines) {
     EXPECT_EQ(lines, (std::vector<std::string>{"a", "bc", "", "end"}));
 }
 
-// Or this would take a minute.
+// Without that, this would take a minute.
 TEST(RunTool, EndsTheProgramWhereALineIsRefused) {
     EXPECT_EQ(
         errorText([] {
@@ -102,7 +102,7 @@ TEST(RunTool, EndsTheProgramWhereALineIsRefused) {
         "no");
 }
 
-// The same for one that says nothing.
+// The same for a program without output.
 TEST(RunTool, EndsTheProgramWhereAPollThrows) {
     EXPECT_EQ(
         errorText([] {

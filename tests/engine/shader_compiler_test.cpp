@@ -21,7 +21,7 @@ CompiledShader compile(const std::string& path, std::map<std::string, std::strin
 
 const std::string kHead = "#version 460\n#extension GL_GOOGLE_include_directive : require\n";
 
-// glslang's own program made what the build embeds: an independent reference for every option.
+// glslang's own program compiled the embedded shaders: an independent reference for every option.
 TEST(ShaderCompiler, MakesTheCodeOfTheBuildWordForWord) {
     const ShaderCompiler compiler;
     for (const std::string_view path : shaderPaths()) {

@@ -37,7 +37,7 @@ TEST(ShaderLibrary, ThrowsForAnUnknownShader) {
     EXPECT_THROW(ShaderLibrary().code("none.comp"), Error);
 }
 
-// Against the files themselves.
+// Compares with the files themselves.
 TEST(ShaderSources, AreTheFilesThatTheProgramWasBuiltFrom) {
     const ReadShader read = projectShaders();
     for (const std::string_view path : shaderPaths()) {
@@ -49,7 +49,7 @@ TEST(ShaderSources, AreTheFilesThatTheProgramWasBuiltFrom) {
         shaderSources(shaderCode("strands/strand.frag")).contains("shared/strand_structs.h"));
 }
 
-// More than the 65,535 words that one instruction can hold.
+// More than 65,535 words, the limit of one instruction.
 TEST(ShaderSources, HoldALongFileWhole) {
     const std::string text = "#version 460\n" + std::string(300'000, '/') + "\nvoid main() {}\n";
     const CompiledShader compiled =

@@ -11,7 +11,7 @@
 
 namespace engine {
 
-// The project's shaders, some of which may be others.
+// Reads the project's shaders, with replacements for some of them.
 inline ReadShader projectShaders(std::map<std::string, std::string> others = {}) {
     return [others = std::move(others)](const std::string& file) -> std::optional<std::string> {
         if (const auto other = others.find(file); other != others.end()) return other->second;

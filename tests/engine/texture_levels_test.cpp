@@ -24,7 +24,7 @@ TEST(TextureLevels, GoDownToOnePixel) {
         for (const std::uint8_t byte : level.rgba) EXPECT_EQ(byte, 7);
 }
 
-// Half of the light of white is 188 of 255 in sRGB's table; opacity is no light.
+// Half of white's light is 188 of 255 in sRGB. Opacity is averaged linearly.
 TEST(TextureLevels, AverageTheLightOfColours) {
     const auto levels = textureLevels(grey(2, 2, {0, 255, 255, 0}), Texels::display_color);
     EXPECT_THAT(levels[1].rgba, ElementsAre(188, 188, 188, 128));
@@ -40,13 +40,14 @@ TEST(TextureLevels, AverageAllPixels) {
     EXPECT_EQ(levels[1].width, 3u);
     EXPECT_EQ(levels[1].rgba[0], 45);
     EXPECT_EQ(levels[1].rgba[4], 105);
-    // From three pixels, 45, 105 and 30, to one: their mean.
+    // Three pixels, 45, 105 and 30, become their mean.
     ASSERT_EQ(levels[2].width, 1u);
     EXPECT_EQ(levels[2].rgba[0], 60);
 }
 
 TEST(TextureLevels, SplitThePixelInTheMiddleOfAnOddSide) {
-    // Five pixels to two: the third is shared, (10 + 20 + 30/2) / 2.5 and (30/2 + 40 + 50) / 2.5.
+    // Five pixels become two and share the third: (10 + 20 + 30/2) / 2.5 and (30/2 + 40 + 50) /
+    // 2.5.
     const auto levels = textureLevels(grey(5, 1, {10, 20, 30, 40, 50}), Texels::data);
     EXPECT_EQ(levels[1].rgba[0], 18);
     EXPECT_EQ(levels[1].rgba[4], 42);

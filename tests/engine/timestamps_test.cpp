@@ -56,9 +56,9 @@ TEST_F(TimestampsTest, AreGoneAfterReset) {
     EXPECT_TRUE(stamps.read().empty());
 }
 
-// Frames of other numbers of stamps follow one another: each finds those that it writes reset,
-// which the validation layer checks, and reads no stamp of a frame before. Some drivers reset a
-// query by a command of its own: only those that were written are.
+// Frames with different numbers of timestamps follow each other. Each finds its queries reset,
+// which the validation layer checks, and reads no timestamp of an earlier frame. Some drivers reset
+// every query by a separate command, so only the written ones are reset.
 TEST_F(TimestampsTest, AreResetByTheNumberWritten) {
     static std::vector<std::pair<std::uint32_t, std::uint32_t>> resets;  // first, count
     static PFN_vkResetQueryPool reset_pool = nullptr;
@@ -85,7 +85,7 @@ TEST_F(TimestampsTest, AreResetByTheNumberWritten) {
     EXPECT_EQ(resets, written);
 }
 
-// The clocks of two crystals differ by less than 1e-3; ticks of the wrong length by much.
+// Two crystal clocks differ by less than 1e-3; a wrong tick length gives a much larger error.
 TEST_F(TimestampsTest, RunAtTheRateThatTheirPeriodSays) {
     const std::optional<double> rate = timestampRate(device());
     if (!rate) GTEST_SKIP() << "device and host have no clock in common";

@@ -53,7 +53,7 @@ TEST_F(TransferTest, SaysWhichBufferTheDeviceHasNoRoomFor) {
     } catch (const Error& error) {
         EXPECT_THAT(error.what(), testing::HasSubstr("buffer 'a petabyte' of 1125899906842624 B"));
     }
-    device().messages().take();  // the validation layer has its say about the size too
+    device().messages().take();  // the validation layer also complains about the size
 }
 
 }  // namespace

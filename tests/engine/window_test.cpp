@@ -16,7 +16,7 @@
 namespace engine {
 namespace {
 
-// A window on a display of its own, and a device that shows pictures there.
+// A window on its own display, and a device that can present to it.
 class WindowTest : public testing::Test {
 protected:
     void SetUp() override {
@@ -77,7 +77,7 @@ TEST_F(WindowTest, ShowsWidgets) {
     EXPECT_GT(presenter.milliseconds(), 0.0);
 }
 
-// The next frame is shown on another surface of the window.
+// The next frame appears on a new surface of the window.
 TEST_F(WindowTest, GoesOnWhereTheSurfaceIsLost) {
     const std::vector<failing::Call> calls{
         failing::call<&vkAcquireNextImageKHR>("vkAcquireNextImageKHR", {}),
@@ -110,7 +110,7 @@ TEST_F(WindowTest, GoesOnWhereTheSurfaceIsLost) {
     failing::plan = {};
 }
 
-// One that is lost again and again is an error, and nothing is left of it.
+// A surface that is lost repeatedly is an error, and nothing leaks.
 TEST_F(WindowTest, SaysThatTheSurfaceIsLost) {
     const Device& device = make();
     const auto acquire = failing::call<&vkAcquireNextImageKHR>("vkAcquireNextImageKHR", {});
@@ -125,8 +125,9 @@ TEST_F(WindowTest, SaysThatTheSurfaceIsLost) {
     EXPECT_TRUE(presenter.frame([](Commands&) {}, [](Commands&) {}));
 }
 
-// What a present uses lives until it is over, and no longer: with fences, and without them where
-// the device has some. The validation layer says what is destroyed or used too early.
+// Resources of a present live until it is over, and no longer: with present fences, and without
+// them even if the device has them. The validation layer reports anything destroyed or used too
+// early.
 TEST_F(WindowTest, DropsSwapchainsOnceTheirPresentsAreOver) {
     for (const bool fences : {true, false}) {
         const Device& device = make([&](DeviceInfo& info) {
@@ -140,7 +141,7 @@ TEST_F(WindowTest, DropsSwapchainsOnceTheirPresentsAreOver) {
             window().poll();
             EXPECT_TRUE(presenter.frame([](Commands&) {}, [](Commands&) {}));
         };
-        // Images come back in some order, each after the others at the latest.
+        // Images return in any order, each at the latest after all others.
         const auto settle = [&] {
             for (int i = 0; i < 60 && (i < 2 || presenter.oldSwapchains() > 0); ++i) frame();
             EXPECT_EQ(presenter.oldSwapchains(), 0u);
@@ -155,7 +156,7 @@ TEST_F(WindowTest, DropsSwapchainsOnceTheirPresentsAreOver) {
             EXPECT_LE(presenter.oldSwapchains(), 1u);
             settle();
         }
-        // Resized again and again; the last ones are left for the end.
+        // Many resizes; the last swap chains are left for destruction.
         for (std::uint32_t i = 0; i < 12; ++i) {
             window().resize(400 + 10 * i, 360);
             frame();

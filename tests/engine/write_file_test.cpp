@@ -27,7 +27,7 @@ std::vector<std::string> namesIn(const fs::path& folder) {
     return names;
 }
 
-// Until the poll or the disk stops it: 64 MiB, in single bytes where `by_byte`.
+// Writes 64 MiB, unless the poll or the disk stops it, as blocks or as single numbers.
 enum class Writes { blocks, numbers };
 
 void writeMuch(std::ostream& out, Writes how) {
@@ -99,7 +99,7 @@ TEST_P(WriteMuch, StopsWithinAMegabyteWhereThePollThrows) {
         engine::writeFileAtomically(
             path, [](std::ostream& out) { writeMuch(out, GetParam()); }, poll),
         Stop);
-    // One piece of at most 2^20 bytes and what the stream's own buffer holds, less than that.
+    // One piece of at most 2^20 bytes, and less than that in the stream's buffer.
     EXPECT_LT(seen, 3'000'000u + 2u * (1u << 20));
     EXPECT_EQ(textOf(path), "old");
     EXPECT_THAT(namesIn(folder_.path()), ElementsAre("file.txt"));
@@ -113,7 +113,7 @@ TEST_P(WriteMuch, SaysThatTheDiskIsFull) {
     EXPECT_EQ(error, "/dev/full: cannot be written: No space left on device");
 }
 
-// A limit on a file's size stands for a disk that fills up in the middle.
+// A file size limit simulates a disk that fills up during writing.
 TEST_P(WriteMuch, LeavesNothingWhereThereIsNoRoomForAll) {
     const auto ignored = std::signal(SIGXFSZ, SIG_IGN);
     rlimit before{};
@@ -143,7 +143,7 @@ TEST(WriteFile, RefusesAFolder) {
     EXPECT_THAT(errorText(check), HasSubstr("is a folder"));
 }
 
-// Opening a pipe would wait for its reader; what the shell has opened has one.
+// Opening a pipe would wait for its reader, but a pipe opened by the shell already has one.
 TEST(WriteFile, RefusesAPipeByName) {
     const TemporaryFolder folder;
     const fs::path pipe = folder.file("pipe");
