@@ -10,7 +10,7 @@ namespace {
 
 using testing::ElementsAre;
 
-// The texts of the values that an argument stands for.
+// Returns the texts of an argument's values.
 std::vector<std::string> parsed(const std::string& argument) {
     std::vector<std::string> texts;
     for (const scene::Document& value : scene::parseAxis(argument).values)
@@ -55,7 +55,7 @@ TEST(ParseAxis, WritesOutRanges) {
     EXPECT_THAT(parsed("/a=10:50:20"), ElementsAre("10", "30", "50"));
     EXPECT_THAT(parsed("/a=10:49:20,1"), ElementsAre("10", "30", "1"));
     EXPECT_THAT(parsed("/a=-1:1:0.5"), ElementsAre("-1", "-0.5", "0", "0.5", "1"));
-    EXPECT_EQ(parsed("/a=0:1:0.1").size(), 11u);  // though ten times 0.1 rounds
+    EXPECT_EQ(parsed("/a=0:1:0.1").size(), 11u);  // although ten times 0.1 is rounded
     EXPECT_THAT(parsed("/a=7:7"), ElementsAre("7"));
     EXPECT_EQ(parsed("/a=pow2:52:52")[0], "4503599627370496");
 }

@@ -47,7 +47,7 @@ TEST(CheckSettings, WantsAPassForBusyWork) {
     };
     EXPECT_EQ(busy("", 1), "/run/busy_work: is above 0, but /run/busy_pass is empty");
     EXPECT_EQ(busy("strands", 1), "no error");
-    EXPECT_EQ(busy("strands", 0), "no error");  // what a sweep of it starts with
+    EXPECT_EQ(busy("strands", 0), "no error");  // as at the start of a sweep of it
 }
 
 TEST(CheckSettings, WantsCoverageToBeSeen) {
@@ -93,7 +93,7 @@ TEST(CheckSettings, WantsRoomForTheMapsOfLights) {
             s.shading.lights.assign(count, {.type = hair::LightType::sphere, .shadow_samples = 64});
         });
     };
-    EXPECT_EQ(spheres(2), "no error");  // 126
+    EXPECT_EQ(spheres(2), "no error");  // 126 maps
     EXPECT_EQ(
         spheres(3),
         "/shading/lights: has 189 shadow maps beyond one a light by shadow_samples, over 128");
@@ -116,7 +116,7 @@ TEST(CheckSettings, WantsWindToBlowSomewhere) {
         broken([&](hair::Settings& s) { calm(s), s.simulation.wind.strength = 3.0f; }),
         "/simulation/wind/direction: has no length while /simulation/wind/strength is above 0");
     const auto blows = [&](hair::Settings& s) { calm(s), s.simulation.wind.speed = 3.0f; };
-    EXPECT_EQ(broken(blows), "no error");  // thesis mode has no speed
+    EXPECT_EQ(broken(blows), "no error");  // thesis mode does not use speed
     EXPECT_EQ(
         broken([&](hair::Settings& s) { blows(s), s.simulation.wind.mode = hair::WindMode::drag; }),
         "/simulation/wind/direction: has no length while /simulation/wind/speed is above 0");

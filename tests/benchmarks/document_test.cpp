@@ -9,14 +9,14 @@
 namespace benchmarks {
 namespace {
 
-// Made by hand, in an order that is not the alphabet's.
+// Handwritten, with members out of alphabetical order.
 constexpr const char* kText = R"({"seed":7,"camera":{"up":[0,1,0.5]},"a":null})";
 
 scene::Document example() { return scene::Document(scene::Json::parse(kText)); }
 
 static_assert(std::is_nothrow_move_constructible_v<scene::Document>);
 static_assert(std::is_nothrow_move_assignable_v<scene::Document>);
-static_assert(!std::is_convertible_v<std::string, scene::Document>);  // which would quote JSON text
+static_assert(!std::is_convertible_v<std::string, scene::Document>);  // that would quote JSON text
 
 TEST(Document, IsNullUntilItIsGivenAValue) {
     EXPECT_TRUE(scene::Document().json().is_null());

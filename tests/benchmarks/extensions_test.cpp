@@ -1,4 +1,4 @@
-// Files of GLSL that scenes name: docs/extending_scenes.md.
+// GLSL files that scenes name: docs/extending_scenes.md.
 #include "benchmarks/scene/extensions.h"
 
 #include <string>
@@ -32,7 +32,7 @@ protected:
         return scene::loadScene(folder.write("in/s.json", text));
     }
 
-    // What a scene of this text fails with, when it is read or its file compiled.
+    // Returns the error of a scene with this text, when it is read or its file compiled.
     std::string error(const std::string& text) const {
         return folder.relative(errorText([&] {
             const scene::Scene read = load(text);
@@ -44,7 +44,7 @@ protected:
         }));
     }
 
-    // The same of a shading model that has this text.
+    // Returns the error of a shading model with this text.
     std::string modelError(const std::string& glsl) const {
         folder.write("in/mine.glsl", glsl);
         return error(R"({"shading": {"model": "mine.glsl"}})");
@@ -113,7 +113,7 @@ TEST_F(SceneExtensions, ParametersSweep) {
             "s.json: s/bands:40: /shading/model_parameters/bands: 40 is outside [1, 12] count"));
 }
 
-// A case has the parameters of its own file, and their defaults.
+// Each case has the parameters of its own file, with that file's defaults.
 TEST_F(SceneExtensions, FilesSweep) {
     const scene::Scene read = load(
         R"({"shading": {"model": "toon.glsl", "model_parameters": {"tint": [0, 0, 0]}},
@@ -172,7 +172,7 @@ TEST_F(SceneExtensions, ErrorsOfTheCompilerHaveFileAndLine) {
         "rename it");
 }
 
-// The program's functions, buffers and extensions are none of a file's.
+// A file cannot use the program's functions, buffers and extensions.
 TEST_F(SceneExtensions, SeesItsInterfaceAlone) {
     const auto body = [&](const std::string& statement) {
         return modelError(
@@ -191,7 +191,7 @@ TEST_F(SceneExtensions, SeesItsInterfaceAlone) {
         at + "#extension has no place in a file that a scene names");
     EXPECT_EQ(body("ab\\"), at + "'\\' has no place in a file that a scene names");
     EXPECT_EQ(body("#define AB 1"), at + "#define has no place in a file that a scene names");
-    // The linker would find the program's functions, some of which take addresses.
+    // Otherwise the linker would find the program's functions, some of which take addresses.
     for (const char* const declaration :
          {"void storePair(uvec2 at, uint index, uvec2 pair);", "float[2] storePair(uvec2 at);",
           "struct S { float x; } storePair(uvec2 at);", "const vec3 storePair(uvec2 at) ;"})
@@ -213,7 +213,7 @@ TEST_F(SceneExtensions, SeesItsInterfaceAlone) {
                    "vec3 shadeHair(HairPoint point) {\n    Pair p = Pair(kOne[0], 2.0);\n"
                    "    return vec3(both(p)[0]);\n}\n"),
         "no error");
-    // To the compiler a comment ends at a carriage return.
+    // The compiler ends a comment at a carriage return.
     EXPECT_EQ(
         body("// \r#extension GL_EXT_buffer_reference : require"), at + "has a control character");
     EXPECT_EQ(body("//" + std::string(60000, 'x')), at + "is longer than 1000 letters");
@@ -254,7 +254,7 @@ TEST_F(SceneExtensions, OffsetsDeclareHowFarTheyReach) {
                             "parameter `reach`"));
 }
 
-// What is shipped compiles, and is what the page of documentation names.
+// The shipped extensions compile, and the documentation page names them.
 TEST(ShippedExtensions, AreDocumentedAndCompile) {
     const std::string page = textOf(HAIRBENCH_SOURCE_DIR "/docs/extending_scenes.md");
     for (const char* const name : {"toon", "crimped", "vortex"}) {

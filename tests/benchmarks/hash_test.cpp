@@ -5,14 +5,14 @@
 namespace benchmarks {
 namespace {
 
-// Test vectors of the algorithm's authors.
+// Test vectors from the algorithm's authors.
 TEST(Hash, AgreesWithThePublishedVectors) {
     EXPECT_EQ(report::hashText(""), "cbf29ce484222325");
     EXPECT_EQ(report::hashText("a"), "af63dc4c8601ec8c");
     EXPECT_EQ(report::hashText("foobar"), "85944171f73967e8");
 }
 
-// FIPS 180-4's examples, as NIST publishes them; two blocks, and a million letters.
+// FIPS 180-4's examples as published by NIST, with two blocks and a million letters.
 TEST(Sha256, AgreesWithThePublishedVectors) {
     EXPECT_EQ(
         report::sha256(""), "e3b0c44298fc1c149afbf4c8996fb92427ae41e4649b934ca495991b7852b855");

@@ -22,7 +22,7 @@ TEST(LodDifference, PoppingIsWhatFullDetailDoesNotDo) {
     EXPECT_EQ(lod::popping(kBlack, kHalfWhite, kBlack, kHalfWhite), 0.0);
     EXPECT_DOUBLE_EQ(lod::popping(kBlack, kHalfWhite, kBlack, kBlack), std::sqrt(0.5));
     EXPECT_DOUBLE_EQ(lod::popping(kBlack, kBlack, kBlack, kHalfWhite), std::sqrt(0.5));
-    // Both ways at once: twice the difference.
+    // Opposite changes add up to twice the difference.
     EXPECT_DOUBLE_EQ(lod::popping(kBlack, kHalfWhite, kHalfWhite, kBlack), 2.0 * std::sqrt(0.5));
 }
 

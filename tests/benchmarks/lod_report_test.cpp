@@ -19,7 +19,7 @@ using testing::Not;
 const std::filesystem::path kSchemaFile =
     std::filesystem::path(HAIRBENCH_SCENES_DIR) / "../results/lod.schema.json";
 
-// Two steps; the first has no step before it and doesn't know its strands.
+// Two steps. The first has no step before it and unknown strands.
 lod::LodReport sampleLod() {
     return {
         .environment = sampleReport().environment,

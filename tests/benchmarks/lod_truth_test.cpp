@@ -19,7 +19,7 @@ namespace {
 
 using testing::ElementsAre;
 
-// Seen from a direction across "up", the angle between light and camera is the asked one.
+// Seen from a direction perpendicular to "up", the angle between light and camera is as requested.
 TEST(LodTruth, LightGoesRoundTheHair) {
     hair::Settings settings;
     settings.camera.position = {3.0f, 1.0f, -4.0f};
@@ -57,7 +57,8 @@ TEST(LodTruth, LeavesOutWhatIsNotKnown) {
     EXPECT_TRUE(json.at("levels").at(1).at("lights").empty());
 }
 
-// Light is compared before it is clipped: radiance 6 is 1.5 times 4, which a display shows alike.
+// Compares light before clipping: radiance 6 is 1.5 times radiance 4, although a display shows both
+// alike.
 TEST(LodTruth, LightRatioIsThatOfLinearLight) {
     if (!hasReferencePython()) GTEST_SKIP() << kNoReference;
     const TemporaryFolder folder;

@@ -42,17 +42,17 @@ TEST_F(LodWalkTest, ComparesWithFullDetail) {
     ASSERT_EQ(steps.size(), 2u);
     EXPECT_EQ(begun, (std::vector{0.5, 4.0}));
 
-    // Within 1 m all is level 0: the same picture.
+    // Everything within 1 m is level 0, so both pictures are equal.
     EXPECT_EQ(steps[0].mean_level, 0.0);
     EXPECT_EQ(steps[0].error, 0.0);
     EXPECT_EQ(steps[0].coverage, steps[0].full_coverage);
     EXPECT_EQ(steps[0].strands, steps[0].full_strands);
     EXPECT_FALSE(steps[0].popping);
 
-    // Level 4 log(4) / log(8) = 2.67 at 4 m, roots some 0.1 m nearer or farther.
+    // At 4 m, level 4 log(4) / log(8) = 2.67; roots are up to about 0.1 m nearer or farther.
     EXPECT_NEAR(steps[1].mean_level, 2.67, 0.1);
     EXPECT_GT(steps[1].error, 0.0);
-    // All that the picture of 4 m has of error came since the one without.
+    // The picture before has no error, so all of the error at 4 m is popping.
     ASSERT_TRUE(steps[1].popping);
     EXPECT_DOUBLE_EQ(*steps[1].popping, steps[1].error);
     EXPECT_LT(*steps[1].strands, steps[1].full_strands);

@@ -14,7 +14,7 @@ std::string merged(const char* target, const char* patch, const char* known = "{
     return document.dump();
 }
 
-// Rows of RFC 7386, appendix A, whose documents are objects.
+// Rows of RFC 7386, appendix A, in which the documents are objects.
 TEST(MergePatch, DoesWhatTheRfcSays) {
     EXPECT_EQ(merged(R"({"a":"b"})", R"({"a":"c"})"), R"({"a":"c"})");
     EXPECT_EQ(merged(R"({"a":"b"})", R"({"b":"c"})"), R"({"a":"b","b":"c"})");

@@ -14,7 +14,7 @@ namespace {
 using testing::HasSubstr;
 using testing::Not;
 
-// What the sample says of itself (sample_report.h), in words.
+// Describes the sample report (sample_report.h) in words.
 TEST(Methods, NamesDeviceClocksSamplesAndWhatWasLeftOut) {
     const std::string text = methodsText(reportJson(sampleReport()));
     EXPECT_THAT(text, HasSubstr(" on " + sampleReport().environment.device.name));

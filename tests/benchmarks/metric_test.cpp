@@ -19,8 +19,9 @@ std::string withPart(const std::string& pattern) {
     return std::regex_replace(pattern, std::regex(R"(\*|<\w+>)"), "x");
 }
 
-// Name and unit of each metric in the table of results/README.md. ".mean" after
-// "fps.low_1.percentile" is "fps.low_1.mean"; of passes' times the table names the first and last.
+// Returns name and unit of each metric in the table of results/README.md. ".mean" after
+// "fps.low_1.percentile" means "fps.low_1.mean". For passes' times, the table names the first and
+// the last.
 std::map<std::string, std::string> documented() {
     const std::string text = engine::readFile(HAIRBENCH_SOURCE_DIR "/results/README.md");
     std::istringstream table(
@@ -46,7 +47,7 @@ std::map<std::string, std::string> documented() {
     return units;
 }
 
-// Of each kind one, of the part "x" where there is one.
+// Returns one metric of each kind, with the part "x" if it has one.
 std::map<std::string, std::string> made() {
     std::map<std::string, std::string> units;
     for (const report::MetricKind& kind : report::metricKinds()) {
@@ -59,7 +60,7 @@ std::map<std::string, std::string> made() {
 
 TEST(Metric, HasTheNamesAndUnitsThatAreDocumented) {
     std::map<std::string, std::string> expected = documented();
-    // The row of all passes.
+    // The row for all passes.
     EXPECT_EQ(expected.erase("pass.wind.time") + expected.erase("pass.resolve.time"), 2u);
     expected["pass.x.time"] = "ms";
     EXPECT_EQ(made(), expected);
@@ -104,10 +105,9 @@ TEST(Metric, NamesItsPass) {
     EXPECT_EQ(report::metricNamed("memory.heap.0").pass(), "");
 }
 
-// Of rates, the signal-to-noise ratio and the structural similarity more is better, and the nearer
-// a time is to its limit. An overlap is a difference of two times, and who waits longer does so
-// because others are faster. What strands take at the least is the case's, what the device can do
-// its own.
+// Higher is better for rates, the signal-to-noise ratio, the structural similarity and the share of
+// the limit. An overlap is a difference of two times, and a wait grows when others are faster.
+// Costs by a model belong to the case, and device limits to the device.
 TEST(Metric, KnowsWhatIsBetter) {
     for (const report::MetricKind& kind : report::metricKinds()) {
         const std::string name(kind.name);
@@ -171,7 +171,7 @@ TEST(Metric, IsReadFromAReport) {
     EXPECT_EQ(metrics[0].mode, report::Mode::wall_clock);
     EXPECT_EQ(metrics[0].median, 2.0);
     EXPECT_THAT(metrics[0].samples, ElementsAre(1.0, 2.0, 3.0));
-    // As reports of 1.0 are, which say no direction.
+    // Reports of 1.0 have no direction.
     EXPECT_EQ(metrics[1].better, report::Better::higher);
     EXPECT_EQ(metrics[1].mode, report::Mode::none);
     EXPECT_EQ(metrics[2].better, report::Better::neither);
@@ -187,7 +187,7 @@ TEST(Metric, IsAsTheReportSaysWhereItIsNotKnownHere) {
     EXPECT_EQ(energy.unit, "J");
     EXPECT_EQ(energy.better, report::Better::lower);
     EXPECT_EQ(energy.mode, report::Mode::other);
-    EXPECT_FALSE(energy.isTimedAs(energy));  // two modes of which nothing is known may differ
+    EXPECT_FALSE(energy.isTimedAs(energy));  // two unknown modes may differ
     const scene::Json silent =
         scene::Json::parse(R"({"unit": "ms", "median": 2.0, "samples": [2.0]})");
     EXPECT_EQ(

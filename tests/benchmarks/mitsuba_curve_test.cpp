@@ -1,4 +1,4 @@
-// The curves that Mitsuba is given: through the strands' points, from root to tip.
+// The curves for Mitsuba: through the strands' points, from root to tip.
 #include <random>
 #include <sstream>
 #include <string>
@@ -12,14 +12,14 @@
 namespace benchmarks {
 namespace {
 
-// Cox and de Boor's recursion: the basis function of knots i to i + degree + 1, all integers.
+// The Cox-de Boor recursion: the basis function of knots i to i + degree + 1, all integers.
 double basis(int i, int degree, double at) {
     if (degree == 0) return i <= at && at < i + 1 ? 1.0 : 0.0;
     return (at - i) / degree * basis(i, degree - 1, at) +
            (i + degree + 1 - at) / degree * basis(i + 1, degree - 1, at);
 }
 
-// Control point i has the knots i - 3 to i + 1, so that the curve is defined from 0 on.
+// Control point i has knots i - 3 to i + 1, so the curve is defined from 0 on.
 glm::dvec4 curveAt(const std::vector<glm::dvec4>& control, double at) {
     glm::dvec4 sum(0.0);
     for (std::size_t i = 0; i < control.size(); ++i)
@@ -37,7 +37,7 @@ std::vector<glm::dvec4> somePoints(std::size_t count) {
     return points;
 }
 
-// Rounding of coordinates near 1: the system's condition number is below 3.
+// Rounding of coordinates near 1; the system's condition number is below 3.
 constexpr double kRounding = 1e-14;
 
 TEST(CurveControlPoints, GoThroughEveryPointAtItsKnot) {
@@ -61,7 +61,7 @@ TEST(CurveControlPoints, KeepAStraightEvenLineEven) {
     EXPECT_LT(glm::distance(curveAt(control, 3.25), root + 3.25 * step), kRounding);
 }
 
-// What is in the file, in m.
+// Returns the file's contents, in m.
 std::vector<std::vector<glm::dvec4>> written(const hair::groom::StrandSet& strands) {
     std::stringstream file;
     reference::writeMitsubaCurves(file, strands);
@@ -77,7 +77,7 @@ std::vector<std::vector<glm::dvec4>> written(const hair::groom::StrandSet& stran
         EXPECT_FALSE(numbers.fail()) << line;
         point /= 100.0;
     }
-    curves.pop_back();  // each ends with an empty line
+    curves.pop_back();  // each curve ends with an empty line
     return curves;
 }
 
@@ -85,16 +85,16 @@ TEST(MitsubaCurves, HaveRootAndTipAndRadiiOfTheStrands) {
     hair::groom::StrandSet strands;
     strands.points = {{0, 0, 0}, {0, 1, 0}, {0.5f, 2, 0}, {9, 9, 9}, {1, 0, 0}, {2, 0, 0}};
     strands.widths.values = {0.4f, 0.3f, 0.2f, 1.0f, 0.2f, 0.0f};
-    strands.ends = {3, 4, 6};  // that of one point has no curve
+    strands.ends = {3, 4, 6};  // the strand with one point has no curve
     const auto curves = written(strands);
     ASSERT_EQ(curves.size(), 2u);
-    // What floats hold of coordinates up to 2.
+    // Float precision for coordinates up to 2.
     constexpr double kFloat = 5e-7;
     for (int i = 0; i < 3; ++i) {
         const glm::dvec4 expected(glm::dvec3(strands.points[i]), strands.widths.values[i] / 2.0);
         EXPECT_LT(glm::distance(curveAt(curves[0], i), expected), kFloat) << i;
     }
-    // The second narrows to nothing at its tip: no radius is negative.
+    // The second strand narrows to nothing at its tip, without a negative radius.
     for (const glm::dvec4& control : curves[1]) EXPECT_GE(control.w, 0.0);
     EXPECT_NEAR(curveAt(curves[1], 0.0).w, 0.1, kFloat);
 }

@@ -1,4 +1,4 @@
-// Scenes of Mitsuba: well-formed, and with the values of the settings.
+// Scenes for Mitsuba: well-formed, and with the values of the settings.
 #include <numbers>
 #include <regex>
 #include <sstream>
@@ -22,7 +22,7 @@ std::string sceneOf(const hair::Settings& settings, const reference::MitsubaPart
     return out.str();
 }
 
-// Whether every element is closed by its own name, and the root is the last.
+// Whether every element is closed by its own name and the root comes last.
 bool isWellFormed(const std::string& text) {
     const std::regex tag(R"(<(/?)(\w+)((?:\s+\w+="[^"<&]*")*)\s*(/?)>)");
     std::string body = text.substr(text.find("?>") + 2);
@@ -81,7 +81,7 @@ TEST(MitsubaScene, LeavesOutWhatIsNotDrawn) {
     EXPECT_THAT(text, Not(HasSubstr("<shape")));
 }
 
-// Mitsuba refuses colours above 1 there: near black absorbs more, so the rest is in the factor.
+// Mitsuba refuses colours above 1 here. Near-black hair absorbs more, so a factor has the rest.
 TEST(MitsubaScene, ScalesWhatAbsorbsMuch) {
     hair::Settings settings;
     settings.shading.color = {1.0f, 1.0f, 0.0f};
@@ -91,8 +91,8 @@ TEST(MitsubaScene, ScalesWhatAbsorbsMuch) {
     EXPECT_THAT(text, HasSubstr(R"(<float name="scale" value="2.4465)"));
 }
 
-// By hand, of a light 2 m from the target whose colour is (1, 0.5, 0) of a display, sRGB's 0.5
-// being 0.21404114, as printed.
+// By hand, for a light 2 m from the target with the display colour (1, 0.5, 0). 0.5 in sRGB is
+// 0.21404114, as printed.
 TEST(MitsubaOptics, LightsHaveTheirColorsAsRadianceOfMattWhite) {
     hair::RenderSettings linear, display;
     linear.tone_map = hair::ToneMap::srgb;
@@ -132,7 +132,8 @@ TEST(MitsubaScene, HasEveryKindOfLight) {
          {R"(<emitter type="directional">)", R"(<vector name="direction" value="0, -0.5, 0.25"/>)",
           R"(<rgb name="irradiance" value="3.1415927, 3.1415927, 3.1415927"/>)",
           R"(<shape type="rectangle">)",
-          // Sides along y x -z = -x and y, so that the third column, their product, is the normal.
+          // Sides along y x -z = -x and along y, so that the third column, their product, is the
+          // normal.
           R"(<matrix value="-100 0 0 0 0 50 0 0 0 0 -1 50 0 0 0 1"/>)", R"(<shape type="sphere">)",
           R"(<point name="center" value="0, 300, 0"/>)", R"(<float name="radius" value="150"/>)",
           R"(<rgb name="radiance" value="4, 4, 4"/>)",
@@ -158,7 +159,7 @@ TEST(MitsubaScene, HasTheFibresOptics) {
         EXPECT_THAT(text, HasSubstr(part));
 }
 
-// Surroundings are the background then, and no light comes from its colour.
+// Surroundings then replace the background, and its colour gives no light.
 TEST(MitsubaScene, HasSurroundingsInsteadOfABackground) {
     hair::Settings settings;
     settings.render.environment_strength = 2.0f;

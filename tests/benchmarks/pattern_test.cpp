@@ -22,17 +22,18 @@ TEST(Pattern, RefusesWhatIsNone) {
         EXPECT_NE(errorText([&] { scene::Pattern{wrong}; }), "no error") << wrong;
 }
 
-// std::regex of libstdc++ recurses once for each character: a megabyte of them ends the program.
+// std::regex of libstdc++ recurses for each character, so a megabyte of text would overflow the
+// stack.
 TEST(Pattern, TakesTextsOfAnyLength) {
     const std::string text(std::size_t{4} << 20, 'a');
     EXPECT_TRUE(scene::Pattern("^(a|b)*$").isIn(text));
     EXPECT_FALSE(scene::Pattern("(a|b)*c").isIn(text));
 }
 
-// Where each character doubles the time, forty take an hour.
+// With backtracking, each character doubles the time, so forty would take an hour.
 TEST(Pattern, TakesTimeByTheTextAlone) {
     EXPECT_FALSE(scene::Pattern("^(a+)+$").isIn(std::string(100'000, 'a') + 'b'));
-    // What needs more states than there is room for is refused.
+    // A pattern that needs too many states is refused.
     EXPECT_NE(errorText([] { scene::Pattern("((a{1000}){1000}){1000}"); }), "no error");
 }
 

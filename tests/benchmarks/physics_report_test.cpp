@@ -22,7 +22,7 @@ const std::filesystem::path kSchemaFile =
     std::filesystem::path(HAIRBENCH_SCENES_DIR) / "../results/physics.schema.json";
 const double kNan = std::nan("");
 
-// One outcome of each verdict, a hash and a curve with a hole.
+// One outcome of each verdict, a hash, and a curve with a gap.
 Findings sampleFindings() {
     Findings findings("cantilever", hair::Solver::rod);
     findings.compare({"H / W", "1", {{"gamma", 10.0, "1"}}}, 1.0, 1.25, 0.25);

@@ -24,7 +24,7 @@ TEST(PhysicsTheory, FindsTheTabulatedRootsOfLaguerre) {
         EXPECT_THAT(laguerreRoots(n), Pointwise(DoubleNear(1e-12), roots));
 }
 
-// One mass: sqrt(g / l). Two: w^2 = (2 -+ sqrt 2) g / l with amplitudes 1 : 1 +- sqrt 2.
+// One mass: sqrt(g / l). Two masses: w^2 = (2 -+ sqrt 2) g / l with amplitudes 1 : 1 +- sqrt 2.
 TEST(PhysicsTheory, KnowsSimpleAndDoublePendulums) {
     const double base = std::sqrt(9.81 / 0.2) / (2.0 * kPi);
     EXPECT_NEAR(pendulumModes(1, 0.2, 9.81)[0].frequency, base, 1e-12);
@@ -50,15 +50,16 @@ TEST(PhysicsTheory, GivesOrthogonalModes) {
                 0.0, 1e-12);
 }
 
-// 5.2255 sqrt(L / g); a chain of 100 masses is slower by 1 / (4 n), to first order in 1 / n.
+// Period 5.2255 sqrt(L / g). A chain of n = 100 masses is slower by 1 / (4 n), to first order in
+// 1 / n.
 TEST(PhysicsTheory, KnowsTheHangingChain) {
     EXPECT_NEAR(hangingChainPeriod(1.0, 1.0), 5.2255, 5e-5);
     const double many = 1.0 / pendulumModes(100, 0.01, 1.0)[0].frequency;
     EXPECT_NEAR(many / hangingChainPeriod(1.0, 1.0) - 1.0, 0.25 / 100.0, 1e-4);
 }
 
-// f1 = 3.5160 / (2 pi) sqrt(EI / (lambda L^4)), as in every book on vibrations; the mode is clamped
-// at 0, and free at 1: neither torque nor force.
+// f1 = 3.5160 / (2 pi) sqrt(EI / (lambda L^4)), as in textbooks on vibrations. The mode is clamped
+// at 0 and free at 1, with neither torque nor force.
 TEST(PhysicsTheory, KnowsTheClampedBeam) {
     EXPECT_NEAR(cantileverFrequency(4.0, 1.0, 1.0), 2.0 * 3.5160 / (2.0 * kPi), 1e-5);
     EXPECT_NEAR(cantileverFrequency(1.0, 4.0, 2.0), 3.5160 / (2.0 * kPi) / 8.0, 1e-5);
@@ -74,7 +75,7 @@ TEST(PhysicsTheory, KnowsTheClampedBeam) {
         (shape(2) - 2.0 * shape(1) + 2.0 * shape(-1) - shape(-2)) / (2.0 * h * h * h), 0.0, 1e-3);
 }
 
-// With a = 1 and a span of 2: length 2 sinh 1, sag cosh 1 - 1.
+// For a = 1 and a span of 2: length 2 sinh 1, sag cosh 1 - 1.
 TEST(PhysicsTheory, HangsACatenary) {
     const Catenary catenary(2.0, 2.0 * std::sinh(1.0));
     EXPECT_NEAR(catenary.parameter(), 1.0, 1e-12);
@@ -88,7 +89,8 @@ TEST(PhysicsTheory, HangsACatenary) {
     EXPECT_NEAR(half.y, std::cosh(0.5) - std::cosh(1.0), 1e-12);
 }
 
-// Romero et al. 2021; the values by finite-difference Newton and Richardson extrapolation.
+// Romero et al. 2021. The values come from a finite-difference Newton method and Richardson
+// extrapolation.
 TEST(PhysicsTheory, HangsAnElastica) {
     const std::pair<double, double> table[] = {{0.1, 0.01250},  {1.0, 0.12456}, {5.0, 0.58572},
                                                {10.0, 1.06680}, {50.0, 3.7056}, {100.0, 5.8881},
@@ -98,8 +100,8 @@ TEST(PhysicsTheory, HangsAnElastica) {
     EXPECT_NEAR(cantileverRatio(1e-3) / (1e-3 / 8.0), 1.0, 1e-4);
 }
 
-// Default hair of 70 um in air: drag over weight is 3.9 at 1 m/s and 47 at 5 m/s, as published to
-// two digits.
+// Default hair of 70 um in air: published drag over weight, to two digits, is 3.9 at 1 m/s and 47
+// at 5 m/s.
 TEST(PhysicsTheory, KnowsTheDragOfAThinCylinder) {
     hair::SimulationSettings settings = freeHair(hair::Solver::rod);
     settings.material.radius = 35e-6f;
@@ -111,9 +113,9 @@ TEST(PhysicsTheory, KnowsTheDragOfAThinCylinder) {
     EXPECT_NEAR(dragPerLength(settings, terminalSpeed(settings)) / weight, 1.0, 1e-9);
 }
 
-// A beam under an even load has its tip at w = q L^4 / (8 EI). Its slope is 4/3 (w / L) (1 - (1 -
-// s)^3), so that it is shorter by the integral of half the slope's square, 4/7 w^2 / L. The next
-// order in w / L is less than two of its squares.
+// A beam under a uniform load has its tip at w = q L^4 / (8 EI). Its slope is 4/3 (w / L) (1 -
+// (1 - s)^3), so it is shorter by the integral of half the squared slope, 4/7 w^2 / L. The next
+// order in w / L is less than twice its square.
 TEST(PhysicsTheory, DragsAStiffRodAsABeamUnderAnEvenLoad) {
     hair::SimulationSettings settings = freeHair(hair::Solver::rod);
     settings.gravity = {};
@@ -130,9 +132,9 @@ TEST(PhysicsTheory, DragsAStiffRodAsABeamUnderAnEvenLoad) {
     }
 }
 
-// A long heavy hair hangs straight, where the wind across it bears the weight across it:
-// f(U cos theta) = w sin theta. At the clamp it bends there within sqrt(EI / T) with T < w L, which
-// is 1 / sqrt(Gamma) of its length; twice that as the bound.
+// A long heavy hair hangs straight at the angle where wind and weight across it balance: f(U cos
+// theta) = w sin theta. Near the clamp it bends within sqrt(EI / T) with T < w L, which is
+// 1 / sqrt(Gamma) of its length. The bound is twice that.
 TEST(PhysicsTheory, DragsALongRodToTheAngleWhereTheWeightIsBorne) {
     const hair::SimulationSettings settings = freeHair(hair::Solver::rod);
     const double speed = 1.0;
@@ -153,8 +155,8 @@ TEST(PhysicsTheory, DragsALongRodToTheAngleWhereTheWeightIsBorne) {
     }
 }
 
-// Without weight and viscosity only f L^3 / EI counts: a hair twice as long bends as one in twice
-// the length to the power 3/2 of the wind does.
+// Without weight and viscosity, only f L^3 / EI matters: a hair twice as long bends like the
+// original in a wind 2^(3/2) times as strong.
 TEST(PhysicsTheory, DragsRodsOfTheSameRatioOfWindToStiffnessToTheSameShape) {
     hair::SimulationSettings settings = freeHair(hair::Solver::rod);
     settings.gravity = {};
@@ -166,8 +168,9 @@ TEST(PhysicsTheory, DragsRodsOfTheSameRatioOfWindToStiffnessToTheSameShape) {
     EXPECT_GT(small.x, 0.5);
 }
 
-// Level, deep and thin: q L^3 = 12.85 sqrt(B C), Timoshenko and Gere 1961, Theory of elastic
-// stability, section 6.3. Bending in the plane a million times as stiff moves that by as little.
+// Horizontal, deep and thin: q L^3 = 12.85 sqrt(B C), Timoshenko and Gere 1961, Theory of elastic
+// stability, section 6.3. The other bending stiffness is a million times as large, so its effect is
+// a millionth.
 TEST(PhysicsTheory, ADeepCantileverFallsOverWherePrandtlHasIt) {
     for (const auto& [weak, twisting] : {std::pair{1.0, 1.0}, {2.0, 0.5}, {0.3, 3.0}}) {
         const ClampedRod rod{
@@ -181,8 +184,8 @@ TEST(PhysicsTheory, ADeepCantileverFallsOverWherePrandtlHasIt) {
     }
 }
 
-// Standing: q L^3 / B = 9/4 j^2 = 7.837, j = 1.8664 the first root of the Bessel function of order
-// -1/3 (Greenhill 1881), whatever resists twisting. Hanging: never.
+// Standing: q L^3 / B = 9/4 j^2 = 7.837 for any torsional stiffness, with j = 1.8664, the first
+// root of the Bessel function of order -1/3 (Greenhill 1881). Hanging: never.
 TEST(PhysicsTheory, AStandingRodFallsOverWhereGreenhillHasIt) {
     ClampedRod rod{
         .section = {.strong = 3.0, .weak = 1.0, .twisting = 0.7},
@@ -196,9 +199,9 @@ TEST(PhysicsTheory, AStandingRodFallsOverWhereGreenhillHasIt) {
     EXPECT_FALSE(bucklingLength(rod, 4.0));
 }
 
-// Beyond the weight w0 at which the linear equations say that it leaves its plane, Kirchhoff's own
-// have a state out of it whose distance grows as the root of what the weight is more: the straight
-// line through two squares begins at w0, but for the second order of 0.02.
+// Beyond the critical weight w0 of the linear equations, Kirchhoff's equations have a state out of
+// the plane. Its distance grows as the square root of the excess weight, so the line through two
+// squared distances starts at w0, up to the second order of 0.02.
 TEST(PhysicsTheory, ABuckledRodBeginsInItsPlane) {
     hair::MaterialSettings material;
     for (const float ellipticity : {1.8f, 4.0f}) {
@@ -222,7 +225,7 @@ TEST(PhysicsTheory, ABuckledRodBeginsInItsPlane) {
         rod.length = 0.99 * *critical;
         EXPECT_FALSE(buckledTip(rod));
     }
-    // A round hair never does.
+    // A round hair never buckles.
     material.ellipticity = 1.0f;
     EXPECT_FALSE(bucklingLength(
         {.section = sectionStiffness(material),
@@ -248,10 +251,10 @@ TEST(PhysicsTheory, KnowsTheStiffnessOfARoundAndAFlatSection) {
     EXPECT_NEAR(flat.twisting / bending, 2.0 * ratio * 0.8, 1e-12);
 }
 
-// Euler's column, clamped and hinged: P = k^2, tan k = k, k = 4.49341; near that psi = c (cos k z -
-// cos k) and y(1) = 1 - integral of psi^2 / 2, so that Q / P is -cos k / (1 - cos k) of the tip's
-// angle and its square is 2 cos^2 k / (mean of (cos k z - cos k)^2) of the compression; the mean is
-// 1/2 + sin 2k / 4k - 2 cos k sin k / k + cos^2 k.
+// Euler's column, clamped and hinged: P = k^2, tan k = k, k = 4.49341. Near that, psi = c (cos k
+// z - cos k) and y(1) = 1 - integral of psi^2 / 2. So Q / P is -cos k / (1 - cos k) of the tip's
+// angle, and its square is 2 cos^2 k / (mean of (cos k z - cos k)^2) of the compression. The mean
+// is 1/2 + sin 2k / 4k - 2 cos k sin k / k + cos^2 k.
 TEST(PhysicsTheory, APressedRodBeginsAsEulersColumn) {
     constexpr double kRoot = 4.493409457909064;
     const double cosine = std::cos(kRoot);
@@ -264,7 +267,7 @@ TEST(PhysicsTheory, APressedRodBeginsAsEulersColumn) {
     EXPECT_NEAR(pressed->shear / pressed->pressure, 0.01, 1e-9);
     EXPECT_NEAR(
         1e-4 / pressed->compression, 2.0 * cosine * cosine / mean, 2e-3 * cosine * cosine / mean);
-    // Farther on it lies on the ground beside the tip.
+    // Under more compression, the rod lies on the ground beside its tip.
     EXPECT_TRUE(pressedRod(0.3));
     EXPECT_FALSE(pressedRod(0.6));
 }
@@ -285,7 +288,8 @@ TEST(PhysicsTheory, MeasuresTheFrequencyOfADampedCosine) {
         const double t = 0.01 * i;
         samples.push_back(std::exp(-0.5 * t) * std::cos(2.0 * kPi * 3.0 * t));
     }
-    // Straight lines between 33 samples a period; damping bends them by rate * interval.
+    // Linear interpolation between 33 samples per period; damping shifts the crossings by
+    // rate * interval.
     EXPECT_NEAR(*frequencyOf(samples, 0.01), 3.0, 3e-3);
     const std::vector<double> still(10, 1.0);
     EXPECT_FALSE(frequencyOf(still, 0.01));

@@ -12,9 +12,9 @@ TEST(Progress, SaysNothingOfTheRestBeforeSomethingIsDone) {
 }
 
 TEST(Progress, TakesTheRestToLastAsLongAsWhatIsDone) {
-    // Two pieces in 50 s, and ten left with the one that has begun.
+    // Two pieces took 50 s, and ten are left including the current one.
     EXPECT_EQ(measure::progressText(3, 12, 2, 50.0), "[3/12] 0:50, about 4:10 left");
-    // Nine were there already: only those of this run tell how long one takes.
+    // Nine existed already: only pieces of this run count for the estimate.
     EXPECT_EQ(measure::progressText(11, 12, 1, 30.0), "[11/12] 0:30, about 1:00 left");
     EXPECT_EQ(measure::progressText(2, 101, 1, 60.0), "[2/101] 1:00, about 1:40:00 left");
 }

@@ -21,7 +21,7 @@ using testing::AllOf;
 using testing::HasSubstr;
 using testing::StartsWith;
 
-// "in" is the scene's folder, and what is beside it is none of its business.
+// "in" is the scene's folder; files beside it are out of reach.
 class SceneReach : public testing::Test {
 protected:
     SceneReach() {
@@ -30,7 +30,7 @@ protected:
         folder.write("in/below/head.obj", kTetrahedron);
     }
 
-    // What opening a scene of this text, and all its cases' files, fails with.
+    // Returns the error of opening a scene with this text and all files of its cases.
     std::string error(const std::string& text, scene::Outside outside = scene::Outside::refused) {
         const fs::path path = folder.write("in/s.json", text);
         return folder.relative(errorText([&] {
@@ -77,7 +77,7 @@ TEST_F(SceneReach, IsThatOfBasesToo) {
     EXPECT_THAT(
         error(R"({"base": "../private/base.json"})"),
         AllOf(StartsWith("in/s.json: /base: "), HasSubstr("lies outside of")));
-    // It is not even looked at.
+    // A file out of reach is not even looked up.
     EXPECT_THAT(error(R"({"base": "../../none.json"})"), HasSubstr("lies outside of"));
     EXPECT_EQ(
         error(
@@ -112,7 +112,7 @@ TEST_F(SceneReach, IsThatOfTheSuiteForItsMembers) {
     EXPECT_EQ(errorText([&] { scene::loadScenes(other, scene::Outside::allowed); }), "no error");
 }
 
-// The schema beside scenes says that the folder is one of scenes.
+// A schema beside scenes marks a folder of scenes.
 TEST_F(SceneReach, IsTheWholeFolderOfScenes) {
     const fs::path path = folder.write("in/below/s.json", fieldOf("../far/head.obj"));
     folder.write("in/far/head.obj", kTetrahedron);
@@ -120,15 +120,16 @@ TEST_F(SceneReach, IsTheWholeFolderOfScenes) {
     EXPECT_THAT(load(), HasSubstr("lies outside of"));
     folder.write("in/scene.schema.json", "{}");
     EXPECT_EQ(load(), "no error");
-    folder.write("in/below/scene.schema.json", "{}");  // the nearest counts
+    folder.write("in/below/scene.schema.json", "{}");  // the nearest one counts
     EXPECT_THAT(load(), HasSubstr("lies outside of"));
     fs::remove(folder.file("in/below/scene.schema.json"));
     EXPECT_EQ(load(), "no error");
-    fs::permissions(folder.file("in"), fs::perms::all);  // anybody may have put it there
+    fs::permissions(folder.file("in"), fs::perms::all);  // anybody could have put the schema there
     EXPECT_THAT(load(), HasSubstr("lies outside of"));
 }
 
-// 12 bytes: the triangle's corners. Buffers and pictures of a glTF file, textures of an OBJ file.
+// 36 bytes for the corners of a triangle. Tests buffers and pictures of a glTF file, and textures
+// of an OBJ file.
 TEST_F(SceneReach, IsThatOfFilesThatFilesName) {
     folder.write("private/buffer.bin", std::string(36, '\0'));
     const std::string gltf =
@@ -171,7 +172,7 @@ TEST_F(SceneReach, IsThatOfFilesThatFilesName) {
         AllOf(StartsWith("in/m.obj: "), HasSubstr("skin.png: lies outside of")));
 }
 
-// What the user types is the user's own.
+// The user may name any file on the command line.
 TEST_F(SceneReach, IsNotThatOfTheCommandLine) {
     const fs::path path =
         folder.write("in/s.json", R"({"base": ")" HAIRBENCH_SCENES_DIR R"(/smoke.json"})");

@@ -91,11 +91,11 @@ TEST(Report, SummarizesTheFiniteSamples) {
     EXPECT_EQ(frame["samples"].dump(), "[2.0,4.0,3.0]");
     EXPECT_EQ(frame["missing_samples"], 1);
     EXPECT_EQ(frame["hint"], "lower");
-    // Type 7 quantiles of 2, 3, 4: at 2 + 2 p.
+    // Type 7 quantiles of 2, 3, 4: 2 + 2 p.
     EXPECT_DOUBLE_EQ(frame["percentile_5"], 2.1);
     EXPECT_DOUBLE_EQ(frame["percentile_95"], 3.9);
     EXPECT_DOUBLE_EQ(frame["percentile_99"], 3.98);
-    EXPECT_FALSE(frame.contains("interval"));  // three samples give none of 95 %
+    EXPECT_FALSE(frame.contains("interval"));  // three samples give no 95 % interval
 }
 
 TEST(Report, SaysWhatIsBetter) {
@@ -201,7 +201,7 @@ TEST(WriteReport, MakesFoldersAndLeavesOnlyTheReport) {
     const TemporaryFolder folder;
     const auto path = folder.path() / "a/b/r.json";
     report::writeReport(report::reportJson(sampleReport()), path);
-    report::writeReport(report::reportJson(sampleReport()), path);  // over the first
+    report::writeReport(report::reportJson(sampleReport()), path);  // replaces the first
     EXPECT_EQ(textOf(path), report::reportJson(sampleReport()).dump(2) + '\n');
     EXPECT_EQ(std::distance(std::filesystem::directory_iterator(path.parent_path()), {}), 1);
 }
@@ -224,7 +224,7 @@ TEST(WriteReport, SaysWhyItCannot) {
     }
 }
 
-// Numbers that readers count by.
+// Readers use these numbers as counts.
 TEST(ReadReport, RefusesCountsThatNoSweepHas) {
     const TemporaryFolder folder;
     const auto error = [&](const char* pointer, const scene::Json& value) {
@@ -233,8 +233,7 @@ TEST(ReadReport, RefusesCountsThatNoSweepHas) {
         const auto path = folder.write("r.json", report.dump());
         return folder.relative(errorText([&] { report::readReport(path); }));
     };
-    EXPECT_EQ(
-        error("/case_count", 1'000'000'000'000'000'000u), "no error");  // nothing is made of it
+    EXPECT_EQ(error("/case_count", 1'000'000'000'000'000'000u), "no error");  // not allocated
     for (const scene::Json& wrong :
          {scene::Json(-1), scene::Json(1.5), scene::Json(1e300), scene::Json("6"), scene::Json()})
         EXPECT_EQ(
@@ -267,7 +266,7 @@ TEST(Report, CommittedOnesFitTheSchema) {
         if (entry.path().extension() != ".json" ||
             entry.path().filename().string().ends_with(".schema.json") ||
             !scene::Json::parse(textOf(entry.path()))["schema"].get<std::string>().starts_with(
-                "hairbench-report/"))  // of another kind
+                "hairbench-report/"))  // another kind
             continue;
         EXPECT_THAT(report::schemaErrors(schema, textOf(entry.path())), IsEmpty()) << entry.path();
         ++count;

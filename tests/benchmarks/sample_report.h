@@ -10,7 +10,7 @@
 
 namespace benchmarks {
 
-// A made-up report with one case of each status, in which everything that can be said is said.
+// A made-up report with one case of each status and every possible member.
 inline report::Report sampleReport() {
     report::Report report;
     report.environment = {
@@ -109,7 +109,7 @@ inline report::Report sampleReport() {
     return report;
 }
 
-// With more samples of the frame's time than a report's own file takes.
+// Has more samples of the frame's time than fit a report's own file.
 inline report::Report manySamples() {
     report::Report report = sampleReport();
     std::vector<double>& samples = report.cases[0].metrics[0].samples;
@@ -118,7 +118,7 @@ inline report::Report manySamples() {
     return report;
 }
 
-// What is in the file that the report is written to.
+// Returns the text of the file to which the report is written.
 inline std::string writtenText(const report::Report& report) {
     const TemporaryFolder folder;
     report::writeReport(report::reportJson(report), folder.file("report.json"));

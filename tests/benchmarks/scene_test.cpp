@@ -104,7 +104,7 @@ TEST(SetField, IsAsIfTheFileHadIt) {
 
 struct BadScene {
     const char* text;
-    const char* error;  // after the file's name
+    const char* error;  // follows the file's name
 };
 
 void PrintTo(const BadScene& scene, std::ostream* out) { *out << scene.text; }
@@ -328,7 +328,7 @@ TEST(SceneErrors, OfALongAxis) {
         "s.json: /sweep/cases: 100000 values, an axis has at most 10000");
 }
 
-// Their sizes alone tell, so that they are not read.
+// Their sizes are sufficient for the errors, so they are not read.
 TEST(SceneErrors, OfALargeFile) {
     const TemporaryFolder folder;
     const auto path = folder.write("s.json", "{}");
@@ -342,7 +342,7 @@ TEST(SceneErrors, OfALargeFile) {
         "t.json: is larger than 16 MiB, and no picture");
 }
 
-// What nobody writes to would be waited for.
+// Reading a pipe without a writer would wait forever.
 TEST(SceneErrors, OfAPipe) {
     const TemporaryFolder folder;
     ASSERT_EQ(mkfifo(folder.file("pipe.json").c_str(), 0600), 0);

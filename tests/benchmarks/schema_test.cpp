@@ -79,7 +79,7 @@ TEST(CommittedScenes, SweepWhatTheThesisCaseNeeds) {
 
 class BadDocument : public testing::TestWithParam<const char*> {};
 
-// What the reader refuses the schema refuses too, as far as a schema can tell.
+// The schema also refuses everything that the reader refuses, as far as a schema can express it.
 TEST_P(BadDocument, BreaksTheSchema) {
     EXPECT_THAT(report::schemaErrors(scene::sceneSchema(), GetParam()), Not(IsEmpty()));
     const TemporaryFolder folder;

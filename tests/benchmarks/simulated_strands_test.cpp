@@ -8,8 +8,7 @@ namespace {
 
 using testing::ElementsAre;
 
-// A triangle of two strands of two segments of two pieces. The record number is a point's x and
-// width.
+// One triangle with two strands of two segments of two pieces. A point's x and width are its index.
 hair::rendering::StrandPoints numbered() {
     hair::rendering::StrandPoints points;
     points.plan = {
@@ -35,7 +34,8 @@ TEST(DrawnStrands, HaveJointsOfSegmentsOnce) {
     EXPECT_EQ(set.metres_per_unit, 1.0);
 }
 
-// As level of detail by distance leaves them: the first strand in half the pieces, no second.
+// The result of level of detail by distance: the first strand has half the pieces, and the second
+// is gone.
 TEST(DrawnStrands, LackWhatIsNotDrawn) {
     hair::rendering::StrandPoints points = numbered();
     for (const std::size_t i : {2, 5, 6, 7, 8, 9, 10, 11}) points.records[i].width = -1.0f;

@@ -64,7 +64,7 @@ TEST(Quantile, InterpolatesAsType7) {
 }
 
 TEST(FramesPerSecond, IsFramesOverTotalTime) {
-    // Not the mean of the rates 100 and 33.3.
+    // Differs from the mean of the rates 100 and 33.3.
     EXPECT_DOUBLE_EQ(report::framesPerSecond(std::vector{10.0, 30.0}), 50.0);
 }
 
@@ -74,10 +74,10 @@ TEST(LowRates, AreThreeDifferentThings) {
     frames[100] = 50.0;
     frames[200] = 40.0;
     const report::LowRates low = report::lowRates(frames, 0.01);
-    // Position 299 * 0.99 = 296.01 of the sorted times: 0.01 of the way from 10 to 40 ms.
+    // Position 299 * 0.99 = 296.01 in the sorted times: 0.01 of the way from 10 to 40 ms.
     EXPECT_NEAR(low.percentile, 1000.0 / 10.3, 1e-9);
     EXPECT_DOUBLE_EQ(low.mean, 1000.0 / ((100.0 + 50.0 + 40.0) / 3.0));  // the 3 longest of 300
-    EXPECT_DOUBLE_EQ(low.integral, 1000.0 / 100.0);  // 1 % of 3160 ms is within the longest frame
+    EXPECT_DOUBLE_EQ(low.integral, 1000.0 / 100.0);  // 1 % of 3160 ms lies within the longest frame
 }
 
 TEST(LowRates, OfFewFramesTakeTheLongest) {
@@ -93,7 +93,7 @@ TEST(LowRates, IntegrateOverSeveralFrames) {
         report::lowRates(std::vector{10.0, 20.0, 30.0, 40.0}, 0.5).integral, 1000.0 / 30.0);
 }
 
-// Student's table: two-sided 5 % with 1 to 30 degrees of freedom, one-sided 1 % with 5.
+// Table of Student's t: two-sided 5 % with 1 to 30 degrees of freedom, one-sided 1 % with 5.
 TEST(StudentQuantile, IsThatOfTheTable) {
     EXPECT_NEAR(report::studentQuantile(0.975, 1), 12.706, 5e-4);
     EXPECT_NEAR(report::studentQuantile(0.975, 2), 4.303, 5e-4);
@@ -120,9 +120,9 @@ TEST(PowerLaw, IsThatOfPointsOnIt) {
     EXPECT_NEAR(law.upper, 1.25, 1e-9);
 }
 
-// Logarithms 0 to 3 and 0, 1.1, 1.9, 3: sums of squares and products 5 and 4.9, so 0.98; residuals
-// -0.03, 0.09, -0.09, 0.03 have the sum of squares 0.018, so the exponent's standard error is
-// sqrt(0.018 / 2 / 5), and t is 4.302653 with two degrees of freedom.
+// The logarithms are 0 to 3 and 0, 1.1, 1.9, 3. Sums of squares and products are 5 and 4.9, so the
+// exponent is 0.98. The residuals -0.03, 0.09, -0.09, 0.03 have the sum of squares 0.018, so the
+// exponent's standard error is sqrt(0.018 / 2 / 5). t is 4.302653 with two degrees of freedom.
 TEST(PowerLaw, HasTheIntervalOfLinearRegression) {
     const std::vector<double> x{1.0, std::exp(1.0), std::exp(2.0), std::exp(3.0)};
     const std::vector<double> y{1.0, std::exp(1.1), std::exp(1.9), std::exp(3.0)};

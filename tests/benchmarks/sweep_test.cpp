@@ -143,7 +143,7 @@ TEST_F(Sweep, ChecksTheRulesBetweenFieldsOfEveryCase) {
     EXPECT_EQ(
         error(R"({"sweep": {"/camera/far_plane": [10, 0.001]}})"),
         "s.json: s/far_plane:0.001: /camera/near_plane: is not below /camera/far_plane");
-    // Each case is sound, though the document without its axes is not.
+    // Every case is valid, although the document without its axes is not.
     EXPECT_EQ(
         error(
             R"({"camera": {"near_plane": 2, "far_plane": 1}, "sweep": {"/camera/far_plane": [10]}})"),

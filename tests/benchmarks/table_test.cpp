@@ -31,7 +31,7 @@ TEST(Table, ShowsVaryingAxesMediansAndStatus) {
         "       lines    -         -        -           -        -  failed: device lost\n");
 }
 
-// Cases that are looked at one by one.
+// Visits cases one by one.
 TEST(Table, IsTheSameOfCasesThatNobodyHolds) {
     const report::Report whole = sampleReport();
     EXPECT_EQ(
@@ -96,7 +96,7 @@ TEST(Table, ShowsHowFarPicturesAreFromTheReference) {
         "thesis/density:64/backend:tessellation    -         -  0.123     8704  ok, 1 warning\n");
 }
 
-// What varies in one scene of a suite is not there in another.
+// Axes of one scene in a suite are absent in another.
 TEST(Table, NamesTheCasesOfASuite) {
     report::Report report = sampleReport();
     report.scene.document =

@@ -9,7 +9,7 @@ namespace {
 
 using testing::ElementsAre;
 
-// Sweeps with "zip", "cases" and "exclude".
+// Tests sweeps with "zip", "cases" and "exclude".
 class TiedSweep : public testing::Test {
 protected:
     scene::Scene load(const std::string& sweep) const {

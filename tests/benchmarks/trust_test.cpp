@@ -25,14 +25,14 @@ TEST(Trust, FindsPassesThatOnlySomeFramesRun) {
     EXPECT_THAT(measure::passTimes(frames, "wind"), ElementsAre(3.0));
 }
 
-// Ratios 0.5, 1 and 0.75: the median is the middle one.
+// The ratios are 0.5, 1 and 0.75, with the median 0.75.
 TEST(Trust, TakesTheMedianOfSumOverWall) {
     const std::vector frames{frame(10, 1, 4), frame(10, 2, 8), frame(20, 5, 10)};
     EXPECT_DOUBLE_EQ(measure::passSumOverWall(frames), 0.75);
 }
 
-// A frame of 0.1 ms, of which submitting takes another 0.06: 0.625 of the wall clock is no reason
-// to doubt the passes.
+// A frame takes 0.1 ms and its submission another 0.06 ms. A sum of 0.625 of the wall clock is then
+// no reason to doubt the passes.
 TEST(Trust, HoldsPassesAgainstTheDeviceAndTheWorkAlone) {
     std::vector frames{frame(0.16, 0.03, 0.07), frame(0.16, 0.03, 0.07)};
     for (engine::FrameRecord& each : frames) each.device = 0.1;
@@ -45,8 +45,8 @@ TEST(Trust, HoldsPassesAgainstTheDeviceAndTheWorkAlone) {
     EXPECT_TRUE(measure::passSums(frames, {.median = 0.06, .spread = 0.005}).incomplete);
 }
 
-// 3 ms of 13 that no pass has, though the device's stamps say that passes are all: 23 % of the wall
-// clock, where an empty submission takes 0.06 ms.
+// No pass has 3 ms of 13 ms, although the device's timestamps are covered by passes. That is 23 %
+// of the wall clock, and an empty submission takes only 0.06 ms.
 TEST(Trust, FindsWorkThatNoStampHas) {
     std::vector frames{frame(13, 3, 7)};
     frames[0].device = 10.0;
@@ -75,7 +75,7 @@ TEST(Trust, BelievesTimestampsThatAgreeWithTheClock) {
     EXPECT_THAT(measure::timestampFaults(stamped, clocked), IsEmpty());
 }
 
-// A disturbed frame is longer, never shorter: the fastest frames are compared.
+// A disturbance only makes frames longer, so the fastest frames are compared.
 TEST(Trust, IsNotShakenByOneSlowFrame) {
     const std::vector stamped{frame(0, 0.1, 100), frame(0, 0.1, 100)};
     const std::vector clocked{frame(0, 0.1, 900), frame(0, 0.1, 101)};
@@ -92,8 +92,8 @@ TEST(Trust, NamesThePassThatWasChargedTooLittleAndTheOneChargedTooMuch) {
             "pass.strands: timestamps say 80.0 ms, the CPU's clock 100 ms"));
 }
 
-// 2 % of the fastest frame, 102 ms, is 2.04 ms: beside 10 % and 0.5 ms, 4.7 ms for a pass of 2 ms
-// are believed and 4.8 ms are not.
+// 2 % of the fastest frame, 102 ms, is 2.04 ms. Together with 10 % and 0.5 ms, 4.7 ms for a pass of
+// 2 ms are accepted and 4.8 ms are not.
 TEST(Trust, AllowsForAShareOfTheFrame) {
     const std::vector clocked{frame(0, 2, 100), frame(0, 2, 300)};
     EXPECT_THAT(measure::timestampFaults(std::vector{frame(0, 4.7, 100)}, clocked), IsEmpty());
@@ -101,7 +101,7 @@ TEST(Trust, AllowsForAShareOfTheFrame) {
         measure::timestampFaults(std::vector{frame(0, 4.8, 100)}, clocked), testing::SizeIs(1));
 }
 
-// A submission of its own costs a small pass more than it does itself.
+// A separate submission adds cost to a small pass.
 TEST(Trust, AllowsForTheCostOfASubmission) {
     const std::vector stamped{frame(0, 0.01, 1.0)};
     const std::vector clocked{frame(0, 0.4, 1.5)};
