@@ -10,7 +10,7 @@
 namespace benchmarks::viewer {
 namespace {
 
-// Keys that fly the camera: benchmarks/viewer/tools/.
+// Keys that fly the camera: benchmarks/viewer/camera_tool.cpp.
 constexpr int kFlying[] = {ImGuiKey_W,         ImGuiKey_A,          ImGuiKey_S,
                            ImGuiKey_D,         ImGuiKey_Q,          ImGuiKey_E,
                            ImGuiKey_LeftArrow, ImGuiKey_RightArrow, ImGuiKey_UpArrow,
@@ -94,7 +94,7 @@ TEST(SettingActions, LookFromAPresetOfTheirOwn) {
     EXPECT_EQ(presetOf(Action::tool_camera), nullptr);
 }
 
-// What a frame of Dear ImGui without a window takes for pressed.
+// Presses keys in Dear ImGui without a window.
 class Keys : public testing::Test {
 protected:
     Keys() {
@@ -118,7 +118,7 @@ protected:
         return actions;
     }
 
-    // Dear ImGui may take a modifier and its key one after the other.
+    // Dear ImGui may process a modifier and its key in separate frames.
     std::vector<Action> press(std::initializer_list<ImGuiKey> keys) {
         for (const ImGuiKey key : keys) ImGui::GetIO().AddKeyEvent(key, true);
         std::vector<Action> actions;

@@ -17,7 +17,7 @@ namespace {
 
 using testing::HasSubstr;
 
-// The words that a POSIX shell makes of a command line.
+// Returns the words that a POSIX shell reads from a command line.
 std::vector<std::string> words(const TemporaryFolder& folder, const std::string& line) {
     const auto script =
         folder.write("words.sh", "for word in " + line + "; do printf '%s\\0' \"$word\"; done\n");
@@ -31,7 +31,7 @@ std::vector<std::string> words(const TemporaryFolder& folder, const std::string&
     return result;
 }
 
-// As the program sorts its arguments.
+// Sorts arguments like the program.
 scene::SceneOptions options(const std::vector<std::string>& words) {
     scene::SceneOptions options;
     for (std::size_t i = 0; i + 1 < words.size(); i += 2) {
@@ -48,12 +48,12 @@ protected:
         return scene::loadScene(folder_.write("s.json", text));
     }
 
-    // What `hairbench run` plays, with every asset read.
+    // Returns the cases that `hairbench run` plays, with every asset read.
     std::vector<scene::CaseSpec> cases(scene::Scene scene, const std::string& arguments) const {
         return scene::selectCases(scene, options(words(folder_, arguments)));
     }
 
-    // Expects one case with these settings.
+    // Expects exactly one case with these settings.
     void expectThese(const scene::Scene& scene, const hair::Settings& settings) const {
         const std::string arguments = caseArguments(scene, settings);
         const auto played = cases(scene, arguments);
@@ -99,7 +99,7 @@ TEST_F(CaseArguments, GiveTheSettingsBackWhateverTheyAre) {
         if (errorText([&] { scene::checkSettings(settings); }) != "no error") continue;
         ++tried;
         const std::string arguments = caseArguments(scene, settings);
-        // The files that these settings name are not there, so not by selectCases().
+        // Does not use selectCases(), because the files in these settings do not exist.
         scene::Scene changed = scene;
         const scene::SceneOptions given = options(words(folder_, arguments));
         for (const std::string& set : given.sets) {

@@ -28,7 +28,7 @@ struct Outcome {
     Bytes picture;
 };
 
-// The same on the CPU, from its definition.
+// Computes the same on the CPU, from its definition.
 Outcome reference(const Bytes& a, const Bytes& b, std::uint32_t gain) {
     Outcome outcome;
     for (std::size_t pixel = 0; pixel < a.size(); pixel += 4) {
@@ -94,8 +94,8 @@ protected:
     }
 };
 
-// Every pair of values once in red: all differences there are. Green and blue have others; alpha
-// has some, which don't count.
+// Red has every pair of values once, and thus every difference. Green and blue have other
+// differences. Alpha has some, which do not count.
 TEST_F(DifferencePassTest, IsExactForEveryPairOfValues) {
     constexpr Size kSize{256, 256};
     Bytes a, b;
@@ -114,7 +114,7 @@ TEST_F(DifferencePassTest, IsExactForEveryPairOfValues) {
     }
 }
 
-// Sizes that fill no whole groups of threads.
+// Sizes that do not fill whole work groups.
 TEST_F(DifferencePassTest, CountsEveryPixelOfOddSizesOnce) {
     DifferencePass pass(device());
     for (const Size size : {Size{1, 1}, Size{13, 7}, Size{8, 9}, Size{1000, 3}}) {
@@ -136,14 +136,14 @@ TEST_F(DifferencePassTest, FindsNothingInEqualPicturesThatDifferInAlpha) {
     Bytes a(kSize.bytes(), 77), b = a;
     for (std::size_t i = 3; i < b.size(); i += 4) b[i] = 200;
     DifferencePass pass(device());
-    run(pass, a, Bytes(kSize.bytes(), 78), kSize, 4);  // counts start anew after this
+    run(pass, a, Bytes(kSize.bytes(), 78), kSize, 4);  // the counts restart after this
     const Outcome outcome = run(pass, a, b, kSize, 16);
     EXPECT_EQ(outcome.figures, (DifferenceFigures{.pixels = 400}));
     EXPECT_EQ(outcome.picture, reference(a, b, 16).picture);
     EXPECT_EQ(differenceText(outcome.figures), "identical");
 }
 
-// More steps in all than 32 bits hold: 3 x 255 x 4096 x 1400 = 4,386,816,000 > 2^32.
+// A sum beyond 32 bits: 3 x 255 x 4096 x 1400 = 4,386,816,000 > 2^32.
 TEST_F(DifferencePassTest, SumsMoreThan32Bits) {
     constexpr Size kSize{4096, 1400};
     DifferencePass pass(device());

@@ -40,7 +40,7 @@ TEST(EditHistory, ForgetsWhatWasUndoneWhenSomethingElseIsDone) {
     EXPECT_EQ(history.undo(), scene::Document("a"));
 }
 
-// A click that moved nothing must not swallow the state that a later drag starts from.
+// A click without movement must not replace the state from which a later drag starts.
 TEST(EditHistory, DoesNotContinueAnEditThatChangedNothing) {
     EditHistory history{scene::Document("a")};
     history.edit(scene::Document("a"), true);

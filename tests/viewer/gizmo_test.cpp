@@ -16,7 +16,7 @@ namespace {
 
 constexpr double kFrameTime = 1.0 / 60.0;  // s
 constexpr float kReach = 8.0f;         // px
-// Of pixels as floats, near a scale of 600 px a metre: 1e-4 px are 2e-7 m.
+// Rounding of pixels to floats at about 600 px per metre: 1e-4 px is 2e-7 m.
 constexpr float kMetres = 2e-6f;
 
 PictureView view() {
@@ -39,8 +39,7 @@ TEST(Gizmo, ArrowsMoveAsFarAsTheMouseDoes) {
     }
 }
 
-// Seen from above or from the side, a point of a ring that is dragged to where another one is shown
-// turns the ring by the angle between the two.
+// Dragging a ring's point to the pixel of another one turns the ring by the angle between both.
 TEST(Gizmo, RingsTurnByTheAngleTheMouseGoesRound) {
     for (int axis = 0; axis < 3; ++axis) {
         const glm::vec3 around = gizmo().turn_axes[static_cast<std::size_t>(axis)];
@@ -55,7 +54,7 @@ TEST(Gizmo, RingsTurnByTheAngleTheMouseGoesRound) {
     }
 }
 
-// A ring that is seen from its edge is dragged along: as far as its radius is a turn of 1 rad.
+// A ring seen edge-on is dragged along itself: a drag by its radius turns it by 1 rad.
 TEST(Gizmo, RingsSeenFromTheirEdgeTurnToo) {
     hair::CameraSettings camera;
     camera.position = {0, 0, 1};
@@ -64,7 +63,7 @@ TEST(Gizmo, RingsSeenFromTheirEdgeTurnToo) {
     const Gizmo still = headGizmo({0, 0, 0}, {}, 0.1f);
     const glm::vec2 from = *ahead.pixel({0, 0, 0.1f});
     const glm::vec2 to = *ahead.pixel({0.05f, 0, 0.1f});
-    EXPECT_NEAR(turned(ahead, still, 1, from, to), 0.5f, 1e-4f);  // about +y: to the right
+    EXPECT_NEAR(turned(ahead, still, 1, from, to), 0.5f, 1e-4f);  // about +y, to the right
 }
 
 TEST(Gizmo, IsPickedWhereItIsShown) {
@@ -73,7 +72,7 @@ TEST(Gizmo, IsPickedWhereItIsShown) {
         EXPECT_EQ(
             pickGizmo(view(), gizmo(), *tip, kReach), (GizmoPart{GizmoPart::Kind::arrow, axis}));
         const auto arc = ringArc(view(), gizmo(), axis);
-        // Not where rings meet.
+        // A point away from intersections of rings.
         const auto on = view().pixel(arc[arc.size() / 3]);
         EXPECT_EQ(pickGizmo(view(), gizmo(), *on, 2.0f), (GizmoPart{GizmoPart::Kind::ring, axis}));
     }
@@ -90,7 +89,7 @@ TEST(Gizmo, ArrowsAtTheCameraAreNotDragged) {
     EXPECT_FALSE(canBeDragged(ahead, still, 2));
 }
 
-// Turning about a ring's axis is adding to one angle of the pose, as HeadMotion has them.
+// Turning about a ring's axis adds to one angle of the pose, by HeadMotion's convention.
 TEST(HeadGizmo, RingsAreTheAnglesOfAKeyframe) {
     const HeadPose pose{{20.0f, -35.0f, 50.0f}, {0.1f, 0.2f, -0.3f}};
     const glm::vec3 pivot{0.0f, 0.1f, 0.0f};
@@ -107,7 +106,7 @@ TEST(HeadGizmo, RingsAreTheAnglesOfAKeyframe) {
         const glm::dvec3 around = gizmo.turn_axes[static_cast<std::size_t>(axis)];
         const glm::dquat turned =
             glm::angleAxis(std::numbers::pi / 18.0, around) * rotationOf(pose);
-        // Of the axes, which are floats.
+        // Limited by the axes, which are floats.
         EXPECT_NEAR(std::abs(glm::dot(turned, rotationOf(further))), 1.0, 1e-7) << axis;
         const glm::dvec3 a = turned * glm::dvec3(1, 2, 3);
         const glm::dvec3 b = rotationOf(further) * glm::dvec3(1, 2, 3);
@@ -126,7 +125,7 @@ TEST(HeadKeys, AscendAndHaveThePoseAtEveryFrameThatIsPlayed) {
     const auto dragTo = [&](std::uint32_t frame, float x) {
         moveHead(motion, momentAfter(frame, kFrameTime, kFrameTime), {{0, 0, 0}, {x, 0, 0}});
     };
-    // One frame for each picture of the window, then pictures without frames, then several frames.
+    // First one frame per picture of the window, then pictures without frames, then several frames.
     dragTo(10, 0.1f);
     dragTo(11, 0.2f);
     dragTo(12, 0.25f);
@@ -152,7 +151,7 @@ TEST(HeadKeys, KeepWhereTheHeadWas) {
             {1.0f, {0, 360, 0}, {0, 0, 0}}}};
     for (const bool repeats : {false, true}) {
         nod.repeat = repeats;
-        // Between keyframes, at the end of the first round and in the third.
+        // Frames between keyframes, at the end of the first round and in the third.
         for (const std::uint32_t frame : {0u, 5u, 29u, 59u, 140u}) {
             const Moment moment = momentAfter(frame, kFrameTime, kFrameTime);
             const hair::MotionSettings until = motionUntil(nod, moment, kFrameTime);
@@ -162,11 +161,11 @@ TEST(HeadKeys, KeepWhereTheHeadWas) {
             for (std::uint32_t i = 0; i <= frame; ++i) {
                 const double time = (i + 1.0) * kFrameTime;
                 const hair::simulation::RigidMotion a = before.at(time), b = after.at(time);
-                // A thousandth of a degree, or a keyframe's float of time at 1.7 m/s.
+                // A thousandth of a degree, or float rounding of a keyframe's time at 1.7 m/s.
                 EXPECT_NEAR(std::abs(glm::dot(a.rotation, b.rotation)), 1.0, 1e-9);
                 EXPECT_LT(glm::length(a.translation - b.translation), 2e-6);
             }
-            // And it rests from then on.
+            // Afterwards it rests.
             EXPECT_LT(
                 glm::length(after.at(1e3).translation - after.at(double{moment.now}).translation),
                 1e-12);
@@ -174,7 +173,7 @@ TEST(HeadKeys, KeepWhereTheHeadWas) {
     }
 }
 
-// A motion that ended needs no keyframe for each frame.
+// A motion that has ended needs no keyframe per frame.
 TEST(HeadKeys, StayFewWhereTheMotionHadEnded) {
     const hair::MotionSettings motion{
         .keyframes = {{0.0f, {0, 0, 0}, {0, 0, 0}}, {0.5f, {30, 0, 0}, {0, 0, 0}}}};
@@ -210,7 +209,7 @@ TEST(ColliderHandles, RimIsOnTheSurfaceAndFollowsTheMouse) {
     EXPECT_NEAR(glm::length(handles[1].point), 0.05f, 1e-7f);
     const glm::vec3 out = glm::normalize(handles[1].point) * 0.02f;
     EXPECT_NEAR(withMoved(sphere, {}, view(), ColliderPart::rim, out).radius, 0.07f, 1e-6f);
-    // Never less than what the table allows.
+    // Stays within the table's limit.
     EXPECT_GE(withMoved(sphere, {}, view(), ColliderPart::rim, -5.0f * out).radius, 0.0001f);
 }
 

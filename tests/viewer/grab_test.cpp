@@ -33,7 +33,7 @@ TEST(Moment, AscendsWhereNoTimePassesAndWhereFloatsEnd) {
     EXPECT_EQ(still.now, 0.0f);
     EXPECT_LT(still.now, still.next);
     EXPECT_LT(still.next, still.later);
-    const Moment late = momentAfter(4'000'000'000u, 1e-5, 1e-3);  // floats there are 0.004 apart
+    const Moment late = momentAfter(4'000'000'000u, 1e-5, 1e-3);  // floats are 0.004 apart there
     EXPECT_LT(late.now, late.next);
     EXPECT_LT(late.next, late.later);
 }
@@ -53,14 +53,14 @@ TEST(HandPath, NeverChangesWhatWasPlayed) {
     Path path = begun(0);
     std::vector<std::pair<float, glm::vec3>> seen;
     std::uint32_t frame = 0;
-    // Pictures of the window in which no frame was played, or one, or several.
+    // Pictures of the window with no, one or several played frames.
     for (const std::uint32_t frames : {1u, 0u, 0u, 1u, 3u, 16u, 0u, 1u, 2u}) {
         moveHand(path, after(frame), {0.01f * static_cast<float>(frame * frame), 0.3f, 0});
         moveHand(path, after(frame), {0.02f * static_cast<float>(frame + 1), 0.2f, 0.1f});
         expectAscending(path);
         for (std::uint32_t i = 0; i < frames; ++i) {
             ++frame;
-            ASSERT_LE(after(frame).now, path.back().time);  // it still pulls
+            ASSERT_LE(after(frame).now, path.back().time);  // still pulling
             seen.emplace_back(after(frame).now, handAt(path, after(frame).now));
         }
     }
@@ -112,7 +112,7 @@ TEST(HandPath, EndsWhereThereIsNoRoom) {
         moveHand(path, after(frame), {static_cast<float>(frame) * 1e-3f, 0, 0});
         ++frame;
     }
-    EXPECT_LE(path.size(), 10'000u);  // of the table in hair/simulation_settings.h
+    EXPECT_LE(path.size(), 10'000u);  // limit of the table in hair/simulation_settings.h
     letGo(path, after(frame));
     EXPECT_LE(path.size(), 10'000u);
     expectAscending(path);

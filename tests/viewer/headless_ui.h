@@ -4,7 +4,7 @@
 
 #include <imgui.h>
 
-// Dear ImGui without a window or a device: what it would draw is made and thrown away.
+// Dear ImGui without a window or a device: draws and discards.
 class HeadlessUi {
 public:
     HeadlessUi(float width, float height) {
@@ -19,7 +19,7 @@ public:
     HeadlessUi(const HeadlessUi&) = delete;
     HeadlessUi& operator=(const HeadlessUi&) = delete;
 
-    // So many pictures: panels that fit their contents need two.
+    // Shows several pictures, because panels with automatic size need two.
     void show(const std::function<void()>& widgets, int pictures = 3) {
         for (int i = 0; i < pictures; ++i) {
             ImGui::GetIO().DeltaTime = 1.0f / 60.0f;
@@ -30,5 +30,5 @@ public:
     }
 
 private:
-    int texture_ = 0;  // the letters': only that it is one
+    int texture_ = 0;  // stands for the font's texture
 };

@@ -4,7 +4,7 @@
 #include "benchmarks/viewer/script/layout_faults.h"
 #include "tests/viewer/headless_ui.h"
 
-// Each fault is planted, and there is one layout without any.
+// Each fault is planted. One layout has none.
 namespace benchmarks::viewer {
 namespace {
 
@@ -18,7 +18,7 @@ void panel(const char* name, float x, float width, ImGuiWindowFlags flags = 0) {
     ImGui::Begin(name, nullptr, flags);
 }
 
-// Two panels with every kind of widget, as they should be.
+// Two correct panels with every kind of widget.
 void goodPanels() {
     static constexpr const char* kText = "A line that fits into the panel";
     bool on = true;
@@ -53,7 +53,7 @@ void goodPanels() {
         ImGui::EndTable();
     }
     ImGui::BeginChild("list", {0, 100});
-    for (int i = 0; i < 50; ++i) ImGui::Text("row %d", i);  // scrolled: cut above and below
+    for (int i = 0; i < 50; ++i) ImGui::Text("row %d", i);  // scrolled, so cut at top and bottom
     ImGui::SetScrollY(33.0f);
     ImGui::EndChild();
     ImGui::End();
@@ -106,7 +106,7 @@ TEST(LayoutFaults, HaveLabelsBesideWidgetsThatLeaveTheirPanel) {
     EXPECT_THAT(faults.clipped, Contains(HasSubstr("its contents are")));
 }
 
-// A clip rectangle in the middle of a letter, which no widget knows of.
+// A clip rectangle through the middle of a letter, unknown to any widget.
 TEST(LayoutFaults, HaveLettersThatTheDeviceCutsOff) {
     const Faults faults = faultsOf([] {
         panel("Panel", 0, 300);
@@ -123,7 +123,7 @@ TEST(LayoutFaults, HaveLettersThatTheDeviceCutsOff) {
 TEST(LayoutFaults, HaveLettersThatDearImGuiCutsOff) {
     const Faults faults = faultsOf([] {
         panel("Panel", 0, 300);
-        ImGui::SetNextItemWidth(63);  // in the middle of a letter, 7 px wide
+        ImGui::SetNextItemWidth(63);  // in the middle of a letter of 7 px
         ImGui::BeginCombo("##model", "dual_scattering", ImGuiComboFlags_NoArrowButton);
         ImGui::End();
     });

@@ -49,7 +49,7 @@ Layout layoutOf(const Window& window, const Column& left, const Column& right) {
     return arrange(window.width, window.height, 1.5f * window.letter, window.letter, left, right);
 }
 
-// Boxes that lie in the window, apart from each other, and have its area have no gap either.
+// The boxes lie inside the window, do not overlap and have its area, so there are no gaps.
 TEST(Layout, TilesWindowsOfAnySizeAtAnyScale) {
     for (const Window& window : windows())
         for (const float left : {18.0f, 40.0f, 200.0f})
@@ -74,7 +74,7 @@ TEST(Layout, TilesWindowsOfAnySizeAtAnyScale) {
                             for (std::size_t j = 0; j < i; ++j)
                                 EXPECT_FALSE(overlap(boxes[i], boxes[j])) << i << " and " << j;
                         }
-                        // A few parts in 2^24 of rounding.
+                        // Rounding by a few parts in 2^24.
                         const float whole = window.width * (window.height - top);
                         EXPECT_NEAR(area, whole, 1e-5f * whole);
                     }
@@ -125,7 +125,8 @@ TEST(Layout, IsTheSameAtAnyScale) {
     const std::vector<Box> small = boxesOf(one), large = boxesOf(two);
     ASSERT_EQ(small.size(), large.size());
     for (std::size_t i = 0; i < small.size(); ++i) {
-        // Widths and places are whole pixels: each may be half a pixel off, twice that of two.
+        // Widths and positions are rounded to whole pixels: each is off by up to half a pixel, and
+        // twice that after doubling.
         EXPECT_NEAR(large[i].x, 2.0f * small[i].x, 3.0f);
         EXPECT_NEAR(large[i].width, 2.0f * small[i].width, 3.0f);
         EXPECT_NEAR(large[i].y, 2.0f * small[i].y, 3.0f);

@@ -10,7 +10,7 @@ using hair::LightType;
 
 const Sphere kGroom{{0.1f, 0.2f, 0.0f}, 0.2f};
 
-// All lengths are of a few metres: 1e-6 is some steps of a float.
+// All lengths are a few metres, so 1e-6 is some float steps.
 constexpr float kStep = 2e-6f;
 
 TEST(LightTool, MovesALightRoundTheGroomAtItsDistance) {
@@ -20,7 +20,7 @@ TEST(LightTool, MovesALightRoundTheGroomAtItsDistance) {
         EXPECT_LT(glm::distance(light.position, {0.1f, 3.2f, 4.0f}), kStep);
         EXPECT_LT(glm::distance(lightDirection(light, kGroom), {0, 0.6f, 0.8f}), kStep);
         EXPECT_NEAR(lightDistance(light, kGroom).value(), 5.0f, kStep);
-        // Only a rectangle faces somewhere.
+        // Only a rectangle has a direction.
         const glm::vec3 faces = type == LightType::rectangle ? glm::vec3(0, -0.6f, -0.8f)
                                                              : hair::LightSettings{}.direction;
         EXPECT_LT(glm::distance(light.direction, faces), kStep);

@@ -1,7 +1,7 @@
-// The window while a picture of the scene is drawn that does not end: the thread that draws is held
-// up by a latch, and nothing here depends on how long anything takes. What bounds the time in which
-// the window answers is thereby shown: it takes no step of that thread, and no work of its device,
-// so it is what a picture of the window itself takes (docs/viewer.md has figures).
+// The window while a picture of the scene does not finish. A latch stops the drawing thread, and
+// nothing here depends on timing. This shows a bound for the window's response time: the window
+// waits for no step of that thread and no work of its device, so the response takes only a picture
+// of the window itself (docs/viewer.md has figures).
 #include "benchmarks/viewer/viewer.h"
 
 #include <atomic>
@@ -29,10 +29,10 @@ using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
 
-// Far longer than a machine that is busy with other things needs: what takes so long hangs.
+// Far longer than a busy machine needs; anything longer hangs.
 constexpr std::chrono::seconds kWindowHangs{120};
 
-// What stands between an order and its work.
+// Stops the drawing thread between an order and its work.
 class Gate {
 public:
     void pass() {
@@ -42,7 +42,7 @@ public:
         if (error_) throw engine::DeviceLost("planted");
     }
     void close() { closed_ = true; }
-    // Whether somebody has come to the gate since it was asked last.
+    // Whether a thread has reached the gate since the last call.
     bool isReached() { return waits_.try_acquire(); }
     void open() {
         closed_ = false;
@@ -66,7 +66,7 @@ protected:
         GpuTest::SetUp();
         if (isOver()) return;
         GTEST_FLAG_SET(death_test_style, "threadsafe");
-        // The process of a death test has the display of the one that started it.
+        // The process of a death test inherits its parent's display.
         if (!testing::internal::InDeathTestChild()) display_.emplace();
         if (display_ && !display_->variables())
             return skipWithout(Need::display, "there is neither Xvfb nor a display");
@@ -90,7 +90,7 @@ protected:
         options_.before_drawing = [this] { gate_.pass(); };
     }
 
-    // Draws pictures of the window until something holds.
+    // Draws pictures of the window until a condition holds.
     template <class Holds>
     static void drawUntil(Viewer& viewer, Holds&& holds) {
         const auto late = std::chrono::steady_clock::now() + kWindowHangs;
@@ -123,7 +123,7 @@ TEST_F(LiveWindow, AnswersWhileAPictureIsDrawn) {
     gate_.close();
     edit(viewer, 5);
     ASSERT_NO_FATAL_FAILURE(drawUntil(viewer, [&] { return gate_.isReached(); }));
-    // From here on the thread that draws does nothing at all.
+    // From here on, the drawing thread is stopped.
     const auto before = viewer.picture().pixels;
     viewer.perform(Action::light_theme);
     viewer.perform(Action::panel_files);
@@ -141,15 +141,15 @@ TEST_F(LiveWindow, AnswersWhileAPictureIsDrawn) {
     EXPECT_THAT(viewer.takeMessages(), IsEmpty());
 }
 
-// Of settings that change while a picture is drawn the last ones are drawn, and only these: the
-// ones between never are, nor is any half of them.
+// If settings change while a picture is drawn, only the last ones are drawn next: no intermediate
+// ones, and no mixture.
 TEST_F(LiveWindow, LosesNoChangeThatIsMadeMeanwhile) {
     Viewer viewer(options_);
     ASSERT_NO_FATAL_FAILURE(waitForTheScene(viewer));
     std::vector<std::uint32_t> shown{viewer.side(0).shown().settings.strands.density};
     const auto look = [&] {
         const hair::Settings& now = viewer.side(0).shown().settings;
-        // Two settings of one edit, which are drawn together.
+        // Two settings of one edit, which must appear together.
         if (now.strands.density > 4u) {
             EXPECT_EQ(now.camera.field_of_view, static_cast<float>(now.strands.density));
         }
@@ -175,7 +175,7 @@ TEST_F(LiveWindow, LosesNoChangeThatIsMadeMeanwhile) {
         return shown.back() == 40u;
     });
     EXPECT_THAT(shown, ElementsAre(4u, 5u, 40u));
-    // They are one step of undo each.
+    // Each is one undo step.
     viewer.perform(Action::undo);
     EXPECT_EQ(viewer.side(0).wanted().strands.density, 39u);
     EXPECT_THAT(viewer.takeMessages(), IsEmpty());
@@ -228,8 +228,8 @@ TEST_F(LiveWindow, OpensWhileTheSceneIsMade) {
     EXPECT_THAT(viewer.takeMessages(), IsEmpty());
 }
 
-// What goes wrong while it is drawn reaches the window. Where a user sits before it, it stays: what
-// was changed can be saved.
+// An error while drawing reaches the window. With a user, the window stays open so that changes can
+// be saved.
 TEST_F(LiveWindow, StaysWhereDrawingFails) {
     options_.frames = 0;
     Viewer viewer(options_);
@@ -265,7 +265,7 @@ TEST_F(LiveWindow, SaysWhetherAPictureIsStillBeingDrawn) {
     EXPECT_TRUE(viewer.finish(kWindowHangs));
 }
 
-// The picture that is being drawn never ends; the program does, as if it had.
+// The picture in progress never finishes, but the program ends normally.
 TEST_F(LiveWindow, ClosesWhileAPictureIsDrawn) {
     options_.frames = 5;
     options_.before_drawing = [] {

@@ -6,7 +6,7 @@
 
 namespace benchmarks::viewer {
 
-// An isolated frame of two passes; it took `rest` ms more than they did.
+// An isolated frame with two passes that took `rest` ms more than both.
 inline engine::FrameRecord isolatedFrame(double wind, double strands, double rest = 0.0) {
     engine::FrameRecord frame;
     frame.passes = {{"wind", wind, {}}, {"strands", strands, {}}};
@@ -21,15 +21,15 @@ inline engine::FrameRecord isolatedFrame(double wind, double strands, double res
 
 inline engine::FrameRecord overlappedFrame(double device) {
     engine::FrameRecord frame;
-    frame.interval = 1000.0;  // with a wait for the device, as no runner's frame has it
+    frame.interval = 1000.0;  // includes a wait for the device, unlike the runner's frames
     frame.device = device;
     frame.record = 3.0;
     frame.submit = 0.5;
     return frame;
 }
 
-// Medians, in ms: wind 2, strands 20, both together 23 (of 11, 23, 62); the frame 25 (of 12, 25,
-// 63); overlapped on the device 18 (of 17, 18, 22). Frames 4 ... 9.
+// Medians in ms: wind 2, strands 20, both together 23 (of 11, 23, 62), the frame 25 (of 12, 25,
+// 63), overlapped on the device 18 (of 17, 18, 22). Frames 4 ... 9.
 inline TimingHistory madeUpHistory() {
     TimingHistory history;
     history.add(isolatedFrame(1.0, 10.0, 1.0), engine::Timing::isolated, 4);

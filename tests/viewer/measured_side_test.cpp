@@ -1,4 +1,4 @@
-// What the viewer measures is what the runner measures, and what it shows is not touched by it.
+// The viewer measures the same as the runner, without changing what it shows.
 #include <algorithm>
 #include <atomic>
 #include <map>
@@ -20,7 +20,7 @@ namespace {
 using testing::ElementsAre;
 using testing::IsEmpty;
 
-// Hair that moves.
+// Settings with moving hair.
 hair::Settings tinySettings() {
     hair::Settings settings = hair::plainSettings();
     settings.simulation.solver = hair::Solver::shape;
@@ -28,7 +28,7 @@ hair::Settings tinySettings() {
     settings.strands.density = 8;
     settings.run.warmup = 2;
     settings.run.frames = 2;
-    settings.run.max_time = 0.0f;  // one round a mode
+    settings.run.max_time = 0.0f;  // one round per mode
     return settings;
 }
 
@@ -54,7 +54,7 @@ TEST_F(MeasuredSide, EndsWithTheFrameThatTheViewerShowsThere) {
     const SideMeasurement side = measured({.stop = goOn});
     EXPECT_EQ(player.played().pictureHash(), picture);
     EXPECT_EQ(player.frame(), 1u);
-    // A round plays frame 0, warms up to frame 1, and draws one more than it measures.
+    // A round plays frame 0, warms up to frame 1, and draws one more frame than it measures.
     player.seek(4);
     EXPECT_EQ(side.result.image_hash, player.played().pictureHash());
     EXPECT_EQ(side.result.state_hash, player.played().stateHash());
@@ -69,7 +69,7 @@ TEST_F(MeasuredSide, HasTheMetricsOfARun) {
         const hair::RunSettings settings = tinySettings().run;
         measure::measure(device(), test_case, settings, {.stop = goOn}, run);
     }
-    // Other things are on the device, and one more joins in the middle.
+    // Others use the device too, and one more starts to in the middle.
     Player player(device(), tinySettings(), HAIRBENCH_SCENES_DIR);
     std::optional<engine::Buffer> window;
     std::vector<std::string> modes;
@@ -89,7 +89,7 @@ TEST_F(MeasuredSide, HasTheMetricsOfARun) {
         std::ranges::sort(all);
         return all;
     };
-    // But for passes, which are by another clock where the device's timestamps were found wrong.
+    // Leaves out passes, which use another clock if the device's timestamps are wrong.
     const auto whole = [&](const report::CaseResult& result) {
         std::vector<std::string> all = names(result);
         std::erase_if(all, [](const std::string& name) { return name.starts_with("pass."); });
@@ -115,12 +115,12 @@ TEST_F(MeasuredSide, CountsWithoutTouchingTheFrame) {
     EXPECT_EQ(player.frame(), 2u);
     EXPECT_EQ(player.played().pictureHash(), picture);
     EXPECT_EQ(player.played().stateHash(), state);
-    // And the next frame is the one that it would have been.
+    // The next frame is unaffected.
     player.next();
     const std::string next = player.played().pictureHash();
     player.seek(3);
     EXPECT_EQ(player.played().pictureHash(), next);
-    // What follows from the settings.
+    // All counts are as the settings imply.
     EXPECT_THAT(counted.trust.warnings, IsEmpty());
     const auto compared =
         std::ranges::count_if(counted.statistics, [](const report::Statistic& each) {
@@ -129,9 +129,9 @@ TEST_F(MeasuredSide, CountsWithoutTouchingTheFrame) {
     EXPECT_GT(compared, 0);
 }
 
-// ---- Between the window and the thread that measures
+// ---- Between the window and the measuring thread
 
-// The next round begins when the window has shown the last one, and not before.
+// The next round starts only after the window has shown the last one.
 TEST(MeasureLink, HoldsTheRoundsUntilTheWindowHasShownThem) {
     std::counting_semaphore<> told(0);
     std::atomic<std::uint32_t> rounds = 0;
@@ -150,7 +150,7 @@ TEST(MeasureLink, HoldsTheRoundsUntilTheWindowHasShownThem) {
     measures.join();
 }
 
-// A window that closes shows nothing more; whoever measures must not wait for it.
+// A window that closes shows nothing more, so the measuring thread must not wait for it.
 TEST(MeasureLink, LetsGoOfWhoeverMeasuresWhenItIsCancelled) {
     std::counting_semaphore<> told(0);
     std::uint32_t rounds = 0;

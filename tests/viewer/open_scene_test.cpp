@@ -23,7 +23,7 @@ class OpenScenes : public GpuTest {
 protected:
     OpenScenes() : studio(device(), "no shaders are watched") { turn(); }
 
-    // What is wanted is asked for, and what came of it taken.
+    // Gives the wanted order and takes its replies.
     OpenScene::News
     turn(double seconds = 0.0, OpenScene::Frames frames = OpenScene::Frames::as_due) {
         PlayState still{.playing = false};
@@ -44,7 +44,7 @@ protected:
     }
     void compare() {
         scene.startComparing();
-        EXPECT_EQ(scene.sideCount(), 1u);  // until it is there
+        EXPECT_EQ(scene.sideCount(), 1u);  // until its picture exists
         EXPECT_TRUE(turn().compares);
     }
 
@@ -96,7 +96,7 @@ TEST_F(OpenScenes, CompareASettingOfEachSide) {
     compare();
     edit(1, denser(1));
     EXPECT_NE(scene.side(1).wanted().strands.density, scene.side(0).wanted().strands.density);
-    // The second side's settings are set against the first's.
+    // The second side's settings are compared with the first side's.
     EXPECT_EQ(scene.reference().strands.density, scene.side(0).wanted().strands.density);
     const std::uint32_t b = scene.side(1).wanted().strands.density;
     scene.swapSides();
@@ -127,7 +127,7 @@ TEST_F(OpenScenes, ReplaceEachOther) {
     SceneFile file = fileOf(other);
     file.name = "other";
     scene.open(file);
-    EXPECT_EQ(scene.file().name, "made_up");  // until its first picture is there
+    EXPECT_EQ(scene.file().name, "made_up");  // until the first picture exists
     EXPECT_TRUE(turn().opened);
     EXPECT_EQ(scene.sideCount(), 1u);
     EXPECT_EQ(scene.edited(), 0u);

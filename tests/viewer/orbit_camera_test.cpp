@@ -19,7 +19,7 @@ namespace {
 
 constexpr float kHeight = 600.0f;  // px
 constexpr float kAspect = 1.5f;
-// Of floats after a few rotations.
+// Float rounding after a few rotations.
 constexpr float kTolerance = 1e-5f;
 
 hair::CameraSettings camera() {
@@ -34,7 +34,7 @@ float distanceOf(const hair::CameraSettings& camera) {
     return glm::length(camera.position - camera.target);
 }
 
-// Where the picture shows a point, px from its upper left corner.
+// Returns a point's position in the picture, px from the top left corner.
 glm::vec2 pixelOf(const hair::CameraSettings& camera, glm::vec3 point) {
     const glm::vec4 clip =
         hair::rendering::viewProjection(camera, kAspect) * glm::vec4(point, 1.0f);
@@ -106,7 +106,7 @@ TEST(Fly, TakesTheTargetAlong) {
     EXPECT_NEAR(distanceOf(moved), distanceOf(camera()), kTolerance);
 }
 
-// A sphere's outline is a circle of radius r / sqrt(d^2 - r^2) on the plane at distance 1.
+// A sphere's outline is a circle of radius r / sqrt(d^2 - r^2) in the plane at distance 1.
 TEST(FrameSphere, FillsThePicture) {
     hair::CameraSettings framed = camera();
     const glm::vec3 center{0.1f, -0.2f, 0.05f};
@@ -117,7 +117,7 @@ TEST(FrameSphere, FillsThePicture) {
     EXPECT_NEAR(outline, std::tan(glm::radians(30.0f)), 1e-4f);
 }
 
-// A picture that is higher than wide is filled across.
+// A picture higher than wide is filled across.
 TEST(FrameSphere, FillsTheShorterSide) {
     hair::CameraSettings framed = camera();
     frameSphere(framed, {0, 0, 0}, 0.2f, 0.5f);
@@ -126,7 +126,7 @@ TEST(FrameSphere, FillsTheShorterSide) {
     EXPECT_NEAR(outline, 0.5f * std::tan(glm::radians(30.0f)), 1e-4f);
 }
 
-// Whatever the field of view: from inside of the hair one sees nothing of it.
+// Must hold for any field of view, because nothing is visible from inside the hair.
 TEST(Presets, SeeTheSphereFromOutsideAndKeepUp) {
     for (const float field_of_view : {20.0f, 60.0f, 100.0f, 150.0f}) {
         for (const CameraPreset& preset : cameraPresets()) {
@@ -150,13 +150,13 @@ TEST(Presets, AreNearAndFar) {
         look(looking, *preset, {0, 0, 0}, 0.2f);
         return distanceOf(looking);
     };
-    // A sphere fills 60 degrees from r / sin(30 degrees) = 2 r: as high above it as its radius.
+    // A sphere fills 60 degrees from r / sin(30 degrees) = 2 r, one radius above its surface.
     EXPECT_NEAR(distance("Front"), 0.4f, kTolerance);
     EXPECT_LT(distance("Close-up"), 0.3f);
     EXPECT_NEAR(distance("Far"), 2.0f, kTolerance);
 }
 
-// Cameras that the settings panel can make: along up, and at the target.
+// Cameras that the settings panel allows: along up, and at the target.
 TEST(Orbit, MakesCamerasThatCanBe) {
     for (const glm::vec3 position : {glm::vec3{0, 1, 0}, glm::vec3{0, -1, 0}, glm::vec3{0, 0, 0}}) {
         hair::CameraSettings turned = camera();

@@ -14,10 +14,10 @@ namespace {
 
 using namespace std::chrono_literals;
 
-// Far longer than a machine that is busy with other things needs: what takes so long hangs.
+// Far longer than a busy machine needs; anything longer hangs.
 constexpr auto kHangs = 60s;
 
-// A value of which half would be seen: its members are equal.
+// A value with equal members, so that a partial write would be visible.
 struct Whole {
     std::array<std::uint64_t, 64> copies{};
 
@@ -33,7 +33,7 @@ struct Whole {
     }
 };
 
-// Work that is held up until it is let go.
+// Work that waits until it is released.
 struct Held {
     std::binary_semaphore begun{0};
     std::binary_semaphore let_go{0};
@@ -48,7 +48,7 @@ TEST(OrderThread, AnswersEachOrderOnce) {
     for (int i = 0; i < 100; ++i) {
         thread.begin(i);
         EXPECT_TRUE(thread.busy());
-        told.acquire();  // it is told of every reply
+        told.acquire();  // signalled for every reply
         EXPECT_TRUE(thread.waitFor(kHangs));
         EXPECT_EQ(thread.take(), i * i);
         EXPECT_FALSE(thread.busy());
@@ -57,7 +57,7 @@ TEST(OrderThread, AnswersEachOrderOnce) {
     EXPECT_FALSE(told.try_acquire());
 }
 
-// Whoever gives orders sees the latch closed and goes on: nothing waits for the work.
+// The ordering thread continues while the latch is closed: it does not wait for the work.
 TEST(OrderThread, LeavesWhoeverGivesOrdersFreeMeanwhile) {
     Held held;
     OrderThread<int, int> thread(
@@ -79,7 +79,7 @@ TEST(OrderThread, LeavesWhoeverGivesOrdersFreeMeanwhile) {
     EXPECT_EQ(thread.take(), 7);
 }
 
-// What is changed while an order is worked on is in the next one, as it is then: all of it.
+// Changes during an order go into the next one, completely and in their latest state.
 TEST(OrderThread, LosesNoLastValueAndShowsNoneByHalf) {
     constexpr std::uint64_t kValues = 20000;
     std::vector<std::uint64_t> seen;
@@ -94,7 +94,7 @@ TEST(OrderThread, LosesNoLastValueAndShowsNoneByHalf) {
     std::uint64_t answered = 0;
     Whole wanted = Whole::of(0);
     for (std::uint64_t value = 1; value <= kValues; ++value) {
-        wanted = Whole::of(value);  // as a slider does that is dragged
+        wanted = Whole::of(value);  // like a dragged slider
         if (const auto reply = thread.take()) {
             EXPECT_TRUE(reply->isWhole());
             answered = reply->copies.front();
@@ -146,7 +146,7 @@ TEST(OrderThread, EndsWorkThatLooksWhetherItIsToStop) {
     EXPECT_EQ(thread.take(), "stopped");
 }
 
-// One that never gets an order ends, too, and so does one whose reply nobody takes.
+// A thread without an order ends too, and so does one with a reply that is never taken.
 TEST(OrderThread, EndsWithoutAnOrderAndWithAReplyThatIsLeft) {
     {
         OrderThread<int, int> thread([](int order, const Stop&) { return order; }, [] {});

@@ -5,7 +5,7 @@
 namespace benchmarks::viewer {
 namespace {
 
-constexpr double kExactFrame = 1.0 / 64.0;  // simulated s; sums of it are exact
+constexpr double kExactFrame = 1.0 / 64.0;  // simulated s; its sums are exact
 
 std::uint32_t framesOf(Pacer& pacer, int pictures, double seconds, std::optional<double> speed) {
     std::uint32_t frames = 0;
@@ -51,7 +51,7 @@ TEST(Pacer, KeepsTheRestOfAFrameForTheNextPicture) {
 TEST(Pacer, FallsBehindRatherThanPlayingForever) {
     Pacer pacer;
     EXPECT_EQ(pacer.framesFor(3600.0, kExactFrame, 1.0), Pacer::kMostFrames);
-    // And does not make up for it.
+    // It does not catch up later.
     EXPECT_EQ(pacer.framesFor(0.0, kExactFrame, 1.0), 0u);
 }
 

@@ -14,7 +14,7 @@
 namespace benchmarks::viewer {
 namespace {
 
-// Of a point that goes to a pixel and back in floats: pixels of a thousand have steps of 6e-5.
+// Float rounding of a point projected to a pixel and back: pixels near 1000 have steps of 6e-5.
 constexpr float kPixels = 1e-3f;
 
 const PictureRect kRect{{100.0f, 50.0f}, {900.0f, 600.0f}};
@@ -36,8 +36,8 @@ hair::RenderSettings render() {
 
 PictureView viewDown() { return {lookingDown(), render(), kRect}; }
 
-// From straight ahead, so that what is where can be said without matrices: 90 degrees show 1 m
-// above and below at a distance of 1 m.
+// Looks straight ahead, so that positions are clear without matrices: 90 degrees show 1 m above and
+// below at a distance of 1 m.
 PictureView simpleView() {
     hair::CameraSettings camera;
     camera.position = {0, 0, 1};
@@ -64,7 +64,7 @@ TEST(PictureView, SendsARayThroughWhatAPixelShows) {
         const Ray ray = viewDown().ray(*pixel);
         const glm::dvec3 arm = glm::dvec3(point) - ray.from;
         const double distance = glm::length(glm::cross(arm, ray.direction));
-        // A ten-thousandth of a pixel, which is what it was rounded to.
+        // Rounding of the pixel.
         EXPECT_LT(distance * double{viewDown().pixelsPerMetre(point)}, double{kPixels});
         EXPECT_GT(glm::dot(arm, ray.direction), 0.0);
     }
@@ -80,7 +80,7 @@ TEST(PictureView, DragsPointsToWhereTheMouseIs) {
     ASSERT_TRUE(to);
     EXPECT_NEAR(to->x - from->x, by.x, kPixels);
     EXPECT_NEAR(to->y - from->y, by.y, kPixels);
-    // As far from the camera as before.
+    // At the same depth as before.
     EXPECT_NEAR(viewDown().depth(point + moved), viewDown().depth(point), 1e-6f);
 }
 
@@ -111,14 +111,14 @@ TEST(PickVertex, TakesTheOneInFrontAndNoRoot) {
 
 TEST(PickHair, FindsThePointOfASegmentUnderThePixel) {
     const PictureView view = simpleView();
-    const glm::vec3 wanted{0.0f, 0.07f, 0.1f};  // within the first guide's first segment
+    const glm::vec3 wanted{0.0f, 0.07f, 0.1f};  // in the first guide's first segment
     const auto point = pickHair(view, kGuides, 3, *view.pixel(wanted), 3.0f);
     ASSERT_TRUE(point);
     EXPECT_LT(glm::length(*point - wanted), 1e-5f);
     EXPECT_FALSE(pickHair(view, kGuides, 3, {560.0f, 350.0f}, 3.0f));
 }
 
-// A segment that goes away from the camera: the middle of what is seen is not its middle.
+// A segment that recedes from the camera: the middle of its image is not its own middle.
 TEST(PickHair, MindsPerspective) {
     const std::vector<glm::vec3> guide{{-0.2f, 0, 0.5f}, {0.9f, 0, -2.0f}};
     const glm::vec3 wanted = glm::mix(guide[0], guide[1], 0.3f);
@@ -128,7 +128,7 @@ TEST(PickHair, MindsPerspective) {
     EXPECT_LT(glm::length(*point - wanted), 1e-4f);
 }
 
-// Guides end: nothing joins the tip of one with the root of the next.
+// Nothing joins the tip of one guide to the root of the next.
 TEST(PickHair, FindsNothingBetweenGuides) {
     const std::vector<glm::vec3> guides{
         {-0.4f, 0.2f, 0}, {-0.4f, 0, 0}, {0.4f, 0, 0}, {0.4f, -0.2f, 0}};
@@ -146,12 +146,12 @@ TEST(PickMesh, HitsATriangleThatMovedWithTheHead) {
     const auto moved = pickMesh(ray, mesh, {.translation = {0.2, 0.1, 0.5}});
     ASSERT_TRUE(moved);
     EXPECT_NEAR(*moved, 1.5, 1e-12);
-    // A quarter turn about +y has it seen from its edge.
+    // After a quarter turn about +y, it is seen edge-on.
     const hair::simulation::RigidMotion turned{
         .rotation = glm::angleAxis(std::numbers::pi / 2, glm::dvec3{0, 1, 0}),
         .translation = {0.1, 0, 0}};
     EXPECT_FALSE(pickMesh(ray, mesh, turned));
-    EXPECT_FALSE(pickMesh({{0, 0, -1}, {0, 0, -1}}, mesh, {}));  // behind
+    EXPECT_FALSE(pickMesh({{0, 0, -1}, {0, 0, -1}}, mesh, {}));  // behind the ray
 }
 
 TEST(PickCapsule, HitsSidesAndEnds) {
@@ -162,10 +162,10 @@ TEST(PickCapsule, HitsSidesAndEnds) {
     const auto end = pickCapsule({{3, 0, 0}, {-1, 0, 0}}, a, b, 0.25f);
     ASSERT_TRUE(end);
     EXPECT_NEAR(*end, 1.75, 1e-12);
-    // Of the ball at b: a chord at 0.15 from the middle of one of radius 0.25 is 0.2 deep.
+    // The ball at b: a chord at 0.15 from the middle of a ball of radius 0.25 is 0.2 deep.
     const auto cap = pickCapsule({{1.15, 0, 3}, {0, 0, -1}}, a, b, 0.25f);
     ASSERT_TRUE(cap);
-    EXPECT_NEAR(*cap, 2.8, 1e-6);  // 1.15 is no float
+    EXPECT_NEAR(*cap, 2.8, 1e-6);  // 1.15 is not exact as a float
     EXPECT_FALSE(pickCapsule({{0, 0.3, 3}, {0, 0, -1}}, a, b, 0.25f));
     EXPECT_FALSE(pickCapsule({{0, 0, 0.1}, {0, 0, -1}}, a, b, 0.25f));  // from inside
 }

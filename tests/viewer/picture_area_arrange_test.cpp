@@ -8,7 +8,7 @@
 namespace benchmarks::viewer {
 namespace {
 
-// Corners are sums of a few floats of up to some thousand px, which are exact to 2^-12 or so.
+// Corners are sums of a few floats up to some thousand px, exact to about 2^-12.
 constexpr float kPixelTolerance = 0.01f;  // px
 
 const glm::vec2 kRooms[] = {{1600, 900}, {900, 1600}, {640, 641},      {300, 1200},
@@ -70,12 +70,12 @@ TEST(ArrangeTwo, KeepsOneScaleAndTheGapAndTheMiddle) {
 
 TEST(ArrangeTwo, ChoosesTheWayInWhichTheyAreLarger) {
     const std::array<glm::vec2, 2> wide{glm::vec2(200, 100), glm::vec2(200, 100)};
-    // 400 x 100 beside each other: scale 2. One above the other 200 x 200: scale 1.
+    // 400 x 100 side by side: scale 2. Stacked, 200 x 200: scale 1.
     const auto [left, right] = arrangeTwo({{0, 0}, {800, 200}}, wide, 0.0f, {});
     EXPECT_EQ(left.picture.corner, glm::vec2(0, 0));
     EXPECT_EQ(right.picture.corner, glm::vec2(400, 0));
     EXPECT_EQ(right.picture.size, glm::vec2(400, 200));
-    // In 400 x 400 it is the other way round: 1 and 2.
+    // In 400 x 400 it is reversed: 1 and 2.
     const auto [above, below] = arrangeTwo({{0, 0}, {400, 400}}, wide, 0.0f, {});
     EXPECT_EQ(above.picture.corner, glm::vec2(0, 0));
     EXPECT_EQ(below.picture.corner, glm::vec2(0, 200));
@@ -102,9 +102,9 @@ TEST(ArrangeOne, LeavesNoPartOfThePaneEmptyWherePicturesAreLarger) {
         for (const float y : {0.0f, 0.5f, 1.0f}) {
             const Placed placed = arrangeOne(room, {64, 20}, {.scale = 2.0f, .focus = {x, y}});
             EXPECT_EQ(placed.picture.size, glm::vec2(128, 40));
-            // 128 px cover 100; 40 px are in the middle of 60.
+            // 128 px cover 100 px; 40 px are centred in 60 px.
             EXPECT_LE(placed.picture.corner.x, room.corner.x);
-            EXPECT_GE(endOf(placed.picture).x, endOf(room).x - 1.0f);  // whole px of the screen
+            EXPECT_GE(endOf(placed.picture).x, endOf(room).x - 1.0f);  // rounded to screen pixels
             EXPECT_EQ(placed.picture.corner.y, 14.0f);
         }
     }
@@ -115,7 +115,7 @@ TEST(ArrangeOne, PutsTheFocusInTheMiddleOnWholePixels) {
     const Placed placed = arrangeOne(room, {1000, 1000}, {.scale = 8.0f, .focus = {0.25f, 0.5f}});
     for (const int axis : {0, 1})
         EXPECT_EQ(placed.picture.corner[axis], std::floor(placed.picture.corner[axis]));
-    // Less than a pixel of the screen from where it should be.
+    // Off by less than a screen pixel.
     EXPECT_NEAR(placed.picture.share({50.5f, 50.5f}).x, 0.25f, 1.0f / 8000.0f);
     EXPECT_NEAR(placed.picture.share({50.5f, 50.5f}).y, 0.5f, 1.0f / 8000.0f);
 }

@@ -14,7 +14,7 @@ namespace {
 
 constexpr double kAim = PreviewControl::kAim;
 
-// A scene whose whole picture takes `whole` ms, and each level `ratio` times as long as the next
+// A scene whose whole picture takes `whole` ms. Each level takes `ratio` times as long as the next
 // coarser one.
 struct Device {
     double whole = 0.0;
@@ -25,7 +25,7 @@ struct Device {
     }
 };
 
-// The levels of pictures that are drawn while something moves.
+// Returns the levels of pictures drawn during motion.
 std::vector<unsigned> levelsWhileMoving(PreviewControl& control, const Device& device, int count) {
     std::vector<unsigned> levels;
     for (int i = 0; i < count; ++i) {
@@ -41,7 +41,7 @@ int changesOf(const std::vector<unsigned>& levels) {
     return changes;
 }
 
-// ---- Which level is drawn
+// ---- Choice of the level
 
 TEST(PreviewControl, DrawsAllOfASceneThatIsFastEnough) {
     PreviewControl control;
@@ -55,13 +55,13 @@ TEST(PreviewControl, GetsWithinItsAimAfterOnePictureOfAScene) {
         const Device device{.whole = times * kAim};
         control.drawn(0, device.took(0));
         EXPECT_LE(device.took(control.moving()), kAim) << times;
-        // And not coarser than that takes.
+        // No coarser than necessary.
         EXPECT_GT(device.took(control.moving() - 1), kAim) << times;
     }
 }
 
-// The level that moves is within the aim by what the first picture tells: a level is expected to
-// take at most twice as long as the next coarser one.
+// The level for motion keeps to the aim by an estimate from the first picture: a level should take
+// at most twice as long as the next coarser one.
 TEST(PreviewControl, LearnsFromACoarseFirstPicture) {
     for (const double times : {0.5, 3.0, 7.0, 100.0}) {
         PreviewControl control;
@@ -86,7 +86,7 @@ TEST(PreviewControl, DrawsTheCoarsestWhereNoneIsFastEnough) {
         EXPECT_EQ(level, kCoarsestPreview);
 }
 
-// By the header: two coarsest pictures in a row over a second.
+// By the header: two consecutive coarsest pictures over a second.
 TEST(PreviewControl, CrawlsWhereTwoCoarsestPicturesTakeOverASecond) {
     PreviewControl control;
     control.drawn(0, 60000.0);
@@ -101,7 +101,7 @@ TEST(PreviewControl, CrawlsWhereTwoCoarsestPicturesTakeOverASecond) {
     EXPECT_FALSE(control.crawls());
 }
 
-// A first picture may take long because something had to be made for it.
+// A first picture may be slow because it includes set-up.
 TEST(PreviewControl, ComesBackFromASingleSlowPicture) {
     PreviewControl control;
     control.drawn(0, 20000.0);
@@ -111,7 +111,7 @@ TEST(PreviewControl, ComesBackFromASingleSlowPicture) {
     EXPECT_TRUE(std::ranges::is_sorted(levels, std::ranges::greater{}));
 }
 
-// Where a level is up to 2.5 times the work of the next one, a finer one is tried only if it fits.
+// If a level takes up to 2.5 times as long as the next one, a finer level is tried only if it fits.
 TEST(PreviewControl, HoldsItsLevelBetweenTooSlowAndTooCoarse) {
     for (const double ratio : {1.5, 2.0, 2.5}) {
         for (double whole = 20.0; whole < 1500.0; whole *= 1.1) {
@@ -124,8 +124,8 @@ TEST(PreviewControl, HoldsItsLevelBetweenTooSlowAndTooCoarse) {
     }
 }
 
-// Steps of another size than expected: the finer level is always too slow, and is tried less often
-// each time.
+// With larger steps than expected, the finer level is always too slow and is tried less often each
+// time.
 TEST(PreviewControl, TriesAFinerLevelThatIsTooSlowLessAndLessOften) {
     PreviewControl control;
     const Device device{.whole = 400.0, .ratio = 20.0};
@@ -167,12 +167,12 @@ TEST(PreviewControl, KeepsWholePicturesThatStandStill) {
 TEST(PreviewControl, RefinesAtOnceWhatIsHardlyNoticed) {
     PreviewControl control;
     control.drawn(0, 200.0);
-    EXPECT_EQ(control.still(1, 0.0), 1u);  // it may go on to move
+    EXPECT_EQ(control.still(1, 0.0), 1u);  // motion may continue
     EXPECT_EQ(control.still(1, 0.2), 0u);
     EXPECT_EQ(control.still(4, 0.2), 0u);
 }
 
-// Each level in turn, and the last one, which takes long, only after a while.
+// Goes through every level. The last one takes long, so it comes only after a while.
 TEST(PreviewControl, RefinesByLevelsWhatTakesLong) {
     PreviewControl control;
     const Device device{.whole = 13000.0};
@@ -238,7 +238,7 @@ TEST(PreviewSettings, AreWithinWhatScenesAllow) {
     EXPECT_EQ(coarse.lod.level, 8.0f);
 }
 
-// Half way by the logarithm of the distance: hair/settings.h.
+// Half way on the logarithmic scale of distance: hair/settings.h.
 TEST(PreviewSettings, AddToTheLevelAtTheCamerasTarget) {
     hair::Settings settings;
     settings.lod = {

@@ -11,13 +11,13 @@
 #include "hair/fields.h"
 #include "hair/settings.h"
 
-// All settings as text, to compare.
+// Returns all settings as text, for comparison.
 inline std::string allOf(const hair::Settings& settings) {
     return benchmarks::scene::writeSettings(settings).dump();
 }
 
-// Settings of which a few members are others than the defaults, each with a value that its row of
-// the tables allows: bounds, numbers without a short decimal, texts that need quoting, lists.
+// Settings with a few members changed from the defaults, each to a value that the tables allow:
+// bounds, numbers without a short decimal, texts that need quoting, lists.
 class RandomSettings {
 public:
     RandomSettings(std::uint32_t seed, double share) : random_(seed), share_(share) {}
@@ -119,7 +119,7 @@ private:
         if (chance(share_)) row.choose(settings, below(row.names.size()));
     }
 
-    // Files of GLSL are read with a scene: these would not be there.
+    // GLSL files are read with a scene, but these would not exist.
     void changeRow(const hair::ChoiceOrFile& row, hair::SettingsRef settings) {
         if (chance(share_)) row.chooseName(settings, below(row.names.size()));
     }
@@ -136,5 +136,5 @@ private:
     }
 
     std::mt19937 random_;
-    double share_;  // of the members that are changed
+    double share_;  // of the members to change
 };

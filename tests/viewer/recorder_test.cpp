@@ -14,7 +14,7 @@ using testing::HasSubstr;
 
 class RecorderTest : public GpuTest {
 protected:
-    // Hair that moves, small.
+    // A small picture with moving hair.
     static hair::Settings settings() {
         hair::Settings settings;
         settings.groom.guides = 10;

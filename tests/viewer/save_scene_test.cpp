@@ -16,7 +16,7 @@ namespace {
 namespace fs = std::filesystem;
 using testing::HasSubstr;
 
-// Every member; floats by their shortest decimal, which is another one for other bits.
+// Every member is compared. Floats use their shortest decimal, which differs for different bits.
 
 std::size_t longestLine(const std::string& text) {
     std::size_t longest = 0;
@@ -73,14 +73,14 @@ TEST(SceneText, ReadsBackBitEqual) {
 TEST(SceneText, HasLinesOfAHundredColumns) {
     RandomSettings random(2, 0.5);
     for (int i = 0; i < 100; ++i) {
-        // The longest thing that can't be broken is a vector of three numbers of 15 characters.
+        // The longest unbreakable item is a vector of three numbers of 15 characters.
         EXPECT_LE(longestLine(sceneText(random(), "a", "a")), 100u);
     }
 }
 
 class MovedFiles : public testing::Test {
 protected:
-    // Settings in which everything that can name a file does.
+    // Returns settings in which every file name is set.
     static hair::Settings named(const std::string& name) {
         hair::Settings settings;
         settings.groom.file = settings.groom.mesh = settings.groom.grow.mesh = name;
@@ -92,7 +92,7 @@ protected:
         return settings;
     }
 
-    // What `settings` are after their files moved, by the one name that all have.
+    // Returns the common file name in the settings after a move.
     std::string moved(const std::string& name, const fs::path& from, const fs::path& to) const {
         const hair::Settings result = movedFiles(named(name), from, to);
         EXPECT_EQ(allOf(result), allOf(named(result.groom.file)));
@@ -146,7 +146,7 @@ TEST(SaveScene, IsReadAsTheSettingsWithFilesInTheirPlace) {
     EXPECT_TRUE(fs::equivalent(
         scene.directory / scene.settings.groom.file, folder.file("scenes/hair/a.hair")));
     EXPECT_TRUE(scene.axes.empty());
-    // Defaults are relative to the scene too, and are written where that makes them others.
+    // Defaults are also relative to the scene, so they are written if the move changes them.
     EXPECT_EQ(scene.settings.groom.grow.mesh, "../../scenes/assets/head.glb");
 }
 

@@ -23,12 +23,12 @@ using testing::HasSubstr;
 const std::string kScenes = HAIRBENCH_SCENES_DIR;
 const std::vector<std::uint8_t> kPixel{1, 2, 3, 4};
 
-// Strands in metres on a sphere of 0.1 m, on end, as an OBJ in a unit of `unit` metres; moved by
-// `offset` m along x.
+// Strands that stand on a sphere of 0.1 m, as an OBJ in a unit of `unit` metres, moved by `offset`
+// m along x.
 std::string objOf(int strands, double unit, double offset) {
     std::string text;
     for (int i = 0; i < strands; ++i) {
-        // Fibonacci's lattice, upper half.
+        // Fibonacci lattice, upper half.
         const double y = 1.0 - (i + 0.5) / strands;
         const double angle = 2.399963 * i;
         const double r = std::sqrt(1.0 - y * y);
@@ -128,7 +128,7 @@ TEST(DroppedFiles, AreScenesWhereAPictureHasOne) {
 
 class DroppedOn : public testing::Test {
 protected:
-    // On the defaults, with a collider of the head's and one of the world's.
+    // Drops a file on the defaults with one collider that follows the head and one in the world.
     hair::Settings dropped(const fs::path& file) const {
         hair::Settings settings;
         settings.groom.grow.mesh = kScenes + "/assets/head.glb";
@@ -153,7 +153,7 @@ TEST_F(DroppedOn, AGroomIsInPlaceOfTheHair) {
     const auto file = folder_.write("hair/few.obj", objOf(40, 0.01, 5.0));
     const hair::Settings settings = dropped(file);
     EXPECT_EQ(settings.groom.file, "hair/few.obj");
-    EXPECT_EQ(settings.groom.placement.scale, 0.01f);  // the unit that it was written in
+    EXPECT_EQ(settings.groom.placement.scale, 0.01f);  // the file's unit
     EXPECT_EQ(settings.groom.style.cut.length, 0.0f);
     EXPECT_TRUE(settings.simulation.pulls.empty());
     const hair::groom::Groom groom = build(settings);

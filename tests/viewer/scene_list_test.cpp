@@ -34,7 +34,7 @@ TEST(ListedScenes, SayWhatTheyAreOrWhyNot) {
     EXPECT_THAT(listedScene(folder.file("gone.json")).problem, HasSubstr("no such file"));
 }
 
-// A list in a panel 280 px wide, with a mouse and a keyboard; nothing is drawn.
+// A list in a panel 280 px wide, with a mouse and a keyboard but without drawing.
 class SceneListPanel : public testing::Test {
 protected:
     void SetUp() override {
@@ -74,7 +74,7 @@ protected:
         return frame(list);
     }
 
-    // The middle of a row of the list.
+    // Returns the y coordinate of a row's middle.
     float row(int index) const {
         const ImGuiStyle& style = ImGui::GetStyle();
         return style.WindowPadding.y + 2.0f * ImGui::GetFrameHeightWithSpacing() +

@@ -25,8 +25,8 @@ std::string fromHex(const std::string& hex) {
     return bytes;
 }
 
-// A PNG of one pixel with a chunk between its header and its picture. These files were made by
-// Python's zlib and binascii.
+// A PNG of one pixel with a chunk between its header and its picture. Python's zlib and binascii
+// made these files.
 std::string pngWith(const std::string& chunk) {
     return fromHex("89504e470d0a1a0a0000000d49484452000000010000000108060000001f15c489") + chunk +
            fromHex("0000000d4944415478da63f8cfc0f01f00050001ff56c72f0d0000000049454e44ae426082");
@@ -97,8 +97,8 @@ TEST_F(Screenshot, IsRefusedWhereItIsCutOff) {
 }
 
 TEST_F(Screenshot, IsRefusedWhereABitIsWrong) {
-    // A checksum finds every single bit; one in a length ends the file too early or leaves a
-    // checksum elsewhere.
+    // A checksum finds every single-bit error. An error in a length truncates the file or shifts a
+    // checksum.
     const std::string whole = textOf(shot());
     for (std::size_t bit = 0; bit < 8 * whole.size(); ++bit) {
         std::string file = whole;
@@ -122,7 +122,7 @@ TEST_F(Screenshot, GetsANameThatIsFree) {
     folder_.write("shot-0001.png", "");
     folder_.write("shot-0002.png", "");
     EXPECT_EQ(name(), folder_.file("shot-0003.png"));
-    // What leads nowhere would be written through.
+    // A dangling link would be written through, so its name is not free.
     std::filesystem::create_symlink("nowhere", folder_.file("shot-0003.png"));
     EXPECT_EQ(name(), folder_.file("shot-0004.png"));
     EXPECT_EQ(freeName(folder_.path(), "shot", ""), folder_.file("shot-0001"));

@@ -10,7 +10,7 @@ namespace {
 
 class ScriptFile : public testing::Test {
 protected:
-    // What reading it says.
+    // Returns the error of reading a script.
     std::string problemOf(const std::string& text) {
         const std::filesystem::path file = folder_.write("script.json", text);
         return folder_.relative(errorText([&] { Script script(file); }));
@@ -21,7 +21,7 @@ protected:
 
 private:
     TemporaryFolder folder_;
-    HeadlessUi ui_{640, 360};  // knows the names of keys
+    HeadlessUi ui_{640, 360};  // for the names of keys
 };
 
 TEST_F(ScriptFile, MayHaveEveryVerb) {

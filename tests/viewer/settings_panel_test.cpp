@@ -18,7 +18,7 @@ protected:
         ui_.show(
             [&] {
                 ImGui::SetNextWindowPos({0, 0});
-                ImGui::SetNextWindowSize({270, 4000});  // the narrowest column at this scale
+                ImGui::SetNextWindowSize({270, 4000});  // narrowest column at this scale
                 ImGui::Begin("Scene", nullptr, ImGuiWindowFlags_NoDecoration);
                 edit_ |= settingsPanel(settings_, original_, search_);
                 ImGui::End();
@@ -26,7 +26,7 @@ protected:
             pictures);
     }
 
-    // The widget whose label ends so.
+    // Returns the widget with this end of its label.
     const engine::UiItem* find(const std::string& end) const {
         const auto& items = items_.items();
         const auto found = std::ranges::find_if(
@@ -142,7 +142,7 @@ TEST_F(SettingsPanel, KeepsNamesAndWidgetsWithinTheNarrowestColumn) {
     }
 }
 
-// docs/extending_scenes.md.
+// Parameters of docs/extending_scenes.md.
 TEST_F(SettingsPanel, ShowsAFilesParameters) {
     for (hair::Settings* settings : {&settings_, &original_}) {
         settings->shading.model = hair::ShadingModel::extension;

@@ -47,8 +47,8 @@ TEST(NumberFormat, WritesANumberAndItsUnit) {
 }
 
 TEST(DragSpeed, MovesDigitsThatMatter) {
-    // A pixel is 1 % of a number in a range of twelve decades, and reaches every part of a small
-    // range within a panel's few hundred pixels.
+    // A pixel is 1 % of a number in a range of twelve decades. In a small range, a panel's few
+    // hundred pixels reach every value.
     EXPECT_DOUBLE_EQ(dragSpeed(3.9e9, 1.0, 1e12), 3.9e7);
     EXPECT_DOUBLE_EQ(dragSpeed(0.0, 0.0, 1.0), 1.0 / 400.0);
     EXPECT_GT(dragSpeed(0.0, 0.0, 1e6), 0.0);

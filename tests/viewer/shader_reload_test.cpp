@@ -23,7 +23,7 @@ using testing::IsEmpty;
 using testing::IsSupersetOf;
 using testing::SizeIs;
 
-// In a copy of the project's shaders.
+// Tests in a copy of the project's shaders.
 class ShaderReloadTest : public GpuTest {
 protected:
     void SetUp() override {
@@ -40,7 +40,7 @@ protected:
 
     std::string text(const std::string& file) const { return textOf(folder.file(file)); }
 
-    // Saves a file with a text in place of another.
+    // Replaces a text in a file and saves it.
     void edit(const std::string& file, const std::string& from, const std::string& to) {
         std::string content = text(file);
         const std::size_t at = content.find(from);
@@ -48,7 +48,7 @@ protected:
         folder.write(file, content.replace(at, from.size(), to));
     }
 
-    // Until poll() is true or `ends` is. The limit only ends a test that fails.
+    // Polls until poll() or `ends` returns true. The limit only ends a failing test.
     template <class Ends>
     static bool pollUntil(ShaderReload& reload, Ends&& ends) {
         const auto limit = std::chrono::steady_clock::now() + std::chrono::minutes(2);
@@ -128,7 +128,7 @@ TEST_F(ShaderReloadTest, ReloadsEveryShaderThatIncludesAFile) {
 TEST_F(ShaderReloadTest, KeepsThePictureWhileAFileIsBroken) {
     ShaderReload reload(device(), folder.path());
     const std::string before = pictureHash();
-    // Another file that would compile waits for the broken one.
+    // A valid change in another file waits for the broken one.
     edit("strands/strand.frag", kColor, kGreen);
     folder.write("common/display_color.glsl", text("common/display_color.glsl") + "\nbroken\n");
     pollUntilProblem(reload);
@@ -150,7 +150,7 @@ TEST_F(ShaderReloadTest, NamesTheIncludedFileTheLineAndItsTextOnce) {
     const auto line = 1 + std::ranges::count(original.substr(0, original.find("curved =")), '\n');
     edit("common/display_color.glsl", "curved =", "curved = missing +");
     pollUntilProblem(reload);
-    ASSERT_THAT(reload.problems(), SizeIs(1));  // though many shaders include it
+    ASSERT_THAT(reload.problems(), SizeIs(1));  // although many shaders include it
     const ShaderProblem& problem = reload.problems().front();
     EXPECT_EQ(problem.file, "common/display_color.glsl");
     EXPECT_EQ(problem.line, line);
@@ -173,7 +173,7 @@ TEST_F(ShaderReloadTest, PutsBackTheLastGoodCodeWhereItIsRejected) {
     EXPECT_EQ(reload.problems().front().file, "strands/strand.frag");
     EXPECT_EQ(reload.problems().front().text, "the device refuses it");
 
-    // The rejected code is tried again only once a file has changed.
+    // The rejected code is tried again only after a file has changed.
     edit("strands/strand.frag", "vec4(0.0, 0.0, 1.0, 1.0)", kGreen);
     EXPECT_FALSE(pollUntil(reload, [&] { return reload.problems().empty(); }));
     EXPECT_EQ(device().shaders().replacements(), good);
@@ -187,7 +187,7 @@ TEST_F(ShaderReloadTest, DoesNotReloadWhatIsSharedWithTheProgram) {
     EXPECT_TRUE(ShaderReload::needsRebuild(reload.changed().front()));
     EXPECT_THAT(reload.problems(), IsEmpty());
 
-    // What includes it is compiled as the program was built with it.
+    // Shaders that include it are compiled with the build's version.
     edit("strands/strand.frag", kColor, kGreen);
     ASSERT_TRUE(pollUntilReloaded(reload));
 }

@@ -1,14 +1,13 @@
-"""Keeps the viewer at work for long: opens each scene of a suite and changes it, again and again.
+"""Runs the viewer for a long time: opens each scene of a suite and changes it, again and again.
 
 soak.py PROGRAM MINUTES SUITE.json FOLDER
 
-Writes the script and what it leaves to FOLDER. Scenes of the suite are opened in turns; each is
-changed in what it draws and simulates, and ends by writing the viewer's state: then the viewer's
-resident memory is read, and how long the scene took. Both are taken relative to the scene's own
-medians, so that scenes can differ. Fails where memory grows (Theil and Sen's slope after the first
-third, whose 95 % interval, by Kendall's statistic, lies above 0.5 % in an hour), where scenes take
-longer in the same way by more than 10 % over the whole time, or where the viewer says or ends
-otherwise than it should.
+Writes the script and its outputs to FOLDER. Opens the scenes of the suite in turn, changes what
+each draws and simulates, and at its end writes the viewer's state. Then reads the viewer's resident
+memory and the time of the scene. Both are taken relative to the scene's own medians, so that scenes
+may differ. Fails if memory grows (the Theil-Sen slope after the first third has a 95 % interval by
+Kendall's statistic above 0.5 % per hour), if scenes become slower in the same sense by more than
+10 % over the whole time, or if the viewer prints something unexpected or ends unexpectedly.
 """
 
 import itertools
@@ -23,9 +22,9 @@ import subprocess
 import sys
 import time
 
-TURNS = 4000  # written; the time is over before
-WARM_SHARE = 1 / 3  # of the turns: caches fill
-MOST_GROWTH = 0.005  # of the memory, an hour
+TURNS = 4000  # in the script; the time limit comes first
+WARM_SHARE = 1 / 3  # of the turns, while caches fill
+MOST_GROWTH = 0.005  # of the memory, per hour
 MOST_SLOWING = 0.1  # of a turn, over the whole time
 
 CHANGES = [
@@ -74,7 +73,7 @@ def resident_kib(process: int) -> int:
 
 
 def slope(times: list[float], values: list[float]) -> tuple[float, float, float]:
-    """Theil and Sen's slope with the ends of its 95 % interval (Sen 1968, section 6)."""
+    """Returns the Theil-Sen slope and the ends of its 95 % interval (Sen 1968, section 6)."""
     slopes = sorted(
         (values[j] - values[i]) / (times[j] - times[i])
         for i, j in itertools.combinations(range(len(times)), 2)
@@ -87,7 +86,7 @@ def slope(times: list[float], values: list[float]) -> tuple[float, float, float]
 
 
 def relative(samples: list[tuple], column: int, first: int, scenes: int) -> list[float]:
-    """From the sample `first` on, over the median of all those of the same scene from there on."""
+    """Returns samples from `first` on, each over the median of its own scene's from there on."""
     medians = [
         statistics.median(each[column] for i, each in enumerate(samples) if i >= first and i % scenes == scene)
         for scene in range(scenes)
@@ -114,7 +113,7 @@ def main() -> int:
     server, display = start_display()
     environment = {**os.environ, "DISPLAY": display}
     environment.pop("WAYLAND_DISPLAY", None)
-    samples: list[tuple[float, float, float]] = []  # s since the start, KiB, s of the turn
+    samples: list[tuple[float, float, float]] = []  # s since the start, KiB, s per turn
     started = time.monotonic()
     last = started
     with open(out / "log", "w", encoding="utf-8") as log:

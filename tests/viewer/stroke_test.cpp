@@ -8,7 +8,7 @@ namespace benchmarks::viewer {
 namespace {
 
 // Two guides of two vertices, a head that has turned by 90 degrees about +y and moved, and hair
-// that hangs lower than it did at rest.
+// that hangs lower than at rest.
 Shown moved() {
     Shown shown;
     shown.has_guides = true;
@@ -29,7 +29,7 @@ TEST(StrokeTool, BrushesHairWhereItWasAtRest) {
     const glm::vec3 tip{0, 2.05f, -1};  // of the second guide, which sags by 0.05 m
     const RestPlace at_tip(shown, tip + glm::vec3(0, 0.001f, 0));
     EXPECT_LT(glm::distance(at_tip.toRest(tip), {1, 0.1f, 0}), 1e-6f);
-    // What is beside it keeps its distance, and what is dragged its way.
+    // A point beside it keeps its distance.
     EXPECT_LT(glm::distance(at_tip.toRest({0.02f, 2.05f, -1}), {1, 0.1f, 0.02f}), 1e-6f);
 
     const RestPlace at_root(shown, {0, 2, 0});

@@ -1,4 +1,4 @@
-// What the thread that draws does with orders, without the thread.
+// Effects of orders on the drawing code, without its thread.
 #include "benchmarks/viewer/studio.h"
 
 #include <chrono>
@@ -18,7 +18,7 @@ namespace {
 
 using testing::HasSubstr;
 
-// Hair that moves.
+// Settings with moving hair.
 hair::Settings movingSettings() {
     hair::Settings settings = hair::plainSettings();
     settings.simulation.solver = hair::Solver::shape;
@@ -67,7 +67,7 @@ TEST_F(StudioTest, DrawsFewerStrandsAndPixelsInAPreview) {
     EXPECT_EQ(coarse.width, std::lround(0.375 * settings.render.width));
     EXPECT_EQ(coarse.height, std::lround(0.375 * settings.render.height));
     EXPECT_EQ(coarse.picture.size(), std::size_t{4} * coarse.width * coarse.height);
-    // 16 strands of a root triangle at level 0, and 2^-3 of them at level 3: thesis 2.3.8.1.
+    // 16 strands per root triangle at level 0, and 2^-3 of them at level 3: thesis 2.3.8.1.
     EXPECT_DOUBLE_EQ(coarse.strand_share, 2.0 / 16.0);
     EXPECT_EQ(coarse.guides, whole.guides);
 }
@@ -83,15 +83,15 @@ TEST_F(StudioTest, OpensASceneAtTheLevelThatIsAskedFor) {
     EXPECT_EQ(perform(order).sides.front().shown->pictureHash(), hashOf(settings, 0));
 }
 
-// Previews change what is drawn and nothing else: frames that were played in previews are refined
-// to the runner's.
+// Previews only change the drawing: frames that were played in previews are refined to the runner's
+// picture.
 TEST_F(StudioTest, RefinesPreviewsToTheRunnersPicture) {
     const hair::Settings settings = movingSettings();
     Order order{.sides = {side(1, settings)}, .frames = 1, .level = 4};
     perform(order);
     for (int i = 0; i < 2; ++i) {
         const Reply reply = perform(order);
-        EXPECT_FALSE(reply.sides.front().timed.has_value());  // figures are of whole pictures
+        EXPECT_FALSE(reply.sides.front().timed.has_value());  // only whole pictures are timed
     }
     order.frames = 0;
     order.level = 0;
@@ -99,7 +99,7 @@ TEST_F(StudioTest, RefinesPreviewsToTheRunnersPicture) {
     ASSERT_TRUE(refined.sides.front().shown.has_value());
     EXPECT_EQ(refined.sides.front().shown->frame, 3u);
     EXPECT_EQ(refined.sides.front().shown->pictureHash(), hashOf(settings, 3));
-    // And there is nothing more to draw.
+    // Nothing more is left to draw.
     const Reply again = perform(order);
     EXPECT_FALSE(again.sides.front().shown.has_value());
     EXPECT_EQ(again.milliseconds, 0.0);
@@ -127,7 +127,7 @@ TEST_F(StudioTest, KeepsWhatItPlaysWhereSettingsAreRefused) {
     EXPECT_THAT(refused.problem, HasSubstr("there is no such file.hair"));
     EXPECT_EQ(refused.revision, order.sides.front().revision);
     EXPECT_FALSE(refused.failure);
-    // It is said again as long as it holds, and frames are played on.
+    // The problem is repeated while it persists, and frames continue.
     order.frames = 1;
     const SideReply played = std::move(perform(order).sides.front());
     EXPECT_NE(played.problem, "");
@@ -173,7 +173,7 @@ TEST_F(StudioTest, BeginsASecondSideAtTheFrameOfTheFirst) {
     EXPECT_EQ(reply.sides.back().shown->pictureHash(), hashOf(movingSettings(), 2));
 }
 
-// A seek that nobody waits for any more ends at the next frame, and what was reached is replied.
+// A seek that is stopped ends at the next frame, and the reply has the frame that was reached.
 TEST_F(StudioTest, StopsBetweenFrames) {
     Order order{.sides = {side(1, movingSettings())}};
     perform(order);
@@ -194,7 +194,7 @@ TEST_F(StudioTest, CountsTheSideThatWasAskedFor) {
     EXPECT_EQ(reply.counted->statistics.size(), engine::statisticNames(device()).size());
 }
 
-// A file of GLSL beside the scene: docs/extending_scenes.md.
+// A GLSL file beside the scene: docs/extending_scenes.md.
 TEST_F(StudioTest, DrawsByAFileOnceItIsSaved) {
     const TemporaryFolder folder;
     const auto write = [&](const std::string& body) {
@@ -217,8 +217,8 @@ TEST_F(StudioTest, DrawsByAFileOnceItIsSaved) {
                 return true;
         return false;
     };
-    // The next reply that has heard of a save; files are looked at twice, a quarter of a second
-    // apart.
+    // Returns the next reply after a save was noticed. Files are checked twice, a quarter of a
+    // second apart.
     const auto afterSave = [&] {
         for (int i = 0; i < 100; ++i) {
             std::this_thread::sleep_for(std::chrono::milliseconds(100));
@@ -232,7 +232,7 @@ TEST_F(StudioTest, DrawsByAFileOnceItIsSaved) {
     write("return colour;");
     const SideReply wrong = afterSave();
     EXPECT_THAT(wrong.problem, HasSubstr("mine.glsl:2: 'colour' : undeclared identifier"));
-    EXPECT_FALSE(wrong.shown.has_value());  // the last good one stays
+    EXPECT_FALSE(wrong.shown.has_value());  // the last valid one stays
 
     write("return vec3(0.0, 1.0, 0.0);");
     const SideReply right = afterSave();

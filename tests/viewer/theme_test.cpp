@@ -27,7 +27,7 @@ constexpr ImGuiCol kGrounds[] = {
     ImGuiCol_ButtonActive,   ImGuiCol_Header,        ImGuiCol_HeaderHovered, ImGuiCol_HeaderActive,
     ImGuiCol_TabActive,      ImGuiCol_TitleBgActive, ImGuiCol_ScrollbarBg};
 
-// 4.5 is level AA for text of any size, 7 is level AAA; 3 is for signs that are no text (1.4.11).
+// 4.5 is level AA for text of any size, 7 is level AAA; 3 is for signs other than text (1.4.11).
 TEST(Theme, HasReadableText) {
     for (const Theme theme : {Theme::dark, Theme::light}) {
         SCOPED_TRACE(themeName(theme));

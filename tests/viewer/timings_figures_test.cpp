@@ -1,4 +1,4 @@
-// What the panel shows of made-up frames whose medians are known.
+// The panel's figures for made-up frames with known medians.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -21,7 +21,8 @@ std::vector<std::string> names(const report::CaseResult& result) {
     return all;
 }
 
-// The viewer draws one frame at a time: what the runner says of two in flight is not known.
+// The viewer draws one frame at a time, so the runner's metrics of two frames in flight are
+// unknown.
 TEST(TimingsFigures, AreTheRunnersThatHoldForOneFrameAtATime) {
     const report::CaseResult result = frameMetrics(madeUpHistory(), "discrete");
     EXPECT_THAT(
@@ -61,7 +62,7 @@ TEST(TimingsFigures, TellHowFastFramesAre) {
     EXPECT_FALSE(rate->low);
 }
 
-// 98 frames of 10 ms and two of 40 ms: the two are the slowest 1 % by every definition.
+// 98 frames of 10 ms and two of 40 ms: these two are the slowest 1 % by every definition.
 TEST(TimingsFigures, HaveLowsOfEnoughFrames) {
     TimingHistory history;
     for (std::uint32_t i = 0; i < 99; ++i)
@@ -74,7 +75,7 @@ TEST(TimingsFigures, HaveLowsOfEnoughFrames) {
     EXPECT_EQ(rate->low->percentile, 25.0);
     EXPECT_EQ(rate->low->mean, 25.0);
     EXPECT_EQ(rate->low->integral, 25.0);
-    // At position 98.01 of 0 ... 99, within the two longest.
+    // Position 98.01 of 0 ... 99 lies between the two longest.
     EXPECT_THAT(passRows(history.isolated())->passes[1].high, Optional(39.0));
 }
 
@@ -124,7 +125,7 @@ TEST(TimingsFigures, SplitAFrame) {
     EXPECT_THAT(shown.range, Optional(Pair(4u, 9u)));
 }
 
-// 11/12, 23/25 and 62/63: the median is 23/25.
+// 11/12, 23/25 and 62/63 have the median 23/25.
 TEST(TimingsFigures, SayHowFarPassesAreTheFrame) {
     const report::CaseResult good = frameMetrics(madeUpHistory(), "discrete");
     EXPECT_THAT(good.trust.pass_sum_over_wall, Optional(0.92));

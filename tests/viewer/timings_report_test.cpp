@@ -1,4 +1,4 @@
-// What is frozen is exported as a report that everything which reads reports can read.
+// Frozen values are exported as a report that every reader of reports accepts.
 #include <filesystem>
 
 #include <gmock/gmock.h>

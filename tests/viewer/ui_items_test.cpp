@@ -13,7 +13,7 @@
 namespace benchmarks::viewer {
 namespace {
 
-// Where Dear ImGui says that its last widget is.
+// Returns the rectangle of Dear ImGui's last widget.
 engine::UiRect lastRect() {
     const ImVec2 first = ImGui::GetItemRectMin(), last = ImGui::GetItemRectMax();
     return {first.x, first.y, last.x, last.y};
@@ -114,7 +114,7 @@ TEST(UiItems, CostNothingOnceNobodyAsks) {
         EXPECT_TRUE(findItem(items, {"Save", ""}));
     }
     EXPECT_FALSE(ImGui::GetCurrentContext()->TestEngineHookItems);
-    ui.show(widgets);  // and tells nobody who is gone
+    ui.show(widgets);  // does not call the destroyed object
 }
 
 TEST(UserInput, PressesWhatIsUnderTheMouseAndLeavesOtherEventsOut) {
@@ -123,7 +123,7 @@ TEST(UserInput, PressesWhatIsUnderTheMouseAndLeavesOtherEventsOut) {
     UserInput input;
     int pressed = 0;
     const auto widgets = [&] {
-        // What GLFW would tell of the user's own mouse.
+        // Stands for GLFW's events from the user's own mouse.
         ImGui::GetIO().AddMousePosEvent(639.0f, 359.0f);
         ImGui::GetIO().AddMouseButtonEvent(0, true);
         ImGui::Begin("Panel");

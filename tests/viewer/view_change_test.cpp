@@ -23,7 +23,7 @@ constexpr Change kChanges[] = {
      R"({"/strands/backend": "tessellation", "/strands/density": 4})"},
 };
 
-// Every picture of the window with its hash, for all of kChanges: before, with the change, after.
+// Steps that record every picture of the window and its hash: before, with and after the change.
 std::string stepsOf(const Change& change) {
     const std::string name = change.name;
     return R"({"set": )" + std::string(change.set) + R"(}, {"picture": ")" + name +
@@ -53,7 +53,8 @@ TEST_F(ViewChange, IsSeenAtOnceAndLeavesNothingBehind) {
     }
 }
 
-// Two figures of a PNG's header (Portable Network Graphics 3, 11.2.1), most significant byte first.
+// Reads a number in a PNG's header (Portable Network Graphics 3, 11.2.1), most significant byte
+// first.
 unsigned bigEndian(const std::string& bytes, std::size_t at) {
     unsigned number = 0;
     for (std::size_t i = at; i < at + 4; ++i)

@@ -35,7 +35,7 @@ TEST_F(ViewFailure, IsAWindowThatClosesBeforeTheScriptEnds) {
         "script.json: /steps/1: the window was closed before");
 }
 
-// Needs no display: it is about having none.
+// Needs no display, because it tests the error without one.
 TEST(ViewWithoutDisplay, SaysSoInOneLineAndWhatDrawsWithoutOne) {
     const Outcome outcome = hairbench(
         "view '" HAIRBENCH_SCENES_DIR "/smoke.json'",

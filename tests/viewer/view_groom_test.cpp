@@ -10,8 +10,8 @@ namespace {
 
 using ViewGroom = ViewTest;
 
-// Each brush is dragged over the hair: a stroke is an entry of /groom/edits and one step of undo.
-// What is saved plays to the picture that was shown.
+// Drags each brush over the hair. A stroke is an entry of /groom/edits and one undo step. The saved
+// scene plays to the same picture.
 TEST_F(ViewGroom, StrokesAreKeptInTheScene) {
     expectGood(
         R"({"steps": [{"frames": 1}, {"key": "b"},
@@ -39,7 +39,7 @@ TEST_F(ViewGroom, StrokesAreKeptInTheScene) {
         "--width 1200 --height 700 -a /camera/field_of_view=45");
     const nlohmann::json settings = state("shown.json")["sides"][0]["settings"];
     ASSERT_EQ(settings["groom"]["edits"].size(), 5u);
-    // Two keys widen the brush.
+    // Two key presses widen the brush.
     EXPECT_GT(settings["groom"]["edits"][1]["radius"], settings["groom"]["edits"][0]["radius"]);
     EXPECT_GE(settings["groom"]["edits"][0]["path"].size(), 2u);
 
@@ -49,7 +49,7 @@ TEST_F(ViewGroom, StrokesAreKeptInTheScene) {
     EXPECT_THAT(rendered.output, testing::HasSubstr("image " + shown));
 }
 
-// Beside the hair the mouse orbits, as with the other tools, and all strokes can be taken back.
+// Beside the hair, the mouse orbits as with other tools. All strokes can be removed.
 TEST_F(ViewGroom, LeaveTheCameraBesideTheHair) {
     expectGood(
         R"({"steps": [{"state": "0.json"}, {"key": "b"},
@@ -75,7 +75,7 @@ TEST_F(ViewGroom, LightsAreDragged) {
             {"expect": {"other_hash_than": "weak.json"}}, {"state": "left.json"},
             {"key": "ctrl+z"}, {"expect": {"same_hash_as": "weak.json"}}]})",
         "--width 1200 --height 700 -a /camera/field_of_view=45");
-    // It shines from the other side now, from as far away.
+    // It now shines from the other side, at the same distance.
     const auto lightIn = [&](const char* file) {
         return state(file)["sides"][0]["settings"]["shading"]["lights"][0]["position"]
             .get<std::vector<double>>();
@@ -83,12 +83,12 @@ TEST_F(ViewGroom, LightsAreDragged) {
     const std::vector<double> right = lightIn("weak.json"), left = lightIn("left.json");
     EXPECT_GT(right[0], 1.0);
     EXPECT_LT(left[0], -1.0);
-    // Distances are from the groom's middle, which is within 0.2 m of the origin.
+    // Distances are from the groom's middle, within 0.2 m of the origin.
     EXPECT_NEAR(
         std::hypot(left[0], left[1], left[2]), std::hypot(right[0], right[1], right[2]), 0.4);
 }
 
-// The scrubber plays in parts, forward and from the start: to what is played at once.
+// The scrubber plays in parts, forward and from the start, to the same picture as a direct seek.
 TEST_F(ViewGroom, TheTimelinePlaysToAFrame) {
     expectGood(
         R"({"steps": [{"seek": 60}, {"state": "60.json"}, {"seek": 0},
@@ -100,14 +100,14 @@ TEST_F(ViewGroom, TheTimelinePlaysToAFrame) {
     const auto frameOf = [&](const char* file) {
         return state(file)["sides"][0].value("frame", 0);
     };
-    // The bar has frames 0 to 119, and its ends are half a letter inside the item.
+    // The bar has frames 0 to 119. Its ends lie half a letter inside the item.
     EXPECT_EQ(frameOf("there.json"), 60);
     EXPECT_EQ(
         state("there.json")["sides"][0]["image_hash"], state("60.json")["sides"][0]["image_hash"]);
     EXPECT_NEAR(frameOf("back.json"), 12, 3);
 }
 
-// What the menu View has strands show.
+// Views of strands in the menu View.
 TEST_F(ViewGroom, ViewsAreInTheMenu) {
     for (const std::string view : {"tangents", "shadow", "overdraw", "density"}) {
         expectGood(

@@ -10,7 +10,7 @@ using ViewLayout = ViewTest;
 
 const std::string kGood = R"({"expect": {"nothing_clipped": true, "nothing_outside": true}})";
 
-// Every panel that a column can show, in both themes, and two sides.
+// Every panel of a column, in both themes, and two sides.
 std::string panels() {
     std::string steps = R"({"frames": 1}, )" + kGood;
     for (const char* theme : {"Light", "Dark"}) {
@@ -21,7 +21,7 @@ std::string panels() {
     return steps + R"(, {"perform": "Compare two settings"}, {"perform": "Timings"}, )" + kGood;
 }
 
-// What opens over the panels, and every setting: those with an "e" in them are all but a few.
+// Menus and boxes above the panels, and every setting; almost all contain an "e".
 std::string popupsAndSettings() {
     std::string steps;
     for (const char* menu : {"File", "Camera", "Tools", "View", "Window"})
@@ -31,7 +31,7 @@ std::string popupsAndSettings() {
              R"({"click": "##search"}, {"type": "e"})";
     for (int i = 0; i < 8; ++i)
         steps += R"(, {"scroll": {"window": "Left/Scene/fields", "by": [0, -12]}}, )" + kGood;
-    // It floats: it lies on the others.
+    // It floats above the others.
     steps += R"(, {"perform": "Keys and mouse"}, {"expect": {"nothing_clipped": true}})";
     return steps;
 }

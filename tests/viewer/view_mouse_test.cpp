@@ -6,7 +6,7 @@ namespace {
 
 using ViewMouse = ViewTest;
 
-// Menus, buttons, fields and keys as users have them.
+// Menus, buttons, fields and keys as a user sees them.
 TEST_F(ViewMouse, AndKeysReachWhatIsInTheWindow) {
     expectGood(
         R"({"steps": [

@@ -7,7 +7,7 @@ namespace {
 
 using ViewPin = ViewTest;
 
-// The settings change on the way, some of them back again; what is saved is played from the start.
+// Settings change during play, some of them back again. The saved scene plays from the start.
 TEST_F(ViewPin, PlaysToThePictureThatTheWindowShowed) {
     expectGood(
         R"({"steps": [{"frames": 1},
@@ -27,8 +27,8 @@ TEST_F(ViewPin, PlaysToThePictureThatTheWindowShowed) {
     EXPECT_EQ(rendered.status, 0);
     EXPECT_THAT(rendered.output, testing::HasSubstr("image " + shown));
 
-    // A round of the runner is two frames to warm up, the one of /run/frames and the one that ends
-    // its interval: the hash is that of the last one, number 3.
+    // A round of the runner has two warm-up frames, the one of /run/frames and one that ends its
+    // interval. The hash is that of the last one, number 3.
     const Outcome measured = run("run saved/pinned.json --out measured.json");
     EXPECT_EQ(measured.status, 0) << measured.output;
     const nlohmann::json result = state("measured.json")["cases"][0];

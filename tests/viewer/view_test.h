@@ -12,13 +12,13 @@
 #include "tests/temporary_folder.h"
 #include "tests/viewer/virtual_display.h"
 
-// The viewer as a user starts it, in a folder of the test's own and driven by a script.
+// The viewer as a user starts it, in the test's own folder and driven by a script.
 class ViewTest : public testing::Test {
 protected:
     void SetUp() override {
         if (!display_.variables())
             return skipWithout(Need::display, "there is neither Xvfb nor a display");
-        // A few strands and few pixels: lavapipe draws all of it on the processor.
+        // Few strands and pixels, because lavapipe draws them on the processor.
         folder_.write("small.json", R"({
             "base": ")" HAIRBENCH_SCENES_DIR R"(/thesis.json",
             "simulation": {"settle_steps": 30},
@@ -29,7 +29,7 @@ protected:
                       "/strands/tessellation": null, "/render/msaa": null, "/lod/level": null}})");
     }
 
-    // What `hairbench view small.json` says on stderr, and how it ends.
+    // Returns the stderr and exit status of `hairbench view small.json`.
     Outcome view(const std::string& script, const std::string& arguments = "") {
         const std::filesystem::path file = folder_.write("script.json", script);
         Outcome outcome = hairbenchErrors(
@@ -45,12 +45,12 @@ protected:
         EXPECT_EQ(outcome.output, "") << arguments;
     }
 
-    // The program's other commands in the same folder.
+    // Runs another command of the program in the same folder.
     Outcome run(const std::string& arguments) const {
         return hairbench(arguments, "cd '" + folder_.path().string() + "' && ");
     }
 
-    // What the step "state" wrote.
+    // Reads a file from the step "state".
     nlohmann::json state(const std::string& name) const {
         return nlohmann::json::parse(textOf(folder_.file(name)));
     }

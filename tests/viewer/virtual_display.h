@@ -10,8 +10,8 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-// An X server of a test's own, without a screen: windows are as large there as they ask to be.
-// Where Xvfb is not installed, the desktop that the test was started on, if there is one.
+// A test's own X server without a screen, so that windows can be as large as they ask. Without
+// Xvfb, the desktop that started the test, if any.
 class VirtualDisplay {
 public:
     VirtualDisplay() {
@@ -20,7 +20,7 @@ public:
         server_ = fork();
         if (server_ == 0) runServer(ends);
         close(ends[1]);
-        // It writes its number once windows can be opened, and ends without where it can't be.
+        // It writes its number when windows can be opened, or ends without one if that fails.
         std::string number;
         char letter = 0;
         while (read(ends[0], &letter, 1) == 1 && letter != '\n') number += letter;
@@ -41,11 +41,10 @@ public:
     VirtualDisplay(const VirtualDisplay&) = delete;
     VirtualDisplay& operator=(const VirtualDisplay&) = delete;
 
-    // What goes before a command that is to open windows there; none where there is nothing to open
-    // them on.
+    // Returns the prefix for a command that opens windows there; nothing without a display.
     const std::optional<std::string>& variables() const { return variables_; }
 
-    // ":1", for DISPLAY; empty where there is no Xvfb.
+    // ":1", for DISPLAY; empty without Xvfb.
     const std::string& name() const { return name_; }
 
 private:

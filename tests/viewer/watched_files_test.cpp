@@ -11,7 +11,7 @@ namespace {
 
 class WatchedFilesTest : public testing::Test {
 protected:
-    // As if a file had been saved later than the last time.
+    // Saves a file with a later time than the last save.
     void write(const std::string& name, const std::string& text) {
         folder.write(name, text);
         time_ += std::chrono::seconds(1);

@@ -43,7 +43,7 @@ TEST(WindArrow, TipSetsTheWindThatHasIt) {
             hair::WindSettings set = wind(mode, 1.0f, {1, 0, 0});
             setWindTip(set, kGroom, windTip(wanted, kGroom));
             EXPECT_EQ(set.mode, mode);
-            // Of an exponential of floats.
+            // Float rounding of an exponential.
             EXPECT_NEAR(windOf(set), value, 1e-4f * value + 1e-5f);
             EXPECT_LT(glm::length(set.direction - wanted.direction), 1e-5f);
         }
@@ -57,7 +57,7 @@ TEST(WindArrow, KeepsADirectionInStillAir) {
     EXPECT_EQ(set.direction, glm::vec3(0, 0, 1));
 }
 
-// What the settings allow: /simulation/wind in the scene's schema.
+// Limits of the settings: /simulation/wind in the scene's schema.
 TEST(WindArrow, StaysWithinTheLimits) {
     hair::WindSettings set = wind(hair::WindMode::thesis, 1.0f, {1, 0, 0});
     setWindTip(set, kGroom, {1000.0f, 0, 0});
@@ -65,7 +65,7 @@ TEST(WindArrow, StaysWithinTheLimits) {
     set.mode = hair::WindMode::drag;
     setWindTip(set, kGroom, {1000.0f, 0, 0});
     EXPECT_EQ(set.speed, 100.0f);
-    EXPECT_EQ(set.strength, 1500.0f);  // which is the other mode's
+    EXPECT_EQ(set.strength, 1500.0f);  // unchanged, because it belongs to the other mode
 }
 
 TEST(WindArrow, GivesAWindWithoutADirectionOne) {
