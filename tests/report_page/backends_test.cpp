@@ -1,4 +1,4 @@
-// Back ends of a report against each other: what C++ works out, and what a reader sees of it.
+// Comparison of a report's back ends: the computed figures, and what a reader sees of them.
 #include "benchmarks/report/backends.h"
 
 #include <algorithm>
@@ -27,7 +27,8 @@ const Json& caseNamed(const Json& report, const std::string& name) {
 TEST(BackendFigures, HaveTheExponentsOfTheReport) {
     const auto figures = compareBackends(reportJson(backendReport()));
     ASSERT_TRUE(figures);
-    ASSERT_EQ(figures->lines.size(), 4u);  // two back ends, 1 and 4 samples; 8 were skipped
+    ASSERT_EQ(figures->lines.size(), 4u);  // two back ends with 1 and 4 samples; 8 samples were
+                                           // skipped
     for (const BackendLine& line : figures->lines) {
         const KnownLaw& known = line.backend == "software" ? kSoftwareLaw : kTessellationLaw;
         ASSERT_EQ(line.held.size(), 1u);
@@ -40,7 +41,7 @@ TEST(BackendFigures, HaveTheExponentsOfTheReport) {
         EXPECT_NEAR(line.law->exponent, known.exponent, 1e-9);
         EXPECT_NEAR(line.law->lower, known.exponent, 1e-6);
         EXPECT_NEAR(line.law->upper, known.exponent, 1e-6);
-        // Medians are within 0.1 % of what samples are spread around.
+        // Medians differ by at most 0.1 % from the centre of their samples.
         EXPECT_NEAR(line.law->factor, slower * known.factor, 2e-3 * slower * known.factor);
     }
 }
@@ -78,7 +79,7 @@ TEST(BackendFigures, HaveRatiosToTessellationWithIntervals) {
     EXPECT_EQ(itself->ratio, 1.0);
 }
 
-// Where /run/compare_backends was not asked for, the two passes' medians are added.
+// Without /run/compare_backends, the two passes' medians are added.
 TEST(BackendFigures, AddThePassesWhereTheirSumIsNotThere) {
     Report report = oneCaseReport("a", {{kBackendAxis, scene::Document("software")}});
     report.cases[0].metrics.push_back({ofPass("points", Measured::time), {0.25}, Mode::isolated});
@@ -92,7 +93,7 @@ TEST(BackendFigures, AddThePassesWhereTheirSumIsNotThere) {
     EXPECT_NEAR(figures->ratios[0].ratio, (0.5 + 0.25) / 0.5, 1e-3);
     EXPECT_FALSE(figures->ratios[0].lower);
     ASSERT_EQ(figures->lines.size(), 2u);
-    EXPECT_FALSE(figures->lines[0].law);  // of one number of strands
+    EXPECT_FALSE(figures->lines[0].law);  // only one strand count
 }
 
 TEST(BackendFigures, AreAbsentOfOneBackend) {
@@ -124,7 +125,7 @@ TEST_F(PageInBrowser, ComparesBackends) {
         say("odd", document.getElementById("backends").textContent.match(/\[object|undefined|NaN/));
     )",
         1280);
-    // Points, the law and its place in the legend of each line.
+    // Each line has points, the law and a legend entry.
     constexpr std::array kCounts{3, 2, 1};
     ASSERT_EQ(said.at("plot").size(), 12u);
     for (std::size_t i = 0; i < 12; ++i)
@@ -135,7 +136,7 @@ TEST_F(PageInBrowser, ComparesBackends) {
                                {"1.100 (1.100 to 1.100)", "0.800 (0.800 to 0.800)",
                                 "1.100 (1.100 to 1.100)", "0.800 (0.800 to 0.800)"}));
     ASSERT_EQ(said.at("ratios").size(), 18u);
-    // Of 640 strands: 5 x 640^-0.3.
+    // 5 x 640^-0.3 for 640 strands.
     EXPECT_THAT(said.at("ratios").at(1).get<std::string>(), testing::StartsWith("0.7196 ("));
     EXPECT_EQ(said.at("ratios").at(4), "");
     EXPECT_EQ(said.at("flips").at(0), "0");

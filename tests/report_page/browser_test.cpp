@@ -1,4 +1,4 @@
-// What a reader sees and does in a page, in headless Chromium.
+// A reader's views and actions on a page, in headless Chromium.
 #include <cmath>
 #include <set>
 #include <string>
@@ -28,7 +28,8 @@ TEST_F(PageInBrowser, PlotsTheReportsFigures) {
         say("samples", figure("samples-plot").map((each) => [each.type, each.y.length]));
         say("quality", figure("quality-plot").map((each) => [each.mode, each.x.length]));
     )");
-    // Each median is that of evenly spread samples, 0.01 % off at most by their finite number.
+    // Each median comes from evenly spread samples, and is off by at most 0.01 % because they are
+    // few.
     ASSERT_EQ(said.at("lines").size(), 2u);
     EXPECT_EQ(said.at("lines")[0][0], "1");
     EXPECT_EQ(said.at("lines")[0][1], Json({8, 16, 32}));
@@ -41,7 +42,7 @@ TEST_F(PageInBrowser, PlotsTheReportsFigures) {
     EXPECT_EQ(said.at("passes"), Json::parse(R"([["simulate",5],["strands",5],["resolve",5]])"));
     EXPECT_NEAR(said.at("strands").get<double>(), 0.7 * 47.0, 1e-3 * 47.0);
     EXPECT_EQ(said.at("samples"), Json::parse(R"([["scatter",60],["bar",30]])"));
-    // Coloured by density. In time and error (3.25, 1/16) beats all but (47, 1/32).
+    // Coloured by density. In time and error, (3.25, 1/16) beats all except (47, 1/32).
     EXPECT_EQ(
         said.at("quality"),
         Json::parse(R"([["markers",2],["markers",2],["markers",1],["lines",2]])"));
@@ -68,7 +69,7 @@ TEST_F(PageInBrowser, SortsByNumberAndByText) {
             values.push_back(each == "" ? -1.0 : std::stod(each.get<std::string>()));
         return values;
     };
-    // Four digits, of medians within 0.1 %; the skipped case has none and comes last.
+    // Four digits of medians within 0.1 %. The skipped case has none and comes last.
     const auto about = [](double value) {
         return testing::DoubleNear(value, 2e-3 * std::abs(value));
     };
@@ -110,15 +111,16 @@ TEST_F(PageInBrowser, FiltersTablesAndPlots) {
         say("reset", look());
     )");
     EXPECT_EQ(said.at("all"), Json({6, 5, 5, 5}));
-    EXPECT_EQ(said.at("regex"), Json({4, 3, 3, 3}));  // 8, 1; 8, 4; 32, 1; and 32, 4 was skipped
+    EXPECT_EQ(said.at("regex"), Json({4, 3, 3, 3}));  // 8, 1; 8, 4; 32, 1; and 32, 4, which was
+                                                      // skipped
     EXPECT_EQ(said.at("reason"), Json({1, 0, 0, 0}));
-    EXPECT_EQ(said.at("malformed"), Json({0, 0, 0, 0}));  // a text that no case has
+    EXPECT_EQ(said.at("malformed"), Json({0, 0, 0, 0}));  // a text that no case contains
     EXPECT_EQ(said.at("axis"), Json({3, 3, 3, 3}));
     EXPECT_EQ(said.at("count"), "3 of 6 cases");
     EXPECT_EQ(said.at("reset"), Json({6, 5, 5, 5}));
 }
 
-// Axes that are tied move together: one of them on x is one line, not one a point.
+// Tied axes change together, so one of them on x gives one line, not one per point.
 TEST_F(PageInBrowser, DrawsOneLineOverTiedAxes) {
     Report report = oneCaseReport("0", {});
     report.cases.clear();
@@ -138,7 +140,7 @@ TEST_F(PageInBrowser, DrawsOneLineOverTiedAxes) {
     )");
     EXPECT_EQ(said.at("x"), Json::parse("[[100,200,400],[100,200,400]]"));
     EXPECT_EQ(said.at("colour"), Json({"none", "msaa"}));
-    EXPECT_EQ(said.at("passes"), Json({"strands"}));  // its CPU time is no pass
+    EXPECT_EQ(said.at("passes"), Json({"strands"}));  // its CPU time is not a pass
 }
 
 TEST_F(PageInBrowser, ChangesTheThemeOfPageAndPlots) {
@@ -176,7 +178,7 @@ TEST_F(PageInBrowser, HoldsTwoPicturesAgainstEachOther) {
     )");
     EXPECT_EQ(said.at("size"), Json({4, 2}));
     EXPECT_EQ(said.at("differ"), true);
-    EXPECT_THAT(said.at("clip").get<std::string>(), HasSubstr("75%"));  // a quarter is left
+    EXPECT_THAT(said.at("clip").get<std::string>(), HasSubstr("75%"));  // a quarter is visible
     EXPECT_EQ(said.at("pair"), 2);
     EXPECT_EQ(said.at("difference"), 2);
     EXPECT_EQ(said.at("thumbnails"), 10);  // five cases of two reports
@@ -196,7 +198,7 @@ TEST_F(PageInBrowser, ShowsTheVerdictsOfCompare) {
         say("odd", document.querySelector("main").textContent.match(/\[object|undefined|NaN/));
     )");
     EXPECT_EQ(said.at("odd"), nullptr);
-    // frame.time and three passes of five cases, each half as slow again.
+    // frame.time and three passes of five cases, each 1.5 times as slow.
     EXPECT_EQ(said.at("verdicts"), Json(std::vector<std::string>(20, "\u25b2 regressed")));
     EXPECT_EQ(said.at("changes"), Json(std::vector<std::string>(20, "+50.0 %")));
     EXPECT_EQ(said.at("plot"), Json::parse("[[\"\u25b2 regressed\",20]]"));
@@ -222,9 +224,9 @@ TEST_F(PageInBrowser, ShowsTheSamplesOfTheCaseThatIsAskedFor) {
     )");
     EXPECT_EQ(said.at("name"), "known/density:16/msaa:4");
     EXPECT_NEAR(said.at("least").get<double>(), 0.99 * 3.25, 1e-3 * 3.25);
-    // 60 multiples of the golden ratio, from 1 % below 3.25 ms to 1 % above: by the theorem of
-    // three gaps 0.0213 of the width apart at most, 0.0131 but for five places, so that each of 30
-    // bins has one to three.
+    // 60 multiples of the golden ratio, from 1 % below to 1 % above 3.25 ms. By the three-gap
+    // theorem, gaps are at most 0.0213 of the width, and 0.0131 except in five places, so each of
+    // 30 bins has one to three samples.
     int count = 0;
     for (const Json& each : said.at("counts")) {
         EXPECT_NEAR(each.get<int>(), 2, 1);
@@ -236,12 +238,12 @@ TEST_F(PageInBrowser, ShowsTheSamplesOfTheCaseThatIsAskedFor) {
     EXPECT_NEAR(said.at("cumulative")[2].get<double>(), 0.99 * 3.25, 1e-3 * 3.25);
     EXPECT_EQ(said.at("cumulative")[3], 100.0);
     EXPECT_NEAR(said.at("cumulative")[4].get<double>(), 1.01 * 3.25, 1e-3 * 3.25);
-    // From the 5th to the 95th percentile: 90 % of the whole width, a gap off at most.
+    // From the 5th to the 95th percentile: 90 % of the width, off by at most one gap.
     EXPECT_NEAR(said.at("box")[0].get<double>(), 0.991 * 3.25, 0.0213 * 0.02 * 3.25);
     EXPECT_NEAR(said.at("box")[1].get<double>(), 1.009 * 3.25, 0.0213 * 0.02 * 3.25);
 }
 
-// Names, values, reasons and descriptions are texts, whatever is in them.
+// Names, values, reasons and descriptions are plain text, whatever they contain.
 TEST_F(PageInBrowser, RunsNothingThatIsInAReport) {
     const std::string evil = "</script><img src=x onerror=window.pwned=1><b>\"\u6f22\u00fc\"</b>";
     Report report = oneCaseReport(evil, {{"/a<i>/" + evil, scene::Document(evil)}});
@@ -274,7 +276,7 @@ TEST_F(PageInBrowser, FitsANarrowWindow) {
         say("width", innerWidth);
         say("plot", document.getElementById("scaling-plot")._fullLayout.width <= innerWidth);
     )",
-            500);  // headless Chromium's narrowest
+            500);  // minimum width of headless Chromium
     EXPECT_LE(said.at("width"), 500);
     EXPECT_LE(said.at("wider"), 0);
     EXPECT_EQ(said.at("plot"), true);
@@ -286,7 +288,7 @@ TEST_F(PageInBrowser, OffersToSendNothingAway) {
         say("buttons", [...document.querySelectorAll(".modebar-btn")].map(
             (each) => each.dataset.title ?? each.getAttribute("aria-label") ?? ""));
     )");
-    // Plotly's own list has "Share chart..." too.
+    // Plotly's default list also has "Share chart...".
     const std::set<std::string> local{"Download plot", "Zoom",     "Pan",
                                       "Zoom in",       "Zoom out", "Reset axes"};
     ASSERT_FALSE(said.at("buttons").empty());
@@ -294,7 +296,7 @@ TEST_F(PageInBrowser, OffersToSendNothingAway) {
         EXPECT_TRUE(local.contains(each.get<std::string>())) << each;
 }
 
-// With five axes and 108 cases.
+// Has five axes and 108 cases.
 TEST_F(PageInBrowser, ShowsTheThesisReport) {
     const Json said = open(
         {HAIRBENCH_SOURCE_DIR "/results/thesis-llvmpipe-0cec23f6b53c.json"}, R"(
@@ -309,8 +311,8 @@ TEST_F(PageInBrowser, ShowsTheThesisReport) {
         1280);
     EXPECT_EQ(said.at("rows"), 108);
     EXPECT_EQ(said.at("lines"), 3);
-    // Densities, of which there are as many as of anything, are along x.
-    EXPECT_EQ(said.at("faceted"), 3 * 3 * 2);  // tessellations, levels, samples
+    // Density is on x: no axis has more values.
+    EXPECT_EQ(said.at("faceted"), 3 * 3 * 2);  // tessellation factors, levels, sample counts
     EXPECT_EQ(said.at("bars"), 108);
 }
 

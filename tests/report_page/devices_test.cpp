@@ -28,8 +28,8 @@ Report onCard(Report report, const std::string& name, const std::string& driver_
     return report;
 }
 
-// The known cases on three cards, of which the second takes 1.5 and the third half the time, and a
-// report of another scene.
+// The known cases on three cards, with the first one's time, 1.5 times and half of it, and a report
+// of another scene.
 std::vector<Json> threeCards() {
     return {
         reportJson(onCard(knownReport(), "Card 1", "1.0")),
@@ -58,7 +58,7 @@ TEST(Devices, AreComparedWithTheFirstOfTheirScene) {
     EXPECT_THAT(devices[2].differences, testing::Contains(HasSubstr("Card 1 and Card 2")));
 }
 
-// Of ratios 2 and 8 the geometric mean is 4.
+// The geometric mean of the ratios 2 and 8 is 4.
 TEST(Devices, HaveTheGeometricMeanOfTheirCasesInCommon) {
     const auto report = [](const std::vector<std::pair<std::string, double>>& cases) {
         Json json = {
@@ -84,7 +84,7 @@ TEST(Devices, HaveTheGeometricMeanOfTheirCasesInCommon) {
     EXPECT_FALSE(devices[2].ratio);
 }
 
-// A sweep over less is compared with one over more: what has no axis is the scene's.
+// Sweeps with different axes are comparable: the scene's value stands in for an absent axis.
 TEST(Devices, FillAxesFromTheirScenes) {
     const auto report = [](const Json& axes, double time) {
         return Json{
@@ -116,7 +116,7 @@ TEST(PageData, LeavesOutOtherKindsOfReportsAndSaysSo) {
                         {"file": "lod.schema.json", "reason": "a JSON Schema"}])"));
     EXPECT_THAT(
         errorText([&] { pageData({{physics, schema}}); }), HasSubstr("hairbench-physics/1.0.0"));
-    // What is damaged is not left out in silence.
+    // A damaged file is not left out silently.
     EXPECT_THAT(
         errorText([&] { pageData({{known, folder.write("bad.json", R"({"schema": 1})")}}); }),
         HasSubstr("bad.json"));
@@ -163,13 +163,13 @@ TEST_F(PageInBrowser, ComparesDevices) {
     EXPECT_EQ(said.at("ratios"), Json({"1, the first", "1.5 (1.5 to 1.5)", "0.5 (0.5 to 0.5)"}));
     ASSERT_EQ(said.at("plot").size(), 2u);
     EXPECT_NEAR(said.at("plot")[0].get<double>(), 1.5, 1e-9);
-    // Three reports of one and four samples.
+    // Three reports with one and four samples.
     EXPECT_EQ(said.at("lines").size(), 6u);
     EXPECT_EQ(said.at("without")[0], Json({"A: a.json", "D: d.json"}));
     EXPECT_EQ(said.at("without")[1].size(), 4u);
     EXPECT_EQ(said.at("all"), Json({"known", "backends", "known", "known"}));
     EXPECT_EQ(said.at("other"), Json::parse(R"([["tessellation, software"], true, true])"));
-    // Of 18 cases of the other scene half are by tessellation.
+    // Half of the other scene's 18 cases use tessellation.
     EXPECT_EQ(said.at("cases"), "9 of 36 cases");
     EXPECT_EQ(said.at("page"), nullptr);
     EXPECT_THAT(said.at("summary").get<std::string>(), HasSubstr("a film ran beside it"));

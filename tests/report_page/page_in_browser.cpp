@@ -35,7 +35,7 @@ std::optional<std::string> lookForBrowser() {
     return std::nullopt;
 }
 
-// Chromium's program; looked for once.
+// Returns Chromium's program, looked up only once.
 const std::optional<std::string>& findBrowser() {
     static const std::optional<std::string> found = lookForBrowser();
     return found;
@@ -45,11 +45,11 @@ std::string toolText(const std::string& file) {
     return engine::readFile(HAIRBENCH_SOURCE_DIR "/tests/report_page/" + file);
 }
 
-// The page, watched from its head on, with the steps behind it.
+// Returns the page, watched from its head on, with the steps at the end.
 std::string watched(std::string page, const std::string& steps) {
     const std::string head = "<head>\n";
     page.insert(page.find(head) + head.size(), "<script>" + toolText("watch.js") + "</script>\n");
-    // The result has no character that HTML writes in another way.
+    // The result contains no character that HTML escapes.
     return page + "<script>(async () => {\n" + toolText("steps.js") + "try {\n" + steps + R"(
 } catch (error) {
     complaints.push(`steps: ${error.stack}`);
@@ -64,12 +64,12 @@ document.body.append(result);
 })();</script>)";
 }
 
-// What the steps said, and `errors`: the complaints.
+// Returns the values from the steps, and the complaints as `errors`.
 Json inBrowser(const std::string& page, const std::string& steps, int width) {
     const TemporaryFolder folder;
     const std::filesystem::path file = folder.path() / "page.html";
     std::ofstream(file) << watched(page, steps);
-    // Virtual time passes as fast as the page's work allows, however busy the machine is.
+    // Virtual time passes as fast as the page works, however busy the machine is.
     const std::vector<std::byte> bytes = engine::runTool(
         {"timeout", "300", *findBrowser(), "--headless=new", "--no-sandbox", "--disable-gpu",
          "--disable-dev-shm-usage", "--host-resolver-rules=MAP * ~NOTFOUND",

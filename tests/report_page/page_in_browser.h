@@ -11,28 +11,28 @@
 
 namespace benchmarks::report {
 
-// Takes steps in a page in headless Chromium, without a network: what HAIRBENCH_BROWSER names, or
-// one of its usual names in PATH. Skips where there is no browser or no Plotly.
+// Runs steps in a page in headless Chromium without a network: the program in HAIRBENCH_BROWSER, or
+// one of its usual names in PATH. Skips without a browser or Plotly.
 //
-// Steps are the body of an async JavaScript function, which has
-//   say(name, value)      into the result
-//   settle()              waits until the page has answered to what was done
-//   choose(id, value)     from a list
-//   type(id, text)        into a box
-//   figure(id)            Plotly's traces in it
-//   column(table, index)  the texts of a column
-// What was said is returned. The test fails where the console, uncaught errors or the page's
-// security policy complain, where the page asks for something of the network, and where it never
-// comes to the end of the steps.
+// Steps are the body of an async JavaScript function, with
+//   say(name, value)      adds a value to the result
+//   settle()              waits until the page has reacted
+//   choose(id, value)     chooses from a list
+//   type(id, text)        types into a box
+//   figure(id)            returns Plotly's traces of a figure
+//   column(table, index)  returns the texts of a column
+// Returns the values from say(). The test fails for complaints of the console, uncaught errors or
+// the page's security policy, for network requests, and if the page does not reach the end of the
+// steps.
 class PageInBrowser : public testing::Test {
 protected:
     void SetUp() override;
 
-    // In the page of A, knownReport(); or of A and B, which is half as slow again.
+    // Opens the page of A, knownReport(), or of A and B, which takes 1.5 times as long.
     scene::Json one(const std::string& steps, int width = 1280);
     scene::Json two(const std::string& steps);
 
-    // In the page of these reports, as `hairbench report` makes it.
+    // Opens the page that `hairbench report` makes of these reports.
     scene::Json open(
         const std::vector<std::filesystem::path>& reports, const std::string& steps,
         int width = 1280);

@@ -1,4 +1,4 @@
-// What a page knows of its reports, and what holds of its text before any browser reads it.
+// The page's data about its reports, and properties of its text without a browser.
 #include "benchmarks/report/page.h"
 
 #include <array>
@@ -71,7 +71,7 @@ TEST(PageData, KeepsEqualPicturesOnce) {
     const scene::Json& of_b = data.at("reports")[1].at("cases");
     EXPECT_EQ(of_a[0].at("picture_id"), of_a[1].at("picture_id"));
     EXPECT_NE(of_a[0].at("picture_id"), of_b[0].at("picture_id"));
-    EXPECT_FALSE(of_a[5].contains("picture_id"));  // was skipped
+    EXPECT_FALSE(of_a[5].contains("picture_id"));  // skipped
 }
 
 TEST(PageData, SaysWhichPicturesAreMissing) {
@@ -92,7 +92,7 @@ TEST(PageData, ComparesTheFirstReportWithEachOther) {
         writeWithPictures(knownReport(), folder.path() / "c.json", 200)};
     const scene::Json data = pageData(files);
     ASSERT_EQ(data.at("comparisons").size(), 2u);
-    // Half as slow again, of samples within 1 %.
+    // 1.5 times as slow, with samples within 1 %.
     EXPECT_EQ(data.at("comparisons")[0].at("verdict"), "regressed");
     EXPECT_EQ(data.at("comparisons")[0].at("b"), "b.json");
     EXPECT_EQ(data.at("comparisons")[1].at("verdict"), "same");
@@ -166,7 +166,8 @@ TEST(AssemblePage, EscapesTheTitle) {
 
 TEST(ReportPage, RefersToNothingElsewhere) {
     const std::string page = pageWithoutPlotly(knownData());
-    // What a browser would fetch: src=, href= (but for places in the page), url(), @import, fetch.
+    // Constructs that make a browser fetch: src=, href= (except within the page), url(), @import,
+    // fetch.
     const std::regex fetched(
         R"re((src|srcset|poster|action|href)\s*=\s*["']?\s*(https?:|//)|@import|url\(\s*["']?(https?:|//)|fetch\(|XMLHttpRequest|WebSocket|import\()re");
     std::smatch match;
@@ -185,7 +186,7 @@ TEST(ReportPage, SaysWhatToRunWherePlotlyIsMissing) {
     } catch (const engine::Error& error) {
         said = error.what();
     }
-    setenv("HAIRBENCH_PLOTLY", before.c_str(), 1);  // empty: as if it were not set
+    setenv("HAIRBENCH_PLOTLY", before.c_str(), 1);  // an empty value counts as unset
     EXPECT_THAT(said, HasSubstr("scripts/setup fetches it"));
     EXPECT_THAT(said, Not(HasSubstr("\n")));
 }

@@ -13,7 +13,7 @@ namespace {
 
 constexpr int kSamples = 60;
 
-// Evenly spread over +-1 % in an order without trend: golden-section steps (Weyl 1916).
+// Spreads samples evenly over +-1 %, in an order without trend: golden-section steps (Weyl 1916).
 std::vector<double> around(double median) {
     std::vector<double> samples;
     for (int i = 0; i < kSamples; ++i) {

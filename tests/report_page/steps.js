@@ -1,4 +1,4 @@
-// What tests do in a page. They stand before the test's own steps.
+// Helpers for steps in a page, placed before a test's own steps.
 const wait = (ms) => new Promise((done) => setTimeout(done, ms));
 const said = {};
 const say = (name, value) => { said[name] = value === undefined ? null : value; };

@@ -1,4 +1,4 @@
-// What a page complains about, from its first moment.
+// Collects a page's complaints from its start.
 window.complaints = [];
 addEventListener("error", (event) => complaints.push(`error: ${event.message}`), true);
 addEventListener("unhandledrejection", (event) => complaints.push(`rejected: ${event.reason}`));
