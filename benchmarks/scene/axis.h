@@ -47,7 +47,7 @@ std::vector<std::string> axisLabels(const std::vector<std::string>& pointers);
 // Returns the value as names and tables show it: a string without its quotes.
 std::string valueLabel(const Json& value);
 
-// Excludes the cases in which each of these fields has one of its listed values.
+// Excluded cases: those in which each of these fields has one of its listed values.
 using Exclusion = std::vector<Axis>;
 
 struct SweepMember {
