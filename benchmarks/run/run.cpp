@@ -33,7 +33,7 @@ headerOf(const RunOptions& options, const RunPlan& plan, const engine::Device& d
     return header;
 }
 
-// What ended the run before its last case.
+// The reason for a run to end before its last case.
 struct Ended {
     bool interrupted = false;  // by the user
     std::string no_device;  // why no device is left

@@ -65,7 +65,7 @@ public:
     // Whether C++ also includes the file. It is always compiled as in the build, because C++ has
     // that buffer layout.
     static bool needsRebuild(std::string_view file) { return file.starts_with("shared/"); }
-    // What accept() accepted last; without paths if that is nothing.
+    // The last code that accept() accepted; without paths if there is none.
     const ReloadedShaders& reloaded() const;
     // Whether the folder has the program's shaders.
     bool watches() const;
