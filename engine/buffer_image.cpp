@@ -15,7 +15,7 @@ VmaAllocationCreateFlags allocationFlags(Usage usage) {
                                    : VMA_ALLOCATION_CREATE_HOST_ACCESS_RANDOM_BIT);
 }
 
-// Whether the device was that memory is taken from.
+// Returns whether the device that owns the allocator was given up.
 bool ownerIsGivenUp(VmaAllocator allocator) {
     VmaAllocatorInfo info{};
     vmaGetAllocatorInfo(allocator, &info);
@@ -45,7 +45,7 @@ Buffer::Buffer(const Device& device, const BufferDescription& description) : Buf
     VmaAllocationCreateInfo allocate{};
     allocate.flags = allocationFlags(description.usage);
     allocate.usage = VMA_MEMORY_USAGE_AUTO;
-    // Coherent memory: no flushes to forget.
+    // Coherent memory needs no flushes.
     if (description.usage != Usage::storage) {
         allocate.requiredFlags =
             VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT | VK_MEMORY_PROPERTY_HOST_COHERENT_BIT;
@@ -112,7 +112,7 @@ std::uint64_t texelBytes(VkFormat format) {
         return 8;
     case VK_FORMAT_R32G32B32A32_SFLOAT:
         return 16;
-    default:  // D32, and colors of 8 bits
+    default:  // D32, and colours of 8 bits
         return 4;
     }
 }
@@ -127,7 +127,7 @@ std::uint64_t imageBytes(const ImageDescription& description) {
     return texels * description.samples * texelBytes(description.format);
 }
 
-// Nothing yet.
+// Sets the members that need no Vulkan call.
 Image::Image(VmaAllocator_T* allocator, const ImageDescription& description)
     : allocator_(allocator), format_(description.format),
       extent_{description.width, description.height},

@@ -13,8 +13,8 @@
 
 struct VmaAllocation_T;
 
-// The device's buffers, images and samplers, and copies of whole buffers and images between host
-// and device.
+// Device buffers, images and samplers, and copies of whole buffers and images between host and
+// device.
 namespace engine {
 
 enum class Usage {
@@ -45,10 +45,10 @@ public:
     VkDeviceAddress address() const { return address_; }
     std::size_t size() const { return size_; }
 
-    // The mapped bytes of an upload or readback buffer.
+    // Mapped bytes of an upload or readback buffer.
     std::span<std::byte> mapped() const { return {static_cast<std::byte*>(mapped_), size_}; }
 
-    // Write to the mapped bytes from their start. No frame in flight may still read them.
+    // Writes to the start of the mapped bytes. No frame in flight may still read them.
     template <class Value>
     void write(const Value& value) const {
         static_assert(std::is_trivially_copyable_v<Value>);
@@ -72,14 +72,14 @@ private:
     HazardLog::Entry known_;
 };
 
-// A buffer that shaders fetch like texels. The buffer outlives it.
+// A uniform texel buffer view. The buffer must outlive it.
 class TexelView {
 public:
     TexelView() = default;
     TexelView(const Device& device, const Buffer& buffer, VkFormat format);
 
     VkBufferView get() const { return view_.get(); }
-    // Where the handle itself is: Commands::images().
+    // Address of the handle itself, for Commands::images().
     const VkBufferView* place() const { return view_.place(); }
 
 private:
@@ -96,10 +96,10 @@ struct ImageDescription {
     std::string name;
 };
 
-// Bytes of an image's texels, of all samples and levels; what a driver adds is not in it.
+// Returns the bytes of an image's texels, over all samples and levels, without driver overhead.
 std::uint64_t imageBytes(const ImageDescription& description);
 
-// A 2D image with its memory and a view of all of it.
+// A 2D image with its memory and a view of the whole image.
 class Image {
 public:
     Image(const Device& device, const ImageDescription& description);
@@ -144,18 +144,19 @@ private:
     Handle<VkSampler, &vkDestroySampler> sampler_;
 };
 
-// Fills `destination` from its start; returns when the device has it. For set-up, not for frames.
+// Fills `destination` from its start and waits until the device has the data. For set-up, not for
+// frames.
 void upload(const Device& device, std::span<const std::byte> bytes, const Buffer& destination);
 
 // Returns a copy of the buffer's bytes, after all work submitted so far.
 std::vector<std::byte> download(const Device& device, const Buffer& source);
 
-// The tightly packed pixels of an image in TRANSFER_SRC_OPTIMAL, in a readback buffer, after all
-// work submitted so far.
+// Returns the tightly packed pixels of an image in TRANSFER_SRC_OPTIMAL in a readback buffer, after
+// all work submitted so far.
 Buffer readImage(const Device& device, const Image& image, std::size_t bytes_per_pixel);
 
-// A device-local buffer that holds `values`. At least one element is allocated, so it has an
-// address.
+// Returns a device-local buffer that holds `values`. Allocates at least one element, so that the
+// buffer always has an address.
 template <class Value>
 Buffer makeBuffer(const Device& device, std::span<const Value> values, const std::string& name) {
     Buffer buffer(

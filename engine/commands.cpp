@@ -73,7 +73,7 @@ bool isGraphics(const Scope& scope) {
     return (scope.stages & kGraphics) != 0;
 }
 
-// What a command touches of an image or buffer: of an attachment, by its own stages alone.
+// Stages and accesses of a use. An attachment has only the stages of its own aspect.
 Scope scopeOf(const Use& use) {
     if (use.access != Access::attachment) return scope(use.access);
     return use.image->aspect() == VK_IMAGE_ASPECT_DEPTH_BIT ? kDepthAttachment : kColorAttachment;
@@ -84,14 +84,14 @@ std::string textOf(const std::source_location& place) {
     return std::string(path.substr(path.rfind('/') + 1)) + ":" + std::to_string(place.line());
 }
 
-// Workgroups in a row, of compute and of task stages: what every device has.
+// Work groups in a row of compute and task dispatches: the guaranteed minimum of the limit.
 constexpr std::uint32_t kMostGroupsInRow = 65535;
 
-// Sets of a pool, and images of each kind in it: more than a set has bindings.
+// Sets per pool, and images of each kind per set: more than a set has bindings.
 constexpr std::uint32_t kSetsPerPool = 64;
 constexpr std::uint32_t kImagesPerSet = 8;
 
-// What a set's bindings become, in their order.
+// Descriptor writes of a set, one per binding, in binding order.
 class ImageWrites {
 public:
     void add(VkDescriptorType type, const VkDescriptorImageInfo& info) {
@@ -229,7 +229,7 @@ void Commands::transition(
     Scope source = scope(before);
     Scope target = scope(after);
     if (hazards_) {
-        // Without a dependency the layout changes all the same.
+        // The layout changes even if the dependency is dropped.
         if (hazards_->isDropped(pass_, textOf(place))) source = target = {};
         recording_.push_back(
             {.pass = pass_,
@@ -261,7 +261,7 @@ void Commands::transition(
     vkCmdPipelineBarrier2(buffer_, &dependency);
 }
 
-// ---- What commands touch ------------------------------------------------------------------------
+// ---- Declared uses ------------------------------------------------------------------------------
 
 void Commands::touch(std::initializer_list<Use> uses) {
     Recorded& recorded = recording_.emplace_back();
@@ -292,7 +292,7 @@ void Commands::declare(std::initializer_list<Use> uses) {
     for (const RecordedUse& use : recording_.back().uses) declared_.push_back(use.resource);
 }
 
-// What push constants lead to and the host alone writes.
+// Declares the host-written buffers that push constants lead to.
 void Commands::declareHanded(const std::vector<ResourceId>& handed, Access access) {
     if (handed.empty()) return;
     Recorded& recorded = recording_.emplace_back();
@@ -350,7 +350,7 @@ void Commands::copy(const Image& source, const Image& destination) {
 
 void Commands::copy(
     const Buffer& source, std::size_t offset, const Image& destination, std::uint32_t level) {
-    // Levels are written one after the other, and each once.
+    // Levels are written one after the other, each once, so the first stands for all.
     if (hazards_ && level == 0)
         touch({{source, Access::transfer_read}, {destination, Access::transfer_write}});
     const VkExtent2D extent = destination.extent();
@@ -372,7 +372,7 @@ void Commands::fill(const Buffer& buffer, std::uint32_t value) {
 }
 
 void Commands::write(const Buffer& buffer, std::span<const std::byte> bytes) {
-    constexpr std::size_t kMost = 65536;  // of vkCmdUpdateBuffer
+    constexpr std::size_t kMost = 65536;  // limit of vkCmdUpdateBuffer
     assert(bytes.size() % 4 == 0 && bytes.size() <= buffer.size());
     if (hazards_) touch({{buffer, Access::transfer_write}});
     for (std::size_t first = 0; first < bytes.size(); first += kMost) {

@@ -18,31 +18,31 @@ namespace engine {
 class ComputePipeline;
 class GraphicsPipeline;
 
-// Who touches memory: a command, or what comes before a barrier and after it.
+// Stages and memory accesses of a command, or of one side of a barrier.
 enum class Access {
     compute_read,
-    compute_write,  // read, too
+    compute_write,  // reads too
     graphics_read,  // buffers and images read by any graphics stage
-    indirect_read,  // a draw's arguments
+    indirect_read,  // arguments of an indirect draw
     vertex_read,  // buffers read by the stages before the rasteriser: vertex to geometry, or task
                   // and mesh
     fragment_read,  // buffers and images read by the fragment stage
-    shading_read,  // images read where something is shaded: by the fragment stage or by compute
+    shading_read,  // images read during shading, by the fragment stage or by compute
     fragment_write,  // buffers read and written by the fragment stage
-    attachment,  // color and depth attachments, read and written
+    attachment,  // colour and depth attachments, read and written
     transfer_read,
     transfer_write,
     host_read,
     anything,
 };
 
-// What happened `before` is made visible to what comes `after`.
+// Makes accesses `before` visible to accesses `after`.
 struct Dependency {
     Access before;
     Access after;
 };
 
-// A buffer, by any address in it, or an image, and how a command touches it.
+// A buffer, given by any address in it, or an image, and how a command touches it.
 struct Use {
     Use(std::uint64_t buffer, Access touched) : address(buffer), access(touched) {}
     Use(const Buffer& buffer, Access touched) : Use(buffer.address(), touched) {}
@@ -73,15 +73,14 @@ struct SampledImage {
     const Sampler* sampler;
 };
 
-// The descriptor sets that a command buffer uses on devices without push descriptors; elsewhere it
-// stays empty.
+// Descriptor sets of a command buffer on devices without push descriptors; empty elsewhere.
 class DescriptorSets {
 public:
     explicit DescriptorSets(const Device& device) : device_(device) {}
 
-    // A new set, valid until reset().
+    // Returns a new set, valid until reset().
     VkDescriptorSet allocate(VkDescriptorSetLayout layout);
-    // The device must be done with the command buffer.
+    // The device must have finished the command buffer.
     void reset();
     const Device& device() const { return device_; }
 
@@ -93,28 +92,28 @@ private:
     std::size_t allocated_ = 0;  // sets since reset()
 };
 
-// Which commands a queue takes.
+// Commands that a queue accepts.
 enum class QueueKind {
     all,
-    compute,  // no graphics: barriers leave out its stages, whose commands others order
+    compute,  // no graphics: barriers omit graphics stages, whose commands others order
 };
 
-// A command buffer being recorded. Borrows the buffer and its sets; adds no barrier by itself.
+// A command buffer being recorded. Borrows the buffer and its sets; adds no barriers by itself.
 class Commands {
 public:
-    // `hazards`: who is told of all that is recorded; null: nobody.
+    // `hazards`: log of everything that is recorded; null: none.
     Commands(
         VkCommandBuffer buffer, DescriptorSets& sets, HazardLog* hazards = nullptr,
         QueueKind queue = QueueKind::all)
         : buffer_(buffer), sets_(sets), hazards_(hazards), queue_(queue) {}
 
     VkCommandBuffer get() const { return buffer_; }
-    // The device must be done with what was recorded before.
+    // The device must have finished the earlier recording.
     void begin();
-    // What was recorded is submitted next.
+    // Ends the recording, which must be submitted next.
     void end();
 
-    // Makes what happened `before` visible to what comes `after`, for all memory.
+    // Makes accesses `before` visible to accesses `after`, for all memory.
     void barrier(
         Access before, Access after,
         const std::source_location& place = std::source_location::current()) {
@@ -124,34 +123,35 @@ public:
         std::initializer_list<Dependency> dependencies,
         const std::source_location& place = std::source_location::current());
 
-    // A barrier that moves an image from one layout to another. UNDEFINED as `from` discards what
-    // the image holds.
+    // Moves an image from one layout to another with a barrier. UNDEFINED as `from` discards the
+    // contents.
     void transition(
         const Image& image, VkImageLayout from, VkImageLayout to, Access before, Access after,
         const std::source_location& place = std::source_location::current());
 
-    // Says what the dispatch or the draws that are recorded next touch, for those who look for
-    // missing barriers (engine/hazards.h): all buffers that a frame's commands write and that these
-    // read or write. Buffers that only the host writes need no mention. Images that are bound by
-    // images() or rendered to, and what copies and fills touch, are known. Every dispatch of a pass
-    // needs it; its uses don't depend on one another.
+    // Declares what the next dispatch or draws touch, for the hazard checker (engine/hazards.h):
+    // all buffers that a frame's commands write and that these read or write. Buffers that only the
+    // host writes need no declaration. Images bound by images() or rendered to, and operands of
+    // copies and fills, are known. Every dispatch of a pass needs a declaration. Its uses don't
+    // depend on one another.
     void uses(std::initializer_list<Use> uses) {
         if (hazards_) declare(uses);
     }
 
     void copy(const Buffer& source, const Buffer& destination, std::size_t bytes);
-    // Between images of one size, from TRANSFER_SRC_OPTIMAL to TRANSFER_DST_OPTIMAL.
+    // Copies between images of equal size, from TRANSFER_SRC_OPTIMAL to TRANSFER_DST_OPTIMAL.
     void copy(const Image& source, const Image& destination);
-    // An image in TRANSFER_SRC_OPTIMAL into tightly packed pixels.
+    // Copies an image in TRANSFER_SRC_OPTIMAL into tightly packed pixels.
     void copy(const Image& source, const Buffer& destination);
-    // Tightly packed pixels into a level of an image in TRANSFER_DST_OPTIMAL.
+    // Copies tightly packed pixels into a level of an image in TRANSFER_DST_OPTIMAL.
     void
     copy(const Buffer& source, std::size_t offset, const Image& destination, std::uint32_t level);
     void fill(const Buffer& buffer, std::uint32_t value);
-    // Bytes that the command buffer itself keeps, to a buffer's start; whole words of 4 bytes.
+    // Writes bytes, stored in the command buffer itself, to the start of a buffer; whole 4-byte
+    // words.
     void write(const Buffer& buffer, std::span<const std::byte> bytes);
 
-    // Pipelines are bound with the constants that their next dispatch or draws use.
+    // Binds a pipeline, with the push constants of its next dispatch or draws.
     void bind(const ComputePipeline& pipeline);
     template <class Push>
     void bind(const ComputePipeline& pipeline, const Push& push) {
@@ -164,14 +164,14 @@ public:
         bindGraphics(pipeline, std::as_bytes(std::span(&push, 1)));
     }
 
-    // Gives the bound compute pipeline its images: sampled ones in SHADER_READ_ONLY_OPTIMAL at
-    // bindings 0.., then storage ones in GENERAL.
+    // Binds images to the bound compute pipeline: sampled ones in SHADER_READ_ONLY_OPTIMAL from
+    // binding 0 on, then storage ones in GENERAL.
     void images(
         const ComputePipeline& pipeline, std::span<const Image* const> sampled,
         std::span<const Image* const> storage);
 
-    // Gives the bound pipeline its images, at bindings 0 ..., then its texel buffers, which stay
-    // where they are until the commands have run: lavapipe keeps the place of their handles.
+    // Binds images to the bound pipeline from binding 0 on, then texel buffers. The TexelViews must
+    // not move until the commands have run: lavapipe keeps pointers to their handles.
     void images(
         const ComputePipeline& pipeline, std::span<const SampledImage> sampled,
         std::span<const TexelView* const> texels = {});
@@ -180,16 +180,16 @@ public:
         std::span<const TexelView* const> texels = {});
 
     void dispatch(std::uint32_t groups_x, std::uint32_t groups_y = 1);
-    // Where more workgroups are needed than fit in a row, shaders count them row by row, and the
-    // last row may have some too many.
+    // If `groups` don't fit in one row, shaders count them row by row, and the last row may have
+    // surplus work groups.
     void dispatchGroups(std::uint32_t groups);
-    // As many workgroups of `size` invocations as `invocations` need; none for 0.
+    // Dispatches enough work groups of `size` invocations for `invocations`; none for 0.
     void dispatchInvocations(std::uint32_t invocations, std::uint32_t size);
     void draw(const Draw& draw);
     void drawIndexed(const Buffer& indices, const IndexedDraw& draw);
-    // Draws whose arguments are so many VkDrawIndexedIndirectCommand in a buffer.
+    // Indirect draws: `arguments` holds `draws` VkDrawIndexedIndirectCommand structs.
     void drawIndexed(const Buffer& indices, const Buffer& arguments, std::uint32_t draws);
-    // Task workgroups, counted as dispatchGroups() does.
+    // Draws task work groups, counted as in dispatchGroups().
     void drawMeshTasks(std::uint32_t groups);
 
     void beginLabel(const char* name);
@@ -214,11 +214,11 @@ private:
     DescriptorSets& sets_;
     HazardLog* hazards_;
     QueueKind queue_;
-    // Where hazards are looked for:
+    // For the hazard checker:
     Recording recording_;
     std::string pass_;
     std::vector<ResourceId> declared_;  // since the last dispatch
-    std::vector<ResourceId> handed_;  // buffers that frames write, in the last push constants
+    std::vector<ResourceId> handed_;  // frame-written buffers in the last push constants
 };
 
 }  // namespace engine

@@ -39,17 +39,17 @@ std::filesystem::path cacheFile(const VkPhysicalDeviceProperties& properties) {
     return folder / (name + "-" + std::to_string(properties.driverVersion) + ".bin");
 }
 
-constexpr std::uintmax_t kMostCacheBytes = std::uintmax_t{256} << 20;  // of all drivers' files
+constexpr std::uintmax_t kMostCacheBytes = std::uintmax_t{256} << 20;  // of all files together
 
-// Behind a driver's data in its file: the version of this, and a checksum of the data, which not
-// every driver looks for.
+// The seal follows a driver's data in its file: a format version and a checksum of the data,
+// because not every driver verifies its data.
 std::string sealOf(const std::vector<char>& data) {
     const auto* const bytes = reinterpret_cast<const Bytef*>(data.data());
     const std::string sum = std::to_string(crc32_z(0, bytes, data.size()));
     return "hairbench 1 " + std::string(10 - sum.size(), '0') + sum;
 }
 
-// A driver's data as they were written; empty where the file is damaged or no file.
+// Returns a driver's data as written; empty if the file is damaged or missing.
 std::vector<char> sealedBytes(const std::filesystem::path& file) {
     std::error_code error;
     const std::uintmax_t size =
@@ -65,8 +65,8 @@ std::vector<char> sealedBytes(const std::filesystem::path& file) {
     return data;
 }
 
-// Removes the files that were used longest ago, of drivers that may be gone, where all are too
-// much.
+// Removes the least recently used files, whose drivers may be gone, while all together are too
+// large.
 void trimCaches(const std::filesystem::path& folder) {
     struct Entry {
         std::filesystem::path path;
@@ -92,8 +92,7 @@ void trimCaches(const std::filesystem::path& folder) {
     }
 }
 
-// Whether the data is of this device's driver. Drivers have to check that too, but not every one
-// does.
+// Whether the data belongs to this device's driver. Drivers must check this too, but not all do.
 bool belongsTo(const std::vector<char>& data, const VkPhysicalDeviceProperties& properties) {
     VkPipelineCacheHeaderVersionOne header{};
     if (data.size() < sizeof header) return false;
@@ -103,10 +102,10 @@ bool belongsTo(const std::vector<char>& data, const VkPhysicalDeviceProperties& 
            std::memcmp(header.pipelineCacheUUID, properties.pipelineCacheUUID, VK_UUID_SIZE) == 0;
 }
 
-// volk's function pointers, of which there is one set, must do for all of them.
+// Live devices. They share volk's one set of function pointers.
 std::atomic<int> devices_alive = 0;
 
-// Calls what volk's pointer at `kPlace` is by then.
+// Calls through volk's pointer at `kPlace` as it is at the time of the call.
 template <auto* kPlace, class Function = std::remove_pointer_t<decltype(kPlace)>>
 struct ByVolk;
 template <auto* kPlace, class Result, class... Arguments>
@@ -141,7 +140,7 @@ VmaAllocator createAllocator(VkInstance instance, const DeviceInfo& info, VkDevi
     VmaVulkanFunctions functions{};
     functions.vkGetInstanceProcAddr = vkGetInstanceProcAddr;
     functions.vkGetDeviceProcAddr = vkGetDeviceProcAddr;
-    // What takes memory goes the way of all other calls, so that tests can make it fail.
+    // Memory functions are called through volk too, so that tests can make them fail.
     functions.vkAllocateMemory = ByVolk<&vkAllocateMemory>::call;
     functions.vkFreeMemory = ByVolk<&vkFreeMemory>::call;
     functions.vkMapMemory = ByVolk<&vkMapMemory>::call;
@@ -212,7 +211,7 @@ PipelineCache::~PipelineCache() {
     if (file_.empty() || data.empty() || data == loaded_ || data.size() > kMostCacheBytes / 4)
         return;
 
-    // Written beside and renamed, so that a second process never reads half a file.
+    // Written to a separate file and renamed, so that another process never reads half a file.
     std::error_code ignored;
     std::filesystem::create_directories(file_.parent_path(), ignored);
     const std::filesystem::path part = file_.string() + "." + std::to_string(getpid());
@@ -246,8 +245,9 @@ Device::Device(const DeviceOptions& options)
     if (!options.window_extensions.empty()) extensions.push_back(VK_KHR_SWAPCHAIN_EXTENSION_NAME);
     fileMemoryLimit(info_);  // before the driver takes any memory
     device_.reset(createDevice(info_, extensions));
-    // The functions of one device may be called without the loader between; those of several only
-    // through it, which knows whose handle it is given: Instance has just loaded these.
+    // With one device, its functions can be called without the loader in between. With several
+    // devices, calls must go through the loader, which dispatches by handle; Instance has just
+    // loaded those functions.
     if (devices_alive++ == 0) volkLoadDevice(get());
     vkGetDeviceQueue(get(), info_.queue_family, 0, &queue_);
     compute_queue_ = queue_;

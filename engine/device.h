@@ -19,35 +19,34 @@
 struct VmaAllocation_T;
 struct VmaAllocator_T;
 
-// The device: a logical device with its queues and allocator, the ledger of who holds its memory,
-// and its pipeline cache.
+// A logical device with its queues and allocator, its memory ledger and its pipeline cache.
 namespace engine {
 
 class Commands;
 class PipelineStore;
 class ShaderLibrary;
 
-// The device stopped working (VK_ERROR_DEVICE_LOST), and so did everything made from it.
+// The device was lost (VK_ERROR_DEVICE_LOST), and with it everything made from it.
 class DeviceLost : public Error {
 public:
     using Error::Error;
 };
 
-// The window's surface is gone (VK_ERROR_SURFACE_LOST_KHR), though the window may be there.
+// The window's surface was lost (VK_ERROR_SURFACE_LOST_KHR); the window itself may still exist.
 class SurfaceLost : public Error {
 public:
     using Error::Error;
 };
 
-// The device had nothing to say for longer than DeviceOptions::patience and was given up
-// (giveUp()). What it made is left where it is.
+// The device did not respond for longer than DeviceOptions::patience and was given up (giveUp()).
+// Its objects are not destroyed.
 class DeviceSilent : public DeviceLost {
 public:
     using DeviceLost::DeviceLost;
 };
 
-// Bytes of device memory by the names of the buffers and images that hold them and by the memory
-// heap that they lie in. Live allocations only.
+// Bytes of device memory per memory heap and per name of the buffer or image. Live allocations
+// only.
 class MemoryLedger {
 public:
     struct Entry {
@@ -60,7 +59,7 @@ public:
 
     const std::map<Entry, std::uint64_t>& bytes() const { return bytes_; }
 
-    // An entry that is on the ledger for as long as its owner keeps this; move-only.
+    // Keeps an entry on the ledger for its lifetime; move-only.
     class Line {
     public:
         Line() = default;
@@ -96,9 +95,9 @@ private:
     std::map<Entry, std::uint64_t> bytes_;
 };
 
-// A VkPipelineCache kept on disk between runs, in a file of its own per device and driver build
-// under $XDG_CACHE_HOME/hairbench (or ~/.cache/hairbench). A file that is unreadable or of another
-// driver is ignored, one that can't be written is not an error: the cache only saves time.
+// A VkPipelineCache kept on disk between runs, in one file per device and driver build under
+// $XDG_CACHE_HOME/hairbench (or ~/.cache/hairbench). A file that is unreadable or of another driver
+// is ignored. Failure to write one is no error: the cache only saves time.
 class PipelineCache {
 public:
     PipelineCache(VkDevice device, const DeviceInfo& info);
@@ -110,7 +109,7 @@ public:
 
 private:
     VkDevice device_;
-    std::filesystem::path file_;  // empty: no home to keep it in
+    std::filesystem::path file_;  // empty: no home folder for it
     std::vector<char> loaded_;
     VkPipelineCache cache_{};
 };
@@ -118,21 +117,21 @@ private:
 struct DeviceOptions {
     std::string wanted;  // index or part of the name; empty: the best
     Validation validation = Validation::off;
-    // Window::instanceExtensions() where pictures are shown in one; empty: none are.
+    // Window::instanceExtensions() to show pictures in a window; empty: no window.
     std::vector<std::string> window_extensions{};
-    // Takes away from what the device says of itself before it is made: what is left is all that
-    // is switched on and known. Tests make lesser devices by it.
+    // Removes features from the device's description before the device is made. Only the rest is
+    // enabled and known. Tests imitate lesser devices with it.
     std::function<void(DeviceInfo&)> mask{};
-    // For what is submitted at a time; absent: ten minutes, an hour of a software device, which may
-    // need many minutes for a large frame.
+    // Longest wait for one submission. Absent: ten minutes, or an hour for a software device, which
+    // may need many minutes for a large frame.
     std::optional<std::chrono::duration<double>> patience{};
 };
 
 // One logical device with its queues, its memory allocator and pipeline cache. Everything else
-// borrows it. A device and what was made of it are one thread's at a time; another device, which
-// has an instance and a driver's queue of its own, may be another thread's meanwhile. Devices are
-// made while no other thread uses one, and the one that shows pictures in a window is made last:
-// functions are looked up for the last instance that was made.
+// borrows it. Only one thread at a time may use a device and what was made from it. Another thread
+// may use another device meanwhile, which has its own instance and driver queue. No other thread
+// may use a device while one is made. The device that shows pictures in a window is made last,
+// because functions are looked up for the instance made last.
 class Device {
 public:
     explicit Device(const DeviceOptions& options = {});
@@ -143,19 +142,19 @@ public:
     VkInstance instance() const { return instance_.get(); }
     VkDevice get() const { return device_.get(); }
     VkQueue queue() const { return queue_; }
-    // The second queue, or the first where there is no other (Feature::second_queue).
+    // The second queue, or the first if there is no second (Feature::second_queue).
     VkQueue computeQueue() const { return compute_queue_; }
-    // The families of both queues: what both may touch is shared among them.
+    // The families of both queues. Resources that both queues may touch are shared among them.
     std::vector<std::uint32_t> queueFamilies() const;
     VmaAllocator_T* allocator() const { return allocator_.get(); }
     VkPipelineCache pipelineCache() const { return cache_->get(); }
     const DeviceInfo& info() const { return info_; }
     MessageLog& messages() const { return instance_.messages(); }
-    // Who looks for missing barriers; null where validation is off.
+    // The hazard log; null if validation is off.
     HazardLog* hazards() const { return hazards_.get(); }
 
-    // Largest number of vertices that one tessellated draw (one instance of it) can make and still
-    // be right. lavapipe's tessellator has 16-bit indices and fails silently above.
+    // Largest number of vertices that one tessellated draw (one instance of it) can correctly make.
+    // lavapipe's tessellator has 16-bit indices and fails silently above that.
     std::uint32_t maxTessellatedVertices() const;
 
     bool supportsSamples(std::uint32_t samples) const;
@@ -163,35 +162,36 @@ public:
     bool fragmentCountsAreApproximate() const;
     bool has(Feature feature) const { return info_.features.contains(feature); }
     bool hasPipelineStatistics() const { return has(Feature::pipeline_statistics); }
-    // Throws Unsupported "<context>: the device has no <feature>" where it has not.
+    // Throws Unsupported "<context>: the device has no <feature>" if the feature is missing.
     void require(Feature feature, const std::string& context) const;
 
-    // Bytes of memory that live allocations hold.
+    // Returns the bytes of memory in live allocations.
     std::uint64_t allocatedBytes() const;
 
-    // Bytes that may still be allocated of the largest heap that is the device's own, as its driver
-    // has it (VK_EXT_memory_budget) or else four fifths of the heap less what is allocated.
+    // Returns the bytes that can still be allocated from the largest device-local heap: the
+    // driver's figure (VK_EXT_memory_budget), or else four fifths of the heap less the allocated
+    // bytes.
     std::uint64_t freeBytes() const;
 
-    // Who holds what of the device's memory: buffers and images enter and leave themselves.
+    // The ledger of device memory. Buffers and images add and remove themselves.
     const MemoryLedger& memory() const { return *memory_; }
-    // The code that pipelines are made of from now on.
+    // The shader code of pipelines made from now on.
     ShaderLibrary& shaders() const { return *shaders_; }
-    // The pipelines that were made of it.
+    // The pipelines made from that code.
     PipelineStore& pipelines() const { return *pipelines_; }
-    // What an allocation's owner keeps for as long as it lives.
+    // Returns a ledger line, which the allocation's owner keeps for the allocation's lifetime.
     MemoryLedger::Line memoryLine(VmaAllocation_T* allocation, const std::string& name) const;
 
     // Names an object for debuggers and validation messages.
     void setName(VkObjectType type, std::uint64_t handle, const std::string& name) const;
 
-    // Records with `record`, submits, and returns when the work is done. For set-up and read-back.
+    // Records with `record`, submits, and waits until the work is done. For set-up and read-back.
     void runOnce(const std::function<void(Commands&)>& record) const;
 
-    // Waits for the device: `wait` is called with the ns that it may take, and returns the result
-    // of the Vulkan function that waits. What lacks memory for it is tried again. Throws
-    // DeviceLost, and DeviceSilent: at once for a device that was given up. Where an interrupt came
-    // the program ends as waitHeeding() has it. `what`: "wait for a frame".
+    // Waits for the device. `wait` gets the longest time to wait (ns) and returns the result of the
+    // Vulkan function that waits. A wait that fails for lack of memory is retried. Throws
+    // DeviceLost. Throws DeviceSilent, at once if the device was given up before. An interrupt ends
+    // the program as in waitHeeding(). `what`: for example "wait for a frame".
     template <class Wait>
     void await(const char* what, Wait&& wait) const {
         const auto start = beginWait(what);

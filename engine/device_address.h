@@ -4,8 +4,8 @@
 
 namespace engine {
 
-// An address on the device in structs that shaders read: GLSL's uvec2, in scalar layout aligned to
-// 4 bytes, for not every device has 64-bit integers. 0: nothing.
+// A device address in structs that shaders read. It is GLSL's uvec2, aligned to 4 bytes in scalar
+// layout, because not every device has 64-bit integers. 0: null.
 class DeviceAddress {
 public:
     constexpr DeviceAddress() = default;

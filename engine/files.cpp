@@ -28,8 +28,7 @@ std::ifstream opened(const fs::path& path) {
 
 using Writer = std::function<void(std::ostream&)>;
 
-// A file that asks `poll` before every piece it hands to the system, and that keeps the reason why
-// one was not taken.
+// A file that calls `poll` before every piece written, and keeps the error of a failed write.
 class PolledFile : public std::filebuf {
 public:
     PolledFile(const fs::path& path, const WritePoll& poll) : poll_(poll) {
@@ -37,7 +36,7 @@ public:
         if (!is_open()) error_ = errno;
     }
 
-    int error() const { return error_; }  // errno's; 0: none
+    int error() const { return error_; }  // errno value; 0: none
 
 protected:
     int_type overflow(int_type byte) override {
@@ -76,7 +75,7 @@ private:
     int error_ = 0;
 };
 
-// `error` is errno's.
+// `error` is an errno value.
 [[noreturn]] void fail(const fs::path& path, int error) {
     const std::string reason =
         std::string("cannot be written: ") + (error == 0 ? "unknown reason" : std::strerror(error));
@@ -85,14 +84,14 @@ private:
     throw Error(path.string(), reason);
 }
 
-// `name` is what its errors call the file.
+// `name` is the file's name in errors.
 void writeFile(
     const fs::path& path, const fs::path& name, const Writer& write, const WritePoll& poll) {
     PolledFile file(path, poll);
     const auto fail_here = [&] { fail(name, file.error()); };
     if (!file.is_open()) fail_here();
     std::ostream stream(&file);
-    stream.exceptions(std::ios::badbit);  // so that the rest is not even tried
+    stream.exceptions(std::ios::badbit);  // to stop at the first failure
     try {
         write(stream);
         stream.flush();
@@ -103,14 +102,14 @@ void writeFile(
     if (poll) poll();
 }
 
-// Whether it is one of the program's own open files, as /dev/stdout and the shell's >(command) are.
+// Whether the path is an open file of the program, like /dev/stdout and the shell's >(command).
 bool isOpenAlready(const fs::path& path) {
     const fs::path folder = path.parent_path();
     return folder == "/dev/fd" || folder == "/proc/self/fd" || path == "/dev/stdout" ||
            path == "/dev/stderr";
 }
 
-// Makes the folder that the file is to be in.
+// Creates the folder of the file.
 void makePlaceFor(const fs::path& path) {
     std::error_code error;
     const fs::file_type type = fs::status(path, error).type();
@@ -131,7 +130,7 @@ void makePlaceFor(const fs::path& path) {
 
 OpenFile::OpenFile(const fs::path& path) : name_(path.string()) {
     std::error_code error;
-    // Opening a pipe would wait for its writer.
+    // Opening a pipe would wait for a writer.
     if (fs::is_other(path, error)) throw Error(name_, "not a file");
     file_ = opened(path);
     size_ = fs::file_size(path, error);
@@ -181,7 +180,7 @@ void writeFileAtomically(const fs::path& path, const Writer& write, const WriteP
     makePlaceFor(path);
     std::error_code error;
     const bool there = fs::exists(path, error);
-    if (error) fail(path, error.value());  // links in a circle, a name that is too long
+    if (error) fail(path, error.value());  // circular links, or a name that is too long
     if (there && !fs::is_regular_file(path, error)) return writeFile(path, path, write, poll);
     const fs::path target = there ? fs::canonical(path, error) : path;
     const fs::path partial(target.string() + ".partial");
@@ -211,7 +210,7 @@ void checkWritable(const fs::path& path) {
     const fs::path folder = path.has_parent_path() ? path.parent_path() : fs::path(".");
     const fs::path probe = fs::exists(path, error) ? path : folder;
     if (access(probe.c_str(), W_OK) != 0) fail(path, errno);
-    // A name that is too long, or links that end nowhere.
+    // A name that is too long, or broken links.
     for (const fs::path& each : {path, fs::path(path.string() + ".partial")}) {
         error.clear();
         const fs::file_status status = fs::status(each, error);

@@ -12,10 +12,10 @@
 
 #include "engine/error.h"
 
-// Whole files: read at once, and written so that nobody sees half of one.
+// Reads files whole, and writes them so that nobody sees half of one.
 namespace engine {
 
-// A file that is open for reading, of any size. Throws Error that names it.
+// A file of any size, open for reading. Throws an Error that names the file.
 class OpenFile {
 public:
     explicit OpenFile(const std::filesystem::path& path);
@@ -31,40 +31,41 @@ private:
     std::uintmax_t size_ = 0;
 };
 
-// What decoders of pictures can count.
+// Bytes. Image decoders count in 32-bit signed integers.
 inline constexpr std::size_t kLargestFile = 0x7fffffff;
 
-// The bytes of a file of at most so many, or of standard input up to its end. Throws Error that
-// names it: for a pipe or a device, too, which could be without an end, or with nobody to write it.
+// Returns the bytes of a file of at most `largest` bytes, or of standard input up to its end.
+// Throws an Error that names the file. A pipe or a device is an error too: it could have no end or
+// no writer.
 std::string readFile(const std::filesystem::path& path, std::size_t largest = kLargestFile);
 
-// The system did not take what was to be written: a full disk, a limit, a broken device. "<path>:
-// cannot be written: <reason>"
+// The system refused data to be written: a full disk, a limit, a broken device. "<path>: cannot be
+// written: <reason>"
 class WriteFailed : public Error {
 public:
     using Error::Error;
 };
 
-// Called again and again while a file is written, at least once in a megabyte; what it throws ends
+// Called repeatedly while a file is written, at least once per megabyte. An exception from it ends
 // the writing.
 using WritePoll = std::function<void()>;
 
-// Writes a file beside its place, as "<path>.partial", and renames it there, so that nobody sees
-// half of it; creates missing folders; follows a link; keeps the permissions of the file that was
-// there. What is no regular file (/dev/stdout, a pipe) is written as it is. Throws Error "<path>:
-// <reason>", WriteFailed where the system took a part only, or what the writer or `poll` throws,
-// and leaves nothing behind, the old file as it was.
+// Writes a file as "<path>.partial" in the same folder and renames it, so that nobody sees half of
+// it. Creates missing folders, follows a link, and keeps the permissions of an existing file.
+// Anything but a regular file (/dev/stdout, a pipe) is written directly. Throws Error "<path>:
+// <reason>", WriteFailed if the system took only a part, or the exception of the writer or of
+// `poll`. Then it leaves nothing behind and the old file unchanged.
 void writeFileAtomically(const std::filesystem::path& path, std::string_view text);
 void writeFileAtomically(
     const std::filesystem::path& path, const std::function<void(std::ostream&)>& write,
     const WritePoll& poll = {});
 
-// $XDG_CACHE_HOME/hairbench or ~/.cache/hairbench, for what can be made again; empty where there is
-// no home. It need not be there.
+// Returns $XDG_CACHE_HOME/hairbench or ~/.cache/hairbench, for data that can be regenerated; empty
+// if there is no home folder. The folder need not exist.
 std::filesystem::path userCacheFolder();
 
-// Throws the Error that writing the file would, before the work whose result it is to hold: a
-// missing folder is made, one that can't be written is an error, as a name is that is too long.
+// Throws the Error that writing the file would throw, before the work that produces its contents.
+// Creates a missing folder. A folder that can't be written and a name that is too long are errors.
 void checkWritable(const std::filesystem::path& path);
 
 }  // namespace engine

@@ -73,20 +73,20 @@ private:
     std::size_t at_ = 0;
 };
 
-// At least so many pixels take a byte: deflate makes at most 1032 bytes of one, and a pixel has one
-// channel of two bytes at least.
+// Lower bound on bytes per pixel: deflate expands a byte to at most 1032 bytes, and a pixel has at
+// least one channel of two bytes.
 constexpr std::int64_t kMostPixelsPerByte = 1032 / 2;
 
-// Walks through the attributes of a file's headers (OpenEXR File Layout). OpenEXR makes room for
-// what one says of its size, up to 2 GB, before it reads it, and reads of some types what it finds
-// rather than what the size says, so that all behind it is read as something else.
+// Walks through the attributes of a file's headers (OpenEXR File Layout). OpenEXR allocates an
+// attribute's stated size, up to 2 GB, before it reads the value. It reads some types by their
+// content rather than by the stated size, and then misreads everything that follows.
 class ExrHeaders {
 public:
     explicit ExrHeaders(std::string_view file) : rest_(file) {}
 
-    // Throws where OpenEXR would read more or less of an attribute than its size, or past the end.
+    // Throws if OpenEXR would read more or less of an attribute than its size, or past the end.
     void check() {
-        take(5);  // the magic number, and the version's first byte
+        take(5);  // the magic number and the first byte of the version
         constexpr unsigned char kManyParts = 0x10;
         const bool has_parts = static_cast<unsigned char>(take(3).front()) & kManyParts;
         for (;;) {
@@ -193,7 +193,7 @@ Size checkedSize(const Imath::Box2i& window) {
     return size;
 }
 
-// The channels that red, green and blue come from: the same for all where there is only luminance.
+// Channels of red, green and blue; all the same if there is only luminance.
 std::array<const char*, 3> channelsOf(const Imf::ChannelList& channels) {
     std::array names{"R", "G", "B"};
     if (channels.findChannel("Y") && !channels.findChannel("RY") && !channels.findChannel("R"))
@@ -207,8 +207,7 @@ std::array<const char*, 3> channelsOf(const Imf::ChannelList& channels) {
     return names;
 }
 
-// A channel of a picture of three interleaved floats, which begins at `rgb` and at the window's
-// corner.
+// A channel of interleaved RGB floats. `rgb` is the pixel at the window's corner.
 Imf::Slice slice(float* rgb, const Imath::Box2i& window, std::size_t channel) {
     const Size size = checkedSize(window);
     return Imf::Slice::Make(
@@ -231,7 +230,7 @@ FloatPixels decode(std::string_view bytes) {
     const std::array names = channelsOf(header.channels());
 
     std::vector<float> data(static_cast<std::size_t>(3 * data_size.width * data_size.height));
-    // A channel is read once: luminance into red's place.
+    // A channel is read only once: luminance goes to red's place.
     const std::size_t read = std::strcmp(names[0], names[1]) == 0 ? 1 : names.size();
     Imf::FrameBuffer frame;
     for (std::size_t i = 0; i < read; ++i) frame.insert(names[i], slice(data.data(), window, i));
@@ -266,7 +265,7 @@ FloatPixels decodeExr(std::string_view file) {
 }
 
 // Walks through Radiance's pixels as stb_image reads them (Ward 1991; Radiance's color.c): stb
-// never ends where runs do too early.
+// never terminates if runs end too early.
 class RadiancePixels {
 public:
     explicit RadiancePixels(std::string_view file) : rest_(file) {}
@@ -323,7 +322,7 @@ private:
     std::string_view rest_;
 };
 
-// Radiance's RGBE.
+// Decodes Radiance's RGBE.
 FloatPixels decodeHdr(std::string_view file) {
     const auto* data = reinterpret_cast<const stbi_uc*>(file.data());
     const int size = static_cast<int>(file.size());
@@ -361,7 +360,7 @@ void writeExr(
     assert(rgb.size() == std::size_t{3} * width * height);
     const Imath::Box2i window({0, 0}, {static_cast<int>(width) - 1, static_cast<int>(height) - 1});
     Imf::Header header(window, window);
-    Imf::addChromaticities(header, Imf::Chromaticities());  // of Rec. 709, which are sRGB's
+    Imf::addChromaticities(header, Imf::Chromaticities());  // Rec. 709, the primaries of sRGB
     Imf::FrameBuffer frame;
     constexpr std::array kNames{"R", "G", "B"};
     for (std::size_t i = 0; i < kNames.size(); ++i) {

@@ -43,7 +43,7 @@ Handle<VkSemaphore, &vkDestroySemaphore> makeTimeline(VkDevice device) {
     return {device, semaphore};
 }
 
-// Ends the program where an interrupt comes meanwhile.
+// An interrupt ends the program.
 void waitFor(const Device& device, VkSemaphore timeline, std::uint64_t value) {
     VkSemaphoreWaitInfo wait{};
     wait.sType = VK_STRUCTURE_TYPE_SEMAPHORE_WAIT_INFO;
@@ -70,7 +70,7 @@ VkSemaphoreSubmitInfo submitInfo(const TimelinePoint& point) {
     return info;
 }
 
-// `after`: what has to be reached before; its value 0: nothing.
+// `after`: the point to wait for; value 0: none.
 void submit(
     VkQueue queue, VkCommandBuffer commands, const TimelinePoint& reached,
     const TimelinePoint& after = {}) {
@@ -92,12 +92,12 @@ void submit(
     check(vkQueueSubmit2(queue, 1, &info, VK_NULL_HANDLE), "submit a frame");
 }
 
-// Overlapped, isolated and statistics frames: all passes in one command buffer, but for those that
-// have a queue of their own.
+// Overlapped, isolated and statistics frames: all passes share one command buffer, except those for
+// the second queue.
 template <class Slot>
 class OneBufferPasses : public Passes {
 public:
-    // `beside`: records on the second queue; null where all goes to the first.
+    // `beside`: records for the second queue; null: everything goes to the first.
     OneBufferPasses(
         const Device& device, Timing timing, Stamps stamps, Slot& slot, std::uint32_t index,
         Commands& commands, Commands* beside)
@@ -160,7 +160,7 @@ public:
         commands_ = others;
     }
 
-    // Frames beside whose drawing all may run that was recorded by beside(); absent: nothing was.
+    // Frames that all passes recorded by beside() may overlap; absent: there are none.
     std::optional<std::uint32_t> leastBeside() const { return least_; }
 
     void end() {
@@ -179,7 +179,7 @@ private:
     std::optional<std::uint32_t> least_;
 };
 
-// Wall-clock frames: a submission per pass.
+// Wall-clock frames: one submission per pass.
 template <class Slot>
 class SubmittedPasses : public Passes {
 public:
@@ -221,7 +221,7 @@ private:
 
 void Passes::beside(std::uint32_t, FunctionRef<void()> record) { record(); }
 
-// A command pool of a queue family that takes its host memory from a place of its own.
+// A command pool of a queue family, with its own host memory.
 class RecordingPool {
 public:
     RecordingPool(const Device& device, std::uint32_t family) : device_(device) {
@@ -238,7 +238,7 @@ public:
     RecordingPool& operator=(const RecordingPool&) = delete;
     ~RecordingPool() {
         if (isGivenUp(device_.get()))
-            static_cast<void>(memory_.release());  // the driver has pointers to it
+            static_cast<void>(memory_.release());  // the driver still has pointers to it
         else
             vkDestroyCommandPool(device_.get(), pool_, memory_->callbacks());
     }
@@ -251,7 +251,7 @@ private:
     VkCommandPool pool_{};
 };
 
-// A command buffer of a queue family, with its pool and its sets.
+// A command buffer of a queue family, with its pool and descriptor sets.
 struct FrameLoop::OwnBuffer {
     OwnBuffer(const Device& device, std::uint32_t family) : pool(device, family), sets(device) {
         const VkCommandBufferAllocateInfo allocate{
@@ -270,7 +270,7 @@ struct FrameLoop::OwnBuffer {
     DescriptorSets sets;
 };
 
-// What one frame in flight owns.
+// Resources of one frame in flight.
 struct FrameLoop::Slot : OwnBuffer {
     Slot(const Device& device, Timing timing, bool async)
         : OwnBuffer(device, device.info().queue_family) {
@@ -291,13 +291,13 @@ struct FrameLoop::Slot : OwnBuffer {
         PipelineStatistics statistics;
     };
 
-    std::optional<OwnBuffer> beside;  // of the second queue
+    std::optional<OwnBuffer> beside;  // for the second queue
     std::optional<Timestamps> timestamps;
     std::vector<Span> spans;
     std::vector<Query> queries;
-    std::uint64_t value = 0;  // of the timeline when the slot's frame is done
-    std::uint64_t submission = 0;  // as HazardLog counts
-    std::optional<std::size_t> record;  // index of the frame whose results are still to be read
+    std::uint64_t value = 0;  // timeline value that marks the slot's frame as done
+    std::uint64_t submission = 0;  // HazardLog submission number
+    std::optional<std::size_t> record;  // index of the record still to be read
 };
 
 FrameLoop::FrameLoop(const Device& device, Timing timing, const Overlap& overlap)
@@ -320,7 +320,7 @@ FrameLoop::~FrameLoop() {
         if (submitted_beside_ > 0) waitFor(device_, beside_.get(), submitted_beside_);
         vkQueueWaitIdle(device_.queue());
         vkQueueWaitIdle(device_.computeQueue());
-    } catch (const Error&) {  // a lost device has nothing to wait for
+    } catch (const Error&) {  // there is nothing to wait for on a lost device
     }
     if (device_.hazards()) device_.hazards()->finish(device_.hazards()->submissions());
 }
@@ -329,7 +329,7 @@ void FrameLoop::frame(FunctionRef<void(Passes&)> record) {
     const auto index = static_cast<std::uint32_t>(frames_++ % slots_.size());
     Slot& slot = *slots_[index];
     const Clock::time_point start = Clock::now();
-    // Frames that overlap have no use of their own, and asking for it takes time.
+    // Overlapping frames have no CPU use of their own, and reading it takes time.
     const ProcessUse used = timing_ == Timing::overlapped ? ProcessUse{} : processUse();
     collect(slot);
     const double host = threadTime();
@@ -368,7 +368,7 @@ void FrameLoop::frame(FunctionRef<void(Passes&)> record) {
     slot.value = submitted_ + 1;
     slot.record = records_.size() - 1;
     if (beside && device_.hazards()) drawn_[slot.value] = slot.submission;
-    // What is not submitted is not counted: nobody waits for it.
+    // Counted only after submission succeeded: nobody waits for what is not submitted.
     if (passes.leastBeside()) {
         submit(
             device_.computeQueue(), slot.beside->buffer, {beside_.get(), submitted_beside_ + 1},
@@ -394,8 +394,8 @@ void FrameLoop::frame(FunctionRef<void(Passes&)> record) {
     }
 }
 
-// Ends what goes to the second queue and waits there until the timeline is at `drawn`; what goes to
-// the first one waits for it.
+// Ends the second queue's commands, which wait until the timeline reaches `drawn`. The first
+// queue's next submission waits for them.
 void FrameLoop::endBeside(Commands& beside, std::uint64_t drawn) {
     HazardLog* const hazards = device_.hazards();
     if (hazards) {
@@ -413,7 +413,7 @@ std::vector<FrameRecord> FrameLoop::finish() {
     return takeRecords();
 }
 
-// All of them. The next ones are likely to be as many.
+// Takes all records, and reserves as many for the next batch.
 std::vector<FrameRecord> FrameLoop::takeRecords() {
     std::vector<FrameRecord> next;
     next.reserve(std::max(records_.size(), kRecordsAtFirst));
@@ -433,7 +433,7 @@ std::vector<FrameRecord> FrameLoop::completed() {
     return complete;
 }
 
-// Waits for the slot's frame and reads what it measured.
+// Waits for the slot's frame and reads its measurements.
 void FrameLoop::collect(Slot& slot) {
     if (!slot.record) return;
     waitFor(device_, timeline_.get(), slot.value);

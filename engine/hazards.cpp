@@ -12,7 +12,7 @@ namespace {
 
 // ---- Stages and accesses ------------------------------------------------------------------------
 
-// The stages of a draw, each after those before it: of vertices, and of meshes.
+// Stages of a draw in pipeline order: of vertex draws, and of mesh draws.
 constexpr std::array<VkPipelineStageFlags2, 10> kVertexDraw{
     VK_PIPELINE_STAGE_2_DRAW_INDIRECT_BIT,
     VK_PIPELINE_STAGE_2_INDEX_INPUT_BIT | VK_PIPELINE_STAGE_2_VERTEX_ATTRIBUTE_INPUT_BIT,
@@ -41,7 +41,7 @@ constexpr VkPipelineStageFlags2 kTransfer =
     VK_PIPELINE_STAGE_2_COPY_BIT | VK_PIPELINE_STAGE_2_RESOLVE_BIT | VK_PIPELINE_STAGE_2_BLIT_BIT |
     VK_PIPELINE_STAGE_2_CLEAR_BIT;
 
-// A stage that no barrier names, of changes of layout: they happen between two stages.
+// Pseudo-stage of layout changes, which happen between two stages. No barrier names it.
 constexpr VkPipelineStageFlags2 kBetweenStages = VkPipelineStageFlags2{1} << 63;
 
 constexpr VkAccessFlags2 kReads =
@@ -54,7 +54,7 @@ constexpr VkAccessFlags2 kWrites = VK_ACCESS_2_SHADER_WRITE_BIT |
                                    VK_ACCESS_2_DEPTH_STENCIL_ATTACHMENT_WRITE_BIT |
                                    VK_ACCESS_2_TRANSFER_WRITE_BIT | VK_ACCESS_2_HOST_WRITE_BIT;
 
-// Groups of stages and accesses as their members.
+// Expands groups of stages and accesses into their members.
 Scope expanded(Scope scope) {
     const auto expand = [](auto& flags, auto group, auto members) {
         if ((flags & group) == group) flags = (flags & ~group) | members;
@@ -79,7 +79,7 @@ Scope expanded(Scope scope) {
 
 using Stages = std::span<const VkPipelineStageFlags2>;
 
-// The stages of a draw before the last of these.
+// Returns the stages of a draw before the last of `stages`.
 VkPipelineStageFlags2 earlierOf(Stages draw, VkPipelineStageFlags2 stages) {
     VkPipelineStageFlags2 earlier = 0;
     VkPipelineStageFlags2 result = 0;
@@ -90,7 +90,7 @@ VkPipelineStageFlags2 earlierOf(Stages draw, VkPipelineStageFlags2 stages) {
     return result;
 }
 
-// The stages of a draw after the first of these.
+// Returns the stages of a draw after the first of `stages`.
 VkPipelineStageFlags2 laterOf(Stages draw, VkPipelineStageFlags2 stages) {
     VkPipelineStageFlags2 result = 0;
     bool reached = false;
@@ -101,19 +101,19 @@ VkPipelineStageFlags2 laterOf(Stages draw, VkPipelineStageFlags2 stages) {
     return result;
 }
 
-// With the stages that a draw goes through before, which a barrier waits for too.
+// Adds the earlier stages of a draw, which a barrier waits for too.
 VkPipelineStageFlags2 withEarlier(VkPipelineStageFlags2 stages) {
     return stages | earlierOf(kVertexDraw, stages) | earlierOf(kMeshDraw, stages);
 }
 
-// With the stages that a draw goes through after, which wait too.
+// Adds the later stages of a draw, which wait for a barrier too.
 VkPipelineStageFlags2 withLater(VkPipelineStageFlags2 stages) {
     return stages | laterOf(kVertexDraw, stages) | laterOf(kMeshDraw, stages);
 }
 
 bool isWithin(VkFlags64 part, VkFlags64 whole) { return (part & ~whole) == 0; }
 
-// Whether a write that was made visible to `visible` is so to all that `scope` means.
+// Whether a write made visible to `visible` is visible to all stages and accesses of `scope`.
 bool isVisibleTo(const std::vector<Scope>& visible, const Scope& scope) {
     for (VkPipelineStageFlags2 left = scope.stages; left; left &= left - 1) {
         const VkPipelineStageFlags2 stage = left & ~(left - 1);
@@ -204,7 +204,8 @@ void HazardChecker::apply(
         if (barrier.changes_layout) changeLayout(barrier, pass, found);
 }
 
-// The change comes after what its barrier waits for, and before what waits for it.
+// A layout change comes after everything its barrier waits for, and before everything that waits
+// for the barrier.
 void HazardChecker::changeLayout(
     const RecordedBarrier& barrier, const std::string& pass, std::vector<Hazard>& found) {
     const Scope before = expanded(barrier.before);
@@ -254,7 +255,7 @@ void HazardChecker::apply(
             state.write = done;
             continue;
         }
-        // Whatever comes after the later of two reads by the same stages comes after both.
+        // A use after the later of two reads by the same stages comes after both.
         const auto same = std::ranges::find_if(
             state.reads, [&](const Done& read) { return read.scope.stages == scope.stages; });
         if (same != state.reads.end())
@@ -274,7 +275,7 @@ std::set<std::string> barrierPlaces(std::span<const Recording> recordings) {
 }
 
 std::vector<std::string> superfluousBarriers(std::span<const Recording> recordings) {
-    // Hazards without the barriers of one place.
+    // Counts the hazards without the barriers of one place.
     const auto hazardsWithout = [&](const std::string& place) {
         HazardChecker checker;
         std::size_t count = 0;
@@ -334,8 +335,8 @@ std::optional<ResourceId> HazardLog::bufferAt(std::uint64_t address) const {
 
 namespace {
 
-// Calls `use` with every number in the bytes that may be an address: shared structs align them
-// to 8.
+// Calls `use` with every number in the bytes that may be an address. Shared structs align addresses
+// to 8 bytes.
 template <class Use>
 void forEachAddress(std::span<const std::byte> bytes, Use&& use) {
     for (std::size_t at = 0; at + sizeof(std::uint64_t) <= bytes.size();
@@ -377,7 +378,7 @@ void HazardLog::submit(Recording recording) {
     for (const Recorded& each : recording)
         for (const RecordedUse& use : each.uses) {
             const auto found = resources_.find(use.resource);
-            if (found == resources_.end()) continue;  // gone since it was recorded
+            if (found == resources_.end()) continue;  // destroyed since it was recorded
             Resource& resource = found->second;
             resource.last_submission = submissions_;
             if (!each.pass.empty() && (expanded(use.scope).access & kWrites))
@@ -418,7 +419,7 @@ void HazardLog::report(const std::string& message) {
     if (reported_.insert(message).second) messages_.add("hazard: " + message);
 }
 
-// ---- Barriers left out --------------------------------------------------------------------------
+// ---- Dropped barriers ---------------------------------------------------------------------------
 
 void HazardLog::drop(std::optional<std::uint32_t> index) {
     drop_ = index;

@@ -14,31 +14,31 @@
 
 #include "engine/instance.h"
 
-// Whether what is recorded is ordered. The validation layer doesn't see memory that shaders reach
-// by its address, and a device that runs its commands one after the other works without any
-// barrier: so commands say what they touch (Commands::uses), and what they say is held here against
-// the barriers between them, by the rules of the Vulkan specification's chapter 7.
+// Checks that recorded commands are synchronised. The validation layer doesn't see memory that
+// shaders reach by address, and a device that runs commands one after the other works without any
+// barrier. So commands declare what they touch (Commands::uses). The declared uses are checked
+// against the barriers between them by the rules of chapter 7 of the Vulkan specification.
 namespace engine {
 
 class MessageLog;
 
-// Stages of the device and what memory accesses of theirs are meant.
+// Pipeline stages and their memory accesses.
 struct Scope {
     VkPipelineStageFlags2 stages = 0;
     VkAccessFlags2 access = 0;
 };
 
-// A buffer or image, for as long as it lives; numbers are not used again.
+// A buffer or image for its lifetime; numbers are not reused.
 using ResourceId = std::uint32_t;
 
-// What one command touches.
+// One use of a resource by a command.
 struct RecordedUse {
     ResourceId resource = 0;
     Scope scope;
 };
 
-// A dependency between all before and all after it. One of an image makes only that visible, and
-// one that changes an image's layout is a write of it.
+// A dependency between all earlier and all later commands. An image barrier makes only that image's
+// accesses visible. A layout change counts as a write to the image.
 struct RecordedBarrier {
     Scope before;
     Scope after;
@@ -49,11 +49,11 @@ struct RecordedBarrier {
 
 struct Recorded {
     std::string pass;  // empty: outside of passes
-    std::vector<RecordedUse> uses;  // of one command, which don't depend on one another
-    std::vector<RecordedBarrier> barriers;  // of one command, which don't chain; instead of uses
+    std::vector<RecordedUse> uses;  // of one command; they don't depend on one another
+    std::vector<RecordedBarrier> barriers;  // of one command; they don't chain; instead of uses
 };
 
-// A command buffer, in the order of recording.
+// A command buffer in recording order.
 using Recording = std::vector<Recorded>;
 
 // A use that is not ordered after an earlier one.
@@ -69,32 +69,31 @@ struct Hazard {
 // Follows submissions to one queue, one after the other, and finds the hazards in them.
 class HazardChecker {
 public:
-    // The hazards between the recording and all before it, and within it.
+    // Returns the hazards within the recording and against everything before it.
     std::vector<Hazard> submit(const Recording& recording);
 
-    // The host has waited for all submissions so far up to this one, counted from 1: what comes
-    // later depends on nothing that they did.
+    // The host has waited for all submissions up to this one, counted from 1. Later work depends on
+    // nothing in them.
     void finish(std::uint64_t submission);
 
-    // What is submitted from now on waits on the device, by a semaphore, for this submission,
-    // counted from 1.
+    // Later submissions wait on the device, by a semaphore, for this submission, counted from 1.
     void waitFor(std::uint64_t submission);
 
     void forget(ResourceId resource) { states_.erase(resource); }
 
 private:
-    // A use of a resource, and who comes after it for certain.
+    // A use of a resource, and what is known to come after it.
     struct Done {
         Scope scope;
         std::string pass;
         std::uint64_t submission = 0;
         VkPipelineStageFlags2 ordered = 0;  // stages whose later commands come after it
         bool available = false;  // a write: a barrier has made it available
-        std::vector<Scope> visible;  // a write: to whom
+        std::vector<Scope> visible;  // for a write: the scopes it is visible to
     };
     struct State {
         std::optional<Done> write;  // the last one
-        std::vector<Done> reads;  // since then
+        std::vector<Done> reads;  // since that write
     };
 
     void forgetIf(const std::function<bool(const Done&)>& is_over);
@@ -110,23 +109,23 @@ private:
     std::uint64_t submissions_ = 0;
 };
 
-// The places of barriers without which the recordings, submitted one after the other, have no
-// hazard that they don't have anyway. Changes of layout are not among them: they are needed for the
-// layout. Two that each make the other superfluous are both named.
+// Returns the places of barriers that can each be left out: without it, the recordings, submitted
+// one after the other, have no additional hazard. Layout changes are not listed, because the layout
+// needs them. Two barriers that make each other superfluous are both listed.
 std::vector<std::string> superfluousBarriers(std::span<const Recording> recordings);
 
-// The places of all barriers but changes of layout.
+// Returns the places of all barriers except layout changes.
 std::set<std::string> barrierPlaces(std::span<const Recording> recordings);
 
-// The buffers and images of a device, what its queue was given, and the hazards in it, as messages.
-// Made where validation is on. For one thread.
+// The buffers and images of a device, the submissions to its queue, and the hazards in them, as
+// messages. Exists if validation is on. For one thread.
 class HazardLog {
 public:
     explicit HazardLog(MessageLog& messages) : messages_(messages) {}
     HazardLog(const HazardLog&) = delete;
     HazardLog& operator=(const HazardLog&) = delete;
 
-    // A buffer or image that is known for as long as its owner keeps this; move-only.
+    // Registers a buffer or image for its lifetime; move-only.
     class Entry {
     public:
         Entry() = default;
@@ -140,7 +139,7 @@ public:
             if (log_) log_->remove(id_);
         }
 
-        // The host writes to the buffer now. Nothing without a log.
+        // Tells the log that the host writes to the buffer now. Does nothing without a log.
         void hostWrites() const {
             if (log_) log_->hostWrites(id_);
         }
@@ -155,41 +154,41 @@ public:
         ResourceId id_ = 0;
     };
 
-    // `mapped`: what the host sees of it; empty where it doesn't.
+    // `mapped`: the host's view of the buffer; empty if it is not mapped.
     Entry addBuffer(
         std::uint64_t address, std::size_t size, std::span<const std::byte> mapped,
         const std::string& name);
     Entry addImage(VkImage image, const std::string& name);
 
-    // The buffer that the address lies in; none of ours where absent.
+    // Returns the buffer that contains the address; absent if it is not one of ours.
     std::optional<ResourceId> bufferAt(std::uint64_t address) const;
     ResourceId image(VkImage image) const { return images_.at(image); }
 
-    // The buffers that the host writes and that addresses in `bytes` lead to, directly or through
+    // Returns the host-written buffers that addresses in `bytes` point into, directly or through
     // one another.
     std::vector<ResourceId> hostBuffersIn(std::span<const std::byte> bytes) const;
-    // The buffers that commands of passes have written and that addresses in `bytes` lie in.
+    // Returns the buffers that passes have written and that addresses in `bytes` point into.
     std::vector<ResourceId> writtenBuffersIn(std::span<const std::byte> bytes) const;
 
-    // Takes what was recorded, which is submitted next; hazards become messages.
+    // Takes a recording that is submitted next. Hazards become messages.
     void submit(Recording recording);
-    // How many submissions there were.
+    // Number of submissions so far.
     std::uint64_t submissions() const { return submissions_; }
     // The host has waited for this submission and all before it.
     void finish(std::uint64_t submission);
-    // The device waits for this submission before what is submitted from now on.
+    // Later submissions wait on the device for this submission.
     void waitFor(std::uint64_t submission) { checker_.waitFor(submission); }
 
-    // A dispatch of a pass that doesn't say what it touches, or not all that it is handed.
+    // Reports a dispatch of a pass that doesn't declare its uses, or not all buffers it is handed.
     void complain(const std::string& pass, const std::string& what);
     std::string name(ResourceId id) const;
 
-    // For tests. The barrier or change of layout that is recorded as number `index` from now on
-    // orders nothing. Absent: all do.
+    // For tests. The barrier or layout change recorded as number `index` from now on orders
+    // nothing. Absent: none is dropped.
     void drop(std::optional<std::uint32_t> index);
-    // Where that was, once it was recorded.
+    // Place of the dropped barrier, once it was recorded.
     const std::optional<std::string>& dropped() const { return dropped_; }
-    // Whether a barrier that is recorded now is the one to drop.
+    // Returns whether the barrier recorded now is the one to drop.
     bool isDropped(const std::string& pass, const std::string& place);
     // Barriers recorded since drop() was called.
     std::uint32_t barriers() const { return barriers_; }
@@ -206,7 +205,7 @@ private:
         std::span<const std::byte> mapped;
         VkImage image{};
         bool written = false;  // by a pass
-        std::uint64_t last_submission = 0;  // that touches it
+        std::uint64_t last_submission = 0;  // that touches the resource
     };
 
     void remove(ResourceId id);
@@ -215,7 +214,7 @@ private:
 
     MessageLog& messages_;
     std::map<ResourceId, Resource> resources_;
-    std::map<std::uint64_t, ResourceId> buffers_;  // by their first address
+    std::map<std::uint64_t, ResourceId> buffers_;  // by their start address
     std::map<VkImage, ResourceId> images_;
     ResourceId next_ = 0;
     HazardChecker checker_;

@@ -107,9 +107,10 @@ constexpr std::array kVulkan13Features{
     RequiredFeature{"maintenance4", &VkPhysicalDeviceVulkan13Features::maintenance4},
 };
 
-// What stands for a feature: a member of VkPhysicalDeviceFeatures, an extension, a format of
-// colour attachments that can be blended into, or a member of VkPhysicalDeviceVulkan12Features.
-// Of a queue, nothing: its family does; nor of mesh_statistics: a member of an extension's struct.
+// Source of a feature: a member of VkPhysicalDeviceFeatures, an extension, a format of colour
+// attachments that can be blended, or a member of VkPhysicalDeviceVulkan12Features. A queue feature
+// has none, because it depends on the queue families, nor has mesh_statistics, a member of an
+// extension's struct.
 struct FeatureRow {
     Feature feature;
     std::string_view name;
@@ -169,11 +170,11 @@ constexpr std::array kFeatures{
         VK_EXT_SWAPCHAIN_MAINTENANCE_1_EXTENSION_NAME},
 };
 
-// What Feature::present_fences needs of the instance.
+// Instance extensions for Feature::present_fences.
 constexpr std::array kPresentFenceExtensions{
     VK_KHR_GET_SURFACE_CAPABILITIES_2_EXTENSION_NAME, VK_EXT_SURFACE_MAINTENANCE_1_EXTENSION_NAME};
 
-// Of headers that are asked for provisional extensions; the number never changes.
+// Headers define it only with provisional extensions enabled. The number never changes.
 constexpr auto kPortabilityFeaturesType = static_cast<VkStructureType>(1000163000);
 
 template <class Struct, std::size_t Count>
@@ -190,7 +191,7 @@ void enable(Struct& features, const std::array<RequiredFeature<Struct>, Count>& 
     for (const auto& feature : wanted) features.*feature.member = VK_TRUE;
 }
 
-// The structs of features that are asked for and switched on, chained.
+// Chained structs of the features to query and enable.
 struct FeatureChain {
     VkPhysicalDeviceFeatures2 core{};
     VkPhysicalDeviceVulkan12Features vulkan12{};
@@ -199,7 +200,7 @@ struct FeatureChain {
     VkPhysicalDeviceMeshShaderFeaturesEXT meshes{};
     VkPhysicalDevicePortabilitySubsetFeaturesKHR portability{};
 
-    // Structs of extensions only where the device has these.
+    // Adds an extension's struct only if the device has the extension.
     FeatureChain(bool is_portability, bool has_present_fences, bool has_mesh_shaders) {
         core.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2;
         core.pNext = &vulkan12;
@@ -403,7 +404,7 @@ std::string resultName(VkResult result) {
 
 namespace {
 
-// Devices that were given up: never destroyed, so no other has one's handle.
+// Devices that were given up. They are never destroyed, so no other device gets their handle.
 struct GivenUp {
     std::atomic<bool> any = false;
     std::mutex mutex;
@@ -411,7 +412,7 @@ struct GivenUp {
 };
 
 GivenUp& givenUp() {
-    static GivenUp& all = *new GivenUp;  // devices may be static, too
+    static GivenUp& all = *new GivenUp;  // never destroyed, because devices may be static too
     return all;
 }
 

@@ -17,7 +17,7 @@
 // messages, and the choice of a physical device.
 namespace engine {
 
-// The specification's name of a result, such as "VK_ERROR_DEVICE_LOST".
+// Returns the specification's name of a result, such as "VK_ERROR_DEVICE_LOST".
 std::string resultName(VkResult result);
 
 // Throws Error "<what>: <result name>" unless the call succeeded.
@@ -25,12 +25,12 @@ void check(VkResult result, const char* what);
 
 // Whether giveUp() was called for the device.
 bool isGivenUp(VkDevice device);
-// From now on nothing that the device made is destroyed, nor the device itself: it never answered,
-// and may still be at work on all of it.
+// Marks a device that never answered and may still use its objects. From now on neither its objects
+// nor the device are destroyed.
 void giveUp(VkDevice device);
 
-// Owns one Vulkan object that a device made. `Destroy` is the address of volk's function pointer,
-// e.g. Handle<VkSampler, &vkDestroySampler>.
+// Owns one Vulkan object of a device. `Destroy` is the address of volk's function pointer, e.g.
+// Handle<VkSampler, &vkDestroySampler>.
 template <class Object, auto Destroy>
 class Handle {
 public:
@@ -48,7 +48,7 @@ public:
     }
 
     Object get() const { return object_; }
-    // Where it is, as long as this lives and nothing is moved into it.
+    // Address of the handle, valid while this object lives and nothing is moved into it.
     const Object* place() const { return &object_; }
 
 private:
@@ -59,10 +59,10 @@ private:
 enum class Validation {
     off,
     on,  // the Khronos layer with synchronisation validation; an Error if it is not installed
-    gpu_assisted,  // and with checks that it writes into shaders: of addresses, indices and more
+    gpu_assisted,  // also with checks inserted into shaders: of addresses, indices and more
 };
 
-// Warnings and errors of the validation layer, in the order they came. Thread-safe.
+// Warnings and errors of the validation layer, in order of arrival. Thread-safe.
 class MessageLog {
 public:
     void add(std::string message);
@@ -73,10 +73,10 @@ private:
     std::vector<std::string> messages_;
 };
 
-// The Vulkan loader and instance. Throws NoDevice where no loader or no Vulkan 1.3 instance exists.
+// The Vulkan loader and instance. Throws NoDevice if no loader or no Vulkan 1.3 instance exists.
 class Instance {
 public:
-    // `window_extensions`: Window::instanceExtensions() where windows are opened.
+    // `window_extensions`: Window::instanceExtensions() if windows are opened.
     explicit Instance(
         Validation validation, const std::vector<std::string>& window_extensions = {});
     ~Instance();
@@ -84,12 +84,12 @@ public:
     Instance& operator=(const Instance&) = delete;
 
     VkInstance get() const { return instance_; }
-    // Whether it has what Feature::present_fences needs of instances. Only where windows are
-    // opened.
+    // Whether the instance has the extensions that Feature::present_fences needs. Only if windows
+    // are opened.
     bool allowsPresentFences() const { return allows_present_fences_; }
     MessageLog& messages() const { return *messages_; }
     std::vector<VkPhysicalDevice> physicalDevices() const;
-    // Leaves it, and the log that it writes to, where they are: a device of it was given up.
+    // Leaves the instance and its message log alive, because one of its devices was given up.
     void abandon();
 
 private:
@@ -105,38 +105,38 @@ public:
     using Error::Error;
 };
 
-// What a device may lack. Features are switched on where they are there; a case that needs one that
-// is not is skipped.
+// Optional device features. A feature is enabled if the device has it. A case that needs a missing
+// feature is skipped.
 enum class Feature {
     tessellation,  // control and evaluation stages, with isolines
     geometry,
     mesh_shader,  // task and mesh stages
-    vertex_stores,  // of vertex, tessellation and geometry stages
+    vertex_stores,  // stores in vertex, tessellation and geometry stages
     fragment_stores,
-    independent_blend,  // attachments of one pipeline that are blended in different ways
-    float_blend,  // of 32-bit floats
-    multi_draw,  // several draws by one command, their arguments in a buffer
-    long_integers,  // of 64 bits, in shaders
-    long_atomics,  // on such integers in buffers
+    independent_blend,  // different blending for the attachments of one pipeline
+    float_blend,  // blending of 32-bit floats
+    multi_draw,  // several indirect draws in one command
+    long_integers,  // 64-bit integers in shaders
+    long_atomics,  // on 64-bit integers in buffers
     pipeline_statistics,
-    mesh_statistics,  // of task and mesh stages
-    sample_counts,  // occlusion queries that count
-    calibrated_timestamps,  // a moment by the clocks of device and host at once
-    push_descriptors,  // Commands does with descriptor sets where they are missing
-    second_queue,  // that computes beside the first one
-    memory_budget,  // how much of its memory is free; guessed by its heap where it is missing
-    // Fences that say when a picture in a window is done with; of devices that were made with
-    // extensions of windows. Swapchain does with images that come back where they are missing.
+    mesh_statistics,  // for task and mesh stages
+    sample_counts,  // precise occlusion queries
+    calibrated_timestamps,  // device and host clocks read at the same moment
+    push_descriptors,  // without them Commands uses descriptor sets
+    second_queue,  // for compute beside the first queue
+    memory_budget,  // reports free memory; without it, estimated from the heap size
+    // Fences that signal when a present is done. Only for devices made with window extensions.
+    // Without them Swapchain relies on images that come back.
     present_fences,
 };
 
-// In the plural, for "the device has no ...".
+// Returns the name in the plural, for "the device has no ...".
 std::string_view featureName(Feature feature);
 
-// All of them, in the order above.
+// Returns all features in the order above.
 std::vector<Feature> allFeatures();
 
-// What a Vulkan device is and whether hairbench can run on it.
+// A Vulkan device, and whether it can run hairbench.
 struct DeviceInfo {
     VkPhysicalDevice handle{};
     std::string name;
@@ -147,28 +147,28 @@ struct DeviceInfo {
     VkDriverId driver_id{};
     VkPhysicalDeviceLimits limits{};
     VkPhysicalDeviceMeshShaderPropertiesEXT mesh_limits{};  // with Feature::mesh_shader
-    std::uint64_t local_bytes = 0;  // of the largest memory heap that is the device's own
+    std::uint64_t local_bytes = 0;  // of the largest device-local memory heap
     std::uint32_t queue_family = 0;  // graphics, compute and transfer
-    // Of the second queue: another family with compute, best one without graphics, or the same one
-    // where that has several queues. That of the first where there is no second.
+    // Family of the second queue: another family with compute, preferably without graphics, or the
+    // first queue's family if it has several queues. Without a second queue, the first queue's
+    // family.
     std::uint32_t compute_family = 0;
     std::uint32_t timestamp_valid_bits = 0;  // of the queue family
-    std::vector<std::string> missing;  // required features it lacks; empty: suitable
+    std::vector<std::string> missing;  // required features that are missing; empty: suitable
     std::set<Feature> features;
-    bool is_portability = false;  // it has a subset of Vulkan (VK_KHR_portability_subset)
+    bool is_portability = false;  // supports a subset of Vulkan (VK_KHR_portability_subset)
 };
 
-// All devices of the instance, as the driver orders them.
+// Returns all devices of the instance in the driver's order.
 std::vector<DeviceInfo> listDevices(const Instance& instance);
 
-// The device that `wanted` names by index or part of its name (any case); with an empty `wanted`
-// the first of the best suitable type (discrete, integrated, virtual, cpu). Throws NoDevice with
-// the reasons when there is none.
+// Returns the device that `wanted` names by index or part of its name (any case). With an empty
+// `wanted`, returns the first of the best suitable type (discrete, integrated, virtual, cpu).
+// Throws NoDevice with the reasons if there is none.
 DeviceInfo chooseDevice(const Instance& instance, const std::string& wanted);
 
-// Creates the logical device with its first queue, the second one where the features have it, the
-// features that every device must have and those of
-// `info`, and these extensions beside those that the features need.
+// Creates the logical device with its first queue, the second queue if the features include it, the
+// required features, the features of `info`, and `extensions` besides those that the features need.
 VkDevice createDevice(const DeviceInfo& info, std::vector<const char*> extensions);
 
 }  // namespace engine

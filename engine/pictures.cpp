@@ -30,17 +30,20 @@
 namespace engine {
 namespace {
 
-// At least so many pixels take a byte, of what stb makes room for before it looks at them. Of PNG
-// deflate makes at most 1032 bytes of one, of 8 pixels each. Of JPEG a block of 64 pixels is a bit
-// at the least, and of two channels either may have every fourth pixel alone. Others have less.
+// Upper bounds on pixels per byte, for memory that stb allocates before it looks at the pixels.
+// PNG: deflate makes at most 1032 bytes from one, with 8 pixels each. JPEG: a block of 64 pixels
+// takes at least one bit, and with two channels each may store only every fourth pixel. Other
+// formats have fewer.
 constexpr std::int64_t kMostPixelsPerByteOfPng = 8 * 1032;
 constexpr std::int64_t kMostPixelsPerByte = 1024;
 
-// The Huffman tables of a JPEG, of which stb believes two things: that one has no more codes than
-// bytes have values, or it writes past the end of its own, and that a scan's are there.
+// The Huffman tables of a JPEG. stb assumes without a check that a table has at most as many codes
+// as a byte has values, or else writes past the end of its own table, and that a scan's tables
+// exist.
 class HuffmanTables {
 public:
-    // A segment of them: what one is of, 16 counts of codes of 1 to 16 bits, and as many values.
+    // A segment of tables. Each has its class and number, 16 counts of codes of 1 to 16 bits, and a
+    // value per code.
     void define(std::string_view tables) {
         constexpr std::size_t kHead = 17;  // bytes before the values
         constexpr std::size_t kMostCodes = 256;
@@ -56,17 +59,18 @@ public:
         }
     }
 
-    // A scan's head: how many channels, each with its tables, and the coefficients. Those of a
-    // progressive one are the first, which has a table for its first bits alone, or the others.
+    // A scan header: the number of channels, each with its tables, and the coefficients. A
+    // progressive scan has either the first coefficients (DC), which need a table only in their
+    // first pass, or the others (AC).
     void check(std::string_view scan, bool progressive) const {
         const auto byteAt = [&](std::size_t at) {
             return at < scan.size() ? int{static_cast<unsigned char>(scan[at])} : 0;
         };
         const auto channels = static_cast<std::size_t>(byteAt(0));
-        if (scan.size() != 4 + 2 * channels) return;  // which stb refuses
+        if (scan.size() != 4 + 2 * channels) return;  // stb rejects it
         const bool first = byteAt(1 + 2 * channels) == 0;
         const bool refines = byteAt(3 + 2 * channels) >> 4 != 0;
-        constexpr int kOthers = 0x10;  // of what a table is, beside its number
+        constexpr int kOthers = 0x10;  // class bit of AC tables
         for (std::size_t i = 0; i < channels; ++i) {
             const int tables = byteAt(2 + 2 * i);
             const bool has_first = defined_.contains(tables >> 4);
@@ -87,8 +91,8 @@ bool isJpeg(std::string_view file) {
     return start != 0 && start < file.size() && file[start] == '\xd8';
 }
 
-// Walks through the segments of a JPEG, those behind coded data among them, where 0xff is followed
-// by 0 or by a restart's mark (ITU-T T.81, annex B). stb finds no others.
+// Walks through the segments of a JPEG, including those after coded data, where 0xff is followed by
+// 0 or by a restart marker (ITU-T T.81, annex B). stb finds no others.
 void checkJpegTables(std::string_view file) {
     constexpr int kProgressive = 0xc2;
     constexpr int kHuffmanTables = 0xc4;
@@ -101,9 +105,9 @@ void checkJpegTables(std::string_view file) {
         at = std::min(file.find_first_not_of('\xff', at), file.size());
         if (file.size() - at < 3 || byteAt(at) == kEnd) return;
         const int mark = byteAt(at++);
-        if (mark < 0xc0 || (mark >= 0xd0 && mark < kEnd)) continue;  // it has no length
+        if (mark < 0xc0 || (mark >= 0xd0 && mark < kEnd)) continue;  // a marker without a length
         const auto length = static_cast<std::size_t>(byteAt(at) << 8 | byteAt(at + 1));
-        if (length < 2) return;  // which stb refuses
+        if (length < 2) return;  // stb rejects it
         const std::string_view segment = file.substr(at, length);
         if (segment.size() < 2) return;
         progressive = progressive || mark == kProgressive;

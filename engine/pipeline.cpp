@@ -53,7 +53,7 @@ loadModule(const Device& device, const std::string& path, const ShaderExtensions
     return {device.get(), module};
 }
 
-// Keeps what `info` points to but the constants themselves.
+// Keeps everything that `info` points to, except the constants themselves.
 struct Specialization {
     explicit Specialization(const Constants& constants) {
         for (const Constant& constant : constants) {
@@ -106,7 +106,7 @@ PipelineLayout makeLayout(
     return {device.get(), layout};
 }
 
-// Throws Unsupported where the device has no such stage.
+// Throws Unsupported if the device lacks the stage.
 void requireStage(const Device& device, const std::string& path) {
     switch (stageOf(path)) {
     case VK_SHADER_STAGE_TESSELLATION_CONTROL_BIT:
@@ -122,7 +122,7 @@ void requireStage(const Device& device, const std::string& path) {
     }
 }
 
-// The stages that may have push constants: of a device without mesh stages no layout names them.
+// Stages that may have push constants. On a device without mesh stages no layout may name them.
 VkShaderStageFlags pushStages(const std::vector<std::string>& shaders) {
     const bool has_mesh = std::ranges::any_of(
         shaders, [](const auto& path) { return stageOf(path) == VK_SHADER_STAGE_MESH_BIT_EXT; });
@@ -131,7 +131,7 @@ VkShaderStageFlags pushStages(const std::vector<std::string>& shaders) {
            VK_SHADER_STAGE_FRAGMENT_BIT;
 }
 
-// One image at each binding, of these types.
+// One image of these types per binding.
 VkDescriptorSetLayout makeImageLayout(
     const Device& device, std::span<const VkDescriptorType> types, VkShaderStageFlags stages) {
     std::vector<VkDescriptorSetLayoutBinding> bindings(types.size());
@@ -314,7 +314,7 @@ PipelineObjects makePipeline(const Device& device, const GraphicsDescription& de
     return objects;
 }
 
-// All that a pipeline is made of, as bytes.
+// Everything that a pipeline is made of, as bytes.
 class PipelineKey {
 public:
     template <class Value>

@@ -16,11 +16,11 @@
 
 #include "engine/device.h"
 
-// Compute and graphics pipelines from descriptions, and what SPIR-V says of itself.
+// Compute and graphics pipelines from descriptions, and inspection of SPIR-V.
 namespace engine {
 
-// A specialization constant: the id that shaders declare it with, and its value's 32 bits. A value
-// of a type other than these is ambiguous and does not compile.
+// A specialization constant: its id in shaders and the 32 bits of its value. A value of any other
+// type is ambiguous and does not compile.
 struct Constant {
     constexpr Constant(std::uint32_t constant, std::uint32_t value) : id(constant), bits(value) {}
     constexpr Constant(std::uint32_t constant, bool value) : id(constant), bits(value ? 1 : 0) {}
@@ -31,8 +31,8 @@ struct Constant {
     std::uint32_t bits;
 };
 
-// Constants of different ids, in any order. Those that a shader does not declare are no error;
-// those that are missing keep the shader's default.
+// Constants with distinct ids, in any order. A constant that the shader does not declare is no
+// error. A missing constant keeps the shader's default.
 using Constants = std::vector<Constant>;
 
 struct ShaderExtension;
@@ -41,10 +41,10 @@ using ShaderExtensions = std::vector<std::shared_ptr<const ShaderExtension>>;
 struct ComputeDescription {
     std::string shader;  // path under shaders/, e.g. "simulation/wind.comp"
     Constants constants;
-    ShaderExtensions extensions{};  // shaders.h: of those that the shader calls
+    ShaderExtensions extensions{};  // shaders.h: for the entry points that call them
     std::uint32_t push_size = 0;  // B
-    // Either images with their samplers, at bindings 0 .., or sampled ones without and storage ones
-    // after them.
+    // Either combined images with samplers from binding 0 on, or sampled images without samplers
+    // followed by storage images.
     std::uint32_t combined_images = 0;
     std::uint32_t sampled_images = 0;
     std::uint32_t storage_images = 0;
@@ -55,12 +55,12 @@ struct PipelineObjects {
     Handle<VkDescriptorSetLayout, &vkDestroyDescriptorSetLayout> images;
     Handle<VkPipelineLayout, &vkDestroyPipelineLayout> layout;
     Handle<VkPipeline, &vkDestroyPipeline> pipeline;
-    VkShaderStageFlags push_stages = 0;  // that the push constants are of
+    VkShaderStageFlags push_stages = 0;  // stages that have the push constants
 };
 
-// The pipelines that a device made last, by all that they were made of: the code of their stages,
-// constants and state. Equal ones are made once, as a driver would compile each of them anew, some
-// at its first draw only. Thread-safe.
+// LRU cache of the device's pipelines. Its key is everything that a pipeline is made of: stage
+// code, constants and state. Equal pipelines are made once, because a driver would compile each of
+// them again, sometimes only at its first draw. Thread-safe.
 class PipelineStore {
 public:
     using Objects = std::shared_ptr<const PipelineObjects>;
@@ -86,13 +86,13 @@ private:
     PipelineStore::Objects objects_;
 };
 
-// What becomes of a fragment's color and that of the attachment.
+// How a fragment's colour is combined with the attachment's.
 enum class Blend {
     replace,
     add,  // all channels
-    over,  // color: by the fragment's alpha; alpha: what is covered
+    over,  // colour: by the fragment's alpha; alpha: coverage
     attenuate,  // attachment x (1 - fragment), channel by channel
-    keep,  // nothing: the attachment stays as it is
+    keep,  // the attachment stays unchanged
 };
 
 struct ColorTarget {
@@ -100,11 +100,11 @@ struct ColorTarget {
     Blend blend = Blend::replace;
 };
 
-// Which way depth goes, in every image of depth, from the eye as from lights: from 1 at the near
-// plane down to 0 at the far one. A perspective view leaves little depth for what is far away, and
-// 32-bit floats are finest near 0, so the two make up for each other; with 0 at the near plane they
-// would add up: 2.4 mm a step at 20 m from planes of 0.01 and 100 m, where now it is 2 um. Shaders
-// have it from shaders/common/depth.glsl.
+// Direction of depth in every depth image, seen from the eye and from lights: 1 at the near plane,
+// 0 at the far plane (reversed depth). A perspective view leaves little depth range for distant
+// surfaces, and 32-bit floats are finest near 0, so the two effects cancel. With 0 at the near
+// plane they would add up: with planes at 0.01 and 100 m, a step at 20 m would be 2.4 mm instead of
+// 2 um. Shaders get the direction from shaders/common/depth.glsl.
 constexpr float kNearDepth = 1.0f;
 constexpr float kFarDepth = 0.0f;
 constexpr VkCompareOp kIsNearer = VK_COMPARE_OP_GREATER;
@@ -114,27 +114,27 @@ struct GraphicsDescription {
     // One per stage, by extension: .vert .tesc .tese .geom .frag, or .task .mesh .frag.
     std::vector<std::string> shaders;
     Constants constants;  // the same for every stage
-    ShaderExtensions extensions{};  // each of the stages that call it
+    ShaderExtensions extensions{};  // linked into each stage that calls them
     std::uint32_t push_size = 0;  // B
     VkPrimitiveTopology topology = VK_PRIMITIVE_TOPOLOGY_TRIANGLE_LIST;
     std::uint32_t patch_control_points = 0;  // with PATCH_LIST
-    std::vector<ColorTarget> colors;  // blends that differ need independentBlend
+    std::vector<ColorTarget> colors;  // different blends need Feature::independent_blend
     VkFormat depth_format = VK_FORMAT_UNDEFINED;
     std::uint32_t samples = 1;
     VkCullModeFlags cull = VK_CULL_MODE_NONE;
     VkCompareOp depth_compare = kIsNearer;
     bool depth_write = true;
-    bool discard = false;  // primitives, before they are rasterised: no .frag then
-    // With their samplers, at bindings 0 .. of the fragment stage.
+    bool discard = false;  // drops primitives before rasterisation; then there is no .frag
+    // Images with samplers, from binding 0 of the fragment stage on.
     std::uint32_t sampled_images = 0;
     std::uint32_t texel_buffers = 0;  // after the images
 };
 
-// A pipeline of graphics stages. Viewport and scissor are dynamic; the rest of the state is in the
-// description.
+// A graphics pipeline. Viewport and scissor are dynamic; the description holds the rest of the
+// state.
 class GraphicsPipeline {
 public:
-    // Throws Unsupported for stages that the device hasn't.
+    // Throws Unsupported for stages that the device lacks.
     GraphicsPipeline(const Device& device, const GraphicsDescription& description);
 
     VkPipeline get() const { return objects_->pipeline.get(); }
@@ -146,7 +146,7 @@ private:
     PipelineStore::Objects objects_;
 };
 
-// A place at which SPIR-V expects a descriptor.
+// A descriptor binding that SPIR-V declares.
 struct ShaderBinding {
     std::uint32_t set = 0;
     std::uint32_t binding = 0;
@@ -154,10 +154,10 @@ struct ShaderBinding {
     auto operator<=>(const ShaderBinding&) const = default;
 };
 
-// All descriptors that a shader's code names.
+// Returns all descriptor bindings that a shader's code declares.
 std::set<ShaderBinding> shaderBindings(std::span<const std::uint32_t> code);
 
-// Operations of the SPIR-V specification, 3.42.
+// Operation codes: SPIR-V specification, 3.42.
 namespace spirv {
 constexpr std::uint32_t kSourceContinued = 2;
 constexpr std::uint32_t kSource = 3;
@@ -171,7 +171,8 @@ struct SpirvInstruction {
     std::span<const std::uint32_t> operands;  // words
 };
 
-// Calls `use` for every instruction before the first function. Ends early in what is no SPIR-V.
+// Calls `use` for every instruction before the first function. Ends early if the code is not
+// SPIR-V.
 template <class Use>
 void forEachDeclaration(std::span<const std::uint32_t> code, Use&& use) {
     constexpr std::size_t kHeaderWords = 5;

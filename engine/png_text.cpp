@@ -14,8 +14,8 @@ namespace {
 using namespace std::string_view_literals;
 
 constexpr auto kSignature = "\x89PNG\r\n\x1a\n"sv;
-constexpr std::size_t kFrame = 12;  // bytes of a chunk beside its data: length, type, checksum
-constexpr std::size_t kHeaderChunk = kFrame + 13;          // IHDR with what is in it
+constexpr std::size_t kFrame = 12;  // bytes of a chunk besides its data: length, type, checksum
+constexpr std::size_t kHeaderChunk = kFrame + 13;          // IHDR and its data
 constexpr std::size_t kLongestText = std::size_t{64} << 20;  // bytes
 
 struct Chunk {
@@ -29,7 +29,7 @@ struct Chunk {
 
 const Bytef* bytesOf(std::string_view text) { return reinterpret_cast<const Bytef*>(text.data()); }
 
-// The checksum of a chunk's type and data, which lie one after the other.
+// Returns the checksum of a chunk's type and data, which are adjacent.
 std::uint32_t checksum(std::string_view type_and_data) {
     return static_cast<std::uint32_t>(
         crc32_z(crc32_z(0, nullptr, 0), bytesOf(type_and_data), type_and_data.size()));
@@ -47,7 +47,7 @@ std::string bigEndian(std::uint32_t value) {
     return bytes;
 }
 
-// The chunk at `at`, which is moved behind it.
+// Returns the chunk at `at` and moves `at` past it.
 Chunk readChunk(std::string_view file, std::size_t& at) {
     const std::string_view rest = file.substr(at);
     if (rest.size() < kFrame) fail(at, "the file ends before its last chunk");
@@ -59,7 +59,7 @@ Chunk readChunk(std::string_view file, std::size_t& at) {
     return {rest.substr(4, 4), rest.substr(8, length)};
 }
 
-// What is in front of the next zero byte, which is taken off with it.
+// Removes the text up to the next zero byte, with that byte, and returns the text.
 std::string_view takeUpToZero(std::string_view& data, std::size_t at) {
     const std::size_t zero = data.find('\0');
     if (zero == std::string_view::npos) fail(at, "the chunk of text is cut off");
@@ -97,7 +97,7 @@ std::string inflated(std::string_view data, std::size_t at) {
     return text;
 }
 
-// The text behind the keyword. `at` is where the chunk is, for errors.
+// Returns the text after the keyword. `at`: offset of the chunk, for errors.
 std::string textOf(std::string_view type, std::string_view data, std::size_t at) {
     if (type == "tEXt") return std::string(data);
     bool compressed = type == "zTXt";
@@ -112,7 +112,7 @@ std::string textOf(std::string_view type, std::string_view data, std::size_t at)
         method = data[1];
         data.remove_prefix(2);
         takeUpToZero(data, at);  // the language
-        takeUpToZero(data, at);  // the keyword in it
+        takeUpToZero(data, at);  // the translated keyword
     }
     if (!compressed) return std::string(data);
     if (method != 0) fail(at, "the text is compressed in an unknown way");
@@ -151,7 +151,8 @@ std::optional<std::string> pngText(std::string_view file, std::string_view keywo
 
 namespace {
 
-// The bytes of all rows, each with its filter's; section 11.2.1. Interlaced ones are a little more.
+// Returns the bytes of all rows, each with its filter byte (section 11.2.1). Interlaced ones take a
+// little more.
 std::uint64_t rowBytes(std::string_view header, std::size_t at) {
     constexpr std::array<std::uint64_t, 7> kChannels{1, 0, 3, 1, 2, 0, 4};  // by colour type
     if (header.size() != 13) fail(at, "the header is cut off");

@@ -22,7 +22,7 @@ constexpr std::array kModes{
     Mode{PresentMode::mailbox, VK_PRESENT_MODE_MAILBOX_KHR, "mailbox"},
     Mode{PresentMode::immediate, VK_PRESENT_MODE_IMMEDIATE_KHR, "immediate"}};
 
-// lavapipe loses about every tenth new surface once, and finds it when asked again.
+// lavapipe reports about every tenth new surface as lost once. A second query succeeds.
 VkSurfaceCapabilitiesKHR capabilitiesOf(VkPhysicalDevice device, VkSurfaceKHR surface) {
     VkSurfaceCapabilitiesKHR capabilities{};
     VkResult result = vkGetPhysicalDeviceSurfaceCapabilitiesKHR(device, surface, &capabilities);
@@ -32,7 +32,7 @@ VkSurfaceCapabilitiesKHR capabilitiesOf(VkPhysicalDevice device, VkSurfaceKHR su
     return capabilities;
 }
 
-// Eight bits a channel and no conversion: what is drawn is display-referred already.
+// Eight bits per channel and no conversion: drawn colours are already display-referred.
 VkSurfaceFormatKHR chooseFormat(VkPhysicalDevice device, VkSurfaceKHR surface) {
     std::uint32_t count = 0;
     check(
@@ -194,7 +194,7 @@ Swapchain::Swapchain(
 std::optional<std::uint32_t> Swapchain::acquire(VkSemaphore acquired) {
     std::uint32_t index = 0;
     VkResult result{};
-    // A window that nobody sees may wait for as long as that.
+    // An invisible window may delay its image for as long as it is invisible.
     waitHeeding([&](std::uint64_t nanoseconds) {
         result = vkAcquireNextImageKHR(
             device_.get(), swapchain_.get(), nanoseconds, acquired, VK_NULL_HANDLE, &index);
@@ -330,10 +330,10 @@ void Presenter::dropSwapchains() {
     swapchain_.reset();
 }
 
-// Of the same window.
+// Makes a new surface for the same window.
 void Presenter::renewSurface() {
     dropSwapchains();
-    surface_.reset();  // a window has one at a time
+    surface_.reset();  // a window has only one surface at a time
     surface_.reset(window_.createSurface(device_.instance()));
 }
 
@@ -363,11 +363,11 @@ void Presenter::wait() {
     milliseconds_ = timestamps_->read().back();
 }
 
-// Another swapchain is made for the next picture.
+// Retires the swap chain. The next picture gets a new one.
 void Presenter::retire() {
     if (!swapchain_) return;
     old_.push_back({.swapchain = std::move(swapchain_), .frames = frames_});
-    // A window that is being resized gets other images before any come back.
+    // While a window is resized, swap chains change before any image comes back.
     constexpr std::size_t kMostOld = 4;
     if (old_.size() <= kMostOld) return;
     check(vkQueueWaitIdle(device_.queue()), "wait for the device");
@@ -375,10 +375,10 @@ void Presenter::retire() {
     old_.erase(old_.begin());
 }
 
-// Of what a present waits for and shows nothing may go before it is over. A fence says when; where
-// there are none, an image that comes back was shown, and with it all that was to be shown earlier.
-// A frame that was submitted after the present is over, too: who watches the queue from outside, as
-// validation layers do, may not know that fence.
+// Drops retired swap chains. Nothing that a present waits for or shows may be destroyed before the
+// present is over. A fence tells when. Without fences, an image that came back was shown, and so
+// were all earlier presents. A frame submitted after the present must be over too, because an
+// observer of the queue, such as a validation layer, may not know the fence.
 void Presenter::dropRetired() {
     if (device_.has(Feature::present_fences))
         std::erase_if(old_, [this](const OldSwapchain& old) {
@@ -388,13 +388,13 @@ void Presenter::dropRetired() {
         old_.clear();
 }
 
-// Makes the images that the window's size asks for.
+// Makes the images for the window's size.
 bool Presenter::prepare() {
     const VkExtent2D extent = window_.pixels();
     if (extent.width == 0 || extent.height == 0) return false;
     const bool fits = swapchain_ && swapchain_->extent().width == extent.width &&
                       swapchain_->extent().height == extent.height;
-    // The surface may know that it was put away before the window does.
+    // The surface may know before the window that the window was minimised.
     if (!fits && Swapchain::isEmpty(device_, surface_.get())) return false;
     if (!fits) {
         retire();
@@ -431,7 +431,7 @@ bool Presenter::frame(
 
 bool Presenter::showFrame(
     const std::function<void(Commands&)>& before, const std::function<void(Commands&)>& draw) {
-    // A window that is being resized may outgrow its images more than once.
+    // While a window is resized, it may outgrow its images more than once.
     for (int attempt = 0; attempt < 3; ++attempt) {
         if (!prepare()) return false;
         const std::optional<std::uint32_t> index = swapchain_->acquire(acquired_.get());

@@ -10,49 +10,48 @@
 #include "engine/queries.h"
 #include "engine/window.h"
 
-// Pictures on the screen: the images of a window, and who draws them.
+// Pictures on the screen: the swap chain of a window, and the presenter that draws to it.
 namespace engine {
 
-// How pictures reach the screen.
+// How pictures are presented to the screen.
 enum class PresentMode {
-    fifo,       // in step with the screen: never torn, and never faster
-    mailbox,    // the newest one, in step with the screen
-    immediate,  // at once, torn where it comes in between
+    fifo,       // in step with the screen: no tearing, and no faster
+    mailbox,    // the newest picture, in step with the screen
+    immediate,  // at once, possibly torn
 };
 
 const char* presentModeName(PresentMode mode);
 
-// The images that a window shows, one after another, and what their presents use. They have one
-// size: where the window's changes another swapchain is made, and this one must live until its
-// presents are done with.
+// A window's images and the objects that their presents use. The size is fixed: if the window's
+// size changes, another swap chain is made, and this one must live until its presents are done.
 class Swapchain {
 public:
-    // Fifo where the surface has no such mode. `extent` is what the window says, for surfaces that
-    // take any. `old` shows nothing new from then on. Throws Error where the device can't show
-    // pictures there.
+    // Uses fifo if the surface lacks `mode`. `extent`: the window's size, for surfaces that accept
+    // any size. `old`: the replaced swap chain, which presents nothing new from then on. Throws
+    // Error if the device can't present to the surface.
     Swapchain(
         const Device& device, VkSurfaceKHR surface, VkExtent2D extent, PresentMode mode,
         const Swapchain* old = nullptr);
 
-    // The index of the next image, which `acquired` is signalled for; none where the swapchain no
-    // longer fits the window. An image that comes back is no longer used by its last present.
+    // Returns the index of the next image and signals `acquired` for it; none if the swap chain no
+    // longer fits the window. The image's last present no longer uses it.
     std::optional<std::uint32_t> acquire(VkSemaphore acquired);
 
     // Copies a picture in TRANSFER_SRC_OPTIMAL into an acquired image, scaled to its size, and
-    // makes it ready to be shown.
+    // makes it ready to present.
     void copy(Commands& commands, const Image& picture, std::uint32_t index) const;
 
-    // What whoever draws an acquired image signals, and its present waits for.
+    // Semaphore that the drawing of an acquired image signals and its present waits for.
     VkSemaphore drawn(std::uint32_t index) const { return slots_[index].drawn.get(); }
-    // Shows an acquired image once it is drawn. False where the swapchain no longer fits the
-    // window.
+    // Presents an acquired image once it is drawn. Returns false if the swap chain no longer fits
+    // the window.
     bool present(std::uint32_t index);
 
-    // Whether an image was presented and came back: presents of swapchains before this are over.
+    // Whether a presented image came back. Then the presents of earlier swap chains are over.
     bool cameBack() const { return came_back_; }
-    // With Feature::present_fences: whether no present uses anything of it.
+    // With Feature::present_fences: whether no present uses this swap chain any more.
     bool isDone() const;
-    // Waits for that, a second at most; without the feature not at all.
+    // Waits for isDone(), at most a second. Without the feature it does not wait.
     void finish() const;
 
     VkExtent2D extent() const { return extent_; }
@@ -60,7 +59,7 @@ public:
     std::size_t imageCount() const { return slots_.size(); }
 
     static std::vector<PresentMode> modes(const Device& device, VkSurfaceKHR surface);
-    // Whether the surface has no size now, as where its window is minimised.
+    // Whether the surface has no size at present, for example because its window is minimised.
     static bool isEmpty(const Device& device, VkSurfaceKHR surface);
 
 private:
@@ -68,23 +67,23 @@ private:
         VkImage image{};
         Handle<VkSemaphore, &vkDestroySemaphore> drawn;
         Handle<VkFence, &vkDestroyFence> shown;  // null without Feature::present_fences
-        bool is_presented = false;  // since it was acquired last
+        bool is_presented = false;  // since its last acquisition
     };
 
-    // Fences of presents that were not seen to be over.
+    // Fences of presents not yet seen to be over.
     std::vector<VkFence> pending() const;
 
     const Device& device_;
     VkExtent2D extent_{};
     PresentMode mode_ = PresentMode::fifo;
-    std::vector<Slot> slots_;  // [image]; goes after the swapchain
+    std::vector<Slot> slots_;  // [image]; destroyed after the swap chain
     bool came_back_ = false;
     Handle<VkSwapchainKHR, &vkDestroySwapchainKHR> swapchain_;
 };
 
-// Draws what a window shows. Pictures are drawn into an image of their own, whose format is always
-// the same and which can be read back, and then copied to the window's; the cost on the device is
-// measured by itself.
+// Draws a window's contents. Pictures are drawn into a separate image, which always has the same
+// format and can be read back, and are then copied to the window's image. The device time is
+// measured for each picture.
 class Presenter {
 public:
     static constexpr VkFormat kFormat = VK_FORMAT_R8G8B8A8_UNORM;
@@ -95,23 +94,24 @@ public:
     Presenter(const Presenter&) = delete;
     Presenter& operator=(const Presenter&) = delete;
 
-    // Draws one picture and shows it: `before` records what is no rendering, `draw` what renders
-    // into one attachment of kFormat and extent(), black at first. False, and nothing is called,
-    // while the window is minimised. A window that changed its size gets pictures of the new one.
+    // Draws and presents one picture. `before` records work outside rendering. `draw` renders into
+    // one attachment of kFormat and extent(), cleared to black. Returns false, without calling
+    // either, while the window is minimised. After the window's size changes, pictures have the new
+    // size.
     bool
     frame(const std::function<void(Commands&)>& before, const std::function<void(Commands&)>& draw);
 
     // Size of the next picture, px; 0 x 0 while the window is minimised.
     VkExtent2D extent() const { return window_.pixels(); }
     std::uint32_t imageCount() const;
-    // Those that the window had before and whose presents may not be over.
+    // Number of earlier swap chains with presents that may not be over.
     std::size_t oldSwapchains() const { return old_.size(); }
 
     PresentMode mode() const { return mode_; }
     void setMode(PresentMode mode);
     std::vector<PresentMode> modes() const;
 
-    // ms on the device that the last finished picture took, from `before` to the copy.
+    // Device time of the last finished picture, from `before` to the copy, ms.
     double milliseconds() const { return milliseconds_; }
 
     struct Picture {
@@ -119,7 +119,7 @@ public:
         std::uint32_t height = 0;
         std::vector<std::uint8_t> pixels;  // [row][column] RGBA, top row first
     };
-    // The last picture. Waits for the device.
+    // Returns the last picture. Waits for the device.
     Picture picture() const;
 
 private:
@@ -152,15 +152,15 @@ private:
     Handle<VkSemaphore, &vkDestroySemaphore> acquired_;
     struct OldSwapchain {
         std::unique_ptr<Swapchain> swapchain;
-        std::uint64_t frames;  // that were submitted before it was retired
+        std::uint64_t frames;  // submitted before the swap chain was retired
     };
     std::vector<OldSwapchain> old_;
     std::unique_ptr<Swapchain> swapchain_;
     std::optional<Image> canvas_;
     std::optional<Timestamps> timestamps_;
     bool pending_ = false;
-    std::uint64_t frames_ = 0;  // that were submitted
-    std::uint64_t submission_ = 0;  // the pending one, as HazardLog counts
+    std::uint64_t frames_ = 0;  // submitted
+    std::uint64_t submission_ = 0;  // HazardLog number of the pending submission
     double milliseconds_ = 0.0;
 };
 

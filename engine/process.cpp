@@ -30,15 +30,15 @@
 namespace engine {
 namespace {
 
-// Share of the time that may be missing from a count: threads take turns with counters between two
-// reads of the clock.
+// Share of the time that may be missing from a count: threads can switch counters between two reads
+// of the clock.
 constexpr double kMissedShare = 1e-3;
 
-// What is read of a counter with PERF_FORMAT_TOTAL_TIME_ENABLED and _RUNNING.
+// Data of a counter with PERF_FORMAT_TOTAL_TIME_ENABLED and _RUNNING.
 struct Reading {
     std::uint64_t count;
-    std::uint64_t enabled;  // ns that the counter was wanted, over all threads
-    std::uint64_t running;  // ns of it that it counted
+    std::uint64_t enabled;  // ns that the counter was enabled, over all threads
+    std::uint64_t running;  // ns of these that it counted
 };
 
 template <class Operation>
@@ -57,19 +57,19 @@ namespace {
 using Clock = std::chrono::steady_clock;
 using namespace std::chrono_literals;
 
-// Interrupts are the process's: a signal handler can reach nothing but globals.
+// The interrupt state is global, because a signal handler can reach nothing else.
 std::atomic<bool> interrupt_came = false;
 sem_t interrupt_signal;  // posted by the handler, for watchInterrupts()
 
-static_assert(std::atomic<bool>::is_always_lock_free);  // or a handler must not touch it
+static_assert(std::atomic<bool>::is_always_lock_free);  // otherwise a handler must not touch it
 
-// Whose matter an interrupt is: the first one to take it has it.
+// Who handles an interrupt: the first to claim it.
 enum class Heeded { not_yet, by_work, by_end };
 std::atomic<Heeded> heeded = Heeded::not_yet;
 
-// For work to say that it ends by itself.
+// Time for work to report that it ends itself.
 constexpr auto kPatience = 1200ms;
-// For a device to be done with what it was given.
+// Time for a device to finish its submitted work.
 constexpr auto kDevicePatience = 700ms;
 
 extern "C" void onInterrupt(int signal) {
@@ -78,12 +78,12 @@ extern "C" void onInterrupt(int signal) {
     std::signal(signal, SIG_DFL);
 }
 
-// What endInterrupted() does last, in files and words.
+// What endInterrupted() does last: files to remove and LastWords to call.
 struct Ending {
     std::mutex mutex;
     std::multiset<std::filesystem::path> leftovers;
     const LastWords* last_words = nullptr;
-    std::optional<Clock::time_point> came;  // first seen by one who waits
+    std::optional<Clock::time_point> came;  // first seen by a waiting thread
 };
 
 Ending& ending() {
@@ -91,11 +91,11 @@ Ending& ending() {
     return all;
 }
 
-// Of the work that is under way.
+// Time limit of the current work.
 constexpr Clock::rep kNoEnd = std::numeric_limits<Clock::rep>::max();
 struct {
-    std::atomic<Clock::rep> end = kNoEnd;  // by the clock
-    std::string reason;  // guarded as Ending is
+    std::atomic<Clock::rep> end = kNoEnd;  // on Clock
+    std::string reason;  // guarded by Ending's mutex
 } time_limit;
 
 void sayInterrupted() {
@@ -114,7 +114,7 @@ void sayInterrupted() {
     _exit(status);
 }
 
-// A thread of its own.
+// Runs on a thread of its own.
 [[noreturn]] void watchInterrupts() {
     while (sem_wait(&interrupt_signal) != 0) {
     }
@@ -243,7 +243,7 @@ PerfCounter::PerfCounter(std::uint32_t type, std::uint64_t config) {
     attributes.type = type;
     attributes.config = config;
     attributes.inherit = 1;
-    attributes.exclude_kernel = 1;  // all that is allowed by kernel.perf_event_paranoid 2
+    attributes.exclude_kernel = 1;  // the most that kernel.perf_event_paranoid 2 allows
     attributes.exclude_hv = 1;
     attributes.read_format = PERF_FORMAT_TOTAL_TIME_ENABLED | PERF_FORMAT_TOTAL_TIME_RUNNING;
     file_ = static_cast<int>(
@@ -290,7 +290,7 @@ ProcessUse processUse() {
 }
 
 void giveWay() {
-    // Of a thread, on Linux. About a third of the share of a thread that does not.
+    // Per thread on Linux. Gives about a third of a normal thread's share.
     constexpr int kNice = 5;
     const auto thread = static_cast<id_t>(syscall(SYS_gettid));
     setpriority(PRIO_PROCESS, thread, getpriority(PRIO_PROCESS, thread) + kNice);

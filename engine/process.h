@@ -6,53 +6,54 @@
 #include <optional>
 #include <string>
 
-// This process: interrupts, scratch folders, and what it uses of the CPU.
+// This process: interrupts, scratch folders, and CPU use.
 namespace engine {
 
 // ---- Interrupts ---------------------------------------------------------------------------------
 
-// From here on Ctrl-C, termination and a closed terminal are remembered instead of ending the
-// program, which is to heed them within two seconds; a second one ends it at once. A limit on the
-// size of files becomes an error of who writes.
+// From here on, Ctrl-C, termination and a closed terminal set a flag instead of ending the program,
+// which must react within two seconds. A second interrupt ends the program at once. Exceeding the
+// limit on file size becomes an error of the writer.
 //
-// Heeded they are in one of three ways, each with the status kInterruptedStatus:
-// - who works asks interrupted() or calls checkInterrupted(), and ends what it does;
-// - who waits for a device (waitHeeding()) that isn't done 0.7 s after the interrupt ends
-//   the program where it stands, by endInterrupted(): a driver's work can't be called off;
-// - where nobody asks for 1.2 s (kPatience), as within a library, a thread ends the program,
-//   without LastWords.
+// There are three reactions, each with the exit status kInterruptedStatus:
+// - work that calls interrupted() or checkInterrupted() ends itself;
+// - a wait for a device (waitHeeding()) that isn't done 0.7 s after the interrupt ends the program
+//   at once, by endInterrupted(), because a driver's work can't be cancelled;
+// - if nothing asks for 1.2 s (kPatience), as within a library, a thread ends the program, without
+//   LastWords.
 void catchInterrupts();
 
-// Whether an interrupt came since catchInterrupts(). Who hears so ends its work: nobody else does.
+// Whether an interrupt came since catchInterrupts(). A caller that gets true must end its work:
+// nobody else does.
 bool interrupted();
 
-// Thrown to end work that is interrupted.
+// Thrown to end interrupted work.
 class Interrupted {};
 
-// Throws Interrupted where an interrupt came, TimedOut where a TimeLimit is over.
+// Throws Interrupted after an interrupt, TimedOut after the end of a TimeLimit.
 void checkInterrupted();
 
-// Thrown to end work whose time is over.
+// Thrown to end work that exceeded its time limit.
 struct TimedOut {
     std::string reason;  // "not done after 60 s (/run/case_timeout)"
 };
 
-// How long what is begun while this is there may go on. There is one at a time. Work that is never
-// asked whether it was interrupted does not hear of it.
+// Limits the time of work begun during this object's lifetime. Only one exists at a time. Work that
+// never checks for interrupts ignores it.
 class TimeLimit {
 public:
-    // `seconds`: 0 is no limit. `name`: who set it.
+    // `seconds`: 0 is no limit. `name`: the setting behind the limit.
     TimeLimit(double seconds, const std::string& name);
     ~TimeLimit();
     TimeLimit(const TimeLimit&) = delete;
     TimeLimit& operator=(const TimeLimit&) = delete;
 };
 
-inline constexpr int kInterruptedStatus = 130;  // as shells have it: 128 + SIGINT
+inline constexpr int kInterruptedStatus = 130;  // shell convention: 128 + SIGINT
 
-// What a program that ends where it stands says and writes first, for as long as this is there; of
-// several the last one made begins. It is called by the thread that waits for the device, and must
-// not wait for one itself.
+// A function that speaks and writes before endInterrupted() ends the program, during this object's
+// lifetime. The newest object speaks first. The thread that waits for the device calls it, so it
+// must not wait for a device itself.
 class LastWords {
 public:
     explicit LastWords(std::function<void()> speak);
@@ -68,21 +69,23 @@ private:
     const LastWords* before_ = nullptr;
 };
 
-// Ends the program with kInterruptedStatus, or another where LastWords throw: after these (a line
-// on stderr where there are none) files that nobody keeps are removed, and no object is destroyed.
+// Ends the program with kInterruptedStatus, or with another status if LastWords throw. First calls
+// the LastWords (or prints a line on stderr if there are none) and removes Leftover files. No
+// object is destroyed.
 [[noreturn]] void endInterrupted();
 
-// Ends the program by endInterrupted() where an interrupt was there 0.7 s ago already.
+// Calls endInterrupted() if an interrupt was seen at least 0.7 s ago.
 void endIfLongInterrupted();
 
-// Waits for a device: `wait` is given the ns that it may take, and says whether all is done.
+// Waits for a device. `wait` gets the longest time to wait (ns) and returns whether all work is
+// done.
 template <class Wait>
 void waitHeeding(Wait&& wait) {
     constexpr std::uint64_t kSlice = 50'000'000;
     while (!wait(kSlice)) endIfLongInterrupted();
 }
 
-// A file or folder that is removed where the program ends by an interrupt while this is there.
+// A file or folder to remove if an interrupt ends the program during this object's lifetime.
 class Leftover {
 public:
     explicit Leftover(std::filesystem::path path);
@@ -96,7 +99,7 @@ private:
 
 // ---- Scratch folders and counters ---------------------------------------------------------------
 
-// A folder for files that nobody keeps; gone in any case.
+// A folder for temporary files, removed in any case.
 class ScratchFolder {
 public:
     ScratchFolder();
@@ -111,20 +114,19 @@ private:
     std::optional<Leftover> leftover_;
 };
 
-// A counter of the kernel (perf_event_open(2) with `inherit`) for what the thread that makes it,
-// and every thread that starts under that one from then on, does in user mode. Threads that run
-// already when it is made are not counted.
+// A kernel counter (perf_event_open(2) with `inherit`) of user-mode events in the thread that makes
+// it and in all threads later started under it. Threads that already run are not counted.
 class PerfCounter {
 public:
-    // PERF_TYPE_* and PERF_COUNT_* of <linux/perf_event.h>. A kernel, a container or a machine that
-    // has no such counter for us is no error: read() is empty then.
+    // `type`, `config`: PERF_TYPE_* and PERF_COUNT_* of <linux/perf_event.h>. If the kernel, the
+    // container or the machine offers no counter, read() is empty; this is no error.
     PerfCounter(std::uint32_t type, std::uint64_t config);
     ~PerfCounter();
     PerfCounter(const PerfCounter&) = delete;
     PerfCounter& operator=(const PerfCounter&) = delete;
 
-    // Events so far, those of threads that still run and of threads that have ended. Empty too
-    // where the counter had to share the processor's with others, so that the kernel missed some.
+    // Returns the events so far, of running and ended threads. Also empty if the counter shared the
+    // processor's counters with others, so that the kernel missed some events.
     std::optional<double> read() const;
 
 private:
@@ -134,24 +136,24 @@ private:
 // CPU time of the calling thread since some moment in the past, ms.
 double threadTime();
 
-// What all threads of this process have used of the CPU: on a software device, what passes cost
-// whoever else is at work on the machine.
+// CPU use of all threads of this process. On a software device this is the cost of passes, whatever
+// else runs on the machine.
 struct ProcessUse {
     double cpu = 0.0;  // ms
-    // Retired in user mode; absent where no counter is to be had.
+    // Instructions retired in user mode; absent if no counter is available.
     std::optional<double> instructions;
 };
 
 ProcessUse operator-(const ProcessUse& to, const ProcessUse& from);
 ProcessUse operator+(const ProcessUse& a, const ProcessUse& b);
 
-// What was used since some moment in the past: differences count. Instructions are those of the
-// thread that calls first and of every thread that starts after that, under it: call it before the
-// device is made, which starts threads.
+// Returns the use since some moment in the past: only differences are meaningful. Instructions are
+// those of the first calling thread and of threads started later under it. Call it before the
+// device is made, because that starts threads.
 ProcessUse processUse();
 
-// The calling thread, and those that it starts from now on, give way where others of this machine
-// want the same processors; where none do, they are as fast as before.
+// Lowers the priority of the calling thread and of threads that it starts from now on. They slow
+// down only if other work on this machine needs the same processors.
 void giveWay();
 
 }  // namespace engine

@@ -8,7 +8,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// The folder above the one that the program lies in.
+// Returns the parent of the program's folder.
 fs::path prefix() {
     std::error_code error;
     const fs::path program = fs::read_symlink("/proc/self/exe", error);
@@ -23,7 +23,7 @@ fs::path userDataFolder() {
     return {};
 }
 
-// Installed with the program; scripts/setup has it in the source tree.
+// Installed with the program; in the source tree it belongs to scripts/setup.
 constexpr const char* kMaker = "python-environment";
 
 }  // namespace

@@ -14,7 +14,7 @@ namespace engine {
 
 namespace {
 
-// Of kStatisticNames.
+// Number of mesh counters in kStatisticNames.
 constexpr std::size_t kMeshStatistics = 2;
 constexpr std::size_t kVertexStatistics = kStatisticNames.size() - kMeshStatistics;
 static_assert(
@@ -68,7 +68,7 @@ void PipelineStatistics::begin(Commands& commands) {
 void PipelineStatistics::end(Commands& commands) { vkCmdEndQuery(commands.get(), pool_.get(), 0); }
 
 StatisticCounts PipelineStatistics::read() const {
-    StatisticCounts results{};  // one after the other, of the bits that are counted
+    StatisticCounts results{};  // consecutive, of the counted bits only
     check(
         vkGetQueryPoolResults(
             device_, pool_.get(), 0, 1, sizeof results, results.data(), sizeof results,
@@ -115,7 +115,7 @@ std::uint64_t SamplesQuery::read() const {
 
 namespace {
 
-// Ticks of the device and ns of the host's monotonic clock, at one moment.
+// Device ticks and ns of the host's monotonic clock, at the same moment.
 struct Moment {
     std::uint64_t device;
     std::uint64_t host;
@@ -127,7 +127,8 @@ Moment readMoment(VkDevice device) {
         each.sType = VK_STRUCTURE_TYPE_CALIBRATED_TIMESTAMP_INFO_EXT;
     wanted[0].timeDomain = VK_TIME_DOMAIN_DEVICE_EXT;
     wanted[1].timeDomain = VK_TIME_DOMAIN_CLOCK_MONOTONIC_EXT;
-    // Between the two a process may be put to sleep; a driver says how far apart they may be.
+    // The process may be suspended between the two reads. The driver reports the deviation; keep
+    // the least.
     Moment best{};
     std::uint64_t least = std::numeric_limits<std::uint64_t>::max();
     for (int i = 0; i < 8; ++i) {
@@ -183,7 +184,7 @@ Timestamps::Timestamps(const Device& device, std::uint32_t capacity)
     VkQueryPool pool{};
     check(vkCreateQueryPool(device_, &create, nullptr, &pool), "create a timestamp pool");
     pool_ = {device_, pool};
-    vkResetQueryPool(device_, pool, 0, capacity);  // new ones are neither available nor not
+    vkResetQueryPool(device_, pool, 0, capacity);  // new queries have no defined state
 }
 
 void Timestamps::reset() {

@@ -9,12 +9,12 @@
 
 #include "engine/commands.h"
 
-// What the device counts and times: pipeline statistics, samples and timestamps.
+// Device queries: pipeline statistics, sample counts and timestamps.
 namespace engine {
 
-// The graphics counters of VkQueryPipelineStatisticFlagBits, in the order of their bits: 0 to 9,
-// and 11 and 12 of task and mesh stages. The compute counter is left out: lavapipe crashes on it
-// when no compute pipeline is bound.
+// The graphics counters of VkQueryPipelineStatisticFlagBits in bit order: bits 0 to 9, and bits 11
+// and 12 for task and mesh stages. The compute counter is left out: lavapipe crashes on it if no
+// compute pipeline is bound.
 inline constexpr std::array<std::string_view, 12> kStatisticNames{
     "input_assembly_vertices",
     "input_assembly_primitives",
@@ -29,13 +29,13 @@ inline constexpr std::array<std::string_view, 12> kStatisticNames{
     "task_invocations",
     "mesh_invocations"};
 
-// Those that the device counts: not those of task and mesh stages without
+// Returns the counters that the device supports: those of task and mesh stages only with
 // Feature::mesh_statistics.
 std::span<const std::string_view> statisticNames(const Device& device);
 
 using StatisticCounts = std::array<std::uint64_t, kStatisticNames.size()>;
 
-// What a query's draws begin with. It may count only what they have.
+// Kind of a query's draws. The query may count only stages that those draws have.
 enum class DrawnFrom {
     vertices,
     meshes,  // task and mesh stages
@@ -48,8 +48,8 @@ public:
 
     void begin(Commands& commands);
     void end(Commands& commands);
-    // The counts, once the work is complete; 0 for stages that the draws don't have. Read once: on
-    // some drivers a second read differs.
+    // Returns the counts once the work is complete; 0 for stages that the draws don't have. Read
+    // them once: on some drivers a second read differs.
     StatisticCounts read() const;
 
 private:
@@ -58,15 +58,15 @@ private:
     Handle<VkQueryPool, &vkDestroyQueryPool> pool_;
 };
 
-// How many samples of the attachments passed the depth test: a count that is exact on every driver.
+// Counts attachment samples that pass the depth test. The count is exact on every driver.
 class SamplesQuery {
 public:
-    // Throws Unsupported where the device only knows whether there were any.
+    // Throws Unsupported if the device only knows whether any sample passed.
     explicit SamplesQuery(const Device& device);
 
     void begin(Commands& commands);
     void end(Commands& commands);
-    // The count, once the work is complete.
+    // Returns the count once the work is complete.
     std::uint64_t read() const;
 
 private:
@@ -79,16 +79,16 @@ class Timestamps {
 public:
     Timestamps(const Device& device, std::uint32_t capacity);
 
-    // Makes the stamps written since the last reset unavailable again; others are so already. The
-    // device must be done with the frame that wrote them.
+    // Makes the timestamps written since the last reset unavailable; the others already are. The
+    // device must have finished the frame that wrote them.
     void reset();
 
-    // Records a stamp that is taken when all earlier commands are done; returns its index. Throws
-    // Error when all are taken.
+    // Records a timestamp taken when all earlier commands are done, and returns its index. Throws
+    // Error if the pool is full.
     std::uint32_t write(Commands& commands);
 
-    // ms since the first stamp, for each stamp written. The work must be complete; a stamp that the
-    // device did not write is an Error. Valid until the next call.
+    // Returns each written timestamp in ms since the first. The work must be complete. A timestamp
+    // that the device did not write is an Error. Valid until the next call.
     std::span<const double> read();
 
     std::uint32_t count() const { return count_; }
@@ -103,22 +103,22 @@ private:
     double period_;  // ms per tick
     std::uint64_t mask_;
     std::uint32_t count_ = 0;
-    std::vector<Stamp> stamps_;  // as many as there may be, as times_
+    std::vector<Stamp> stamps_;  // [capacity], like times_
     std::vector<double> times_;
     Handle<VkQueryPool, &vkDestroyQueryPool> pool_;
 };
 
-// How much faster the device's timestamps run than their period says, by the host's clock over a
-// tenth of a second (VK_EXT_calibrated_timestamps): 1 if they are right. Absent where the device
-// and the host have no clock in common.
+// Returns how much faster the device's timestamps run than their stated period, by the host's clock
+// over a tenth of a second (VK_EXT_calibrated_timestamps): 1 if they are right. Absent if device
+// and host clocks can't be read at the same moment.
 std::optional<double> timestampRate(const Device& device);
 
-// `now - before` of a counter that wraps at `mask` + 1 (a power of two).
+// Returns `now - before` of a counter that wraps at `mask` + 1 (a power of two).
 constexpr std::uint64_t ticksBetween(std::uint64_t before, std::uint64_t now, std::uint64_t mask) {
     return (now - before) & mask;
 }
 
-// Mask of the low `bits` bits, for timestampValidBits.
+// Returns the mask of the low `bits` bits, for timestampValidBits.
 constexpr std::uint64_t validMask(std::uint32_t bits) {
     return bits >= 64 ? ~std::uint64_t{0} : (std::uint64_t{1} << bits) - 1;
 }

@@ -9,29 +9,30 @@
 
 namespace engine {
 
-// Host memory for a command pool's driver. Some, lavapipe among them, take memory for each command
-// recorded and give it all back when the buffer is recorded anew, for which malloc() isn't made.
-// Blocks of powers of two are kept for the next frame; larger ones come from malloc(). Not
-// thread-safe, as drivers call these only within commands on the pool, on the thread of the
-// command, and of such commands there is one at a time: Vulkan specification, Host Memory.
+// Host memory for a command pool's driver. Some drivers, such as lavapipe, allocate for each
+// recorded command and free everything when the buffer is recorded again; malloc() isn't made for
+// that. Power-of-two blocks are kept for the next frame; larger ones come from malloc(). Not
+// thread-safe: drivers call these only within commands on the pool, on the command's thread, and
+// one command at a time (Vulkan specification, Host Memory).
 class RecordingMemory {
 public:
     RecordingMemory() = default;
     RecordingMemory(const RecordingMemory&) = delete;
     RecordingMemory& operator=(const RecordingMemory&) = delete;
 
-    // Valid as long as this is. Null where there is no memory, as Vulkan asks.
+    // Valid during this object's lifetime. Allocation returns null without memory, as Vulkan
+    // requires.
     const VkAllocationCallbacks* callbacks() const { return &callbacks_; }
 
 private:
-    static constexpr std::size_t kUnit = 64;  // bytes, of the smallest blocks
-    static constexpr std::size_t kKinds = 8;  // of blocks: 64 bytes to 8 KiB
+    static constexpr std::size_t kUnit = 64;  // bytes of the smallest blocks
+    static constexpr std::size_t kKinds = 8;  // block sizes, 64 bytes to 8 KiB
 
-    // What is before the bytes that are given.
+    // Precedes the bytes handed out.
     struct alignas(std::max_align_t) Header {
-        void* place;  // of the next block that is free, or what malloc() gave
-        std::size_t size;  // of the bytes given
-        std::size_t kind;  // of the block; kKinds: it is malloc()'s
+        void* place;  // next free block, or malloc()'s pointer
+        std::size_t size;  // bytes handed out
+        std::size_t kind;  // size class of the block; kKinds: from malloc()
     };
 
     static VKAPI_ATTR void* VKAPI_CALL

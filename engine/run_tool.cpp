@@ -54,7 +54,7 @@ struct Pipe {
 private:
     explicit Pipe(const std::array<int, 2>& ends) : read(ends[0]), write(ends[1]) {}
 
-    // Other children do not get the ends of the pipe.
+    // Other children don't inherit the pipe.
     static std::array<int, 2> open() {
         std::array<int, 2> ends{};
         if (pipe2(ends.data(), O_CLOEXEC) != 0) failWith(errno, "pipe");
@@ -62,7 +62,7 @@ private:
     }
 };
 
-// A child that is gone in any case.
+// A child process that is ended in any case.
 class Child {
 public:
     Child(const std::vector<std::string>& arguments, const File& output, const File& errors) {
@@ -89,7 +89,7 @@ public:
         wait();
     }
 
-    // The child's status, as waitpid has it.
+    // Returns the child's status as waitpid gives it.
     int wait() {
         int status = 0;
         while (waitpid(id_, &status, 0) < 0 && errno == EINTR) {
@@ -106,7 +106,7 @@ using Take = std::function<void(std::span<const char>)>;
 using Poll = std::function<void()>;
 
 constexpr int kPollInterval = 100;  // ms
-constexpr std::size_t kKeptErrors = std::size_t{1} << 16;  // bytes: of what a child wrote last
+constexpr std::size_t kKeptErrors = std::size_t{1} << 16;  // bytes kept of a child's last errors
 constexpr std::size_t kLongestLine = 300;  // bytes
 
 // Reads both until the child has closed them.
@@ -156,15 +156,15 @@ void run(const std::vector<std::string>& arguments, const Take& take, const Poll
     std::string text;
     drain(output.read, take, errors.read, text, idle);
     const int status = child.wait();
-    checkInterrupted();  // which ends the child too, where a terminal sends it
+    checkInterrupted();  // a terminal's interrupt also ends the child
     if (WIFEXITED(status) && WEXITSTATUS(status) == 0) return;
     const std::string line = WIFEXITED(status) ? lastLine(text) : "";
     throw Error(line.empty() ? arguments.front() + ' ' + describe(status) : line);
 }
 
-// ---- A copy of this process ---------------------------------------------------------------------
+// ---- A fork of this process ---------------------------------------------------------------------
 
-// B of addresses that this process has.
+// Returns the bytes of this process's address space.
 std::size_t addressSpace() {
     std::ifstream pages("/proc/self/statm");
     std::size_t count = 0;
@@ -179,11 +179,11 @@ void limit(__rlimit_resource resource, rlim_t value) {
     setrlimit(resource, &limits);
 }
 
-constexpr int kOutOfMemory = 12;  // status of a copy: ENOMEM
+constexpr int kOutOfMemory = 12;  // exit status of the fork: ENOMEM
 
 [[noreturn]] void
 workAndEnd(const std::function<std::string()>& work, const ChildLimits& limits, int output) {
-    signal(SIGINT, SIG_IGN);  // of a terminal: the parent ends this child
+    signal(SIGINT, SIG_IGN);  // from a terminal: the parent ends this child
     signal(SIGXCPU, SIG_DFL);
     limit(RLIMIT_CORE, 0);
     limit(RLIMIT_CPU, limits.seconds);

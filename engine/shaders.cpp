@@ -21,18 +21,17 @@ namespace {
 
 // ---- Included files -----------------------------------------------------------------------------
 
-// Answers glslang's questions for included files, and notes which it asked for.
+// Answers glslang's requests for included files and notes the files.
 class GlslIncluder final : public glslang::TShader::Includer {
 public:
     explicit GlslIncluder(const ReadShader& read) : read_(read) {}
 
-    // Serves "" as well as <>: nothing is looked for beside the including file.
+    // Serves both "" and <>: the folder of the including file is not searched.
     IncludeResult*
     includeSystem(const char* header_name, const char* includer_name, std::size_t depth) override;
     void releaseInclude(IncludeResult* result) override;
 
-    // The files that were asked for, relative to the folder of shaders, in the order of their first
-    // time.
+    // Requested files, relative to the shader folder, in the order of their first request.
     const std::vector<std::string>& files() const { return files_; }
 
 private:
@@ -40,7 +39,7 @@ private:
 
     const ReadShader& read_;
     std::vector<std::string> files_;
-    // The files that glslang is within, the innermost last.
+    // Files being included, innermost last.
     struct Open {
         std::string text;
         std::unique_ptr<IncludeResult> result;
@@ -50,7 +49,7 @@ private:
 
 constexpr std::string_view kFolder = "./";
 
-// What glslang calls an included file, as the build does: its folder is ".".
+// glslang's name of an included file, as in the build: its folder is ".".
 std::string nameForGlslang(const std::string& file) { return std::string(kFolder) + file; }
 
 std::string fileOfGlslangName(const std::string& name) {
@@ -62,8 +61,8 @@ GlslIncluder::includeSystem(const char* header_name, const char*, std::size_t) {
     const std::string file = header_name;
     if (std::ranges::find(files_, file) == files_.end()) files_.push_back(file);
     const std::string name = nameForGlslang(file);
-    // Include guards end a file that is within itself once; one that is there twice has none and
-    // never ends.
+    // A file with an include guard is within itself at most once. A file that is there twice has no
+    // guard and never ends.
     const auto within = std::ranges::count_if(
         open_, [&](const auto& open) { return open->result->headerName == name; });
     if (within > 1) return open("", "the file includes itself without end");
@@ -101,8 +100,8 @@ EShLanguage stageOf(const std::string& path) {
     throw Error("shader '" + path + "'", "its extension names no stage");
 }
 
-// The first error in a log of lines such as "ERROR: ./common/picture.glsl:12: 'x' : undeclared
-// identifier".
+// Returns the first error in a log of lines such as "ERROR: ./common/picture.glsl:12: 'x' :
+// undeclared identifier".
 ShaderError firstError(const std::string& log, const std::string& path) {
     static const std::regex located(R"((?:INTERNAL )?ERROR: (.+?):(\d+): (.*))");
     static const std::regex other(R"((?:INTERNAL )?ERROR: (.*))");
@@ -116,10 +115,10 @@ ShaderError firstError(const std::string& log, const std::string& path) {
     return {path, 0, "does not compile: " + log};
 }
 
-// --target-env vulkan1.3 -g, as glslang's own program has it. (TShader::setDebugInfo is for -gV:
-// without it, code with blocks in functions comes out invalid.)
-constexpr int kVulkanGlsl = 100;  // of KHR_vulkan_glsl
-constexpr int kDefaultVersion = 100;  // where a shader has no #version
+// The same as --target-env vulkan1.3 -g of glslang's own program. (TShader::setDebugInfo belongs to
+// -gV: without -gV it makes invalid code for blocks in functions.)
+constexpr int kVulkanGlsl = 100;  // version of KHR_vulkan_glsl
+constexpr int kDefaultVersion = 100;  // for a shader without #version
 constexpr auto kMessages =
     static_cast<EShMessages>(EShMsgSpvRules | EShMsgVulkanRules | EShMsgDebugInfo);
 
@@ -129,7 +128,7 @@ void setTarget(glslang::TShader& shader, EShLanguage stage) {
     shader.setEnvTarget(glslang::EShTargetSpv, glslang::EShTargetSpv_1_6);
 }
 
-// The strings of an extension's unit. Errors name a declaration's line as the file's.
+// The strings of an extension's unit. An error in a declaration names its line in the file.
 struct ExtensionUnit {
     ExtensionUnit(const ShaderExtension& extension, const ReadShader& read)
         : head("#version 460\n" + read(extension.interface).value_or("")),
@@ -145,8 +144,8 @@ struct ExtensionUnit {
     std::array<const char*, 3> names;
 };
 
-// An error of putting units together: it has no line, and is of an extension, as the program's own
-// units fit. "name(u1;" is how glslang calls a function there.
+// Returns an error from linking the units. It has no line and is attributed to an extension,
+// because the program's own units fit together. glslang calls a function there "name(u1;".
 ShaderError linkError(const std::string& log, const ShaderExtensions& extensions) {
     static const std::regex signature(R"(\n\s*(\w+)\()");
     const std::string& file = extensions.front()->name;
@@ -158,9 +157,9 @@ ShaderError linkError(const std::string& log, const ShaderExtensions& extensions
         file, 0, "has no function '" + match[1].str() + "' with the parameters that are asked for"};
 }
 
-// ---- Compiling apart ----------------------------------------------------------------------------
+// ---- Compiling in a fork ------------------------------------------------------------------------
 
-// What compiling a stranger's text may take. A compiler can be kept busy for ever by a short one.
+// Limits for compiling foreign text. A short text can keep a compiler busy for ever.
 constexpr ChildLimits kCompileLimits{.seconds = 20, .bytes = std::size_t{2} << 30};
 
 std::string bytesOf(const CompiledShader& compiled) {
@@ -174,7 +173,7 @@ std::string bytesOf(const CompiledShader& compiled) {
                      compiled.code.size() * sizeof(std::uint32_t));
 }
 
-// Throws the error.
+// Throws an error that the bytes hold.
 ShaderCode codeOf(const std::string& bytes) {
     if (bytes.starts_with('E')) {
         const std::size_t line = bytes.find('\n');
@@ -191,14 +190,15 @@ ShaderCode codeOf(const std::string& bytes) {
 
 // ---- Sources in SPIR-V --------------------------------------------------------------------------
 
-// A text of SPIR-V: UTF-8, four bytes a word, with a zero at its end.
+// Returns a SPIR-V string: UTF-8, four bytes a word, zero-terminated.
 std::string literal(std::span<const std::uint32_t> words) {
     std::string text(words.size_bytes(), '\0');
     std::memcpy(text.data(), words.data(), words.size_bytes());
     return text.substr(0, text.find('\0'));
 }
 
-// A path relative to the folder of shaders: the build calls included files "./common/picture.glsl".
+// Returns a path relative to the shader folder: the build calls included files
+// "./common/picture.glsl".
 std::string relative(const std::string& name) {
     return name.starts_with("./") ? name.substr(2) : name;
 }
@@ -295,7 +295,7 @@ CompiledShader ShaderCompiler::compile(
         return compiled;
     }
 
-    // Before the program, which is of them.
+    // Declared before the program, which refers to them.
     std::vector<ExtensionUnit> units;
     std::vector<std::unique_ptr<glslang::TShader>> parts;
     glslang::TProgram program;
@@ -313,7 +313,7 @@ CompiledShader ShaderCompiler::compile(
         }
         program.addShader(&part);
     }
-    // Last: what it says of the stage is taken over where units before say nothing.
+    // Last: its stage settings apply where earlier units have none.
     program.addShader(&shader);
     if (!program.link(kMessages) || !program.mapIO()) {
         compiled.error = extensions.empty() ? firstError(program.getInfoLog(), path)

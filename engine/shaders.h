@@ -12,43 +12,42 @@
 #include <utility>
 #include <vector>
 
-// Shaders: the SPIR-V that is compiled into the program, what replaces it while the program runs,
-// the compiler, and the sources that SPIR-V carries.
+// Shaders: the SPIR-V compiled into the program, its replacement at run time, the compiler, and the
+// sources embedded in SPIR-V.
 namespace engine {
 
 using ShaderCode = std::vector<std::uint32_t>;  // SPIR-V
 
-// GLSL that does not come with the program: functions that an entry point calls. It is a
-// compilation unit of its own, so that it sees nothing of the program's shaders but `interface`,
-// which declares what both sides define: none of their names, buffers or extensions.
+// GLSL functions from outside the program, called by an entry point. They are a separate
+// compilation unit, so of the program's shaders they see only `interface`, which declares the
+// functions of both sides: no other names, buffers or extensions.
 struct ShaderExtension {
-    std::string interface;  // "extension/shading.glsl": entry points that include it call it
-    std::string macro;  // that is defined for them
-    std::string declarations;  // before the text, each on the line of the file that it is from
-    std::string name;  // of the file, as errors have it
+    std::string interface;  // "extension/shading.glsl": included by the entry points that call it
+    std::string macro;  // defined for those entry points
+    std::string declarations;  // precede the text, each with its line number in the file
+    std::string name;  // of the file, in errors
     std::string text;
 };
 using ShaderExtensions = std::vector<std::shared_ptr<const ShaderExtension>>;
 
-// The code that pipelines are made of: what was compiled into the program (shaderCode()), or what
-// took its place since.
+// Code for pipelines: compiled into the program (shaderCode()), or its replacement.
 class ShaderLibrary {
 public:
     // Code by entry point, "simulation/wind.comp".
     using Replacements = std::map<std::string, ShaderCode, std::less<>>;
 
-    // The code of an entry point, valid until replace(). An unknown path throws Error and lists the
-    // known ones.
+    // Returns the code of an entry point, valid until replace(). For an unknown path throws an
+    // Error that lists the known ones.
     std::span<const std::uint32_t> code(std::string_view path) const;
 
-    // The same with those of the extensions that it calls, which are compiled at their first time.
-    // Throws Error "<file>:<line>: <reason>" for one that does not compile. Thread-safe but for
+    // Returns the code linked with the extensions that it calls. Compiles it at first use. Throws
+    // Error "<file>:<line>: <reason>" if an extension does not compile. Thread-safe, except with
     // replace().
     std::shared_ptr<const ShaderCode>
     extended(std::string_view path, const ShaderExtensions& extensions) const;
 
-    // These and no others are replaced from now on; paths that the program has no code of are
-    // added. Pipelines that exist keep their code.
+    // Replaces exactly these from now on; adds paths that the program has no code for. Existing
+    // pipelines keep their code.
     void replace(Replacements replacements) { replacements_ = std::move(replacements); }
     const Replacements& replacements() const { return replacements_; }
 
@@ -57,31 +56,30 @@ private:
 
     Replacements replacements_;
     mutable std::mutex mutex_;
-    // By all that they were compiled of.
+    // By everything that the code was compiled from.
     mutable std::map<std::string, std::shared_ptr<const ShaderCode>> extended_;
 };
 
-// What the compiler says of a shader.
+// A compiler error in a shader.
 struct ShaderError {
-    std::string file;  // relative to the folder of shaders
-    int line = 0;  // from 1; 0: not known
+    std::string file;  // relative to the shader folder
+    int line = 0;  // from 1; 0: unknown
     std::string text;
 };
 
 struct CompiledShader {
-    ShaderCode code;  // empty where there is an error
-    // The files that were asked for, there or not: the entry point first, then what it includes;
-    // each once.
+    ShaderCode code;  // empty on error
+    // All requested files, found or not: first the entry point, then its includes; each once.
     std::vector<std::string> files;
-    // The first error: glslang gives up after it, and the rest of what it says is a consequence.
+    // The first error. glslang gives up after it, and later messages only follow from it.
     std::optional<ShaderError> error;
 };
 
-// The text of a file, by its path relative to the folder of shaders; none where it can't be read.
+// Returns the text of a file, by its path relative to the shader folder; none if it can't be read.
 using ReadShader = std::function<std::optional<std::string>(const std::string& file)>;
 
-// Compiles GLSL in process, as the build does (scripts/cmake/Shaders.cmake): of the same text comes
-// the same code, word for word, where both use the same release of glslang.
+// Compiles GLSL in process, as the build does (scripts/cmake/Shaders.cmake). The same text gives
+// the same code, word for word, if both use the same release of glslang.
 class ShaderCompiler {
 public:
     ShaderCompiler();
@@ -89,28 +87,28 @@ public:
     ShaderCompiler(const ShaderCompiler&) = delete;
     ShaderCompiler& operator=(const ShaderCompiler&) = delete;
 
-    // `path` is an entry point with its stage as its extension: "strands/strand.frag". Includes are
-    // relative to the folder of shaders too, whoever includes them.
-    // With extensions that the entry point calls the code is of all of them together, and has no
-    // sources in it; an error is in the file that it says, under the extension's name.
+    // `path`: an entry point, with its stage as extension: "strands/strand.frag". Includes are
+    // always relative to the shader folder, whichever file includes them. With extensions, all
+    // units are linked together and the code carries no sources; an error in an extension has the
+    // extension's name as its file.
     CompiledShader compile(
         const std::string& path, const ReadShader& read,
         const ShaderExtensions& extensions = {}) const;
 };
 
-// The SPIR-V of an entry point under shaders/, compiled into the program: "simulation/wind.comp".
-// The code lives as long as the program. An unknown path throws Error and lists the known ones. The
-// list of shaders is the call of hairbench_shaders() in CMake.
+// Returns the SPIR-V of an entry point under shaders/, compiled into the program:
+// "simulation/wind.comp". The code lives as long as the program. For an unknown path throws an
+// Error that lists the known ones. The call of hairbench_shaders() in CMake lists the shaders.
 std::span<const std::uint32_t> shaderCode(std::string_view path);
 
-// The entry points that are compiled into the program.
+// Returns the entry points compiled into the program.
 std::vector<std::string_view> shaderPaths();
 
-// Texts of GLSL files by their paths relative to the folder of shaders.
+// Texts of GLSL files by their paths relative to the shader folder.
 using ShaderSources = std::map<std::string, std::string, std::less<>>;
 
-// The files that SPIR-V was compiled from: glslang's -g leaves them in the code (OpSource). They
-// are ASCII; glslang 12 spoils other letters.
+// Returns the files that SPIR-V was compiled from: glslang's -g leaves them in the code (OpSource).
+// They are ASCII; glslang 12 garbles other characters.
 ShaderSources shaderSources(std::span<const std::uint32_t> code);
 
 }  // namespace engine

@@ -11,10 +11,10 @@ namespace {
 
 using StepClock = std::chrono::steady_clock;
 
-// The steps are the process's, as its interrupts are.
+// Steps belong to the process, like its interrupts.
 struct Steps {
     std::mutex mutex;
-    std::vector<const Step*> under_way;  // in the order in which they began
+    std::vector<const Step*> under_way;  // in the order of their start
     std::function<void()> ended;
     bool forgotten = false;
 };
@@ -48,7 +48,7 @@ Step::~Step() {
         std::erase(steps().under_way, this);
         if (steps().under_way.empty()) ended = steps().ended;
     }
-    if (ended) ended();  // who looks at the steps meanwhile may wait for it
+    if (ended) ended();  // outside the lock: observers of the steps may wait for this call
 }
 
 void Step::advance(std::uint64_t parts) {

@@ -7,24 +7,23 @@
 #include <string>
 #include <vector>
 
-// What this process is doing, for whoever looks on.
+// Progress of this process, for observers.
 namespace engine {
 
-// A step that may be long, under way for as long as this is there. Steps of one thread lie within
-// one another.
+// A step that may be long, under way during this object's lifetime. Steps of one thread nest.
 class Step {
 public:
-    // What is done: "grows strands", and of how many parts. With them the words that others see are
-    // "grows strands, 31000 of 100000"; without (0) they are the name alone.
+    // `name`: the work, such as "grows strands". `parts`: how many parts it has. The text is then
+    // "grows strands, 31000 of 100000", or for 0 parts the name alone.
     explicit Step(std::string name, std::uint64_t parts = 0);
-    // Its words are made anew each time they are asked for, by any thread.
+    // `words` returns the text; any thread may call it.
     explicit Step(std::function<std::string()> words);
     ~Step();
     Step(const Step&) = delete;
     Step& operator=(const Step&) = delete;
 
-    // So many parts more are done. Throws Interrupted where an interrupt came (engine/process.h):
-    // a step that says where it is can be ended there. For any thread.
+    // Adds to the parts done. Throws Interrupted after an interrupt (engine/process.h): a step can
+    // be ended where it reports progress. Thread-safe.
     void advance(std::uint64_t parts = 1);
 
     std::string text() const;
@@ -39,16 +38,16 @@ private:
 };
 
 struct StepsUnderWay {
-    std::string text;  // of all, outermost first
-    std::chrono::steady_clock::time_point start;  // of the outermost; without a text, of nothing
+    std::string text;  // of all steps, outermost first
+    std::chrono::steady_clock::time_point start;  // of the outermost; meaningless without text
 };
 StepsUnderWay stepsUnderWay();
 
-// From now on none is said to be under way: the program ends.
+// From now on no step is reported: the program is ending.
 void forgetSteps();
 
-// Called by the thread whose step ends once none is under way; no function: nobody. To be set while
-// none is.
+// Sets a function that is called once no step is under way, by the thread that ended the last step;
+// empty: none. Set it only while no step is under way.
 void onceStepsEnd(std::function<void()> ended);
 
 }  // namespace engine

@@ -10,7 +10,7 @@
 namespace engine {
 namespace {
 
-constexpr std::size_t kMostColors = 4;  // what every device has
+constexpr std::size_t kMostColors = 4;  // every device has as many
 
 VkRenderingAttachmentInfo attachmentInfo(const Attachment& attachment) {
     const bool is_depth = attachment.image->aspect() == VK_IMAGE_ASPECT_DEPTH_BIT;
@@ -69,7 +69,7 @@ made(const Device& device, const std::optional<ImageDescription>& description) {
     return std::optional<Image>(std::in_place, device, *description);
 }
 
-// Who reads what is rendered, and the output.
+// Returns how the rendered image is read.
 Access reader(Resolve resolve) {
     switch (resolve) {
     case Resolve::none:

@@ -13,7 +13,7 @@ namespace {
 
 using Pixel = std::array<double, 4>;
 
-// sRGB's curve (IEC 61966-2-1) for every byte.
+// sRGB's transfer function (IEC 61966-2-1) for every byte.
 const std::array<double, 256>& linearOfBytes() {
     static const std::array<double, 256> table = [] {
         std::array<double, 256> values{};
@@ -33,7 +33,7 @@ double toDisplay(double linear) {
     return linear <= 0.0031308 ? 12.92 * linear : 1.055 * std::pow(linear, 1.0 / 2.4) - 0.055;
 }
 
-// The part of source pixel `at` along one side that is in the range.
+// Returns the part of source pixel `at`, along one side, that lies in the range.
 double overlap(std::uint32_t at, double from, double to) {
     return std::max(0.0, std::min(at + 1.0, to) - std::max(static_cast<double>(at), from));
 }

@@ -8,26 +8,27 @@
 
 namespace engine {
 
-// What a picture's red, green and blue are; alpha is a plain number.
+// Meaning of a picture's red, green and blue. Alpha is always linear.
 enum class Texels {
-    display_color,  // in sRGB's curve
+    display_color,  // sRGB-encoded
     data,
 };
 
-// The picture and smaller ones of it, each half as wide and high as the one before, rounded down,
-// down to one pixel. A pixel is the mean of what it covers, of colours the mean of their light.
+// Returns the picture and its smaller levels (mipmaps), each half as wide and high as the last,
+// rounded down, to one pixel. A pixel is the mean of the area it covers; for colours, the mean of
+// their linear light.
 std::vector<Pixels> textureLevels(Pixels pixels, Texels texels);
 
-// What shaders read of a picture's display colours.
+// How shaders read a picture's display colours.
 enum class Decoding {
-    none,  // as they are
-    linear,  // light
+    none,  // unchanged
+    linear,  // as linear light
 };
 
-// A picture on the device with all its smaller levels, in SHADER_READ_ONLY_OPTIMAL.
+// A picture on the device with all its mip levels, in SHADER_READ_ONLY_OPTIMAL.
 class Texture {
 public:
-    // `decoding` is for display colours. Throws Unsupported for sides that the device hasn't.
+    // `decoding` is for display colours. Throws Unsupported for sizes that the device lacks.
     Texture(
         const Device& device, const Pixels& pixels, Texels texels, Decoding decoding,
         const std::string& name);

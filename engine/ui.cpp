@@ -16,7 +16,8 @@ namespace {
 constexpr float kFontSize = 15.0f;  // px at scale 1
 constexpr std::uint32_t kMostTextures = 64;
 
-// Vulkan 1.3 has dynamic rendering without the extension whose names Dear ImGui asks for.
+// Dear ImGui asks for the extension's names of dynamic rendering, which Vulkan 1.3 has without the
+// extension.
 PFN_vkVoidFunction loadFunction(const char* name, void* instance) {
     const char* wanted = name;
     if (std::strcmp(name, "vkCmdBeginRenderingKHR") == 0) wanted = "vkCmdBeginRendering";
@@ -40,11 +41,11 @@ Handle<VkDescriptorPool, &vkDestroyDescriptorPool> makeDescriptors(VkDevice devi
     return {device, pool};
 }
 
-// `size`: height of letters, px.
+// `size`: font height, px.
 void addFont(float size) {
     ImGuiIO& io = ImGui::GetIO();
     if (std::filesystem::is_regular_file(HAIRBENCH_UI_FONT)) {
-        // Latin with its accents, and the signs of units and ranges.
+        // Latin with accents, and signs of units and ranges.
         static constexpr ImWchar kGlyphs[] = {0x20,   0x17f,  0x2010, 0x2030, 0x2070,
                                               0x209f, 0x2190, 0x21ff, 0x2200, 0x22ff,
                                               0x370,  0x3ff,  0};
@@ -67,9 +68,9 @@ UiItem itemOf(const ImGuiContext& context, ImGuiID id, const ImRect& rect) {
     for (const ImGuiWindow* around = &window; around; around = around->ParentWindow)
         item.scrolls |= around->ScrollMax.y > 0.0f;
     item.is_window = id == window.ID;
-    // A panel's frame is drawn outside of what its widgets are clipped to.
+    // A panel's frame is drawn outside the clip rectangle of its widgets.
     item.clip = rectOf(item.is_window ? window.OuterRectClipped : window.ClipRect);
-    // Dear ImGui has a window of its own for widgets that are in none.
+    // Dear ImGui puts widgets without a window into a fallback window.
     item.visible = !window.Hidden && !window.IsFallbackWindow &&
                    rect.Overlaps(item.is_window ? window.Rect() : window.ClipRect);
     return item;
@@ -77,7 +78,7 @@ UiItem itemOf(const ImGuiContext& context, ImGuiID id, const ImRect& rect) {
 
 }  // namespace
 
-// A child's name is its parent's, a slash, its own and a number that tells it from its namesakes.
+// A child's name is its parent's name, a slash, its own name and a number that makes it unique.
 std::string windowName(const ImGuiWindow& window) {
     std::string name = window.Name;
     if (!(window.Flags & ImGuiWindowFlags_ChildWindow)) return name;
@@ -120,7 +121,7 @@ Ui::Ui(const Device& device, const Window& window, float scale)
     ImGui_ImplVulkan_CreateFontsTexture();
 }
 
-// Letters are as fine as the window's pixels, also where a screen coordinate is several of them.
+// Fonts have the resolution of the window's pixels, even if a screen coordinate covers several.
 void Ui::makeLetters() {
     ImGuiIO& io = ImGui::GetIO();
     const float density = window_.density();
@@ -159,7 +160,7 @@ void Ui::draw(Commands& commands) {
 Ui::Texture::Texture(const Device& device, const Image& image) : device_(device) {
     VkSamplerCreateInfo create{};
     create.sType = VK_STRUCTURE_TYPE_SAMPLER_CREATE_INFO;
-    create.magFilter = VK_FILTER_NEAREST;  // a pixel of the picture stays one
+    create.magFilter = VK_FILTER_NEAREST;  // keeps the picture's pixels sharp
     create.minFilter = VK_FILTER_LINEAR;
     create.addressModeU = create.addressModeV = create.addressModeW =
         VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE;
@@ -196,7 +197,7 @@ void UiItems::add(int frame, UiItem item) {
         item.label = early_.label;
         early_.id = 0;
     }
-    // A number that is being typed is two widgets in the same place.
+    // A number field being edited is two widgets in the same place.
     if (!find(item.id)) items_.push_back(std::move(item));
 }
 
@@ -207,7 +208,7 @@ UiItem& UiItems::early(std::uint32_t id) {
 }
 
 UiItem* UiItems::find(std::uint32_t id) {
-    // What is asked for has nearly always just been made.
+    // The item has nearly always just been made.
     for (UiItem& item : std::views::reverse(items_))
         if (item.id == id) return &item;
     return nullptr;
@@ -215,7 +216,7 @@ UiItem* UiItems::find(std::uint32_t id) {
 
 }  // namespace engine
 
-// ---- What Dear ImGui calls where IMGUI_ENABLE_TEST_ENGINE is defined
+// ---- Functions that Dear ImGui calls if IMGUI_ENABLE_TEST_ENGINE is defined ---------------------
 
 void ImGuiTestEngineHook_ItemAdd(
     ImGuiContext* context, ImGuiID id, const ImRect& rect, const ImGuiLastItemData* data) {

@@ -8,16 +8,16 @@
 
 typedef void* ImTextureID;
 
-// The user interface: Dear ImGui in a window, and the widgets that its last picture had.
+// The user interface: Dear ImGui in a window, and the widgets of its last frame.
 struct ImGuiWindow;
 
 namespace engine {
 
-// Dear ImGui in a window: its context, letters, input and drawing. One at a time. Nothing of it is
-// kept on disk.
+// Dear ImGui in a window: its context, fonts, input and drawing. One at a time. It keeps nothing on
+// disk.
 class Ui {
 public:
-    // `scale` of letters: 1 on a usual screen. Colours and sizes are ImGui::GetStyle()'s.
+    // `scale`: of the font, 1 on a usual screen. Colours and sizes come from ImGui::GetStyle().
     Ui(const Device& device, const Window& window, float scale);
     ~Ui();
     Ui(const Ui&) = delete;
@@ -27,15 +27,14 @@ public:
     void begin();
     void end();
 
-    // Draws the widgets; while rendering to Presenter::kFormat.
+    // Draws the widgets. Call it while rendering to Presenter::kFormat.
     void draw(Commands& commands);
 
     float scale() const { return scale_; }
-    // Letters of another size, from the next picture on. Not between begin() and end().
+    // Changes the font size from the next frame on. Not between begin() and end().
     void setScale(float scale);
 
-    // An image for ImGui::Image, which is sampled in SHADER_READ_ONLY_OPTIMAL and must live as
-    // long.
+    // An image for ImGui::Image, sampled in SHADER_READ_ONLY_OPTIMAL. The image must outlive it.
     class Texture {
     public:
         Texture(const Device& device, const Image& image);
@@ -59,10 +58,10 @@ private:
     Handle<VkDescriptorPool, &vkDestroyDescriptorPool> descriptors_;
 };
 
-// A window of Dear ImGui as UiItem::window has it.
+// Returns a Dear ImGui window's name as in UiItem::window.
 std::string windowName(const ImGuiWindow& window);
 
-// A part of the window's picture, px from its top left corner.
+// A part of the window, px from its top left corner.
 struct UiRect {
     float left = 0.0f;
     float top = 0.0f;
@@ -76,29 +75,28 @@ struct UiRect {
 // A widget, or a whole panel.
 struct UiItem {
     std::uint32_t id = 0;
-    std::string
-        window;  // the window it is in, with those around it: "Scene/fields"; a panel's own name
-    std::string label;  // as it was given to Dear ImGui, "##" included; empty: it has none
-    UiRect rect;  // where the mouse finds it
-    UiRect whole;  // with its label, which may stand beside it
-    UiRect clip;  // what is seen of it lies in here
+    std::string window;  // its window, with the parents of that: "Scene/fields"; a panel's own name
+    std::string label;  // as passed to Dear ImGui, with "##"; empty: none
+    UiRect rect;  // reacts to the mouse
+    UiRect whole;  // includes a label beside the widget
+    UiRect clip;  // area in which the widget is visible
     bool is_window = false;
     bool visible = false;  // at least in part
-    bool scrolls = false;  // its window scrolls, up and down
+    bool scrolls = false;  // its window scrolls vertically
     bool enabled = true;
-    bool inputable = false;  // with letters or numbers
+    bool inputable = false;  // takes text or numbers
     bool checkable = false;
     bool checked = false;
     bool openable = false;
     bool open = false;
 
-    // The label as people read it: what is before "##".
+    // The visible label: the part before "##".
     std::string text() const { return label.substr(0, label.find("##")); }
 };
 
-// What widgets the last picture of Dear ImGui's current context had, in the order in which they
-// were made: for scripts that look for them as users do. It costs nothing while there is none.
-// Must not outlive the context.
+// The widgets in the last frame of Dear ImGui's current context, in the order of their creation,
+// for scripts that find widgets as users do. Dear ImGui has no extra cost without an instance. Must
+// not outlive the context.
 class UiItems {
 public:
     UiItems();
@@ -106,15 +104,15 @@ public:
     UiItems(const UiItems&) = delete;
     UiItems& operator=(const UiItems&) = delete;
 
-    // Widgets that are scrolled out of sight have no label.
+    // Widgets scrolled out of sight have no label.
     const std::vector<UiItem>& items() const { return items_; }
 
-    // For Dear ImGui's calls, ImGuiTestEngineHook_*.
+    // For Dear ImGui's hooks, ImGuiTestEngineHook_*.
     void add(int frame, UiItem item);
     UiItem* find(std::uint32_t id);
     int frame() const { return frame_; }
 
-    // What Dear ImGui says of a widget before it adds the widget.
+    // Properties that Dear ImGui reports before it adds the widget.
     UiItem& early(std::uint32_t id);
 
 private:

@@ -14,8 +14,8 @@ std::string reason() {
     return text ? text : "no reason is given";
 }
 
-// GLFW 3.4 looks for a Wayland compositor first, and where there is none libwayland says so on
-// stderr in its own words.
+// GLFW 3.4 first looks for a Wayland compositor. Without one, libwayland prints its own message to
+// stderr.
 void chooseDesktop() {
 #if defined(GLFW_PLATFORM) && defined(__unix__) && !defined(__APPLE__)
     if (!std::getenv("WAYLAND_DISPLAY") && !std::getenv("WAYLAND_SOCKET"))
@@ -23,7 +23,7 @@ void chooseDesktop() {
 #endif
 }
 
-// One line that GLFW's own reason is a part of.
+// One line that includes GLFW's own reason.
 std::string noDisplay() { return "no display to open a window on (" + reason() + ")"; }
 
 }  // namespace
@@ -47,7 +47,7 @@ Window::Window(const WindowDescription& description) {
         for (int i = 0; i < count; ++i) self.dropped_.emplace_back(paths[i]);
         self.active_ = true;
     });
-    // Dear ImGui's, which are set later, call these.
+    // Dear ImGui's callbacks, which are set later, call these.
     glfwSetKeyCallback(window_, &wake);
     glfwSetCharCallback(window_, &wake);
     glfwSetMouseButtonCallback(window_, &wake);
@@ -99,7 +99,7 @@ bool Window::wantsToClose() const { return glfwWindowShouldClose(window_) == GLF
 void Window::close() { glfwSetWindowShouldClose(window_, GLFW_TRUE); }
 
 VkExtent2D Window::pixels() const {
-    // Some desktops keep the size of a window that they have put away.
+    // Some desktops keep the size of a minimised window.
     if (glfwGetWindowAttrib(window_, GLFW_ICONIFIED) == GLFW_TRUE) return {0, 0};
     int width = 0, height = 0;
     glfwGetFramebufferSize(window_, &width, &height);

@@ -12,7 +12,7 @@ struct GLFWwindow;
 
 namespace engine {
 
-// There is nothing to open a window on.
+// There is no display to open a window on.
 class NoDisplay : public Error {
 public:
     using Error::Error;
@@ -20,14 +20,14 @@ public:
 
 struct WindowDescription {
     std::string title = "hairbench";
-    std::uint32_t width = 1280;  // of what is inside, screen coordinates
+    std::uint32_t width = 1280;  // of the content, screen coordinates
     std::uint32_t height = 720;
 };
 
-// A window of the desktop, for Vulkan. One at a time; all of it from the main thread.
+// A desktop window for Vulkan. One at a time; use it from the main thread.
 class Window {
 public:
-    // Throws NoDisplay where there is no desktop.
+    // Throws NoDisplay if there is no desktop.
     explicit Window(const WindowDescription& description);
     ~Window();
     Window(const Window&) = delete;
@@ -35,33 +35,33 @@ public:
 
     GLFWwindow* get() const { return window_; }
 
-    // What a Vulkan instance must have to show pictures here.
+    // Returns the instance extensions that presenting to a window needs.
     static std::vector<std::string> instanceExtensions();
     VkSurfaceKHR createSurface(VkInstance instance) const;
 
-    // Handles what happened since the last call; `seconds`: waits so long for something to happen.
+    // Handles the events since the last call. `seconds`: longest wait for an event.
     void poll(double seconds = 0.0);
-    // Ends a poll() that waits, or the next one. From any thread, while there is a window.
+    // Ends a waiting poll(), or the next one. Any thread may call it while a window exists.
     static void endWait();
-    // Whether the mouse, the keyboard or the desktop did anything to it since the last call.
+    // Whether the mouse, the keyboard or the desktop caused an event since the last call.
     bool takeActivity() { return std::exchange(active_, false); }
 
     bool wantsToClose() const;
-    VkExtent2D pixels() const;  // of the picture inside; 0 x 0 while it is minimised
+    VkExtent2D pixels() const;  // of the content; 0 x 0 while minimised
     float density() const;  // px per screen coordinate
-    // Screen coordinates per point of a usual screen: 2 on a fine one, unless the desktop counts
-    // in points itself.
+    // Screen coordinates per point of a usual screen: 2 on a high-density screen, unless the
+    // desktop's own coordinates are points.
     float contentScale() const;
     VkExtent2D size() const;  // screen coordinates
     void resize(std::uint32_t width, std::uint32_t height);  // screen coordinates
     void setTitle(const std::string& title);
-    void close();  // as if the user had
+    void close();  // as if the user had closed it
 
-    // Files dropped on it since the last call.
+    // Returns the files dropped on the window since the last call.
     std::vector<std::filesystem::path> takeDropped();
 
 private:
-    // Any of GLFW's callbacks.
+    // Callback for any GLFW event: notes activity.
     template <class... What>
     static void wake(GLFWwindow* window, What...);
 
