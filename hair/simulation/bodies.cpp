@@ -33,11 +33,12 @@ static_assert(sizeof(gpu::BlockMiddle) == 8);
 static_assert(sizeof(gpu::BakeDistancePush) == 108 && offsetof(gpu::BakeDistancePush, nodes) == 40);
 static_assert(offsetof(gpu::BakeDistancePush, first_block) == 92);
 
-// On lavapipe 12 bake 1.4 times as fast as 4: going through a leaf costs less than finding it.
-// Halving 2^32 triangles down to leaves of these takes fewer than gpu::kTreeDepth levels.
+// On lavapipe, 12 bakes 1.4 times as fast as 4: processing a leaf costs less than finding it.
+// Halving 2^32 triangles down to leaves of this size takes fewer than gpu::kTreeDepth levels.
 constexpr std::size_t kMostInLeaf = 12;
 
-// A submission of so many takes less than a second on lavapipe. Drivers end what takes a few.
+// One submission of this size takes less than a second on lavapipe. Drivers abort submissions that
+// take a few seconds.
 constexpr std::uint32_t kBlocksPerBatch = 1024;
 
 [[noreturn]] void throwTooLarge(const char* what, double bytes, double limit) {
@@ -62,7 +63,7 @@ gpu::DistanceField gridRound(
     }
     const glm::dvec3 size = upper - lower;
     const double cell = std::max({size.x, size.y, size.z}) / resolution;
-    // A side that is whole cells but for rounding has that many.
+    // A side that is a whole number of cells within rounding gets that number.
     const glm::dvec3 cells = glm::ceil((size + 2.0 * double{padding}) / cell - 1e-6);
     const glm::dvec3 points = cells + 1.0;
     const double bytes = points.x * points.y * points.z * sizeof(float);
@@ -77,7 +78,7 @@ gpu::DistanceField gridRound(
 
 OpenBody openBody(
     const engine::Device& device, const groom::OpenMesh& mesh, const gpu::DistanceField& grid) {
-    // No more nodes than triangles: leaves hold two at least.
+    // There are no more nodes than triangles: leaves hold at least two triangles.
     const double bytes = static_cast<double>(mesh.triangles.size() * sizeof(gpu::WindingNode));
     if (bytes > largestBuffer(device))
         throwTooLarge("the mesh's triangles", bytes, largestBuffer(device));
@@ -93,9 +94,8 @@ makeBuffer(const engine::Device& device, const std::vector<Value>& values, const
     return engine::makeBuffer(device, std::span<const Value>(values), name);
 }
 
-// Where a corner of a cell is not exact, all of it is farther from the mesh than `padding`: a
-// cell's diagonal is 1.73 cells. What is left of these is for the roundings of grids far from the
-// origin.
+// If a corner of a cell is not exact, the whole cell is farther from the mesh than `padding`: a
+// cell's diagonal is 1.73 cells. The remainder covers rounding on grids far from the origin.
 constexpr float kBandCells = 2.5f;
 
 glm::dvec3 normalOf(const gpu::TreeTriangle& triangle) {
@@ -104,7 +104,7 @@ glm::dvec3 normalOf(const gpu::TreeTriangle& triangle) {
         glm::cross(glm::dvec3(triangle.corners[1]) - a, glm::dvec3(triangle.corners[2]) - a));
 }
 
-// The surface of a body on the device while it is baked.
+// A body's surface on the device during baking.
 struct BakeSurface {
     engine::Buffer nodes, triangles;
     std::optional<engine::Buffer> normals, sides;  // one of them
@@ -127,7 +127,7 @@ private:
         for (const groom::TriangleTree::Node& node : tree.nodes) {
             boxes.push_back(
                 {.lower = node.low, .first = node.first, .upper = node.high, .count = node.count});
-            // By number, so that of triangles that are equally near the same one counts everywhere.
+            // Sorted by index, so that the same one of equally near triangles counts everywhere.
             if (node.count > 0)
                 std::ranges::sort(std::span(tree.order).subspan(node.first, node.count));
         }
@@ -189,7 +189,7 @@ std::vector<DistanceField> bake(
             continue;
         }
         try {
-            // Beyond the grid nothing touches, not by a rounding either.
+            // Nothing beyond the grid is in contact, not even by rounding.
             fields.emplace_back(
                 device, meshes[i], settings.distance_fields[i].resolution,
                 1.01f * settings.collision.margin);
@@ -217,7 +217,7 @@ fieldsOf(const SimulationSettings& settings, const std::vector<DistanceField>& f
 }  // namespace
 
 std::uint64_t fieldBytes(std::uint32_t resolution) {
-    // Points, and a cell of padding on either side.
+    // Points, plus one cell of padding on either side.
     const std::uint64_t side = std::uint64_t{resolution} + 3;
     return side * side * side * sizeof(float);
 }

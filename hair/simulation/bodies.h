@@ -13,30 +13,30 @@
 #include "hair/groom/mesh/mesh.h"
 #include "hair/settings.h"
 
-// The bodies that hair collides with: capsules and distance fields.
+// Bodies that hair collides with: capsules and distance fields.
 namespace hair::simulation {
 
-// A baked field on the host: what another one of the same mesh, resolution and padding is made of
-// at once.
+// A baked field on the host. From it, another field of the same mesh, resolution and padding is
+// made without baking.
 struct BakedField {
-    gpu::DistanceField grid{};  // without an address
+    gpu::DistanceField grid{};  // without its address
     std::vector<float> distances;  // [z][y][x], m
     std::string warning;  // bodyWarning() of the mesh
 };
 
-// Signed distances to the surface of a body on a grid, in the mesh's frame, for shaders
-// (shaders/simulation/constraints/distance_field.glsl). The body is what a closed mesh encloses,
-// and of any other where the winding number is 1/2 or more (open_body.h).
+// Signed distances to a body's surface on a grid, in the mesh's frame, for shaders
+// (shaders/simulation/constraints/distance_field.glsl). The body is the interior of a closed mesh.
+// For any other mesh it is the region of winding number 1/2 or more (open_body.h).
 class DistanceField {
 public:
-    // Bakes on the device and waits. The longest side of the mesh's bounding box is `resolution`
-    // cells, at least 1; the grid goes on for at least `padding` (m, not negative) on every side,
-    // as far on opposite ones. Distances are exact inside and, outside, to `padding` and two cells
-    // more; what is farther away is said to be at least that, and at most as far as it is. Next to
-    // a mesh's rim and to triangles that cross they are off by less than a cell, and inside, behind
-    // those, no deeper than it is. Throws engine::Error for a mesh that bounds no body (bodyMesh())
-    // or has no point of the grid inside, and engine::Unsupported where a buffer is larger than the
-    // device's.
+    // Bakes on the device and waits. The longest side of the mesh's bounding box has `resolution`
+    // cells, at least 1. The grid extends at least `padding` (m, not negative) beyond the box,
+    // equally far on opposite sides. Distances are exact inside, and outside up to `padding` plus
+    // two cells. Farther away, a distance is at least that and at most the true distance. Next to a
+    // mesh's rim and to triangles that cross, distances are off by less than a cell; inside, behind
+    // these, depths are not overestimated. Throws engine::Error for a mesh that bounds no body
+    // (bodyMesh()) or has no grid point inside, and engine::Unsupported if a buffer exceeds the
+    // device's limit.
     DistanceField(
         const engine::Device& device, const groom::BodyMesh& mesh, std::uint32_t resolution,
         float padding);
@@ -44,7 +44,7 @@ public:
         const engine::Device& device, const groom::Mesh& mesh, std::uint32_t resolution,
         float padding)
         : DistanceField(device, groom::bodyMesh(mesh), resolution, padding) {}
-    // The same as where it was baked, to the bit.
+    // Equals the baked field bit for bit.
     DistanceField(const engine::Device& device, const BakedField& baked);
 
     // Waits for the device.
@@ -52,7 +52,7 @@ public:
 
     const gpu::DistanceField& parameters() const { return parameters_; }
     const engine::Buffer& distances() const { return distances_; }  // float [z][y][x], m
-    // What a user has to know of the mesh; empty: nothing.
+    // Warning about the mesh for the user; empty: none.
     const std::string& warning() const { return warning_; }
 
 private:
@@ -61,10 +61,11 @@ private:
     std::string warning_;
 };
 
-// B of a DistanceField at most, of a mesh that is as wide and as deep as high.
+// Returns the largest size (B) of a DistanceField: that of a mesh as wide and as deep as it is
+// high.
 std::uint64_t fieldBytes(std::uint32_t resolution);
 
-// What hair collides with, on the device: capsules and distance fields.
+// Bodies on the device: capsules and distance fields.
 class Bodies {
 public:
     struct Capsules {
@@ -72,22 +73,22 @@ public:
         std::uint32_t count;
     };
 
-    // `meshes[i]` is the mesh of settings.distance_fields[i]. Bakes the fields but those that
-    // `baked`, as many or none, has. Throws Error (/simulation/distance_fields/N) for a mesh that
-    // bounds no body.
+    // `meshes[i]` is the mesh of settings.distance_fields[i]. Bakes the fields that are missing in
+    // `baked`, which has as many entries or none. Throws Error (/simulation/distance_fields/N) for
+    // a mesh that bounds no body.
     Bodies(
         const engine::Device& device, const SimulationSettings& settings,
         std::span<const groom::Mesh> meshes, std::span<const BakedField* const> baked = {});
 
-    // Of settings.distance_fields.
+    // Fields of settings.distance_fields.
     const std::vector<DistanceField>& fields() const { return distances_; }
-    // What a user has to know of their meshes, each with the field's JSON pointer before it.
+    // Warnings about their meshes for the user, each after the field's JSON pointer.
     std::vector<std::string> warnings() const;
 
     std::size_t count() const { return capsules_.count + distances_.size(); }
 
     gpu::Bodies parameters() const { return parametersWith(capsules_); }
-    // The parameters of the same distance fields with other capsules.
+    // Returns the parameters with other capsules and the same distance fields.
     gpu::Bodies parametersWith(const Capsules& capsules) const;
 
     static Capsules makeCapsules(const engine::Device& device, const SimulationSettings& settings);

@@ -7,19 +7,19 @@
 #include "engine/device.h"
 #include "hair/gpu_structs.h"
 
-// What is wrong with guides: torn, inside a body, still moving.
+// Checks of guides: stretched, inside a body, still moving.
 namespace hair::simulation {
 
-// The worst of its kind among all guides.
+// The worst value of one kind over all guides.
 struct Worst {
     double value = 0.0;
-    std::uint32_t guide = 0;  // where it is
-    std::uint32_t guides = 0;  // with a vertex beyond the limit
+    std::uint32_t guide = 0;  // that has the value
+    std::uint32_t guides = 0;  // that have a vertex beyond the limit
 };
 
 struct GuideCondition {
-    Worst stretch;  // a segment over its rest length
-    Worst depth;  // of a vertex in a body, without its margin, m; 0: none is inside
+    Worst stretch;  // of a segment, over its rest length
+    Worst depth;  // of a vertex in a body, ignoring the margin, m; 0: none is inside
     Worst speed;  // of a vertex, m/s
 };
 
@@ -29,12 +29,13 @@ struct ConditionLimits {
     double speed = 0.01;  // m/s
 };
 
-// Of [strand][vertex] vertices. What is not a number is worse than any number.
+// Returns the worst of [strand][vertex] vertices. NaN counts as worse than any number.
 GuideCondition worstOf(
     std::span<const gpu::VertexCondition> vertices, std::uint32_t vertices_per_strand,
     double substep, const ConditionLimits& limits = {});
 
-// Of `count` vertices behind gpu::GuideParameters, with the head at `frame`. Waits for the device.
+// Inspects the `count` vertices of gpu::GuideParameters, with the head at `frame`. Waits for the
+// device.
 std::vector<gpu::VertexCondition> inspectVertices(
     const engine::Device& device, gpu::Address guides, const gpu::RigidFrame& frame,
     std::uint32_t count);

@@ -9,17 +9,17 @@
 
 namespace hair::simulation {
 
-// The acceleration of every guide vertex by the function of /simulation/force, added to
-// GuideAddresses::accelerations, for a whole time step.
+// Evaluates the function of /simulation/force at every guide vertex, and adds the acceleration to
+// GuideAddresses::accelerations for a whole time step.
 class ForcePass {
 public:
-    // Throws Error where the file was not read, or does not compile.
+    // Throws Error if the file was not read or does not compile.
     ForcePass(
         const engine::Device& device, std::uint32_t vertex_count,
         const SimulationSettings& settings);
 
-    // Records the time step that begins at `time`. Orders its work after earlier compute work; the
-    // caller orders what comes after.
+    // Records the time step that starts at `time`. Orders its work after earlier compute work. The
+    // caller orders later work.
     void record(engine::Commands& commands, const GuideAddresses& guides, double time) const;
 
 private:

@@ -22,15 +22,15 @@ static_assert(sizeof(gpu::VolumeParameters) == 88 && offsetof(gpu::VolumeParamet
 static_assert(sizeof(gpu::VolumeBlock) == 8);
 static_assert(sizeof(gpu::VolumePush) == 52);
 
-// How far from the roots the grids reach, over the longest strand's length: the thesis's length
+// Reach of the grids beyond the roots, over the longest strand's length. The thesis's length
 // constraint lets strands stretch.
 constexpr double kReach = 1.1;
-// Cells that repulsion may move a vertex by in a step.
+// Largest movement by repulsion in a step, cells.
 constexpr double kGreatestPush = 1.0;
-// The greatest part that is foreseen of what friction takes: the exact one is 1 in the limit of
-// great friction, and would never forget.
+// Largest predicted part of friction. The exact part tends to 1 for large friction, and the
+// prediction would then never decay.
 constexpr double kMostForeseen = 0.75;
-// The greatest repulsion that is used, over (cell / step)^2.
+// Largest repulsion in use, over (cell / step)^2.
 constexpr double kGreatestRepulsion = 0.5;
 
 double strandLength(std::span<const glm::vec3> strand) {
@@ -40,7 +40,7 @@ double strandLength(std::span<const glm::vec3> strand) {
     return length;
 }
 
-// B-spline weights of a point in three cells in a row, the middle one around it.
+// Returns the B-spline weights of a point in three cells in a row; the point is in the middle cell.
 std::array<double, 3> weightsAlong(double point) {
     const double offset = point - std::floor(point) - 0.5;
     return {
@@ -48,7 +48,7 @@ std::array<double, 3> weightsAlong(double point) {
         0.5 * (0.5 + offset) * (0.5 + offset)};
 }
 
-template <class Visit>  // (index of a cell of all grids, weight)
+template <class Visit>  // (cell index over all grids, weight)
 void visitCells(const VolumeGrid& first_grid, const glm::dvec3& position, Visit visit) {
     const std::size_t side = first_grid.resolution;
     for (std::size_t grid = 0; grid < gpu::kVolumeGrids; ++grid) {
@@ -77,7 +77,8 @@ struct Friction {
     double foreseen = 0.0;
 };
 
-// The parts that friction takes in a step, of the differences at its start and of what is added.
+// Returns the parts that friction removes in a step: of the differences at its start, and of those
+// added during it.
 Friction frictionIn(const HairHairSettings& contact, double step) {
     const double setting = contact.friction;
     if (setting == 0.0) return {};
@@ -87,14 +88,14 @@ Friction frictionIn(const HairHairSettings& contact, double step) {
     return {.settled = settled, .foreseen = std::min(1.0 - settled / (rate * step), most)};
 }
 
-// The parameters without the addresses.
+// Returns the parameters without addresses.
 gpu::VolumeParameters
 parametersOf(const groom::Groom& groom, const SimulationSettings& settings, const gpu::Step& step) {
     const HairHairSettings& contact = settings.hair_hair;
     const VolumeGrid grid = volumeGrid(groom, contact.resolution);
     const double whole = step.whole;
     const Friction friction = frictionIn(contact, whole);
-    const double fastest = grid.cell / whole;  // m/s, that stays within a cell
+    const double fastest = grid.cell / whole;  // m/s, stays within a cell
     const double repulsion =
         std::min(double{contact.repulsion}, kGreatestRepulsion * fastest * fastest);
     return {
@@ -129,8 +130,8 @@ std::size_t blockCount(const SimulationSettings& settings) {
     return cellCount(((settings.hair_hair.resolution - 1) >> gpu::kVolumeBlockBits) + 1);
 }
 
-// Whether two components of a sum are one integer of 64 bits, as in volume_splat_packed.comp: half
-// as many atomic operations.
+// Whether two components of a sum share one 64-bit integer, as in volume_splat_packed.comp. This
+// halves the atomic operations.
 bool isPacked(const engine::Device& device) {
     return device.has(engine::Feature::long_integers) && device.has(engine::Feature::long_atomics);
 }
@@ -152,7 +153,7 @@ VolumeGrid volumeGrid(const groom::Groom& groom, std::uint32_t resolution) {
         longest = std::max(longest, strandLength(strand));
     }
     const glm::dvec3 size = high - low;
-    // Hair without any size gets a grid all the same.
+    // Gives a grid to hair without any size, too.
     const double side = std::max({size.x, size.y, size.z}) + 2.0 * std::max(kReach * longest, 1e-3);
     const double cell = side / (resolution - 2 * gpu::kVolumeMargin);
     return {
@@ -242,7 +243,7 @@ void HairHair::record(
         .volume = parameters_.address(),
         .accelerations = 0,
         .frame = toGpu(later)};
-    // The grids may still be read by the step before.
+    // The step before may still read the grids.
     commands.barrier(Access::compute_write, Access::transfer_write);
     commands.fill(sums_, 0);
     commands.fill(blocks_, 0);

@@ -17,91 +17,95 @@
 
 namespace hair::simulation {
 
-// A cubic grid on the head, round the roots and 1.1 of the longest strand's length on every side.
-// All that lies at least kVolumeMargin cells within. A second grid begins half a cell before it.
+// A cubic grid fixed to the head, round the roots and 1.1 times the longest strand's length on
+// every side. That region lies at least kVolumeMargin cells inside the grid. A second grid is
+// offset by minus half a cell.
 struct VolumeGrid {
-    glm::dvec3 origin{0.0};  // corner, m, where the groom was made
+    glm::dvec3 origin{0.0};  // corner, m, in the groom's frame
     double cell = 1.0;       // m
-    std::uint32_t resolution = 0;  // cells a side
+    std::uint32_t resolution = 0;  // cells per side
 };
 
 VolumeGrid volumeGrid(const groom::Groom& groom, std::uint32_t resolution);
 
-// The part of the groom's length that each vertex stands for: half of its segments. Parts of a
-// groom without length are equal. [strand][vertex], sums to 1.
+// Returns the fraction of the groom's length that each vertex represents: half of its segments. If
+// the groom has no length, all fractions are equal. [strand][vertex], sums to 1.
 std::vector<double> lengthShares(const groom::Groom& groom);
 
-// Mean over the groom's length and both grids of the density at rest, shares per cell.
+// Returns the density at rest in shares per cell: the mean over the groom's length and both grids.
 double meanRestDensity(const groom::Groom& groom, const VolumeGrid& grid);
 
-// B of device memory that HairHair takes.
+// Returns the device memory of HairHair, B.
 std::uint64_t hairHairBytes(const groom::GroomSize& size, const SimulationSettings& settings);
 
-// Contact of hair with hair as between parts of a fluid, on grids that move with the head
-// (Petrovic, Henne and Anderson 2005, Volumetric methods for simulation and rendering of hair).
+// Contact of hair with hair as in a fluid, on grids that move with the head (Petrovic, Henne and
+// Anderson 2005, Volumetric methods for simulation and rendering of hair).
 //
 // Vertex p has the share m_p of the groom's length, the velocity v_p and the weight w_pi in cell i
-// (quadratic B-spline). Cell i sums up m_i = sum_p w_pi m_p and the momentum m_i v_i.
+// (quadratic B-spline). Cell i sums the mass m_i = sum_p w_pi m_p and the momentum m_i v_i.
 //
-// Friction accelerates vertex p by r d_p, where d_p = sum_i w_pi (v_i - v_p) with pairs of vertices
-// on one strand left out, and exp(-r / 60 s) is 1 less the setting. A pass that works d_p out once
-// in a step dt has to know what it is during the step. If all else changes d_p by c dt,
+// Friction accelerates vertex p by r d_p. Here d_p = sum_i w_pi (v_i - v_p), without pairs of
+// vertices on one strand, and exp(-r / 60 s) is 1 minus the setting. A pass that computes d_p once
+// in a step dt must predict d_p during the step. If everything else changes d_p by c dt, then
 //     d_p(t) = exp(-r t) d_p(0) + (1 - exp(-r t)) / r c,
-// so that in the step friction takes, exactly,
+// and in the step friction removes exactly
 //     j_p = s d_p(0) + (1 - s / (r dt)) c dt,    s = 1 - exp(-r dt).
-// c dt is taken from the step before: it is what d_p has become there less what friction left,
-// d_p(0) - j_p. Three things follow, at any dt. Bundles that nothing else acts on lose their
-// difference as exp(-r t). Where hair slides steadily s d + (1 - s / (r dt)) j = j, that is j = r
-// dt d: the force is r d. And forces of a pair are opposite, the ones foreseen too, since d_p are:
-// momentum is kept to rounding, and hair that moves as one feels no friction however it speeds up.
-// An implicit brake toward a velocity of the grid's, as that of air, has the first two and not the
-// third: it can't know how its neighbours will speed up, and dense hair of the setting 1/2 would
-// fall with 0.72 g at 1/60 s. What is foreseen wrongly, where hair hits something, is put right in
-// the next steps. With a in [0, 1] that friction takes of a mode of d_p, the step's matrix has the
-// determinant f (1 - a) and the trace 1 - a s + f (1 - a), f = 1 - s / (r dt): it is stable for
-// every r and dt. f is used up to 3/4, r dt = 3.9; what slides steadily beyond feels less. An
-// explicit spring of the stiffness w^2 / dt^2, as repulsion is, stays stable beside it for w^2 < 2
-// (2 - s) / (1 + f): where there is repulsion f is used up to 1 - s, r dt = 1, so that this is
-// never below 2.
+// The change c dt is taken from the step before: the present d_p minus the value that friction left
+// there, d_p(0) - j_p. Three things follow, at any dt. Bundles that nothing else acts on lose their
+// velocity difference as exp(-r t). In steady sliding s d + (1 - s / (r dt)) j = j, so j = r dt d:
+// the force is r d. Forces of a pair are opposite, including the predicted part, because the d_p
+// are opposite: momentum is conserved to rounding, and hair that moves as one feels no friction,
+// however it accelerates.
 //
-// Repulsion: the pressure k (m_i - crowded), where it is positive, of a gas with the speed of sound
-// sqrt(k). Its energy E(m_i) has the slope E' = k ln(m_i / crowded); what each strand would have
-// alone is taken from it:
+// An implicit drag toward a velocity of the grid, like air drag, has the first two properties but
+// not the third: it can't know how its neighbours will accelerate, and dense hair with the setting
+// 1/2 would fall with 0.72 g at 1/60 s. A wrong prediction, for example where hair hits something,
+// is corrected in the next steps. Let friction remove the part a in [0, 1] of a mode of d_p. The
+// step's matrix then has the determinant f (1 - a) and the trace 1 - a s + f (1 - a), with
+// f = 1 - s / (r dt): it is stable for every r and dt. f is limited to 3/4, at r dt = 3.9; beyond
+// that, steady sliding feels less friction. An explicit spring of stiffness w^2 / dt^2, such as
+// repulsion, stays stable beside friction for w^2 < 2 (2 - s) / (1 + f). With repulsion, f is
+// limited to 1 - s, at r dt = 1, so that this bound is never below 2.
+//
+// Repulsion is the pressure k (m_i - crowded), where positive, of a gas with the speed of sound
+// sqrt(k). Its energy E(m_i) has the slope E' = k ln(m_i / crowded). The part that each strand
+// would have alone is subtracted:
 //     a_p = -sum_i (E'(m_i) - E'(m_i of p's own strand)) grad w_pi.
-// So a strand feels others only, whatever the resolution. The force has a potential, and hair comes
-// to rest: with central differences of the pressure instead, which keep momentum exactly, hair was
-// seen to run in circles for ever. k is used up to 1/2 (cell / dt)^2, which keeps an explicit step
-// stable, and in a step repulsion moves no vertex by more than a cell.
+// So a strand feels only other strands, whatever the resolution. The force has a potential, so hair
+// comes to rest. With central differences of the pressure instead, which conserve momentum exactly,
+// hair was seen to run in circles for ever. k is limited to 1/2 (cell / dt)^2, which keeps an
+// explicit step stable, and repulsion moves no vertex by more than a cell in a step.
 //
-// Everything is the mean of two grids half a cell apart. The sum of repulsion's forces is zero but
-// for the sampling of E at cells: on one grid it can be a tenth of their size, but errors of the
-// two are opposite, and one to two hundredths are left (interlacing; Hockney and Eastwood 1988,
-// Computer simulation using particles).
+// All quantities are means over two grids half a cell apart. The sum of repulsion's forces is zero
+// except for the sampling of E at cells. On one grid it can be a tenth of their size, but the
+// errors of the two grids are opposite, and one to two hundredths remain (interlacing; Hockney and
+// Eastwood 1988, Computer simulation using particles).
 //
-// A vertex counts where it will be at the end of the step by its velocity: this takes energy
-// from pressure waves instead of adding some. All of it is continuous in the vertices' places.
+// A vertex counts at its position at the end of the step, extrapolated by its velocity: this
+// removes energy from pressure waves instead of adding some. All quantities are continuous in the
+// vertex positions.
 //
-// Sums are integers, so they don't depend on the order of additions. Their fixed point is that of a
+// Sums are integers, so they don't depend on the order of additions. Their fixed point is set per
 // block of 4 x 4 x 4 cells: a unit is at most 2^-31 of the share M of all vertices that reach into
-// the block, and of momentum 2^-30 M V, where V is the greatest component of their velocities. So
-// sums can't overflow, and hair that is slow or sparse keeps its digits beside hair elsewhere that
-// is fast or dense. Of N vertices in a cell at most N / 2 units are lost by rounding.
+// the block, and for momentum 2^-30 M V, where V is the largest component of their velocities. So
+// sums can't overflow, and slow or sparse hair keeps its precision while hair elsewhere is fast or
+// dense. With N vertices in a cell, rounding loses at most N / 2 units.
 class HairHair {
 public:
     HairHair(
         const engine::Device& device, const groom::Groom& groom, const SimulationSettings& settings,
         const gpu::Step& step);
 
-    // Adds to the accelerations what acts over the next step; `later` is the head's place at its
-    // end. Orders its work after earlier compute work, but for what wrote the guides' positions;
-    // the caller orders what comes after.
+    // Adds the accelerations of the next step. `later` is the head's motion at its end. Orders its
+    // work after earlier compute work, except the writes of the guides' positions. The caller
+    // orders later work.
     void record(
         engine::Commands& commands, const GuideAddresses& guides, const RigidMotion& later) const;
 
-    // Leaves the step before out of the next one, where someone else wrote the positions.
+    // Makes the next step ignore the step before, after other code wrote the positions.
     void forget(const engine::Device& device);
 
-    // What goes from step to step.
+    // State kept between steps.
     const engine::Buffer& state() const { return kept_; }
 
     // gpu::VolumeParameters::sums and blocks.

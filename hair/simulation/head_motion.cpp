@@ -26,7 +26,7 @@ Pose operator*(double factor, const Pose& pose) {
     return {factor * pose.rotation, factor * pose.translation};
 }
 
-// The mean motion between two keyframes.
+// Mean motion between two keyframes.
 struct Secant {
     double span;  // s
     Pose slope;   // change per s
@@ -37,7 +37,7 @@ Secant secant(const Keyframe& from, const Keyframe& to) {
     return {span, (1.0 / span) * (poseOf(to) + -1.0 * poseOf(from))};
 }
 
-// The weighted harmonic mean of two slopes; 0 where they differ in sign.
+// Returns the weighted harmonic mean of two slopes; 0 if their signs differ.
 double meanSlope(double before, double after, double weight_before, double weight_after) {
     if (before * after <= 0.0) return 0.0;
     return (weight_before + weight_after) / (weight_before / before + weight_after / after);
@@ -56,8 +56,8 @@ Pose meanSlope(const Secant& before, const Secant& after) {
         mean(before.slope.translation, after.slope.translation)};
 }
 
-// The slope at keyframe i, from its neighbours. A repeating motion goes on after its last keyframe
-// as after its first.
+// Returns the slope at keyframe i, from its neighbours. A repeating motion continues after its last
+// keyframe as after its first.
 Pose slopeAt(const MotionSettings& settings, std::size_t i) {
     const auto& keys = settings.keyframes;
     const std::size_t last = keys.size() - 1;

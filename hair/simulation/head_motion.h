@@ -10,7 +10,7 @@
 
 namespace hair::simulation {
 
-// x -> rotation x + translation: from where the groom was made to where it is now.
+// x -> rotation x + translation, from the groom's frame to the present position.
 struct RigidMotion {
     glm::dquat rotation{1.0, 0.0, 0.0, 0.0};  // unit length
     glm::dvec3 translation{0.0};              // m
@@ -29,23 +29,23 @@ inline gpu::RigidFrame toGpu(const RigidMotion& motion) {
     return {.rotation = {q.x, q.y, q.z, q.w}, .translation = motion.translation};
 }
 
-// The head's pose over simulated time. Every angle and every coordinate of the keyframes is a curve
-// of its own, as in animation programs: a cubic Hermite spline with the slopes of Fritsch and
-// Butland 1984, A method for constructing local monotone piecewise cubic interpolants: the harmonic
-// mean of those to its neighbours, weighed by the spans. Velocities never jump, and between two
-// keyframes the head never leaves their range, so between equal ones it holds still. Before the
-// first keyframe and after the last it rests, and it starts and ends gently. Motion that repeats
-// goes on without a halt where the last pose is the first one, or whole turns from it; its very
-// first start is gentle where the first keyframe is a turning point. Without keyframes the head
-// never moves.
+// The head's pose over simulated time. Every angle and coordinate of the keyframes has its own
+// curve, as in animation programs: a cubic Hermite spline with the slopes of Fritsch and Butland
+// 1984, A method for constructing local monotone piecewise cubic interpolants, that is the harmonic
+// mean of the slopes to the neighbours, weighted by the spans. Velocities never jump. Between two
+// keyframes the head stays in their range, so between equal keyframes it holds still. Before the
+// first keyframe and after the last it rests, and it starts and ends gently. Repeating motion
+// continues without a halt if the last pose equals the first, or differs by whole turns; its very
+// first start is gentle if the first keyframe is a turning point. Without keyframes the head never
+// moves.
 class HeadMotion {
 public:
-    // Throws Error (/simulation/motion/keyframes/N/time) for times that don't ascend.
+    // Throws Error (/simulation/motion/keyframes/N/time) if times don't ascend.
     explicit HeadMotion(const MotionSettings& settings);
 
-    // `time` in s.
+    // `time`: s.
     RigidMotion at(double time) const;
-    // The pose as a keyframe at that time; angles may be more than whole turns.
+    // Returns the pose as a keyframe at that time. Angles may exceed whole turns.
     Keyframe keyframeAt(double time) const;
 
 private:

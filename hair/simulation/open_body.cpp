@@ -31,7 +31,8 @@ static_assert(sizeof(gpu::WindingNode) == 96 && offsetof(gpu::WindingNode, octup
 static_assert(sizeof(gpu::WindingTriangle) == 36);
 static_assert(sizeof(gpu::BakeWindingPush) == 72 && offsetof(gpu::BakeWindingPush, nodes) == 48);
 
-// A submission of so many takes less than a second on lavapipe. Drivers end what takes a few.
+// One submission of this size takes less than a second on lavapipe. Drivers abort submissions that
+// take a few seconds.
 constexpr std::uint32_t kWindingBlocks = 1024;
 
 std::vector<gpu::WindingNode> nodesOf(const WindingNumber& winding) {
@@ -55,7 +56,7 @@ std::vector<gpu::WindingNode> nodesOf(const WindingNumber& winding) {
     return nodes;
 }
 
-// At the points of the grid, [z][y][x].
+// Returns the winding numbers at the grid points, [z][y][x].
 std::vector<float> windingsAt(
     const engine::Device& device, const WindingNumber& winding, const gpu::DistanceField& grid) {
     std::vector<gpu::WindingTriangle> corners;
@@ -131,13 +132,13 @@ std::vector<float> sidesOf(
 
 // ---- Caps ---------------------------------------------------------------------------------------
 
-// Where winding numbers go through 1/2 without a triangle: marching tetrahedra (Doi and Koide 1991,
-// An efficient method of triangulating equi-valued surfaces by using tetrahedral cells) in cells
-// that are cut in six round a diagonal (Kuhn 1960), so that neighbours agree.
+// The surface where winding numbers go through 1/2 without a triangle. Marching tetrahedra (Doi and
+// Koide 1991, An efficient method of triangulating equi-valued surfaces by using tetrahedral cells)
+// in cells that are cut into six round a diagonal (Kuhn 1960), so that neighbours agree.
 class Caps {
 public:
-    // `windings` are those at the grid's points; what is found is added to `body`, whose sides are
-    // known. All is borrowed.
+    // `windings`: at the grid points. Adds triangles to `body`, which must have its sides. Borrows
+    // all arguments.
     Caps(
         const WindingNumber& winding, const gpu::DistanceField& grid,
         std::span<const float> windings, OpenBody& body)
@@ -152,7 +153,7 @@ public:
     }
 
 private:
-    // The two ends of an edge: a grid point and another on its cell, by a bit for each axis.
+    // The two ends of an edge: a grid point, and another point of its cell by one bit per axis.
     struct Edge {
         std::size_t from, to;
         std::uint32_t axes;
@@ -177,7 +178,7 @@ private:
         for (const auto& [second, third] : kWays) addTetrahedron(corner, {0, second, third, 7});
     }
 
-    // Each corner's axes contain those of the one before.
+    // Each corner's axes contain those of the corner before.
     void addTetrahedron(std::size_t corner, const std::array<std::uint32_t, 4>& axes) {
         std::array<std::uint32_t, 4> in{}, out{};
         std::size_t in_count = 0, out_count = 0;
@@ -194,7 +195,7 @@ private:
                 neighbour(corner, low), neighbour(corner, std::max(a, b)), std::max(a, b) - low};
         };
         std::array<Edge, 4> crossed{};
-        if (in_count == 2) {  // in the order round the quadrilateral
+        if (in_count == 2) {  // in order round the quadrilateral
             crossed = {
                 edge(in[0], out[0]), edge(in[0], out[1]), edge(in[1], out[1]), edge(in[1], out[0])};
         } else {
@@ -208,13 +209,14 @@ private:
             addTriangle({vertex(crossed[0]), vertex(crossed[2]), vertex(crossed[3])});
     }
 
-    // Whether no triangle is between the ends. Through a triangle winding numbers jump by 1, and
-    // beside its rim they are what the edge turns round it, less than half a turn: 1/2.
+    // Whether no triangle lies between the ends. Through a triangle, winding numbers jump by 1.
+    // Beside its rim they change by the edge's turn round the rim, which is less than half a turn:
+    // 1/2.
     bool isSmooth(const Edge& edge) const {
         return std::abs(windings_[edge.from] - windings_[edge.to]) < 0.5f;
     }
 
-    // The number of the vertex where an edge goes inside.
+    // Returns the index of the vertex where an edge crosses the surface.
     std::uint32_t vertex(const Edge& edge) {
         const auto [at, is_new] = vertices_.try_emplace(
             std::uint64_t{edge.from} * 8 + edge.axes,
@@ -223,7 +225,7 @@ private:
         return at->second;
     }
 
-    // By bisection, to 1/256 of the edge.
+    // Finds the crossing by bisection, to 1/256 of the edge.
     glm::dvec3 crossing(const Edge& edge) const {
         glm::dvec3 inside = positionOf(grid_, edge.from);
         glm::dvec3 outside = positionOf(grid_, edge.to);

@@ -10,23 +10,24 @@
 #include "hair/gpu_structs.h"
 #include "hair/groom/mesh/body_mesh.h"
 
-// The body that an open mesh bounds, on the grid of a distance field.
+// The body that an open mesh bounds, on a distance field's grid.
 namespace hair::simulation {
 
-// Inside is where the winding number is 1/2 or more and no farther out than the box round the mesh.
-// The mesh is not all of its surface: where the winding number goes through 1/2 smoothly there is a
-// cap, flat across a flat opening. Distances to the mesh alone would jump there from one sign to
-// the other by as much as the opening is wide, and take hair that comes through the opening all the
-// way to the rim; with the cap among the triangles they go through 0 as at any other surface.
+// The inside is the region with winding number 1/2 or more, within the mesh's bounding box. The
+// mesh is only part of its surface. Where the winding number goes smoothly through 1/2 there is a
+// cap, which is flat across a flat opening. Distances to the mesh alone would change sign there
+// with a jump as large as the opening, and would push hair that comes through the opening all the
+// way to the rim. With the cap's triangles added, distances go through 0 as at any other surface.
 struct OpenBody {
     std::vector<float> sides;  // [z][y][x] of the grid: -1 inside, 1 outside
     std::vector<glm::vec3> positions;  // [vertex], m
-    // The mesh's but for those with the inside on both sides, then the caps'; no way round is out.
+    // Triangles of the mesh, except those with the inside on both sides, then of the caps. Their
+    // orientation has no meaning.
     std::vector<std::array<std::uint32_t, 3>> triangles;
 };
 
-// Winding numbers are made on the device, which is waited for, caps on the host. Throws
-// engine::Error where no point of the grid is inside.
+// Computes winding numbers on the device, and waits for it, and caps on the host. Throws
+// engine::Error if no grid point is inside.
 OpenBody makeOpenBody(
     const engine::Device& device, const groom::OpenMesh& mesh, const gpu::DistanceField& grid);
 

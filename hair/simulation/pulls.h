@@ -17,55 +17,54 @@
 
 namespace hair::simulation {
 
-// The hand of a pull in a time step.
+// The hand of a pull during a time step.
 struct Hand {
-    glm::dvec3 position;  // at the step's end, m
-    glm::dvec3 velocity;  // its mean over the step, m/s
+    glm::dvec3 position;  // at the end of the step, m
+    glm::dvec3 velocity;  // mean over the step, m/s
 };
 
-// The hand in the time step between two times, s; null where it does not pull: it pulls in the
-// steps whose middle lies between its first and last key, which is most of every such step. So keys
-// at multiples of the step mean what they say, however those are rounded. Before its first key and
-// after its last the hand is where these are.
+// Returns the hand in the time step from `from` to `to` (s); none if it does not pull. It pulls in
+// steps with a middle between its first and last key, that is for most of each of these steps. So
+// keys at multiples of the step work as written, however they are rounded. Before its first key and
+// after its last, the hand is at that key's position.
 //
-// The spring is implicit, and asks where the hand is when the step ends. It asks for the mean
-// velocity, and not that of the path at one time, because a path may have keys much closer than
-// steps, between which it is as fast as one likes.
+// The implicit spring needs the hand's position at the end of the step. It uses the mean velocity,
+// not the path's velocity at one time, because keys may be much closer than steps, and the path
+// between them may be arbitrarily fast.
 std::optional<Hand> handIn(const PullSettings& pull, double from, double to);
 
-// Throws Error for pulls (/simulation/pulls/N) at vertices that there are not, and for keys whose
-// times don't ascend.
+// Throws Error for pulls (/simulation/pulls/N) at missing vertices, and for keys with times that
+// don't ascend.
 void checkPulls(
     std::span<const PullSettings> pulls, std::uint32_t guides, std::uint32_t vertices_per_guide);
 
-// The acceleration that hands give every guide vertex, added to GuideAddresses::accelerations, for
-// a whole time step.
+// Adds the acceleration of every guide vertex by the hands to GuideAddresses::accelerations, for a
+// whole time step.
 //
-// A critically damped spring with the stiffness k, c = 2 sqrt(k), holds vertex x at the hand h. The
-// acceleration a that it gives x is that of implicit Euler, which is stable for every k and time
-// step dt: from where vertex and hand are when the step ends,
+// A critically damped spring with the stiffness k and the damping c = 2 sqrt(k) holds vertex x at
+// the hand h. Its acceleration a of x follows implicit Euler, which is stable for every k and time
+// step dt: from the states of vertex and hand at the end of the step,
 //     a = k (h' - x') + c (w - v'),   v' = v + dt (f + a),   x' = x + dt v',
-// with the hand's velocity w and the acceleration f that is known already: gravity's, and what is
-// in the buffer. It follows
+// with the hand's velocity w and the known acceleration f: gravity and the buffer's contents. Hence
 //     a = (k (h' - x - dt (v + dt f)) + c (w - v - dt f)) / (1 + c dt + k dt^2).
-// At rest f + a = 0 and h - x = -f / k: the spring's own balance, whatever the step.
+// At rest f + a = 0 and h - x = -f / k: the spring's own equilibrium, whatever the step.
 //
-// A vertex that is at rest d away from x gets a exp(-(d / radius)^2); with radius 0 only x gets a.
+// A vertex at a rest distance d from x gets a exp(-(d / radius)^2). With radius 0, only x gets a.
 //
-// Hands pull one after the other, each in the buffer that those before it have left: so a vertex
-// that many hold goes where all of them together would have it, and no further.
+// Hands pull one after the other, each on the buffer that the earlier ones left. So a vertex held
+// by several hands goes to their common equilibrium, and no further.
 class PullPass {
 public:
-    // `pulls` are those that checkPulls has passed.
+    // `pulls` must have passed checkPulls.
     PullPass(
         const engine::Device& device, std::uint32_t strand_count, std::uint32_t vertices_per_strand,
         const gpu::Step& step, std::vector<PullSettings> pulls);
 
-    // `pulls` are others that checkPulls has passed.
+    // `pulls` must have passed checkPulls.
     void setPulls(std::vector<PullSettings> pulls) noexcept { pulls_ = std::move(pulls); }
 
-    // Records the time step that begins at `time`. Orders its work after earlier compute work; the
-    // caller orders what comes after.
+    // Records the time step that starts at `time`. Orders its work after earlier compute work. The
+    // caller orders later work.
     void record(engine::Commands& commands, const GuideAddresses& guides, double time) const;
 
 private:
@@ -73,7 +72,7 @@ private:
     std::uint32_t vertices_per_strand_;
     gpu::Step step_;
     std::vector<PullSettings> pulls_;
-    engine::Buffer held_;  // vec4, the acceleration of the vertex that is held
+    engine::Buffer held_;  // vec4: acceleration of the held vertex
     engine::ComputePipeline hold_;
     engine::ComputePipeline spread_;
 };

@@ -18,10 +18,10 @@ namespace {
 
 // ---- A joint ------------------------------------------------------------------------------------
 
-// As simulation/rod/joint.glsl has it, up to kMostBend: a bend by b between the third axes and a
-// twist by t round the axis between them cost -(4 / n^2) K ln cos(n b / 2) + K' t^2 / 2, n = 1, and
-// 2 at the follicle; of an elliptic section K is K (e cos^2 p + sin^2 p / e), p the direction of
-// the bend's axis in the frame halfway.
+// The energy of simulation/rod/joint.glsl, up to kMostBend. A bend b between the third axes and a
+// twist t round the axis between them cost -(4 / n^2) K ln cos(n b / 2) + K' t^2 / 2, with n = 1,
+// or 2 at the follicle. For an elliptic section, K becomes K (e cos^2 p + sin^2 p / e), where p is
+// the direction of the bend's axis in the halfway frame.
 struct JointStiffness {
     double bend, twist;
     bool at_follicle;
@@ -30,22 +30,22 @@ struct JointStiffness {
 
 struct Strain {
     double bend;  // rad
-    glm::dquat rotation;  // of the second frame, in the first
+    glm::dquat rotation;  // of the second frame relative to the first
 };
 
 glm::dquat shortWay(const glm::dquat& q) { return q.w < 0.0 ? -q : q; }
 
-// Half of a rotation, of unit length.
+// Returns half of a rotation, of unit length.
 glm::dquat rootOf(const glm::dquat& rotation) {
     return glm::normalize(shortWay(rotation) + glm::dquat(1.0, 0.0, 0.0, 0.0));
 }
 
-// The energy's gradient by rotations of the second frame, axes of the first one.
+// Returns the energy's gradient by rotations of the second frame, in axes of the first.
 glm::dvec3 gradientOf(const glm::dquat& strain, const JointStiffness& joint) {
     const glm::dquat r = shortWay(strain);
-    const double cosine2 = r.w * r.w + r.z * r.z;  // of half the bend, squared
-    const double cosine = cosine2 - r.x * r.x - r.y * r.y;  // of the bend
-    // Sine times cosine of half the bend, along the axis that it grows round, and beside that.
+    const double cosine2 = r.w * r.w + r.z * r.z;  // cos^2 of half the bend
+    const double cosine = cosine2 - r.x * r.x - r.y * r.y;  // cosine of the bend
+    // Sine times cosine of half the bend, along the bend's axis, and perpendicular to it.
     const glm::dvec3 across{r.w * r.x - r.z * r.y, r.w * r.y + r.z * r.x, 0.0};
     const glm::dvec3 beside{across.y, -across.x, 0.0};
     const double twist = 2.0 * std::atan2(r.z, r.w);
@@ -61,8 +61,9 @@ glm::dvec3 gradientOf(const glm::dquat& strain, const JointStiffness& joint) {
            joint.bend * (1.0 / e - e) * energy * r.x * r.y / sine2 * (axis - beside / sine2);
 }
 
-// The gradient's change per rotation of the second frame, axes of space, by central differences: a
-// cube of their step, and roundings over it, are 1e-10 of the stiffness.
+// Returns the change of the gradient per rotation of the second frame, in space axes, by central
+// differences. The square of the step, and rounding over the step, are at most 1e-10 of the
+// stiffness.
 glm::dmat3
 changeOf(const glm::dquat& first, const glm::dquat& second, const JointStiffness& joint) {
     constexpr double kTurn = 1e-5;
@@ -79,9 +80,9 @@ changeOf(const glm::dquat& first, const glm::dquat& second, const JointStiffness
     return change;
 }
 
-// The strain with that gradient, of a round section: gradientOf() solved for it. Across the axis
-// the gradient is tan(b / 2) (A u + B u'), u the bend's axis and u' = (u.y, -u.x), A = 2 K, at the
-// follicle K tan(b) / tan(b / 2), and B = K' t.
+// Returns the strain with this gradient for a round section: the inverse of gradientOf(). Across
+// the axis the gradient is tan(b / 2) (A u + B u'), with the bend's axis u, u' = (u.y, -u.x), A = 2
+// K, or K tan(b) / tan(b / 2) at the follicle, and B = K' t.
 Strain strainOfRound(const glm::dvec3& gradient, const JointStiffness& joint) {
     const double twist = gradient.z / joint.twist;
     const std::complex<double> across(gradient.x, gradient.y);
@@ -91,7 +92,8 @@ Strain strainOfRound(const glm::dvec3& gradient, const JointStiffness& joint) {
     if (!joint.at_follicle) {
         tangent = std::abs(across) / std::hypot(along, beside);
     } else {
-        // tan(b) = 2 u / (1 - u^2) of u = tan(b / 2): what it has to be grows with u.
+        // tan(b) = 2 u / (1 - u^2) with u = tan(b / 2). The gradient grows with u, so bisection
+        // works.
         double low = 0.0, high = 1.0;
         for (int i = 0; i < 60; ++i) {
             tangent = (low + high) / 2.0;
@@ -109,9 +111,9 @@ Strain strainOfRound(const glm::dvec3& gradient, const JointStiffness& joint) {
     return {bend, {kept.real(), turned.real(), turned.imag(), kept.imag()}};
 }
 
-// The strain with that gradient. Of an elliptic section by Newton's method, from that of a round
-// one with the stiffness round each axis for its own part of the gradient. Absent where it would
-// have to bend too far.
+// Returns the strain with this gradient. For an elliptic section it uses Newton's method, starting
+// from a round section with each axis's own stiffness for its part of the gradient. Absent if the
+// joint would have to bend too far.
 std::optional<Strain> strainOf(const glm::dvec3& gradient, const JointStiffness& joint) {
     const double most_bend = joint.at_follicle ? kMostBend / 2.0 : kMostBend;
     const double e = joint.ellipticity;
@@ -119,7 +121,7 @@ std::optional<Strain> strainOf(const glm::dvec3& gradient, const JointStiffness&
     if (e == 1.0) return strain.bend <= most_bend ? std::optional(strain) : std::nullopt;
 
     constexpr int kMostIterations = 50;
-    constexpr double kMostTurn = 0.2;  // rad, of a step
+    constexpr double kMostTurn = 0.2;  // rad, per step
     constexpr double kSolved = 1e-12;
     const glm::dquat none(1.0, 0.0, 0.0, 0.0);
     if (!(strain.bend <= most_bend)) strain.rotation = none;
@@ -139,8 +141,8 @@ std::optional<Strain> strainOf(const glm::dvec3& gradient, const JointStiffness&
     return std::nullopt;
 }
 
-// The rest rotation, by halves, at which the joint between these frames has that gradient, axes of
-// space: first h S h = second with the strain S, whose axes are first h. Absent where the joint
+// Returns half of the rest rotation at which the joint between these frames has this gradient, in
+// space axes: first h S h = second with the strain S in the axes of first h. Absent if the joint
 // would have to bend too far.
 std::optional<glm::dquat> halfRotationOf(
     const glm::dquat& first, const glm::dquat& second, const glm::dvec3& gradient,
@@ -160,7 +162,7 @@ std::optional<glm::dquat> halfRotationOf(
             shortWay(rootOf(between * strain.rotation) * glm::conjugate(strain.rotation));
         const double change = glm::length(next - half);
         if (change < kSolved) return next;
-        // Halfway where the whole way is too far, as it may be where the joint bends much.
+        // A full step can be too far for a strongly bent joint; then take half.
         half = change < 0.7 * last_change ? next : glm::normalize(half + next);
         last_change = change;
     }
@@ -171,20 +173,20 @@ std::optional<glm::dquat> halfRotationOf(
 
 glm::dmat3 symmetric(const glm::dmat3& m) { return 0.5 * (m + glm::transpose(m)); }
 
-// Of a symmetric matrix.
+// For a symmetric matrix.
 bool isPositive(const glm::dmat3& m) {
     return m[0][0] > 0.0 && m[0][0] * m[1][1] - m[0][1] * m[1][0] > 0.0 &&
            glm::determinant(m) > 0.0;
 }
 
-// What the joint resists rotations with when nothing loads it: its stiffness without what the
-// gradient itself adds, as the solver has it.
+// Returns the unloaded joint's resistance to rotations: its stiffness without the gradient's own
+// part, as in the solver.
 glm::dmat3
 unloadedOf(const glm::dquat& first, const glm::dquat& second, const JointStiffness& joint) {
     const glm::dvec3 axis = first * glm::dvec3(0.0, 0.0, 1.0);
     const glm::dmat3 along = glm::outerProduct(axis, axis);
     const glm::dvec3 tangent = second * glm::dvec3(0.0, 0.0, 1.0);
-    const glm::dvec3 across = glm::cross(axis, tangent);  // the bend's sine
+    const glm::dvec3 across = glm::cross(axis, tangent);  // has the bend's sine as its length
     const double cosine = glm::dot(axis, tangent);
     const double more =
         joint.at_follicle ? 1.0 / (cosine * cosine) : 1.0 / ((1.0 + cosine) * (1.0 + cosine));
@@ -205,10 +207,10 @@ unloadedOf(const glm::dquat& first, const glm::dquat& second, const JointStiffne
            joint.twist * along;
 }
 
-// The moment of all weights below every joint, and their sum, both round and through its segment:
-// what the joint's gradient is at rest.
+// The weights below every joint: their sum, and their moment round the joint, which is the joint's
+// gradient at rest.
 struct Loads {
-    std::vector<glm::dvec3> forces;  // at vertices, of all weights from there on
+    std::vector<glm::dvec3> forces;  // at vertices: the sum of all weights from there on
     std::vector<glm::dvec3> moments;  // at joints
 };
 
@@ -245,13 +247,13 @@ halfRotations(const HangingRod& rod, const Loads& loads, double stiffening) {
     return halves;
 }
 
-// Whether the energy, of which the segments' rotations are the unknowns, has a minimum there. A
-// potential U of a rotation exp(t) has the second derivative sym(dg/dt), g its gradient; one
-// between two frames has that for both of them and -dg/dt between.
+// Whether the energy has a minimum there, with the segments' rotations as unknowns. A potential of
+// a rotation exp(t) with gradient g has the Hessian sym(dg/dt). A potential between two frames has
+// this block for both frames and -dg/dt between them.
 bool isStable(
     const HangingRod& rod, const Loads& loads, const std::vector<glm::dquat>& halves,
     double stiffening) {
-    glm::dmat3 below(0.0);  // what segments below resist this one's rotation with
+    glm::dmat3 below(0.0);  // resistance of the lower segments to this one's rotation
     for (std::size_t i = rod.edges.size() - 1; i > 0; --i) {
         const glm::dquat first = rod.orientations[i - 1] * halves[i];
         const glm::dquat second = rod.orientations[i] * glm::conjugate(halves[i]);

@@ -10,24 +10,24 @@
 #include "hair/settings.h"
 #include "hair/simulation/guide_view.h"
 
-// Segments of guides against bodies: /simulation/collision/parts.
+// Collision of guide segments with bodies: /simulation/collision/parts.
 namespace hair::simulation {
 
-// Takes segments out of bodies after each substep of a solver whose whole state is positions and
-// previous positions, `shape` and `ftl`: shaders/simulation/segments.comp. Lengths of segments stay
-// as they are. Borrows nothing.
+// Moves segments out of bodies after each substep of `shape` and `ftl`, the solvers with positions
+// and previous positions as their whole state: shaders/simulation/segments.comp. Keeps segment
+// lengths. Borrows nothing.
 class SegmentPass {
 public:
     SegmentPass(
         const engine::Device& device, std::uint32_t strand_count, std::uint32_t vertices_per_strand,
         const SimulationSettings& settings);
 
-    // Keeps the positions that a substep starts from, which are written before; the solver may
-    // overwrite them then.
+    // Saves the positions at the start of a substep. They must be written before. Afterwards the
+    // solver may overwrite them.
     void recordStart(engine::Commands& commands, const engine::Buffer& positions) const;
 
-    // After the solver's substep. `frame` and `frame_before`: of the head at the substep's end and
-    // start.
+    // Runs after the solver's substep. `frame` and `frame_before`: the head at the substep's end
+    // and start.
     void record(
         engine::Commands& commands, const GuideAddresses& guides, const gpu::RigidFrame& frame,
         const gpu::RigidFrame& frame_before) const;

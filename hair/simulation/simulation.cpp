@@ -19,7 +19,7 @@ namespace {
 using engine::Access;
 using engine::Commands;
 
-constexpr std::int64_t kPartsPerStep = 720720;  // the least common multiple of 1 .. 16
+constexpr std::int64_t kPartsPerStep = 720720;  // least common multiple of 1 .. 16
 
 static_assert(sizeof(gpu::Bodies) == 32);
 static_assert(sizeof(gpu::GuideParameters) == 96 && offsetof(gpu::GuideParameters, gravity) == 56);
@@ -45,7 +45,7 @@ bool hairActsOnHair(const SimulationSettings& settings) {
     return settings.solver != Solver::none && (contact.friction > 0.0f || contact.repulsion > 0.0f);
 }
 
-// Whether segments keep out of bodies by a pass of their own; `rod` does it itself.
+// Whether segments are kept out of bodies by a separate pass; `rod` does it itself.
 bool hasSegmentPass(const SimulationSettings& settings) {
     if (settings.collision.parts == CollisionParts::vertices) return false;
     switch (settings.solver) {
@@ -86,9 +86,9 @@ std::uint32_t FixedStep::stepsFor(double frame_time) {
 std::uint64_t simulationBytes(
     const engine::DeviceInfo& device, const groom::GroomSize& size,
     const SimulationSettings& settings) {
-    // At rest, two copies of positions and of previous ones, accelerations.
+    // Rest positions, two copies of positions and of previous positions, accelerations.
     constexpr std::uint64_t kGuideVectors = 6;
-    constexpr std::uint64_t kSettledVectors = 2;  // positions and previous ones
+    constexpr std::uint64_t kSettledVectors = 2;  // positions and previous positions
     const std::uint64_t vectors = sizeof(glm::vec4) * size.vertices();
     const SolverSizes solver = solverSizes(device, size, settings);
     std::uint64_t bytes = (kGuideVectors + kSettledVectors) * vectors + solver.all + solver.state;
@@ -167,7 +167,7 @@ Simulation::Simulation(
 
 void Simulation::balanceRest(std::span<const glm::vec3> start) {
     constexpr int kMostCorrections = 64;
-    constexpr float kClear = 1e-5f;  // m: touches nothing, for all roundings
+    constexpr float kClear = 1e-5f;  // m: no contact, despite rounding
     auto rest = engine::downloadAs<glm::vec4>(*device_, rest_positions_);
     const std::vector<gpu::VertexCondition> vertices = inspect();
     for (std::size_t i = 0; i < rest.size(); ++i)
@@ -222,7 +222,7 @@ void Simulation::recordPulls(engine::Commands& commands) const {
     if (solver_ && pulls_) pulls_->record(commands, addresses(), time());
 }
 
-// All that may throw comes first. The parameters stay where they are: others know their address.
+// Everything that may throw comes first. The parameters stay at the address that others know.
 void Simulation::carryOn(const SimulationSettings& settings) {
     SimulationSettings whole = settings;
     HeadMotion motion(settings.motion);
@@ -239,7 +239,7 @@ void Simulation::carryOn(const SimulationSettings& settings) {
     if (solver_) {
         if (capsules.count > 0) solver_->expectBodies(*device_);
     } else {
-        // There was solver `none` without keyframes; its solver needs no points.
+        // The solver was `none` without keyframes. Its new solver needs no points.
         solver = makeSolver(
             *device_, {.strand_count = strand_count_, .vertices_per_strand = vertices_per_strand_},
             settings, step_);
@@ -369,12 +369,12 @@ GuideView Simulation::guides() const {
         .vertices_per_strand = vertices_per_strand_};
 }
 
-// The first `count` of a step's substeps. The frames of the head divide the step's time evenly. The
-// first substep takes the guides from one copy to the current one, the others stay there.
+// Records the first `count` substeps of a step. The head's frames divide the step's time evenly.
+// The first substep takes the guides from one copy to the current one; later substeps stay there.
 //
-// The barriers at the end are there for the next step. They stand here, before anything is drawn of
-// this one, so that the next waits neither for that nor for what comes between: only for pictures
-// of the frame before, which were drawn of the copy that it overwrites.
+// The barriers at the end are for the next step. They are recorded here, before this step is drawn,
+// so that the next step does not wait for that drawing or for anything in between. It waits only
+// for pictures of the frame before, which were drawn from the copy that it overwrites.
 void Simulation::recordSubsteps(
     engine::Commands& commands, std::uint32_t count, std::uint32_t from_copy, double from,
     double to) const {
@@ -391,7 +391,7 @@ void Simulation::recordSubsteps(
     const bool segments = segments_ && bodies_.count() > 0;
     for (std::uint32_t i = 0; i < count; ++i) {
         if (segments) segments_->recordStart(commands, positions_[i == 0 ? from_copy : current_]);
-        // After the forces, or the substep before.
+        // After the forces, or after the substep before.
         commands.barrier(Access::compute_write, Access::compute_write);
         commands.uses(
             {{before.positions, Access::compute_read},
@@ -462,7 +462,7 @@ std::array<gpu::GuideParameters, 2> Simulation::parametersWith(const gpu::Bodies
     return {of(0), of(1)};
 }
 
-// w: inverse mass over that of a free vertex.
+// w: inverse mass relative to a free vertex.
 std::vector<glm::vec4> Simulation::withMasses(std::span<const glm::vec3> positions) const {
     assert(positions.size() == pinned_.size());
     std::vector<glm::vec4> result;

@@ -15,54 +15,55 @@
 
 namespace hair::simulation {
 
-// `after` of what `before` has moved.
+// Applies `before`, then `after`.
 RigidMotion operator*(const RigidMotion& after, const RigidMotion& before);
 
-// The guides' roots where an animation deforms the mesh that they grow on: each is bound to a
-// triangle, and moves as that does. Solvers take them from the device, where the frames of the ends
-// of all of a step's substeps lie. Borrows the mesh.
+// The guides' roots on a mesh that an animation deforms. Each root is bound to a triangle and moves
+// with it. Solvers read the roots' frames on the device, at the ends of all substeps of a step.
+// Borrows the mesh.
 class SkinnedRoots {
 public:
-    // `substeps` in a step.
+    // `substeps`: per step.
     SkinnedRoots(
         const engine::Device& device, const groom::Groom& groom, const groom::DeformingMesh& mesh,
         std::uint32_t substeps);
 
-    // How the mesh alone has moved roots since rest at a simulated time, s: [guide].
+    // Returns how the mesh alone has moved the roots since rest, at a simulated time, s: [guide].
     std::vector<RigidMotion> at(double time) const;
-    // The motion in the middle of them, which the head has for those who know of one motion alone.
+    // Returns the mean of these motions, for code that needs one motion of the head.
     RigidMotion meanAt(double time) const;
 
-    // Writes the frames of roots at the start of the substeps that divide the time between `from`
-    // and `to`, s, evenly, and at the end of the last one; `substeps` of them, not more than in a
-    // step. `head` moves the deformed mesh. After all who read the frames of the step before, in
-    // compute; they are then visible to compute. Returns the head's mean motions at these times,
-    // there until the next call.
+    // Writes the roots' frames at the start of each substep and at the end of the last. The
+    // `substeps`, at most as many as in a step, divide the time from `from` to `to` (s) evenly.
+    // `head` moves the deformed mesh. Orders its work after all compute reads of the step before,
+    // and makes the frames visible to compute. Returns the head's mean motions at these times,
+    // valid until the next call.
     std::span<const RigidMotion> record(
         engine::Commands& commands, const HeadMotion& head, std::uint32_t substeps, double from,
         double to) const;
 
-    // gpu::RigidFrame [guide] at the start of a substep, or at the end of the one before.
+    // Address of gpu::RigidFrame [guide] at the start of a substep, or at the end of the one
+    // before.
     std::uint64_t address(std::uint32_t substep) const;
     const engine::Buffer& frames() const { return frames_; }
 
 private:
-    // There until the next call.
+    // Valid until the next call.
     std::span<const groom::SurfaceMotion> motionsAt(double time) const;
 
-    // Kept, so that a step takes no memory anew.
+    // Kept to avoid allocations in every step.
     struct Work {
         groom::DeformingMesh::Scratch scratch;
         std::vector<groom::SurfaceMotion> motions;  // [guide]
-        std::vector<RigidMotion> means;  // [substep, and one more]
-        std::vector<gpu::RigidFrame> frames;  // [substep, and one more][guide]
+        std::vector<RigidMotion> means;  // [substep + 1]
+        std::vector<gpu::RigidFrame> frames;  // [substep + 1][guide]
     };
 
     const groom::DeformingMesh* mesh_;
     std::vector<glm::vec3> roots_;  // [guide], at rest, m
     std::vector<groom::SurfaceBinding> bindings_;  // [guide]
     mutable Work work_;
-    engine::Buffer frames_;  // gpu::RigidFrame [substep, and one more][guide]
+    engine::Buffer frames_;  // gpu::RigidFrame [substep + 1][guide]
 };
 
 }  // namespace hair::simulation

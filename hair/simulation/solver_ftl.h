@@ -5,11 +5,11 @@
 
 namespace hair::simulation {
 
-// Follow the leader: Verlet, the pull toward the rest position, then every segment is brought to
-// its length by moving its lower end alone, from the root down, and the upper end's velocity is
+// Follow the leader: Verlet and the pull toward the rest position. Then, from the root down, every
+// segment is restored to its length by moving only its lower end, and the upper end's velocity is
 // corrected for it. Mueller, Kim and Chentanez 2012, Fast simulation of inextensible hair and fur.
-// Exactly inextensible in one pass; resists no bending. A pinned vertex below the root stays, and
-// the segment that ends in it may then change its length. The corrections are part of the previous
+// Exactly inextensible in one pass; no bending resistance. A pinned vertex below the root stays,
+// and the segment that ends in it may change its length. The corrections are part of the previous
 // positions.
 class FtlSolver : public GuideSolver {
 public:

@@ -15,8 +15,8 @@
 
 namespace hair::simulation {
 
-// Rods at rest as the solver wants them. A segment shorter than 1e-9 m has the direction of the one
-// before it, the first one +y; it bends with its neighbours and is not massless.
+// Rods at rest, in the solver's form. A segment shorter than 1e-9 m takes the direction of the
+// segment before it, or +y if it is the first. It bends with its neighbours and has mass.
 struct RodRest {
     std::vector<glm::vec4> segments;  // [vertex][gpu::kRodSegmentRows][strand]
     std::vector<float> units;  // [strand], m
@@ -29,15 +29,15 @@ using engine::Access;
 
 constexpr double kShortest = 1e-9;  // m
 constexpr double kShortestUnit = 1e-6;  // m, for strands without length
-constexpr double kLeastMass = 0.01;  // of a vertex, over the mean
-constexpr double kMostStiffness = 1e15;  // rigid beside any inertia; its square is a float
-// An ellipse of the area of a circle has the second moments I e and I / e, I the circle's, and the
-// torsion constant 4 I / (e + 1 / e), e the ratio of its axes: Timoshenko and Goodier 1951, Theory
-// of elasticity. This is 4 / (e + 1 / e).
+constexpr double kLeastMass = 0.01;  // of a vertex, relative to the mean
+constexpr double kMostStiffness = 1e15;  // rigid against any inertia; its square still fits a float
+// An ellipse with the area of a circle has the second moments I e and I / e and the torsion
+// constant 4 I / (e + 1 / e), where I is the circle's second moment and e the ratio of the
+// ellipse's axes: Timoshenko and Goodier 1951, Theory of elasticity. Returns 4 / (e + 1 / e).
 double torsionOf(double ellipticity) { return 4.0 / (ellipticity + 1.0 / ellipticity); }
 
-// Bound of the ratio of bending to twisting stiffness and of its inverse, far beyond any material:
-// where the two differ by 10^7, 32 bits lose the lesser one.
+// Bound on the ratio of bending to twisting stiffness and on its inverse, far beyond any material.
+// At a ratio of 10^7, 32-bit floats lose the smaller stiffness.
 constexpr double kMostAnisotropy = 1e3;
 
 glm::dquat halfOf(glm::dquat rotation) {
@@ -49,13 +49,13 @@ glm::vec4 toGpu(const glm::dquat& q) { return glm::dvec4(q.x, q.y, q.z, q.w); }
 
 struct Strand {
     HangingRod rod;  // without weights, in the strand's units
-    std::vector<double> masses;  // [vertex], over that of a segment of a unit's length
-    std::vector<glm::dquat> half_rotations;  // at joints, in entry 0 the follicle's orientation
+    std::vector<double> masses;  // [vertex], relative to a segment of unit length
+    std::vector<glm::dquat> half_rotations;  // at joints; entry 0: the follicle's orientation
     double unit;  // m
 };
 
-// `bending` is h^2 E I / lambda, m^4: over the fourth power of a length, the stiffness of a joint
-// of that length in its own units. `twisting` is G J / (E I).
+// `bending` is h^2 E I / lambda, m^4. Divided by the fourth power of a length, it is the stiffness
+// of a joint of that length in its own units. `twisting` is G J / (E I).
 Strand restOfStrand(
     std::span<const glm::vec3> points, double bending, double twisting, double ellipticity) {
     const std::size_t size = points.size();
@@ -114,7 +114,7 @@ void balance(
 
 RodRest
 restOfRods(const groom::Groom& groom, const SimulationSettings& settings, const gpu::Step& step) {
-    // I / A = R^2 / 4 of a round section.
+    // A round section has I / A = R^2 / 4.
     const MaterialSettings& material = settings.material;
     const double radius = material.radius;
     const double substep = step.sub;
@@ -127,7 +127,7 @@ restOfRods(const groom::Groom& groom, const SimulationSettings& settings, const 
     const glm::dvec3 pull = substep * substep * gravityOnGroom(settings);
 
     RodRest rest;
-    // Balance knows the energy of `rod` alone.
+    // Balancing only knows the energy of `rod`.
     if (settings.rest == RestShape::balanced && settings.solver == Solver::rod)
         rest.balance.emplace();
     rest.segments.resize(groom.points.size() * gpu::kRodSegmentRows);
@@ -156,15 +156,16 @@ static_assert(offsetof(gpu::RodParameters, stretching) == 48);
 static_assert(offsetof(gpu::RodParameters, ellipticity) == 52);
 static_assert(offsetof(gpu::RodParameters, damping) == 64);
 
-// Scratch memory takes at most this part of the device's own. Of the heap's size, not of what is
-// free in it: then the same case has the same dispatches every time.
+// Scratch memory takes at most 1 / kScratchShare of the device-local heap. It depends on the heap's
+// size, not on the free memory, so that the same case always has the same dispatches.
 constexpr std::uint64_t kScratchShare = 16;
 
 std::uint64_t scratchOfStrand(const groom::GroomSize& size, std::uint32_t rows) {
     return sizeof(glm::vec4) * rows * size.vertices_per_guide;
 }
 
-// Strands in a dispatch: all of them, or whole groups whose scratch memory fits, at least one.
+// Returns the strands per dispatch: all, or whole groups with scratch memory that fits, at least
+// one.
 std::uint32_t strandsInDispatch(
     const engine::DeviceInfo& device, const groom::GroomSize& size, std::uint32_t rows) {
     const std::uint64_t scratch = std::min<std::uint64_t>(
@@ -188,7 +189,7 @@ accelerationsOf(const engine::Device& device, const groom::Groom& groom, RodInte
         device, {.size = accelerationBytes(sizeOf(groom)), .name = "rod accelerations"});
 }
 
-// How `rod` keeps segments out of bodies.
+// Returns the way in which `rod` keeps segments out of bodies.
 std::uint32_t segmentsOf(const SimulationSettings& settings) {
     if (settings.collision.parts == CollisionParts::vertices) return gpu::kRodNoSegments;
     return settings.rest == RestShape::balanced ? gpu::kRodSegmentsAtRest : gpu::kRodSegments;
@@ -304,7 +305,7 @@ RodSolver::RodSolver(
 void RodSolver::record(engine::Commands& commands, gpu::SubstepPush push) const {
     push.solver = parameters_.address();
     for (std::uint32_t first = 0; first < strand_count_; first += most_strands_) {
-        // The strands before may still use the scratch memory.
+        // The strands of the last dispatch may still use the scratch memory.
         if (first > 0) commands.barrier(Access::compute_write, Access::compute_write);
         push.first_strand = first;
         commands.bind(step_, push);

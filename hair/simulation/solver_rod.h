@@ -14,20 +14,20 @@ namespace hair::simulation {
 
 struct RodRest;
 
-// What one solver of rods does otherwise than another.
+// Differences between the rod solvers.
 struct RodMethod {
     const char* shader;  // of a substep
-    const char* packed_shader;  // the same where the device has 64-bit integers
-    std::uint32_t scratch_rows;  // vec4 for each vertex
+    const char* packed_shader;  // the same for devices with 64-bit integers
+    std::uint32_t scratch_rows;  // vec4 per vertex
     std::uint32_t iterations;
     double stretching = 0.0;  // modulus of stretch and shear over the density, m^2/s^2
-    double integrity = 0.0;  // of `augmented_mass_spring`: its settings
+    double integrity = 0.0;  // of `augmented_mass_spring`, and the next
     double angular = 0.0;
     RodIntegrator integrator = RodIntegrator::implicit_euler;
-    double damping = 0.0;  // of `rod`: the material's, s
+    double damping = 0.0;  // of `rod`: material damping, s
 };
 
-// `rod`: rods which neither stretch nor shear; hair/reference/rod.h.
+// `rod`: rods that neither stretch nor shear; hair/reference/rod.h.
 RodMethod rodMethod(const SimulationSettings& settings);
 // `stable_cosserat`: hair/reference/stable_cosserat.h.
 RodMethod stableCosseratMethod(const SimulationSettings& settings);
@@ -37,14 +37,14 @@ RodMethod positionBasedMethod(const SimulationSettings& settings);
 // edges.
 RodMethod augmentedMassSpringMethod(const SimulationSettings& settings);
 
-// B of device memory that RodSolver keeps for guides.
+// Returns the device memory of RodSolver for the guides, B.
 SolverSizes
 rodSizes(const engine::DeviceInfo& device, const groom::GroomSize& size, const RodMethod& method);
 
-// Elastic rods of /simulation/material by one of those methods. Positions are output alone; the
-// state is in orientations, velocities and edges. Strands work in units of their own and positions
-// are sums of edges, so that 32 bits are enough. The first segment leaves the follicle as it does
-// at rest, turned with the head.
+// Elastic rods of /simulation/material by one of these methods. Positions are output only; the
+// state is in orientations, velocities and edges. Each strand has its own unit of length, and
+// positions are sums of edges, so that 32 bits are enough. The first segment leaves the follicle at
+// its rest angle, turned with the head.
 class RodSolver : public GuideSolver {
 public:
     RodSolver(
@@ -63,12 +63,12 @@ private:
 
     std::optional<RestBalance> balance_;
     std::uint32_t strand_count_;
-    std::uint32_t most_strands_;  // in a dispatch
+    std::uint32_t most_strands_;  // per dispatch
     engine::Buffer segments_;
     engine::Buffer units_;
     engine::Buffer motion_;
     std::optional<engine::Buffer>
-        accelerations_;  // where the method needs those of a substep before
+        accelerations_;  // if the method needs those of the previous substep
     engine::Buffer scratch_;
     engine::Buffer parameters_;
     engine::ComputePipeline step_;

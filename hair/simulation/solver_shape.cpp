@@ -26,8 +26,8 @@
 namespace hair::simulation {
 namespace {
 
-// Whether the local constraint is an energy's. One without stiffness is none, and leaves lengths to
-// their own method.
+// Whether the local constraint has an energy. Without stiffness it has none, and lengths keep their
+// own method.
 bool bends(const SimulationSettings& settings) {
     return settings.local.method == LocalMethod::energy && settings.local.stiffness > 0.0f &&
            settings.local.iterations > 0;
@@ -35,18 +35,17 @@ bool bends(const SimulationSettings& settings) {
 
 // ---- The shape at rest --------------------------------------------------------------------------
 
-// Edges as the local constraint (Han and Harada 2012) wants them: xyz is the edge that ends in the
-// vertex, seen from the frame that parallel transport carries from segment 1 along the strand to
-// the segment before that edge, m; w is the rest length, m. With Q_i the smallest rotation from the
-// tangent of segment i - 1 to that of segment i, edge i is turned by (Q_(i-1) ... Q_2)^-1. The
+// Appends edges for the local constraint (Han and Harada 2012), [vertex]. xyz is the edge that ends
+// in the vertex, in the frame that parallel transport carries along the strand from segment 1 to
+// the segment before that edge, m; w is the rest length, m. Let Q_i be the smallest rotation from
+// the tangent of segment i - 1 to that of segment i. Edge i is turned by (Q_(i-1) ... Q_2)^-1. The
 // frame of the moving strand, P_(i-1) ... P_1, then turns it into the goal. Zero at the root.
-// Appended, [vertex].
 void addTransportedEdges(
     std::span<const glm::dvec3> points, std::span<const double> rest_lengths,
     std::vector<glm::vec4>& edges) {
     edges.emplace_back(0.0f);
     glm::dquat transport{1.0, 0.0, 0.0, 0.0};  // Q_(i-1) ... Q_2
-    glm::dvec3 tangent{0.0, 1.0, 0.0};  // of the last segment that had one
+    glm::dvec3 tangent{0.0, 1.0, 0.0};  // of the last segment with a length
     for (std::size_t i = 1; i < points.size(); ++i) {
         const glm::dvec3 edge = points[i] - points[i - 1];
         const double length = glm::length(edge);
@@ -64,22 +63,22 @@ std::vector<double> lengthsOf(std::span<const glm::dvec3> points) {
     return lengths;
 }
 
-// How far weight may take vertices in a substep before the lengths take them back, over the
-// shortest segment: where it takes them past each other, there is more than one way back.
+// Largest movement of vertices by weight in a substep before the lengths take it back, over the
+// shortest segment. If vertices move past each other, there is more than one way back.
 constexpr double kMostTaken = 0.125;
 
-// How far a substep's weight takes the vertices of a strand that hangs as it is before the lengths
-// take them back. From the tip up, a segment bears of what pulls at its end what goes along it, as
-// a tension that pulls at its start too; the rest is for the pull toward the rest position.
-// Tensions are never negative, and so the balance is stable whatever else is stiff. They bear
-// `most` of the weight. [vertex], m.
+// Returns the movement of a hanging strand's vertices by weight in a substep, before the lengths
+// take it back, [vertex], m. From the tip up, a segment takes the component along itself of the
+// pull at its end as a tension, which also pulls at its start. The rest is left to the pull toward
+// the rest position. Tensions are never negative, so the balance is stable whatever else is stiff.
+// They bear the weight up to `most`.
 std::vector<glm::dvec3> takenByWeight(
     std::span<const glm::dvec3> points, std::span<const double> lengths, const glm::dvec3& weight,
     double most) {
     const glm::dvec3 borne = weight * std::min(1.0, most / glm::length(weight));
     std::vector<glm::dvec3> taken(points.size(), glm::dvec3(0.0));
     if (*std::ranges::min_element(lengths.subspan(1)) == 0.0) return taken;
-    glm::dvec3 below{0.0};  // the pull of the segment below
+    glm::dvec3 below{0.0};  // pull of the segment below
     for (std::size_t i = points.size() - 1; i > 0; --i) {
         const glm::dvec3 along = (points[i] - points[i - 1]) / lengths[i];
         const glm::dvec3 tension = std::max(glm::dot(borne + below, along), 0.0) * along;
@@ -91,24 +90,25 @@ std::vector<glm::dvec3> takenByWeight(
 
 }  // namespace
 
-// What strands of `shape` are drawn to, as they lie on the head at rest. All but `stiffness` is
-// [strand][vertex].
+// The goals of strands of `shape`, on the head at rest. [strand][vertex], except `stiffness`.
 struct ShapeRest {
-    std::vector<glm::vec4> positions;  // by the global constraint, m
-    std::vector<glm::vec4> edges;  // by the local constraint: addTransportedEdges
-    std::vector<float> stiffness;  // [strand], of the local constraint per iteration
-    // Where the rest shape is balanced: the groom, where the constraints leave its vertices for the
-    // lengths to take them back, and what gravity moves a vertex by that they don't hold, m.
+    std::vector<glm::vec4> positions;  // goals of the global constraint, m
+    std::vector<glm::vec4> edges;  // goals of the local constraint: addTransportedEdges
+    std::vector<float> stiffness;  // [strand], of the local constraint, per iteration
+    // With a balanced rest shape. `points`: the groom. `left`: vertex positions that the
+    // constraints leave for the lengths to take back. `weight`: movement by gravity in a substep,
+    // left after the global pull. All in m.
     std::uint32_t vertices_per_strand = 0;
     std::vector<glm::dvec3> points;
     std::vector<glm::dvec3> left;
     glm::dvec3 weight{0.0};
-    double pull = 0.0;  // of the global constraint in a substep
-    // The local constraint has an energy: all forces are in balance in one system, and it has none.
+    double pull = 0.0;  // of the global constraint, per substep
+    // The local constraint has an energy. One system balances all forces, and this constraint
+    // exerts none at rest.
     bool exact = false;
     std::optional<RestBalance> balance;
 
-    // Makes positions and edges of all strands.
+    // Computes positions and edges of all strands.
     void make();
 };
 
@@ -143,8 +143,8 @@ restOfShapes(const groom::Groom& groom, const SimulationSettings& settings, cons
             for (std::uint32_t strand = 0; strand < groom.strand_count; ++strand)
                 rest->balance->unbalanced.push_back(strand);
     }
-    // An energy's system bears any tension. Iterations leave hair stretched by what they are to
-    // take back: the pull bears all of it.
+    // A system with an energy bears any tension. Length iterations would leave hair stretched by
+    // the movement that they take back, so with them the pull bears all of the weight.
     rest->exact = bends(settings);
     const bool keeps_lengths =
         rest->exact ||
@@ -176,14 +176,14 @@ restOfShapes(const groom::Groom& groom, const SimulationSettings& settings, cons
 
 constexpr std::uint32_t kGroup = 32;  // invocations to fill with whole strands
 
-// Vertices of an invocation. The shader is unrolled over them: llvmpipe takes about 0.05 s each to
-// compile it, half as much again where bending has an energy.
+// Vertices per invocation. The shader is unrolled over them. llvmpipe compiles about 0.05 s for
+// each, and half as much again if bending has an energy.
 constexpr std::uint32_t kFewest = 2;
 constexpr std::uint32_t kMost = 32;
-constexpr std::uint32_t kOnGpu = 8;  // some 100 registers by count of values; not measured
+constexpr std::uint32_t kOnGpu = 8;  // about 100 registers by a count of values; not measured
 
-// Of shared memory, for each invocation of simulation/shape.glsl: seven vec4 and a float, with an
-// energy one more.
+// Shared memory per invocation of simulation/shape.glsl, B: seven vec4 and a float; with an energy
+// one float more.
 constexpr std::uint32_t kSharedBytes = 7 * 16 + 4;
 constexpr std::uint32_t kSharedBytesOfEnergy = kSharedBytes + 4;
 
@@ -202,7 +202,8 @@ std::uint32_t wantedPerChunk(
     return invocations >= kInvocationsToFillGpu ? kOnGpu : kFewest;
 }
 
-// Chunks of about the same size, which is even where there are several: simulation/shape.glsl.
+// Returns the size of chunks of about equal size. It is even if there are several chunks:
+// simulation/shape.glsl.
 std::uint32_t verticesPerChunk(std::uint32_t vertices, std::uint32_t wanted) {
     const std::uint32_t chunks = divideUp(vertices, wanted);
     return chunks == 1 ? vertices : divideUp(divideUp(vertices, chunks), 2) * 2;
@@ -215,8 +216,8 @@ const char* shaderOf(const engine::DeviceInfo& device, const SimulationSettings&
     return packed ? "simulation/shape_packed.comp" : "simulation/shape.comp";
 }
 
-// Throws Unsupported for strands with more vertices than the device has invocations in a workgroup,
-// and shared memory for them, at 32 vertices each.
+// Throws Unsupported if strands have more vertices than 32 for each invocation of the device's
+// largest work group, within its shared memory.
 ShapePlan planShape(
     const engine::DeviceInfo& device, const SimulationSettings& settings,
     std::uint32_t strand_count, std::uint32_t vertices_per_strand) {
@@ -277,7 +278,7 @@ engine::ComputePipeline pipelineOf(const engine::Device& device, const ShapePlan
 
 }  // namespace
 
-// Goals, edges and stiffness.
+// Counts goals, edges and stiffness.
 std::uint64_t shapeBytes(const groom::GroomSize& size) {
     return size.vertices() * (2 * sizeof(glm::vec4) + sizeof(float));
 }
@@ -313,10 +314,10 @@ ShapeSolver::ShapeSolver(
 
 ShapeSolver::~ShapeSolver() = default;
 
-// A vertex that moved is left nearer to where it came from: what the lengths then make of it
-// follows, but for what they take along the strand.
+// Shifts a vertex's left position back by its movement. After the lengths the vertex shifts too,
+// except along the strand.
 bool ShapeSolver::correctBalance(const engine::Device& device, std::span<const glm::vec3> moved) {
-    constexpr double kStill = 1e-7;  // m: some roundings of positions
+    constexpr double kStill = 1e-7;  // m: a few roundings of positions
     double most = 0.0;
     for (const glm::vec3& each : moved) most = std::max(most, glm::length(glm::dvec3(each)));
     if (!(most > kStill) || balancing_->exact || balancing_->weight == glm::dvec3(0.0)) {

@@ -15,23 +15,24 @@ namespace hair::simulation {
 
 struct ShapeRest;
 
-// How the `shape` solver's strands are dealt out to invocations.
+// Division of the `shape` solver's strands among invocations.
 struct ShapePlan {
     std::string shader;
-    engine::Constants constants;  // but kShapeCollidesConstant
-    bool collides = false;        // whether it looks for contact with bodies
+    engine::Constants constants;  // without kShapeCollidesConstant
+    bool collides = false;        // whether it tests for contact with bodies
     std::uint32_t strands_per_group = 0;
 };
 
-// B of device memory that ShapeSolver keeps for guides.
+// Returns the device memory of ShapeSolver for the guides, B.
 std::uint64_t shapeBytes(const groom::GroomSize& size);
 
 // The thesis's solver: Verlet, then global, local (Han and Harada 2012) and length constraints
-// (thesis section 3), lengths by direct solves unless its iterations are asked for.
+// (thesis section 3). Lengths use direct solves, unless the settings ask for the thesis's
+// iterations.
 class ShapeSolver : public GuideSolver {
 public:
-    // Throws Unsupported for strands with more vertices than the device has invocations in a
-    // workgroup, and shared memory for them, at 32 vertices each.
+    // Throws Unsupported if strands have more vertices than 32 for each invocation of the device's
+    // largest work group, within its shared memory.
     ShapeSolver(
         const engine::Device& device, const groom::Groom& groom, const SimulationSettings& settings,
         const gpu::Step& step);

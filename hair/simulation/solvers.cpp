@@ -16,7 +16,7 @@
 namespace hair::simulation {
 namespace {
 
-// Hair frozen on a head that moves or deforms: solver `none` with keyframes or an animation.
+// Hair frozen on a moving or deforming head: solver `none` with keyframes or an animation.
 class RestSolver : public GuideSolver {
 public:
     RestSolver(
@@ -42,7 +42,7 @@ static_assert(offsetof(gpu::Step, count) == 8);
 
 struct Row {
     Solver solver;
-    double longest_substep;  // of its own choice, s
+    double longest_substep;  // by the solver's own choice, s
     std::unique_ptr<GuideSolver> (*make)(
         const engine::Device&, const groom::Groom&, const SimulationSettings&, const gpu::Step&);
     SolverSizes (*sizes)(
@@ -86,7 +86,7 @@ std::unique_ptr<GuideSolver> makeRods(
     return std::make_unique<RodSolver>(device, groom, settings, step, kMethod(settings));
 }
 
-constexpr double kWholeStep = std::numeric_limits<double>::infinity();  // however long
+constexpr double kWholeStep = std::numeric_limits<double>::infinity();  // of any length
 
 constexpr Row kSolvers[] = {
     {Solver::none, kWholeStep, makeNone, noSizes},
@@ -110,7 +110,7 @@ const Row& rowOf(Solver solver) {
 std::uint32_t substepsOf(const SimulationSettings& settings) {
     if (settings.substeps > 0) return settings.substeps;
     const double substeps = double{settings.time_step} / rowOf(settings.solver).longest_substep;
-    // Time steps are rounded to a float: 8.0000001 is 8.
+    // Time steps are rounded to floats: 8.0000001 counts as 8.
     return static_cast<std::uint32_t>(std::max(1.0, std::ceil(substeps - 1e-4)));
 }
 

@@ -13,77 +13,77 @@
 #include "hair/groom/groom_size.h"
 #include "hair/settings.h"
 
-// The solvers: what moves guides, and the table of them.
+// The solvers, which move guides, and their table.
 namespace hair::simulation {
 
-// What /simulation/rest: balanced made of the guides.
+// Result of /simulation/rest: balanced.
 struct RestBalance {
-    std::uint32_t stiffened = 0;  // guides that are stiffer than the settings say
-    double stiffest = 1.0;  // the greatest factor among them
+    std::uint32_t stiffened = 0;  // guides stiffened beyond the settings
+    double stiffest = 1.0;  // largest stiffening factor
     std::vector<std::uint32_t>
         unbalanced;  // guides that keep the groom's shape as their rest shape
 
-    // A guide that is balanced.
+    // Counts a balanced guide.
     void add(double stiffening) {
         if (stiffening > 1.0) ++stiffened;
         stiffest = std::max(stiffest, stiffening);
     }
 };
 
-// What moves guides. It reads the positions and previous positions that are behind
-// SubstepPush::from and writes all of those behind SubstepPush::guides, which may be the same, and
-// may keep more state of its own.
+// Moves guides. Reads the positions and previous positions behind SubstepPush::from and writes all
+// of those behind SubstepPush::guides, which may be the same. May keep more state of its own.
 class GuideSolver {
 public:
     virtual ~GuideSolver() = default;
 
-    // Records one substep: integrate, hold the strands together, push them out of bodies. The
-    // caller fills in the push constants but `solver` and `first_strand`, says what is touched of
-    // the guides (Commands::uses), and orders the work before and after by barriers; the solver
-    // says what it touches of its own.
+    // Records one substep: integrate, constrain the strands, push them out of bodies. The caller
+    // fills in the push constants except `solver` and `first_strand`, declares the uses of the
+    // guides (Commands::uses), and orders earlier and later work by barriers. The solver declares
+    // the uses of its own buffers.
     virtual void record(engine::Commands& commands, gpu::SubstepPush push) const = 0;
 
-    // Derives the state of its own from positions and previous positions that someone else wrote.
+    // Derives the solver's own state from positions and previous positions that other code wrote.
     virtual void recordAdopt(engine::Commands&, gpu::SubstepPush) const {}
 
-    // From now on there may be bodies, also where the constructor's settings had none. Throws as
-    // the constructor.
+    // Allows bodies from now on, even if the constructor's settings had none. Throws like the
+    // constructor.
     virtual void expectBodies(const engine::Device&) {}
 
-    // Where the settings ask for a balanced rest shape and the solver has rest shapes; else null.
+    // Balance, if the settings ask for it and the solver has rest shapes; else null.
     virtual const RestBalance* balance() const { return nullptr; }
 
-    // Corrects the balanced rest shape by what a substep without bodies moved guides by that were
-    // at rest as the groom has them, [strand][vertex], axes of the groom, m. False: there is
-    // nothing left to correct, and it is not called again.
+    // Corrects the balanced rest shape. The argument is the movement of guides that were at rest in
+    // the groom's shape, in a substep without bodies, [strand][vertex], groom axes, m. Returns
+    // false if nothing is left to correct; then it is not called again.
     virtual bool correctBalance(const engine::Device&, std::span<const glm::vec3>) { return false; }
 
-    // The state of its own, to save and restore.
+    // The solver's own state, to save and restore.
     virtual std::vector<const engine::Buffer*> state() const { return {}; }
 };
 
-// Whether an animation deforms the mesh under the hair: solvers read SubstepPush::roots.
+// Whether an animation deforms the mesh under the hair. Then solvers read SubstepPush::roots.
 inline bool hasSkinnedRoots(const SimulationSettings& settings) {
     return !settings.animation.clip.empty();
 }
 
-// B of device memory that a solver keeps for guides.
+// Device memory of a solver for the guides, B.
 struct SolverSizes {
     std::uint64_t all = 0;
-    std::uint64_t state = 0;  // of these, what state() gives
+    std::uint64_t state = 0;  // part of `all` in state()
 };
 
 SolverSizes solverSizes(
     const engine::DeviceInfo& device, const groom::GroomSize& size,
     const SimulationSettings& settings);
 
-// The settings' solver; null where nothing moves: `none` without keyframes or animation. Throws
-// Unsupported for what the device can't do.
+// Makes the solver of the settings; null if nothing moves: `none` without keyframes or animation.
+// Throws Unsupported for anything that the device can't do.
 std::unique_ptr<GuideSolver> makeSolver(
     const engine::Device& device, const groom::Groom& groom, const SimulationSettings& settings,
     const gpu::Step& step);
 
-// /simulation/time_step, and /simulation/substeps of it or the solver's own number where that is 0.
+// Returns /simulation/time_step and its /simulation/substeps; 0 substeps means the solver's own
+// number.
 gpu::Step stepOf(const SimulationSettings& settings);
 
 }  // namespace hair::simulation

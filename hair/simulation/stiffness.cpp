@@ -8,7 +8,7 @@
 namespace hair::simulation {
 namespace {
 
-// Of a joint that turns both of its segments, over one that turns the lower: stiffness.h.
+// Factor from a joint that turns its lower segment to one that turns both: stiffness.h.
 constexpr double kBendOfPull = 4.0;
 constexpr double kShortestMean = 1e-5;  // of segments, m: K is a float
 

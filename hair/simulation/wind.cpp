@@ -28,12 +28,12 @@ engine::ComputeDescription pipelineOf(WindMode mode) {
     return {.shader = "simulation/wind.comp", .push_size = sizeof(gpu::WindPush)};
 }
 
-// What multiplies the wind's direction.
+// Returns the factor on the wind's direction.
 float strengthOf(const WindSettings& settings) {
     return settings.mode == WindMode::drag ? settings.speed : settings.strength;
 }
 
-// The cell modulo 2^32, as a lattice counts its cells.
+// Returns the cell modulo 2^32, as the lattice counts its cells.
 gpu::uvec3 cellOf(const glm::dvec3& whole) {
     const auto wrapped = [](double count) {
         return static_cast<std::uint32_t>(static_cast<std::int64_t>(count));
@@ -43,7 +43,7 @@ gpu::uvec3 cellOf(const glm::dvec3& whole) {
 
 }  // namespace
 
-// ---- Wind by the settings -----------------------------------------------------------------------
+// ---- Wind from the settings ---------------------------------------------------------------------
 
 glm::dvec3 windDirection(const WindSettings& settings) {
     const glm::dvec3 direction = settings.direction;
@@ -68,7 +68,7 @@ double windMagnitude(const WindSettings& settings, double time) {
     return wave * wave + 0.5;
 }
 
-// The density is in front of the power and not in the quotient: it may be 0.
+// The density multiplies the power and divides nothing: it may be 0.
 DragFactors dragFactors(const WindSettings& settings, const MaterialSettings& material) {
     const double line = std::numbers::pi * double{material.radius} * double{material.density};
     const double layer = double{settings.air_viscosity} / (2.0 * double{material.radius});
@@ -135,8 +135,8 @@ void WindPass::recordThesis(
     commands.dispatchInvocations(vertex_count_, gpu::kGuideGroupSize);
 }
 
-// The mean wind has carried the lattice from its start at the world's origin by speed times time:
-// far, so the distance is divided into cells in double.
+// The mean wind has carried the lattice from the world's origin by speed times time. This can be
+// far, so the distance is divided into cells in double precision.
 void WindPass::recordAir(
     engine::Commands& commands, const GuideAddresses& guides, double speed, double time) const {
     const glm::dvec3 wind = speed > 0.0 ? speed * windDirection(settings_) : glm::dvec3(0.0);

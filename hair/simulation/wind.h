@@ -13,56 +13,56 @@
 #include "hair/settings.h"
 #include "hair/simulation/guide_view.h"
 
-// The wind: by the settings, and as the acceleration of every guide vertex.
+// Wind from the settings, and its acceleration of every guide vertex.
 namespace hair::simulation {
 
-// The wind's direction, a unit vector. Throws Error for a direction without length.
+// Returns the wind's direction, a unit vector. Throws Error for a direction without length.
 glm::dvec3 windDirection(const WindSettings& settings);
 
-// Four unit vectors at `cone_angle` from the wind's direction d, 90 degrees apart round it: toward
-// u, v, -u and -v, where u = perpendicular(d) and v = d x u. A direction without length throws
-// Error.
+// Returns four unit vectors at `cone_angle` from the wind's direction d, 90 degrees apart round it:
+// toward u, v, -u and -v, with u = perpendicular(d) and v = d x u. Throws Error for a direction
+// without length.
 std::array<glm::dvec3, 4> windCone(const WindSettings& settings);
 
-// Thesis eq. 13 with simulated time instead of the frame's number: sin^2(gust_rate time) + 0.5.
+// Thesis eq. 13 with simulated time instead of the frame number: sin^2(gust_rate time) + 0.5.
 double windMagnitude(const WindSettings& settings, double time);
 
-// gpu::AirDrag in double.
+// gpu::AirDrag in double precision.
 struct DragFactors {
     double inertial;
     double viscous;
 };
 DragFactors dragFactors(const WindSettings& settings, const MaterialSettings& material);
 
-// The air that brakes guides in every substep of a solver: shaders/simulation/air_drag.glsl.
+// Air that drags guides in every substep of a solver: shaders/simulation/air_drag.glsl.
 struct AirAtGuides {
-    const engine::Buffer* velocities = nullptr;  // vec4 [strand][vertex], m/s; null: none brakes
+    const engine::Buffer* velocities = nullptr;  // vec4 [strand][vertex], m/s; null: no drag
     gpu::AirDrag drag{};
 };
 
-// Throws Error for wind in a direction without length.
+// Throws Error for wind with a direction without length.
 void checkWind(const WindSettings& settings);
 
-// What air does to every guide vertex in a time step: in thesis mode an acceleration, into
-// GuideAddresses::accelerations; in drag mode there is none, and air() is what solvers brake with.
-// The caller orders the work before and after.
+// The effect of air on every guide vertex in a time step. Thesis mode writes an acceleration to
+// GuideAddresses::accelerations. Drag mode writes none; solvers apply the drag of air(). The caller
+// orders earlier and later work.
 class WindPass {
 public:
-    // Throws what checkWind does.
+    // Throws like checkWind.
     WindPass(
         const engine::Device& device, std::uint32_t vertex_count,
         const SimulationSettings& settings);
 
-    // `settings` are of the same mode, and checkWind has passed them.
+    // `settings` must have the same mode and have passed checkWind.
     void setWind(const WindSettings& settings) noexcept { settings_ = settings; }
 
     void record(engine::Commands& commands, const GuideAddresses& guides, double time) const;
 
-    // The same in air that stands still, where in thesis mode nothing acts.
+    // Records still air instead. In thesis mode still air has no effect.
     void recordCalm(engine::Commands& commands, const GuideAddresses& guides) const;
 
-    // Stands still until something is recorded; of no velocities in thesis mode. Valid as long as
-    // the pass.
+    // Returns the air, which stands still until something is recorded; without velocities in thesis
+    // mode. Valid as long as the pass.
     AirAtGuides air() const;
 
 private:
