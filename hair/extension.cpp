@@ -20,9 +20,9 @@
 namespace hair {
 namespace {
 
-// ---- What an extension may say ------------------------------------------------------------------
+// ---- Permitted text of an extension -------------------------------------------------------------
 
-// The text with comments as spaces, lines as they are.
+// Returns the text with comments replaced by spaces and with its lines unchanged.
 std::string withoutComments(const std::string& text) {
     std::string code = text;
     enum class In { words, line, block } in = In::words;
@@ -49,21 +49,20 @@ engine::Error errorAt(const std::string& name, std::size_t line, const std::stri
     return {name + ':' + std::to_string(line), reason};
 }
 
-// Words by which a shader would reach memory that nobody gave it.
+// Keywords that would let a shader reach memory it was not given.
 constexpr std::array kRefused{"buffer", "layout", "shared", "uniform"};
-// Words before a call that are no type of what is declared.
+// Words before a call that are not the type of a declaration.
 constexpr std::array kBeforeCalls{"return", "else", "do", "case"};
 
 bool isOneOf(const std::string& word, const auto& words) {
     return std::ranges::find(words, word) != words.end();
 }
 
-// Longer ones are nobody's, and std::regex, which has a frame on the stack for each letter, can't
-// take them.
+// Nobody needs longer lines, and std::regex can't match them: it takes a stack frame per character.
 constexpr std::size_t kLongestLine = 1000;
 
-// Lines are what ends with '\n', to the compiler as here: it would also end one, and a comment, at
-// a '\r' alone.
+// Checks that lines end only with '\n', here and for the compiler: the compiler would also end a
+// line, and a comment, at a lone '\r'.
 void checkLines(const std::string& name, const std::string& text) {
     std::size_t number = 1, length = 0;
     for (std::size_t i = 0; i < text.size(); ++i) {
@@ -106,7 +105,7 @@ void checkWords(const std::string& name, const std::string& text) {
 }
 
 struct Token {
-    std::string text;  // a word, or a single other letter
+    std::string text;  // a word, or any other single character
     std::size_t line = 1;
 
     bool isWord() const {
@@ -132,10 +131,10 @@ std::vector<Token> tokensOf(const std::string& code) {
     return tokens;
 }
 
-// Variables and functions that two units declare are the same ones to the linker. A function that
-// is declared and not defined would be the program's own of that name, were there
-// one: some of them take addresses. Whether what stands before the name at `at` makes it a
-// declaration's: "float f(", "float[2] f(", "struct S { float x; } f(".
+// Whether the tokens before the name at `at` make it a declaration: "float f(", "float[2] f(",
+// "struct S { float x; } f(". To the linker, variables and functions declared in two units are the
+// same. A function that is declared but not defined would become the program's own function of that
+// name, if there is one, and some of those take addresses.
 bool isDeclared(const std::vector<Token>& tokens, std::size_t at, bool after_struct) {
     if (at == 0) return false;
     const Token& before = tokens[at - 1];
@@ -146,9 +145,9 @@ bool isDeclared(const std::vector<Token>& tokens, std::size_t at, bool after_str
 void checkFunctions(const std::string& name, const std::string& text) {
     const std::vector<Token> tokens = tokensOf(withoutComments(text));
     enum class Block { body, members, list };
-    std::vector<Block> blocks;  // those that are open
+    std::vector<Block> blocks;  // that are open
     bool after_struct = false;
-    std::size_t start = 0;  // of what is declared outside of functions
+    std::size_t start = 0;  // of a declaration outside functions
     for (std::size_t i = 0; i < tokens.size(); ++i) {
         if (tokens[i].text == "{") {
             const bool is_struct = (i >= 1 && tokens[i - 1].text == "struct") ||
@@ -160,7 +159,7 @@ void checkFunctions(const std::string& name, const std::string& text) {
             const Block closed = blocks.back();
             after_struct = closed == Block::members;
             blocks.pop_back();
-            if (blocks.empty() && closed == Block::body) start = i + 1;  // a function's end
+            if (blocks.empty() && closed == Block::body) start = i + 1;  // end of a function
         }
         if (tokens[i].text == ";" && blocks.empty()) {
             const bool is_struct = i > 0 && tokens[i - 1].text == "}" && after_struct;
@@ -202,7 +201,7 @@ std::optional<double> numberIn(const std::string& text) {
     return number;
 }
 
-// "0.5", or "(0.1, 0.2, 0.3)".
+// Reads "0.5" or "(0.1, 0.2, 0.3)".
 bool readOriginal(const std::string& text, ExtensionParameter& parameter) {
     static const std::regex vector(R"(\(([^,]*),([^,]*),([^,]*)\))");
     std::smatch parts;
@@ -239,7 +238,7 @@ parameterIn(const std::string& name, std::size_t line, const std::string& declar
     return parameter;
 }
 
-// ---- What shaders are made of -------------------------------------------------------------------
+// ---- Parts of shaders ---------------------------------------------------------------------------
 
 struct Part {
     const char* interface;
@@ -273,7 +272,7 @@ std::string literal(float value) {
     return text.str();
 }
 
-// On one line, which is the one that it was declared on.
+// Returns a declaration on one line, the line of the parameter in the file.
 std::string declarationOf(const ExtensionParameter& parameter, std::uint32_t constant) {
     const auto scalar = [&](const std::string& name, int component) {
         return "layout(constant_id = " +

@@ -12,7 +12,7 @@ struct Constant;
 struct ShaderExtension;
 }  // namespace engine
 
-// Functions in GLSL that a scene brings along: docs/extending_scenes.md.
+// GLSL functions that a scene supplies: docs/extending_scenes.md.
 namespace hair {
 
 enum class ExtensionKind {
@@ -24,53 +24,55 @@ enum class ExtensionKind {
 inline constexpr std::size_t kLargestExtension = std::size_t{64} << 10;  // B
 inline constexpr std::size_t kMostExtensionParameters = 16;
 
-// A number or vector that the file declares, and its functions read as a constant of that name.
+// A number or vector that the file declares. The file's functions read it as a constant of that
+// name.
 struct ExtensionParameter {
     std::string name;
     bool is_vector = false;
-    glm::vec3 original{0.0f};  // what it is where a scene says nothing; of a number x
-    double minimum = 0.0;  // inclusive; of a vector for each component
+    glm::vec3 original{0.0f};  // used if the scene sets none; x of a number
+    double minimum = 0.0;  // inclusive; per component of a vector
     double maximum = 0.0;  // inclusive
     std::string unit;
     std::string help;
 };
 
-// A file, read.
+// A parsed file.
 struct Extension {
     ExtensionKind kind = ExtensionKind::shading;
     std::vector<ExtensionParameter> parameters;
     std::shared_ptr<const engine::ShaderExtension> shader;
 };
 
-// `name` is the file's, as errors have it. Throws engine::Error "<name>:<line>: <reason>" for a
-// declaration that is none, and for what no extension may say. Functions are not compiled here.
+// Parses a file's text. `name`: the file's name in errors. Throws engine::Error "<name>:<line>:
+// <reason>" for a malformed declaration and for text that extensions must not contain. Does not
+// compile the functions.
 Extension parseExtension(ExtensionKind kind, const std::string& name, std::string text);
 
-// What a scene sets of a file's parameters.
+// A scene's value for a parameter of the file.
 struct ExtensionValue {
     std::string name;
     bool is_vector = false;
-    glm::vec3 value{0.0f};  // of a number x
+    glm::vec3 value{0.0f};  // x of a number
 
     bool operator==(const ExtensionValue&) const = default;
 };
 
 struct ExtensionParameters {
-    // Once the file is read all of the file's parameters, in its order.
+    // After the file was read: all parameters of the file, in its order.
     std::vector<ExtensionValue> values;
     std::shared_ptr<const Extension> file;  // null: none, or not read yet
 
-    // By values alone: of the same settings in the same folder the file is the same.
+    // Compares values only: equal settings in the same folder name the same file.
     bool operator==(const ExtensionParameters& other) const { return values == other.values; }
 };
 
-// What pipelines of the shaders that call the file's functions are made with; nothing without a
+// Extensions and constants for pipelines of shaders that call the file's functions; empty without a
 // file.
 std::vector<std::shared_ptr<const engine::ShaderExtension>>
 shaderExtensions(const ExtensionParameters& parameters);
 std::vector<engine::Constant> extensionConstants(const ExtensionParameters& parameters);
 
-// The value of a parameter that is a number; 0 without a file or such a parameter.
+// Returns the value of a number parameter; 0 without a file or without the parameter.
 float extensionNumber(const ExtensionParameters& parameters, const char* name);
 
 }  // namespace hair

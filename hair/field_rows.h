@@ -5,10 +5,10 @@
 
 #include "hair/fields.h"
 
-// What the tables of settings structs are written with: a function for each kind of row.
+// Functions to write the tables of settings structs: one for each kind of row.
 namespace hair {
 
-// A struct as it is when it is new.
+// Returns a default-constructed struct.
 template <class Settings>
 const Settings& newSettings() {
     static const Settings settings;

@@ -13,9 +13,10 @@
 
 #include "hair/extension.h"
 
-// The members of settings structs at run time. A row of a struct's table gives JSON reading, range
-// check, JSON Schema, report echo and the viewer's widget, by code that knows the kinds of rows
-// below and no struct. The tables are beside the structs: settings.cpp has that of settings.h.
+// Access to the members of settings structs at run time. A row of a struct's table provides JSON
+// reading, range check, JSON Schema, report echo and the viewer's widget. The code for this knows
+// the kinds of rows below but no struct. Tables are defined beside the structs: settings.cpp has
+// those of settings.h.
 namespace hair {
 
 class Table;
@@ -24,7 +25,7 @@ struct Field;
 template <class Settings>
 concept HasTable = requires(const Settings* settings) { tableOf(settings); };
 
-// A settings struct of any type, with its table. It refers to the struct and does not own it.
+// A non-owning reference to a settings struct of any type, with its table.
 class SettingsView {
 public:
     template <HasTable Settings>
@@ -39,7 +40,7 @@ private:
     const void* settings_;
 };
 
-// A view of a settings struct that can be changed.
+// A mutable SettingsView.
 class SettingsRef : public SettingsView {
 public:
     template <HasTable Settings>
@@ -55,10 +56,10 @@ private:
 
 // ---- Kinds of rows ------------------------------------------------------------------------------
 
-// Where a member is within its struct.
+// Offset of a member in its struct.
 class Place {
 public:
-    // `member` is in the struct at `settings`.
+    // `member` must be in the struct at `settings`.
     Place(const void* settings, const void* member)
         : offset_(static_cast<std::size_t>(
               static_cast<const std::byte*>(member) - static_cast<const std::byte*>(settings))) {}
@@ -85,14 +86,14 @@ struct Member : Place {
 struct Range {
     double minimum;  // inclusive
     double maximum;  // inclusive
-    const char* unit;  // SI symbol, "1" for a ratio, "count" for whole things
+    const char* unit;  // SI symbol, "1" for a ratio, "count" for integers
 };
 
 // A number, or a vector of three numbers with the same range per component.
 template <class Value>
 struct Number : Member<Value>, Range {};
 
-// A number of which only some values exist, such as a sample count.
+// A number with a fixed set of values, such as a sample count.
 struct OneOf : Member<std::uint32_t> {
     std::vector<std::uint32_t> values;
     const char* unit;
@@ -100,10 +101,10 @@ struct OneOf : Member<std::uint32_t> {
 
 struct Text : Member<std::string> {};
 
-// The path of a file, relative to the scene file; empty where there is none.
+// The path of a file, relative to the scene file; empty if there is none.
 struct FileName : Text {};
 
-// One of GLSL, which is read with the scene: ExtensionParameters.
+// A GLSL file that is read with the scene: ExtensionParameters.
 struct ExtensionFile : FileName {};
 
 struct Toggle : Member<bool> {};
@@ -114,7 +115,7 @@ struct Named {
     const char* name;
 };
 
-// An enum written in JSON by name. Unknown names are an error that lists the known ones.
+// An enum written in JSON by name. An unknown name is an error that lists the known names.
 class Choice : public Place {
 public:
     struct Access {
@@ -124,7 +125,7 @@ public:
     Choice(Place place, const Access& access, std::vector<Named<int>> known)
         : Place(place), names(std::move(known)), access_(&access) {}
 
-    // Index of the member's name; none for an enumerator that the row does not name.
+    // Returns the index of the member's name; none for an enumerator without a name in the row.
     std::optional<std::size_t> chosen(SettingsView settings) const;
     void choose(SettingsRef settings, std::size_t index) const;
 
@@ -134,8 +135,8 @@ protected:
     const Access* access_;
 };
 
-// A choice, or a file that does the same: in JSON its path, relative to the scene file, which ends
-// in `extension`. The enumerator `of_file` is chosen then, and has no name.
+// A choice, or a file in its place. In JSON the file is a path relative to the scene file that ends
+// in kExtension; the enumerator is then `of_file`, which has no name.
 struct ChoiceOrFile : Choice {
     ChoiceOrFile(Choice choice, int value, Member<std::string> path)
         : Choice(std::move(choice)), of_file(value), file(path) {}
@@ -146,11 +147,11 @@ struct ChoiceOrFile : Choice {
     void chooseName(SettingsRef settings, std::size_t index) const;
 
     int of_file;
-    Member<std::string> file;  // empty where another is chosen
+    Member<std::string> file;  // empty if a name is chosen
 };
 
-// The parameters of an extension: a JSON object of numbers and vectors, whose names and ranges are
-// the file's.
+// The parameters of an extension: a JSON object of numbers and vectors with the names and ranges
+// that the file declares.
 struct Parameters : Member<ExtensionParameters> {};
 
 // A nested settings struct: a JSON object with its own table.
@@ -185,9 +186,9 @@ public:
     SettingsRef at(SettingsRef settings, std::size_t index) const {
         return {*elements_, access_->change(address(settings), index)};
     }
-    // An element as it is when it is new.
+    // Returns a default element.
     SettingsView newElement() const;
-    // New elements come last.
+    // Adds or removes elements at the end.
     void resize(SettingsRef settings, std::size_t size) const {
         access_->resize(address(settings), size);
     }
@@ -217,14 +218,14 @@ struct Field {
 
 class Table {
 public:
-    // `defaults` lives as long as the table.
+    // `defaults` must live as long as the table.
     Table(const void* defaults, std::vector<Field> fields)
         : defaults_(defaults), fields_(std::move(fields)) {}
     Table(const Table&) = delete;
     Table& operator=(const Table&) = delete;
 
     const std::vector<Field>& fields() const { return fields_; }
-    // The struct as it is when it is new.
+    // Returns the default struct.
     SettingsView defaults() const { return {*this, defaults_}; }
 
 private:
@@ -232,10 +233,10 @@ private:
     std::vector<Field> fields_;
 };
 
-// The row of a member, by its address.
+// Returns the row of a member, by the member's address.
 const Field& fieldAt(SettingsView settings, const void* member);
 
-// Whether two structs of the same type differ in a field, or in any.
+// Whether two structs of the same type differ in a field, or in any field.
 bool differ(const Field& field, SettingsView a, SettingsView b);
 bool differ(SettingsView a, SettingsView b);
 

@@ -9,8 +9,8 @@
 
 #include "engine/device_address.h"
 
-// The structs and constants that C++ and GLSL share. Scalar layout on both sides: no padding but
-// what is written.
+// Structs and constants shared by C++ and GLSL. Scalar layout on both sides: padding is always
+// explicit.
 namespace hair::gpu {
 
 using Address = engine::DeviceAddress;

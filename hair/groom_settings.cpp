@@ -93,7 +93,7 @@ const Table& tableOf(const GrowSettings*) {
     return table;
 }
 
-// ---- Styling, in the order in which it is applied -----------------------------------------------
+// ---- Styling, in the order of application -------------------------------------------------------
 
 const Table& tableOf(const BraidSettings*) {
     using S = BraidSettings;
@@ -277,7 +277,7 @@ const Table& tableOf(const StrokeSettings*) {
     return table;
 }
 
-// ---- Where guides come from ---------------------------------------------------------------------
+// ---- Sources of guides --------------------------------------------------------------------------
 
 const Table& tableOf(const FilePlacementSettings*) {
     using S = FilePlacementSettings;

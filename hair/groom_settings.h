@@ -6,12 +6,12 @@
 
 #include <glm/vec3.hpp>
 
-// The parameters of the guides at rest: settings.h has the others and says how to add one.
+// Parameters of the guides at rest. settings.h has the other parameters and says how to add one.
 namespace hair {
 
 class Table;
 
-// Hair turns round a point of the scalp, as at the crown.
+// Hair that turns round a point of the scalp, such as the crown.
 struct WhorlSettings {
     glm::vec3 position{0.0f, 0.11f, -0.06f};
     float strength = 0.0f;
@@ -20,7 +20,7 @@ struct WhorlSettings {
 
 const Table& tableOf(const WhorlSettings*);
 
-// Hair is combed away from a line on the scalp.
+// Hair that is combed away from a line on the scalp.
 struct PartingSettings {
     glm::vec3 from{0.0f, 0.09f, 0.09f};
     glm::vec3 to{0.0f, 0.115f, -0.02f};
@@ -30,7 +30,7 @@ struct PartingSettings {
 
 const Table& tableOf(const PartingSettings*);
 
-// Short, thin hairs on either side of the edge of the scalp.
+// Short, thin hairs on both sides of the scalp's edge.
 struct VellusSettings {
     float share = 0.0f;
     float length = 0.012f;
@@ -62,9 +62,9 @@ struct GrowSettings {
 
 const Table& tableOf(const GrowSettings*);
 
-// ---- Styling, in the order in which it is applied -----------------------------------------------
+// ---- Styling, in the order of application -------------------------------------------------------
 
-// All strands gathered, and plaited in three parts from there on.
+// Gathers all strands and plaits them in three parts from there on.
 struct BraidSettings {
     float pitch = 0.0f;
     glm::vec3 tie{0.0f, -0.07f, -0.115f};
@@ -115,7 +115,7 @@ struct FrizzSettings {
 
 const Table& tableOf(const FrizzSettings*);
 
-// Single strands that lie apart from the others.
+// Single strands that lie apart from the rest.
 struct FlyawaySettings {
     float share = 0.0f;
     float reach = 0.015f;
@@ -154,10 +154,10 @@ struct StyleSettings {
 
 const Table& tableOf(const StyleSettings*);
 
-// ---- Where guides come from ---------------------------------------------------------------------
+// ---- Sources of guides --------------------------------------------------------------------------
 
-// Takes a file's coordinates to the scene's: scaled, then turned about x, y and z in this order,
-// then moved.
+// Maps a file's coordinates to the scene's: scales, then rotates about x, y and z in this order,
+// then translates.
 struct FilePlacementSettings {
     float scale = 1.0f;
     glm::vec3 rotation{0.0f, 0.0f, 0.0f};
@@ -170,14 +170,14 @@ const Table& tableOf(const FilePlacementSettings*);
 
 enum class BrushTool { comb, cut, lengthen, push, clump };
 
-// A place of a stroke's path.
+// A point on a stroke's path.
 struct StrokePoint {
     glm::vec3 position{0.0f, 0.0f, 0.0f};
 };
 
 const Table& tableOf(const StrokePoint*);
 
-// A stroke of a brush over the hair at rest.
+// A brush stroke over the hair at rest.
 struct StrokeSettings {
     BrushTool tool = BrushTool::comb;
     float radius = 0.03f;

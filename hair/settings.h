@@ -11,20 +11,19 @@
 #include "hair/simulation_settings.h"
 #include "hair/strand_settings.h"
 
-// Every parameter of a case (those of guides, simulation, strands and light are in
-// groom_settings.h, simulation_settings.h, strand_settings.h and shading_settings.h), with the
-// thesis's values (section 6 there) as defaults. A new parameter is a member here and a row in the
-// struct's table, settings.cpp; nothing else has to be edited. fields.h is for code that walks the
-// tables.
+// All parameters of a case, with the thesis's values (its section 6) as defaults. Parameters of
+// guides, simulation, strands and light are in groom_settings.h, simulation_settings.h,
+// strand_settings.h and shading_settings.h. A new parameter needs a member here and a row in the
+// struct's table in settings.cpp, and nothing else. fields.h is for code that walks the tables.
 namespace hair {
 
 // ---- Level of detail ----------------------------------------------------------------------------
 
-// Level of detail: at level L density and tessellation are divided by 2^L and the width grows so
-// that the covered area is kept (thesis 2.3.8.1).
+// Level of detail: at level L, density and tessellation are divided by 2^L, and the width grows to
+// keep the covered area (thesis 2.3.8.1).
 enum class LodMode { forced, distance };
 
-// What a strand that stands for many is drawn as: these hairs, with gaps, or one wide strip.
+// How a strand that stands for several is drawn: as those hairs, with gaps, or as one wide strip.
 enum class MergedStrands { hairs, strip };
 
 struct LodSettings {
@@ -59,7 +58,7 @@ struct OverlaySettings {
 
 const Table& tableOf(const OverlaySettings*);
 
-// A mesh beside the head; it does not move.
+// A mesh besides the head. It does not move.
 struct MeshSettings {
     std::string file;
     glm::vec3 translation{0.0f};
@@ -123,7 +122,7 @@ struct RunSettings {
 
 const Table& tableOf(const RunSettings*);
 
-// Everything a case needs: the members of a scene file but its sweep.
+// All parameters of a case: the members of a scene file except its sweep.
 struct Settings {
     std::string description;
     std::uint32_t seed = 1;

@@ -6,9 +6,9 @@
 #include "hair/gpu_structs.h"
 #include "hair/settings.h"
 
-// The numbers by which shaders know the settings' choices: enumerators' own values, which the rows
-// below hold against shaders/shared/options.h. A row whose enumerator has another value does not
-// compile, nor does a choice without rows.
+// Numbers that stand for the settings' choices in shaders. They are the enumerators' own values;
+// the rows below check these against shaders/shared/options.h. A row with an enumerator of another
+// value does not compile, nor does a choice without rows.
 namespace hair {
 
 namespace shader_codes {
@@ -19,8 +19,7 @@ struct Row {
     gpu::uint code;
 };
 
-// How many codes there are, where every row's enumerator and code are its place in the list; else
-// 0.
+// Returns the number of rows if every row's enumerator and code equal its position; otherwise 0.
 template <class Choice, std::size_t n>
 consteval std::size_t counted(const Row<Choice> (&rows)[n]) {
     for (std::size_t i = 0; i < n; ++i)

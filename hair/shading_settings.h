@@ -8,15 +8,15 @@
 
 #include "hair/extension.h"
 
-// How strands are lit: settings.h has the other parameters and says how to add one.
+// Lighting of strands. settings.h has the other parameters and says how to add one.
 namespace hair {
 
 class Table;
 
 enum class LightType { point, directional, sphere, rectangle };
 
-// A light's color is what a white matt surface that faces it shows at reference_distance, or at any
-// distance where that is 0, as in the thesis.
+// A light's colour is the colour of a white matt surface that faces the light at
+// reference_distance, or at any distance if reference_distance is 0, as in the thesis.
 struct LightSettings {
     LightType type = LightType::point;
     glm::vec3 position{5.0f, 5.0f, 5.0f};
@@ -48,11 +48,11 @@ struct ShadowSettings {
 
 const Table& tableOf(const ShadowSettings*);
 
-// extension: that of model_file.
+// extension: the model in model_file.
 enum class ShadingModel { phong, kajiya_kay, marschner, dual_scattering, extension };
 enum class ColorSource { rgb, melanin };
 
-// Hair's color is that of much hair after all scattering.
+// Hair's colour is that of a mass of hair after all scattering.
 struct ShadingSettings {
     ShadingModel model = ShadingModel::phong;
     std::string model_file;

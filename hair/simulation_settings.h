@@ -8,7 +8,7 @@
 
 #include "hair/extension.h"
 
-// The parameters of the simulation: settings.h has the others and says how to add one.
+// Parameters of the simulation. settings.h has the other parameters and says how to add one.
 namespace hair {
 
 class Table;
@@ -22,7 +22,7 @@ const Table& tableOf(const GlobalSettings*);
 
 // iterate: thesis equation (11), which turns the lower segment of a joint; Han and Harada 2012,
 // Real-time hair simulation with efficient hair style preservation. energy: a couple on both
-// segments, solved with the lengths in one system: simulation/constraints/bend.glsl.
+// segments, solved in one system with the lengths: simulation/constraints/bend.glsl.
 enum class LocalMethod { iterate, energy };
 
 struct LocalSettings {
@@ -33,7 +33,7 @@ struct LocalSettings {
 
 const Table& tableOf(const LocalSettings*);
 
-// tridiagonal: all of a strand's segments at once; simulation/constraints/length.glsl. iterate:
+// tridiagonal: all segments of a strand at once; simulation/constraints/length.glsl. iterate:
 // thesis equation (12), one segment after the other; Mueller et al. 2007, Position based dynamics.
 enum class LengthMethod { tridiagonal, iterate };
 
@@ -88,7 +88,7 @@ struct AugmentedMassSpringSettings {
 
 const Table& tableOf(const AugmentedMassSpringSettings*);
 
-// What one hair is made of. Hair is anisotropic: neither modulus follows from the other.
+// Material of a hair. Hair is anisotropic: neither modulus follows from the other.
 struct MaterialSettings {
     float density = 1320.0f;
     float radius = 37e-6f;
@@ -102,8 +102,8 @@ const Table& tableOf(const MaterialSettings*);
 
 enum class WindMode { thesis, drag };
 
-// thesis: equations (13) and (14) there. drag: the force of air on a cylinder across its axis, in a
-// wind with divergence-free turbulence that the mean wind carries along (Taylor 1938).
+// thesis: its equations (13) and (14). drag: air drag on a cylinder across its axis, in a wind with
+// divergence-free turbulence that the mean wind carries along (Taylor 1938).
 struct WindSettings {
     WindMode mode = WindMode::thesis;
     float strength = 0.0f;
@@ -120,10 +120,10 @@ struct WindSettings {
 
 const Table& tableOf(const WindSettings*);
 
-// What a body moves with.
+// Frame of reference of a body.
 enum class Follows { head, world };
 
-// A capsule, or a sphere where a == b.
+// A capsule; a sphere if a == b.
 struct Collider {
     glm::vec3 a{0.0f};
     glm::vec3 b{0.0f};
@@ -142,7 +142,7 @@ struct DistanceFieldSettings {
 
 const Table& tableOf(const DistanceFieldSettings*);
 
-// What of a guide keeps out of bodies.
+// Parts of a guide that collide with bodies.
 enum class CollisionParts { vertices, segments };
 
 struct CollisionSettings {
@@ -156,7 +156,7 @@ struct CollisionSettings {
 const Table& tableOf(const CollisionSettings*);
 
 // Petrovic, Henne and Anderson 2005, Volumetric methods for simulation and rendering of hair. Off
-// where friction and repulsion are 0.
+// if friction and repulsion are 0.
 struct HairHairSettings {
     float friction = 0.0f;
     float repulsion = 0.0f;
@@ -166,7 +166,7 @@ struct HairHairSettings {
 
 const Table& tableOf(const HairHairSettings*);
 
-// A pose of the head: a turn round the pivot, then a translation.
+// A pose of the head: a rotation about the pivot, then a translation.
 struct Keyframe {
     float time = 0.0f;
     glm::vec3 rotation{0.0f};
@@ -175,7 +175,7 @@ struct Keyframe {
 
 const Table& tableOf(const Keyframe*);
 
-// Rigid motion of the head, and with it of the roots, the rest shape and what follows the head.
+// Rigid motion of the head. The roots, the rest shape and bodies that follow the head move with it.
 struct MotionSettings {
     std::vector<Keyframe> keyframes;
     glm::vec3 pivot{0.0f};
@@ -184,7 +184,8 @@ struct MotionSettings {
 
 const Table& tableOf(const MotionSettings*);
 
-// An animation of the file of the mesh that hair grows on, which deforms it, and with it the scalp.
+// An animation in the file of the mesh that hair grows on. It deforms the mesh and with it the
+// scalp.
 struct AnimationSettings {
     std::string clip;  // empty: the mesh keeps its shape
     float speed = 1.0f;
@@ -193,7 +194,7 @@ struct AnimationSettings {
 
 const Table& tableOf(const AnimationSettings*);
 
-// Where a hand is.
+// A hand's position at a time.
 struct PullKey {
     float time = 0.0f;
     glm::vec3 position{0.0f};
@@ -201,8 +202,8 @@ struct PullKey {
 
 const Table& tableOf(const PullKey*);
 
-// A hand that pulls at hair: a damped spring between it and a vertex, whose acceleration the hair
-// round that vertex gets too. From the first key's time to the last key's.
+// A hand that pulls hair from the first key's time to the last key's: a damped spring between the
+// hand and a vertex. The hair round that vertex gets the vertex's acceleration too.
 struct PullSettings {
     std::uint32_t guide = 0;
     std::uint32_t vertex = 1;
@@ -224,8 +225,8 @@ enum class Solver {
 };
 enum class Parallelism { automatic, vertex, strand, serial };
 enum class StiffnessScaling { invariant, thesis };
-// What guides are without load. groom: as the groom has them, so that they sag under gravity.
-// balanced: such that they hang under gravity as the groom has them.
+// Shape of guides without load. groom: the groom's shape, so guides sag under gravity. balanced:
+// the shape with which guides hang under gravity as in the groom.
 enum class RestShape { groom, balanced };
 
 struct SimulationSettings {

@@ -5,7 +5,7 @@
 
 #include "hair/extension.h"
 
-// How strands are made from guides: settings.h has the other parameters and says how to add one.
+// Making strands from guides. settings.h has the other parameters and says how to add one.
 namespace hair {
 
 class Table;
@@ -20,7 +20,7 @@ enum class Backend {
     mesh,
     software
 };
-// As the scene names it.
+// Returns the name of a backend in scenes.
 const char* backendName(Backend backend);
 
 enum class Interpolation { multi, single, mixed };
@@ -32,7 +32,7 @@ enum class Submission { instanced, batched };
 enum class StrandSource { root_triangles, groom };
 enum class WidthSource { scene, groom };
 
-// Curls that interpolated strands have beside their guides: thesis 2.3.8.2.
+// Curls of interpolated strands, in addition to their guides' curls: thesis 2.3.8.2.
 struct StrandCurlSettings {
     float radius = 0.0f;
     float frequency = 60.0f;
@@ -42,7 +42,7 @@ struct StrandCurlSettings {
 
 const Table& tableOf(const StrandCurlSettings*);
 
-// Random offsets, computed once, on a part of the strands: thesis 2.3.8.3.
+// Random offsets, computed once, of a fraction of the strands: thesis 2.3.8.3.
 struct StrandVariationSettings {
     float amplitude = 0.0f;
     float frequency = 20.0f;
