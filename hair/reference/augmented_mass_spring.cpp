@@ -18,17 +18,17 @@
 namespace hair::reference {
 namespace {
 
-// Lower bound of what a spring or an edge divides by, over the strand's mean segment: only
+// Lower bound on the length that springs and edges divide by, over the strand's mean segment. Only
 // coincident points fall below.
 constexpr double kLeastSpan = 0.1;
-constexpr std::size_t kFarthest = 3;  // vertices that a spring reaches over
-constexpr std::size_t kBand = 3 * kFarthest + 2;  // sub-diagonals of the matrix of numbers
+constexpr std::size_t kFarthest = 3;  // vertices spanned by a spring
+constexpr std::size_t kBand = 3 * kFarthest + 2;  // sub-diagonals of the scalar matrix
 
 // A symmetric positive definite matrix with kBand diagonals below its main one, [row][row -
 // column].
 using BandMatrix = std::vector<std::array<double, kBand + 1>>;
 
-// Cholesky's L in place of the lower half, and the solution in place of the right-hand side.
+// Solves in place: Cholesky's L replaces the lower half, and the solution the right-hand side.
 void solveBand(BandMatrix& matrix, std::vector<double>& right) {
     const std::size_t size = matrix.size();
     for (std::size_t row = 0; row < size; ++row) {
@@ -55,9 +55,9 @@ struct MassSpringStep {
     const RodRoot& root;
     const AugmentedMassSpringParameters& parameters;
     std::vector<glm::dvec3> before;  // positions of the vertices, m
-    std::vector<glm::dvec3> predicted;  // where they would go by themselves, m
+    std::vector<glm::dvec3> predicted;  // after free motion, m
     std::vector<glm::dvec3> positions;  // m
-    std::vector<glm::dmat3> masses;  // kg, with air's
+    std::vector<glm::dmat3> masses;  // kg, including air
     BandMatrix matrix;  // N/m
     std::vector<double> forces;  // N
 
@@ -100,7 +100,7 @@ void MassSpringStep::predict(std::span<const glm::dvec3> accelerations, const Ro
     positions = predicted;
 }
 
-// To rows i of columns j, and those j of columns i.
+// Adds a block to rows i, columns j, and to rows j, columns i.
 void MassSpringStep::add(std::size_t i, std::size_t j, const glm::dmat3& stiffness) {
     for (std::size_t row = 0; row < 3; ++row)
         for (std::size_t column = 0; column < 3; ++column)
@@ -168,7 +168,7 @@ void MassSpringStep::iterate() {
         for (std::size_t k = 1; k <= std::min(i, kFarthest); ++k) stretch(i, i - k);
         turn(i);
     }
-    // What is held does not move.
+    // Held vertices do not move.
     for (std::size_t i = 0; i < size(); ++i) {
         if (!holds(i)) continue;
         for (std::size_t row = 3 * i; row < 3 * i + 3; ++row) {

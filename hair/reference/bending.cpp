@@ -9,7 +9,8 @@
 namespace hair::reference {
 namespace {
 
-// Of a symmetric positive definite matrix, row by row: Cholesky's factor, then both triangles.
+// Solves a symmetric positive definite system, stored row by row: Cholesky, then both triangular
+// solves.
 std::vector<double> solvePositive(std::vector<double> a, std::vector<double> b) {
     const std::size_t n = b.size();
     for (std::size_t i = 0; i < n; ++i) {
@@ -30,7 +31,7 @@ std::vector<double> solvePositive(std::vector<double> a, std::vector<double> b) 
     return b;
 }
 
-// An angle of the system: `direction` turns all below the vertex `about`.
+// An unknown angle: along `direction` it turns everything below the vertex `about`.
 struct Angle {
     std::size_t segment;
     glm::dvec3 direction;
@@ -65,7 +66,7 @@ void bendStrand(Points positions, ConstPoints rest, const BendStep& step) {
     const std::size_t size = angles.size();
     std::vector<double> matrix(size * size), right(size);
     const glm::dvec3 root_moved = step.root - positions[0];
-    // The substep's energy has |f + sum of angle * g|^2 / 2 in some metric, for all of these.
+    // Adds |f + sum of angle * g|^2 / 2, in the metric given, to the substep's energy.
     const auto add = [&](std::size_t upTo, const auto& metric, const glm::dvec3& residual,
                          const auto& gradient) {
         std::vector<glm::dvec3> gradients;

@@ -157,13 +157,14 @@ void solveLengths(
     const std::vector<glm::dvec3> predicted(positions.begin(), positions.end());
     std::vector<glm::dvec3> directions(count, glm::dvec3(0.0));  // of segments
     const auto metAt = [&](std::size_t i) { return met.empty() ? Pushed{} : met[i]; };
-    // Of a vertex on a body: across it 0.01 of its mass's yielding, along it 1 less 0.99 of the
-    // share that friction holds.
+    // Yielding of a vertex on a body: across the surface 0.01 of its free yielding, along it 1
+    // minus 0.99 of the fraction that friction holds.
     const auto light = [&](std::size_t i) {
         return (1.0 - 0.99 * metAt(i).held) * weight(i) * leftOf(lightness, i);
     };
     const auto restLength = [&](std::size_t i) { return glm::distance(rest[i], rest[i - 1]); };
-    // By how much vertex i moves along b for a force along a whose angle has this cosine.
+    // Returns how far vertex i moves along b under a force along a; `cosine` is that of their
+    // angle.
     const auto yields = [&](std::size_t i, const glm::dvec3& a, const glm::dvec3& b,
                             double cosine) {
         if (!metAt(i).touches) return light(i) * cosine;
@@ -193,7 +194,7 @@ void solveLengths(
     std::vector<double> stretches(count), diagonal(count), beside(count), densities(count + 1);
     std::vector<glm::dvec3> pulls(count);
     for (std::uint32_t pass = 0; pass < passes; ++pass) {
-        // The tensions, one row after the other from the tip up: beside[i] is between i and i + 1.
+        // The tensions, row by row from the tip up; beside[i] is between i and i + 1.
         for (std::size_t i = 1; i < count; ++i) {
             const glm::dvec3& d = directions[i];
             diagonal[i] = yields(i - 1, d, d, 1.0) + yields(i, d, d, 1.0);
@@ -212,7 +213,7 @@ void solveLengths(
             densities[i] = std::max(
                 tension / std::max(restLength(i), kShortest), -0.2 / (light(i - 1) + light(i)));
         }
-        // The places, each by those above it.
+        // The positions, each from those above it.
         for (std::size_t i = count - 1; i > 0; --i) {
             diagonal[i] = 1.0 / light(i) + densities[i] + densities[i + 1];
             pulls[i] = predicted[i] / light(i);
@@ -241,10 +242,10 @@ CapsuleGap capsuleGap(const glm::dvec3& point, const Collider& collider, double 
 
 std::optional<std::pair<glm::dvec3, CapsuleGap>>
 entryInto(const Collider& collider, const glm::dvec3& from, const glm::dvec3& to) {
-    constexpr int kParts = 512;  // of the way, to look for a crossing in
+    constexpr int kParts = 512;  // of the path, to search for a crossing
     const auto at = [&](double t) { return capsuleGap(glm::mix(from, to, t), collider, 0.0); };
     if (at(0.0).gap <= 0.0) return {};
-    // No nearer than the way is long: it can't be reached.
+    // Farther away than the path is long: it can't be reached.
     if (at(1.0).gap >= glm::distance(from, to)) return {};
     for (int part = 1; part <= kParts; ++part) {
         double outside = static_cast<double>(part - 1) / kParts;
@@ -287,8 +288,8 @@ double localFactor(const SimulationSettings& settings, const Step& step, double 
 }
 
 double bendFactor(const SimulationSettings& settings, const Step& step, double segment_length) {
-    // How far the tip of the thesis's level hair sags by each joint, as a moment and as a force,
-    // which moves the lower vertex alone, by twice as much, at the root.
+    // Sag of the tip of the thesis's level hair by each joint, under a moment (`bending`) and under
+    // a force (`pulling`). At the root the force moves only the lower vertex, by twice as much.
     double bending = 0.0;
     double pulling = 0.0;
     for (int below = 1; below <= 7; ++below) {
@@ -335,7 +336,7 @@ void stepFtl(
 
     previous[0] = start[0];
     for (std::size_t i = 1; i < positions.size(); ++i) {
-        // Eq. 9 has the velocity of the moved vertex; where a body pushed, the push is part of it.
+        // Eq. 9 has the velocity of the moved vertex, including a body's push.
         glm::dvec3 velocity = (positions[i] - start[i]) / h;
         if (i + 1 < positions.size()) velocity -= step.velocity_correction / h * corrections[i + 1];
         previous[i] = positions[i] - h * velocity;
@@ -344,9 +345,9 @@ void stepFtl(
 
 // ---- Hands --------------------------------------------------------------------------------------
 
-// The held vertex's velocity at the step's end solves
-//   v' = v + dt f + dt (k (h' - x - dt v') + c (w - v')),
-// and the hand's part is what f leaves of it.
+// The held vertex's velocity at the end of the step solves
+//   v' = v + dt f + dt (k (h' - x - dt v') + c (w - v')).
+// The hand's part is the remainder after f.
 void addPulls(
     std::span<const PullSettings> pulls, const PulledHair& hair,
     std::span<glm::dvec3> accelerations) {

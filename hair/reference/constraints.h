@@ -17,12 +17,12 @@
 #include "hair/settings.h"
 #include "hair/simulation/head_motion.h"
 
-// The simulation's equations, one function each, in double and straight from the papers: what the
-// GPU is tested against. Nothing here is shared with the shaders or with what feeds them.
+// The simulation's equations, one function each, in double and straight from the papers: references
+// for the GPU. Nothing here is shared with the shaders or with the code that feeds them.
 //
 // Every span is the vertices of one strand, root first, in m. The root is pinned: it has infinite
-// mass, every other vertex mass 1. Segment i ends in vertex i, so segment 1 holds the root.
-// Iterations are red-black: segments that end in odd vertices move first, then those that end in
+// mass, every other vertex mass 1. Segment i ends in vertex i, so segment 1 starts at the root.
+// Iterations are red-black: first segments that end in odd vertices move, then those that end in
 // even ones. A segment shorter than kShortest has no direction of its own.
 namespace hair::reference {
 
@@ -30,32 +30,33 @@ using Points = std::span<glm::dvec3>;
 using ConstPoints = std::span<const glm::dvec3>;
 struct Pushed;  // below
 
-constexpr double kShortest = 1e-9;  // m, of a segment that has a direction
+constexpr double kShortest = 1e-9;  // m, shortest segment with a direction
 
-// A unit vector at right angles to `v` and to the axis that it has least of; the second axis where
-// `v` is 0.
+// Returns a unit vector perpendicular to `v` and to the axis of its smallest component; the second
+// axis if `v` is 0.
 glm::dvec3 sideways(const glm::dvec3& v);
 
-// Thesis eq. 9 with friction; leaves the root alone. `previous` becomes the positions before the
+// Thesis eq. 9 with friction. Leaves the root alone. `previous` becomes the positions before the
 // call.
 void integrate(
     Points positions, Points previous, ConstPoints accelerations, double velocity_kept,
     double substep);
 
-// What air leaves of the vertices' inverse masses, [vertex]: wind.h. Empty: all of them.
+// Fraction of the vertices' inverse masses that air leaves, [vertex]: wind.h. Empty: 1.
 using Lightness = std::span<const double>;
 
-// Thesis eq. 10: an implicit step of a spring that is c / (1 + c), c the spring's stiffness times
-// the inverse mass.
+// Thesis eq. 10: an implicit step of a spring by the fraction c / (1 + c), where c is the spring's
+// stiffness times the inverse mass.
 void pullToRest(Points positions, ConstPoints rest, double stiffness, Lightness lightness = {});
 
-// Frames of the segments, [vertex]: entry 0 is the root's, entry i >= 1 that of segment i. A frame
-// turns the rest strand's directions into the current one's: R_0 = root_frame, R_1 is R_0 followed
-// by the smallest rotation that takes R_0 s_1 to t_1, and R_i = P_i R_(i-1) Q_i^-1 with P_i, Q_i
-// the smallest rotations t_(i-1) -> t_i and s_(i-1) -> s_i of unit tangents now (t) and at rest
-// (s). Opposite tangents turn round an axis that is perpendicular to the first and to the
-// coordinate axis it has least of. A segment that has no direction at rest or now takes the tangent
-// of the segment before it, the first one R_0 s_1; the rest tangent likewise, the first one +y.
+// Returns the frames of the segments, [vertex]: entry 0 is the root's, entry i >= 1 that of segment
+// i. A frame turns the rest strand's directions into the current ones: R_0 = root_frame; R_1 is R_0
+// followed by the smallest rotation from R_0 s_1 to t_1; R_i = P_i R_(i-1) Q_i^-1, where P_i and
+// Q_i are the smallest rotations t_(i-1) -> t_i and s_(i-1) -> s_i of unit tangents now (t) and at
+// rest (s). Opposite tangents turn round an axis perpendicular to the first tangent and to the
+// coordinate axis of its smallest component. A segment without a direction at rest or now takes the
+// tangent of the segment before it, or R_0 s_1 if it is the first. Rest tangents do likewise, the
+// first with +y.
 std::vector<glm::dmat3> segmentFrames(
     ConstPoints positions, ConstPoints rest, const glm::dmat3& root_frame = glm::dmat3(1.0));
 
@@ -64,52 +65,52 @@ void pullToShape(
     Points positions, ConstPoints rest, double stiffness,
     const glm::dmat3& root_frame = glm::dmat3(1.0), Lightness lightness = {});
 
-// Thesis eq. 12, one red-black iteration. Vertices that coincide are parted along +y.
+// Thesis eq. 12, one red-black iteration. Coinciding vertices are separated along +y.
 void projectLengths(Points positions, ConstPoints rest, Lightness lightness = {});
 
-// The nearest positions, in the metric of the masses, whose segments have their rest lengths, by so
-// many passes of simulation/constraints/length.glsl, where the equations are. Zero: as they are.
-// `met`: what bodies did to each vertex; empty: there are none.
+// Moves the strand to the nearest positions, in the metric of the masses, at which segments have
+// their rest lengths, by `passes` passes of simulation/constraints/length.glsl, which has the
+// equations. 0 passes: no change. `met`: contact of each vertex with bodies; empty: none.
 void solveLengths(
     Points positions, ConstPoints rest, std::uint32_t passes, Lightness lightness = {},
     std::span<const Pushed> met = {});
 
-// Of a capsule and the margin round it.
+// Gap to a capsule with its margin.
 struct CapsuleGap {
     double gap;  // from it to a point; negative inside
     glm::dvec3 normal;  // unit, away from the axis
 };
 CapsuleGap capsuleGap(const glm::dvec3& point, const Collider& collider, double margin);
 
-// Where the straight way from a point outside of a capsule to another first enters it, margin
-// apart, as the capsule's gap there; absent where it does not, or starts inside.
+// Returns the point where the straight path between two points first enters a capsule, without its
+// margin, and the capsule's gap there. Absent if the path does not enter or starts inside.
 std::optional<std::pair<glm::dvec3, CapsuleGap>>
 entryInto(const Collider& collider, const glm::dvec3& from, const glm::dvec3& to);
 
-// Where bodies leave a vertex: with the tangent plane of the last that it touches, else of the
-// nearest.
+// A vertex after contact with bodies, with the tangent plane of the last body that it touches, or
+// else of the nearest.
 struct Pushed {
     glm::dvec3 position;
-    glm::dvec3 normal{0.0};  // outward; 0 where there is no body
+    glm::dvec3 normal{0.0};  // outward; 0 if there is no body
     double height = 0.0;  // of the plane along the normal
     bool touches = false;
-    double held = 0.0;  // share of its motion along the surface that friction takes back
+    double held = 0.0;  // fraction of its motion along the surface that friction removes
 };
-// For a vertex that has moved from `before` to `position`.
+// For a vertex that moved from `before` to `position`.
 using PushOut = std::function<Pushed(const glm::dvec3& position, const glm::dvec3& before)>;
 
-// Contact of one vertex with every capsule, in the list's order, each in the frame that it moves
-// with: what slides on it is the motion relative to it. The vertex goes to the capsule's surface,
-// the margin away, the shortest way; from a point on the axis along the perpendicular described
-// above. Where its way leads into the capsule it goes no farther in than the plane at which it
-// enters. Friction takes back what it moved along the surface, at most the coefficient times the
-// depth: Macklin et al. 2014, Unified particle physics for real-time applications, eq. 24.
+// Contact of one vertex with every capsule, in list order, each in the frame that it moves with;
+// sliding is the motion relative to the capsule. The vertex goes the shortest way to the capsule's
+// surface plus margin; from a point on the axis it goes along the perpendicular described above. If
+// its path enters the capsule, it goes no farther in than the tangent plane at the entry. Friction
+// removes its motion along the surface, at most the coefficient times the depth: Macklin et al.
+// 2014, Unified particle physics for real-time applications, eq. 24.
 struct Contact {
     const SimulationSettings& settings;
     simulation::RigidMotion frame;  // of the head at the end of the substep
     simulation::RigidMotion frame_before;  // of the head at its start
 
-    // Where the vertex comes to lie that has moved from `before` to `position`.
+    // Returns the contact of a vertex that moved from `before` to `position`.
     Pushed operator()(const glm::dvec3& position, const glm::dvec3& before) const {
         Pushed pushed{.position = position};
         double nearest = std::numeric_limits<double>::infinity();
@@ -120,7 +121,7 @@ struct Contact {
             const double margin = settings.collision.margin;
             glm::dvec3 here = seenFrom(now, pushed.position);
             const glm::dvec3 there = seenFrom(then, before);
-            // What comes too fast stays before the plane at which it enters.
+            // A fast vertex stays in front of the plane at its entry.
             double held_back = 0.0;
             const auto entry =
                 settings.collision.continuous ? entryInto(collider, there, here) : std::nullopt;
@@ -154,10 +155,10 @@ struct Contact {
     }
 };
 
-// The scalings that hair/simulation/stiffness.h describes, from its text and not from its code: the
-// step against 1/60 s, 10 iterations and segments of 0.15/7 m.
+// The scalings described in hair/simulation/stiffness.h, from its text and not from its code: the
+// step relative to 1/60 s, 10 iterations and segments of 0.15/7 m.
 
-// gpu::Step in double.
+// gpu::Step in double precision.
 struct Step {
     double whole = 0.0;  // s
     double sub = 0.0;  // s
@@ -168,20 +169,20 @@ inline Step inDouble(const gpu::Step& step) {
     return {.whole = step.whole, .sub = step.sub, .count = step.count};
 }
 
-// Fraction of the velocity left after a substep.
+// Returns the fraction of the velocity left after a substep.
 double keptFactor(const SimulationSettings& settings, const Step& step);
-// k_G of thesis eq. 10 for a substep.
+// Returns k_G of thesis eq. 10 for a substep.
 double globalFactor(const SimulationSettings& settings, const Step& step);
-// k_L of thesis eq. 11 for an iteration on a strand with this mean segment length, m.
+// Returns k_L of thesis eq. 11 for an iteration on a strand with this mean segment length, m.
 double localFactor(const SimulationSettings& settings, const Step& step, double segment_length);
 
-// substep^2 K of the local constraint with an energy, of such a strand.
+// Returns substep^2 K of the local constraint with an energy, for the same strand.
 double bendFactor(const SimulationSettings& settings, const Step& step, double segment_length);
 
 struct FtlStep {
     ConstPoints accelerations;  // m/s^2
     std::span<const glm::dmat3> drag{};  // dragRates() of wind.h; empty: no air
-    ConstPoints air{};  // m/s, where there is drag
+    ConstPoints air{};  // m/s, if there is drag
     double substep = 0.0;  // s
     double velocity_kept = 1.0;
     double global_stiffness = 0.0;
@@ -189,17 +190,16 @@ struct FtlStep {
 };
 
 // One substep of follow the leader for one strand: Mueller, Kim and Chentanez 2012, Fast simulation
-// of inextensible hair and fur, section 3. `rest` is the rest strand where the head is now, and
-// positions[0] is taken from it. `previous` becomes positions less substep times velocity, with
-// eq. 9's velocities.
+// of inextensible hair and fur, section 3. `rest` is the rest strand on the head at its present
+// pose, and gives positions[0]. `previous` becomes the positions minus substep times velocity, with
+// the velocities of eq. 9.
 void stepFtl(
     Points positions, Points previous, ConstPoints rest, const FtlStep& step,
     const PushOut& push_out);
 
-// What hands do to hair, in double and straight from the equations of
-// hair/simulation/pulls.h.
+// Pulls by hands, in double and straight from the equations of hair/simulation/pulls.h.
 
-// Every strand at the start of a time step, [strand][vertex], m.
+// All strands at the start of a time step, [strand][vertex], m.
 struct PulledHair {
     std::size_t vertices = 0;  // per strand
     std::span<const glm::dvec3> rest;
@@ -210,7 +210,8 @@ struct PulledHair {
     double to = 0.0;
 };
 
-// Adds what the settings' hands give to accelerations that have all else, gravity too, m/s^2.
+// Adds the pulls of the settings to accelerations that include everything else, also gravity,
+// m/s^2.
 void addPulls(
     std::span<const PullSettings> pulls, const PulledHair& hair,
     std::span<glm::dvec3> accelerations);

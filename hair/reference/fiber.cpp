@@ -24,8 +24,8 @@ double mean(const glm::dvec3& color) { return (color.r + color.g + color.b) / 3;
 
 double logistic(double x, double scale) { return 1 / (1 + std::exp(-x / scale)); }
 
-// ln I_0(x), x >= 0: its power series, or its asymptotic one, whose terms fall below 1e-17 before
-// they grow again.
+// Returns ln I_0(x), x >= 0, by its power series or its asymptotic one. The terms of the latter
+// fall below 1e-17 before they grow again.
 double logBessel0(double x) {
     double term = 1;
     double sum = 1;
@@ -40,7 +40,7 @@ double logBessel0(double x) {
 double inclination(const glm::dvec3& w) { return std::asin(std::clamp(w.x, -1.0, 1.0)); }
 double azimuth(const glm::dvec3& w) { return std::atan2(w.z, w.y); }
 
-// The equal angle in [-pi, pi].
+// Returns the equivalent angle in [-pi, pi].
 double wrapped(double angle) { return std::remainder(angle, 2 * kPi); }
 
 PerLobe<double> lobeProbabilities(const FiberPath& path) {
@@ -55,7 +55,7 @@ PerLobe<double> lobeProbabilities(const FiberPath& path) {
     return probabilities;
 }
 
-// M_p N_p of every lobe.
+// Returns M_p N_p of every lobe.
 PerLobe<double>
 lobes(const Fiber& fiber, const FiberPath& path, const glm::dvec3& wo, const glm::dvec3& wi) {
     const double phi = azimuth(wi) - azimuth(wo);
@@ -72,7 +72,7 @@ lobes(const Fiber& fiber, const FiberPath& path, const glm::dvec3& wo, const glm
     return values;
 }
 
-// Every lobe, with light from inclination theta_i and, round the eye, the azimuths of `azimuthal`.
+// Returns the sum of all lobes for light from inclination theta_i, with the factors `azimuthal`.
 template <class Azimuthal>
 glm::dvec3 sumOfLobes(
     const Fiber& fiber, const FiberPath& path, double theta_i, double theta_o, double more_variance,
@@ -154,7 +154,7 @@ GlobalScattering globalScattering(const FiberAverages& averages, double strands)
     global.direct = std::exp(-strands);
     // The expectation of a_f^N is exp(-n (1 - a_f)).
     global.forward = glm::exp(-strands * (1.0 - averages.forward)) - global.direct;
-    // The mean of N where it is not 0, weighted by a_f^N.
+    // The mean of N, if it is not 0, weighted by a_f^N.
     const double passed = std::max(strands * mean(averages.forward), 1e-9);
     const double met = passed / -std::expm1(-passed);
     global.shift = met * averages.forward_shift;
@@ -177,8 +177,8 @@ glm::dvec3 dualScattering(
     const glm::dvec3 albedo =
         (1 - around.ended) * local.albedo + around.returned * averages.forward;
 
-    // Twice A_b, as in equation (11), round the direction of the light: (1 + cos phi) / 2 pi
-    // instead of 1 / pi in the nearer half turn, which would end in an edge.
+    // Twice A_b, as in equation (11), round the light's direction: (1 + cos phi) / 2 pi instead of
+    // 1 / pi in the nearer half turn, which would have a sharp edge.
     const auto behind = [&](double change, double more_variance, double azimuthal) {
         return 2.0 * azimuthal * albedo *
                longitudinal(
@@ -186,7 +186,7 @@ glm::dvec3 dualScattering(
     };
     const glm::dvec3 direct =
         scattering(fiber, wo, wi, h) + behind(0, 0, (1 + std::cos(phi)) / (2 * kPi));
-    // S_f: the light is spread evenly over the half turn round phi_i.
+    // S_f: the light is spread uniformly over the half turn round phi_i.
     const glm::dvec3 scattered =
         sumOfLobes(
             fiber, path, theta_i - global.shift, theta_o, global.variance,

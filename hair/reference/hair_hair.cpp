@@ -12,8 +12,8 @@
 namespace hair::reference {
 namespace {
 
-// Twice the place of a cell's middle, cells: three odd numbers in the first grid, three even ones
-// in the second.
+// Twice the position of a cell's centre, cells: three odd numbers in the first grid, three even
+// ones in the second.
 using Cell = std::array<int, 3>;
 
 struct Sum {
@@ -35,7 +35,8 @@ double lengthBetween(std::span<const glm::dvec3> points, std::size_t first, std:
     return length;
 }
 
-// The roots' cube and 1.1 of the longest strand on every side, two cells from the grid's faces.
+// Returns the cube of the roots plus 1.1 of the longest strand on every side, two cells inside the
+// grid.
 Box boxOf(const VolumeState& state, std::uint32_t resolution) {
     glm::dvec3 low(1e300);
     glm::dvec3 high(-1e300);
@@ -96,7 +97,7 @@ glm::dvec3 weightGradient(const Cell& cell, const glm::dvec3& point) {
         spline(t.x) * spline(t.y) * splineSlope(t.z)};
 }
 
-// The cells of both grids whose middle is within one and a half cells of the point.
+// Returns the cells of both grids with centres within one and a half cells of the point.
 std::vector<Cell> cellsRound(const glm::dvec3& point) {
     std::vector<Cell> cells;
     for (const int parity : {1, 0}) {
@@ -135,7 +136,7 @@ double meanDensityAtRest(
     std::vector<glm::dvec3> points;
     for (const glm::dvec3& point : rest) points.push_back((point - box.corner) / box.cell);
     const Grid grid = splat(points, std::vector<glm::dvec3>(points.size()), shares);
-    double both = 0.0;  // sum of m_i^2: each vertex's share weighs what it gathers
+    double both = 0.0;  // sum of m_i^2: each vertex's share weights its gathered density
     for (const auto& [cell, sum] : grid) both += sum.share * sum.share;
     return both / 2.0;
 }
@@ -152,7 +153,7 @@ volumeAccelerations(const SimulationSettings& settings, const VolumeState& state
     const Box box = boxOf(state, contact.resolution);
     const std::vector<double> shares = sharesOf(state);
     const double crowded = contact.crowding * meanDensityAtRest(state.rest, box, shares);
-    // The exact solution over a step, with what friction does of what else acts.
+    // The exact solution over a step, including friction's effect on everything else that acts.
     const double decay = std::pow(1.0 - contact.friction, 60.0 * step);
     const double exponent = -60.0 * step * std::log(1.0 - contact.friction);
     const double foreseen =

@@ -19,13 +19,14 @@ struct VolumeState {
     std::span<const glm::dvec3> previous;    // m, a substep earlier
     Step step;
     simulation::RigidMotion frame;                       // of the head at the end of the step
-    // What friction left of each vertex's difference in the step before, m/s; becomes that of this
-    // one. Empty: there was none. Null: nobody wants to know.
+    // Velocity difference of each vertex that friction left in the step before, m/s; becomes that
+    // of this step. Empty: no step before. Null: not wanted.
     std::vector<glm::dvec3>* kept = nullptr;
 };
 
-// What hair gives hair over the next step, [strand][vertex], m/s^2: the equations of
-// hair/simulation/hair_hair.h on sparse grids in double. Zero where settings.hair_hair is off.
+// Returns the acceleration by hair-hair contact over the next step, [strand][vertex], m/s^2: the
+// equations of hair/simulation/hair_hair.h on sparse grids in double. Zero if settings.hair_hair is
+// off.
 std::vector<glm::dvec3>
 volumeAccelerations(const SimulationSettings& settings, const VolumeState& state);
 

@@ -19,7 +19,8 @@
 #include "hair/reference/fiber.h"
 
 namespace hair::reference {
-// Not without a name: the class below has members of these types, and files are compiled together.
+// The namespace has a name, because the class below has members of these types, and files are
+// compiled together.
 inline namespace path_tracer {
 
 constexpr double kTracedPi = std::numbers::pi;
@@ -55,21 +56,21 @@ struct Ray {
     glm::dvec3 at(double t) const { return origin + t * direction; }
 };
 
-// A piece of a fibre: a round cone about the axis from a to b that ends where the planes do. Pieces
-// of a strand share the planes, so that they meet without gap or overlap.
+// A piece of a fibre: a round cone about the axis from a to b, ended by the two planes. The pieces
+// of a strand share planes, so that they join without gap or overlap.
 struct Piece {
     glm::dvec4 a;  // w: radius
     glm::dvec4 b;
-    glm::dvec3 plane_a;  // unit normals, towards the tip: the strand's tangents too
+    glm::dvec3 plane_a;  // unit normals towards the tip; also the strand's tangents
     glm::dvec3 plane_b;
 };
 
-// How far a span of a B-spline is cut so that no chord is farther from it than this part of the
-// radius.
+// Largest distance of a chord from its B-spline span, over the radius. Determines the number of
+// chords.
 constexpr double kChordError = 0.02;
 constexpr int kMostChords = 16;
 
-// The uniform cubic B-spline from knot `span` on, u in [0, 1].
+// Returns the uniform cubic B-spline from knot `span` on, u in [0, 1].
 glm::dvec4 splinePoint(std::span<const glm::dvec4> control, std::size_t span, double u) {
     const double v = 1 - u;
     return (v * v * v * control[span] + (3 * u * u * u - 6 * u * u + 4) * control[span + 1] +
@@ -77,8 +78,8 @@ glm::dvec4 splinePoint(std::span<const glm::dvec4> control, std::size_t span, do
            6.0;
 }
 
-// The second derivative of a span goes from one second difference to the other, and a chord is
-// farther from its arc than an eighth of it over the square of their number nowhere.
+// The second derivative of a span interpolates between its second differences. A chord's distance
+// from its arc is at most an eighth of the derivative over the square of the number of chords.
 int chordsOfSpan(std::span<const glm::dvec4> control, std::size_t span) {
     const auto bend = [&](std::size_t i) {
         return glm::length(glm::dvec3(control[i] - 2.0 * control[i + 1] + control[i + 2]));
@@ -111,7 +112,7 @@ void addPieces(std::vector<Piece>& pieces, std::span<const glm::dvec4> control) 
     }
 }
 
-// Where a ray enters the piece, beyond `begin`; kNever where it doesn't.
+// Returns where a ray enters the piece, beyond `begin`; kNever if it doesn't.
 double enters(const Piece& piece, const Ray& ray, double begin) {
     const glm::dvec3 a(piece.a);
     const glm::dvec3 offset = glm::dvec3(piece.b) - a;
@@ -119,7 +120,7 @@ double enters(const Piece& piece, const Ray& ray, double begin) {
     const glm::dvec3 axis = offset / length;
     const double slope = (piece.b.w - piece.a.w) / length;
 
-    // |what is across the axis of origin + t direction|^2 = radius^2 there.
+    // Solves |part of origin + t direction across the axis|^2 = radius^2 at that point.
     const glm::dvec3 from = ray.origin - a;
     const double from_along = glm::dot(from, axis);
     const double along = glm::dot(ray.direction, axis);
@@ -150,7 +151,7 @@ struct Corners {
 
 struct TriangleHit {
     double t = kNever;
-    double v = 0;  // barycentric: of the second and third corner
+    double v = 0;  // barycentric coordinates of the second and third corner
     double w = 0;
 };
 
@@ -171,7 +172,7 @@ meets(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c, const Ray& 
     return {t, v, w};
 }
 
-// Where a ray enters a sphere, beyond `begin`.
+// Returns where a ray enters a sphere, beyond `begin`.
 double entersSphere(const SphereLight& sphere, const Ray& ray, double begin) {
     const glm::dvec3 from = ray.origin - sphere.center;
     const double half = glm::dot(from, ray.direction);
@@ -195,7 +196,7 @@ struct TracedBox {
     void add(const TracedBox& box) { add(box.lower, box.upper); }
     glm::dvec3 middle() const { return 0.5 * (lower + upper); }
 
-    // Where the ray is in the box first, kNever if not before `end`.
+    // Returns where the ray enters the box, kNever if not before `end`.
     double enters(const glm::dvec3& origin, const glm::dvec3& inverse, double end) const {
         const glm::dvec3 one = (lower - origin) * inverse;
         const glm::dvec3 other = (upper - origin) * inverse;
@@ -207,7 +208,7 @@ struct TracedBox {
     }
 };
 
-// A ray may meet the round ends that lie beyond the axis' ends, where the planes slant.
+// A ray may hit the round ends beyond the axis's ends, where the planes slant.
 TracedBox boxOfPiece(const Piece& piece) {
     TracedBox box;
     for (const glm::dvec4& end : {piece.a, piece.b}) {
@@ -219,13 +220,13 @@ TracedBox boxOfPiece(const Piece& piece) {
 
 struct Node {
     TracedBox box;
-    std::uint32_t begin = 0;  // of a leaf's things; of an inner node its second child
-    std::uint32_t count = 0;  // 0: an inner node, whose first child is the next node
+    std::uint32_t begin = 0;  // first item of a leaf; second child of an inner node
+    std::uint32_t count = 0;  // 0: an inner node; its first child is the next node
 };
 
 constexpr std::uint32_t kLeafThings = 4;
 
-// Splits things at the median of their middles along the longest side.
+// A BVH that splits at the median of the boxes' centres along the longest side.
 class BoxTree {
 public:
     explicit BoxTree(std::span<const TracedBox> boxes) : order_(boxes.size()) {
@@ -233,7 +234,7 @@ public:
         if (!boxes.empty()) split(boxes, 0, static_cast<std::uint32_t>(boxes.size()));
     }
 
-    // visit(thing, end) returns the new end: where the ray is stopped. A negative one ends it all.
+    // visit(thing, end) returns the new end of the ray. A negative end stops the traversal.
     template <class Visit>
     void follow(const Ray& ray, double end, const Visit& visit) const {
         if (nodes_.empty()) return;
@@ -297,7 +298,7 @@ private:
 
 }  // namespace path_tracer
 
-// ---- What rays meet -----------------------------------------------------------------------------
+// ---- Surfaces -----------------------------------------------------------------------------------
 
 class PathTracer::Surfaces {
 public:
@@ -338,7 +339,7 @@ public:
         return free;
     }
 
-    // Rays that leave a surface meet nothing nearer than this, which rounding is far below.
+    // Rays that leave a surface hit nothing nearer than this, which is far above rounding.
     double begin() const { return begin_; }
 
 private:
@@ -387,14 +388,14 @@ private:
     std::vector<Piece> pieces_;
     std::vector<Corners> corners_;
     BoxTree tree_;
-    double begin_ = 1e-12;  // m, where there are no fibres
+    double begin_ = 1e-12;  // m, if there are no fibres
 };
 
 // ---- Paths --------------------------------------------------------------------------------------
 
 inline namespace path_tracer {
 
-// Axes at a point of a fibre as fiber.h has them: x towards the tip, y outwards.
+// Axes at a point of a fibre, as in fiber.h: x towards the tip, y outwards.
 struct FiberAxes {
     glm::dvec3 x;
     glm::dvec3 y;
@@ -406,7 +407,7 @@ struct FiberAxes {
     glm::dvec3 world(const glm::dvec3& w) const { return w.x * x + w.y * y + w.z * z; }
 };
 
-// The tangent goes evenly from the one at a piece's root to that at its tip.
+// The tangent is interpolated linearly between a piece's root and tip.
 FiberAxes axesAt(const Piece& piece, const glm::dvec3& point) {
     const glm::dvec3 a(piece.a);
     const glm::dvec3 offset = glm::dvec3(piece.b) - a;
@@ -418,14 +419,14 @@ FiberAxes axesAt(const Piece& piece, const glm::dvec3& point) {
     return {x, y, glm::cross(x, y)};
 }
 
-// Two unit vectors across a third.
+// Returns two unit vectors perpendicular to a third.
 std::array<glm::dvec3, 2> axesAcross(const glm::dvec3& axis) {
     const glm::dvec3 other = std::abs(axis.x) < 0.5 ? glm::dvec3(1, 0, 0) : glm::dvec3(0, 1, 0);
     const glm::dvec3 first = glm::normalize(glm::cross(axis, other));
     return {first, glm::cross(axis, first)};
 }
 
-// Evenly within a cone about `axis`, whose cosine is at least `least`.
+// Samples uniformly in a cone about `axis`, with cosines of `least` or more.
 glm::dvec3 inCone(const glm::dvec3& axis, double least, SplitMix& random) {
     const double cosine = 1 - random.number() * (1 - least);
     const double sine = std::sqrt(std::max(1 - cosine * cosine, 0.0));
@@ -441,7 +442,7 @@ public:
     Paths(const TracedScene& scene, const Surfaces& surfaces)
         : scene_(scene), surfaces_(surfaces) {}
 
-    // Radiance along the ray towards its origin.
+    // Returns the radiance along the ray towards its origin.
     glm::dvec3 radiance(Ray ray, SplitMix& random) const {
         glm::dvec3 gathered(0);
         glm::dvec3 carried(1);
@@ -449,7 +450,7 @@ public:
             const Surfaces::Hit hit = surfaces_.first(ray);
             const SphereLight* const sphere = sphereBefore(ray, hit.t);
             if (sphere && meetings == 0) gathered += sphere->radiance;
-            if (sphere) break;  // its light on what is met is asked for there
+            if (sphere) break;  // its light on a surface is sampled at the surface
             if (hit.t == kNever) {
                 gathered += carried * scene_.background;
                 break;
@@ -495,7 +496,7 @@ private:
         return !sphereBefore(ray, end) && surfaces_.isFree(ray, end);
     }
 
-    // What lights bring at a point, of which `scattered(wi)` goes where it is asked for: f |cos|.
+    // Returns the light from all sources at a point, weighted by `scattered(wi)`: f |cos|.
     template <class Scattered>
     glm::dvec3 lit(const glm::dvec3& point, SplitMix& random, const Scattered& scattered) const {
         glm::dvec3 sum(0);
@@ -517,7 +518,7 @@ private:
             const double sine = light.radius / distance;
             const double cosine = std::sqrt(1 - sine * sine);
             const glm::dvec3 wi = inCone(offset / distance, cosine, random);
-            // 1 - cosine without cancellation.
+            // 1 - cosine, without cancellation.
             const double solid_angle = 2 * kTracedPi * sine * sine / (1 + cosine);
             const double end = entersSphere(light, {point, wi}, 0);
             if (end < kNever) add(wi, end * (1 - 1e-9), light.radiance * solid_angle);
@@ -561,7 +562,7 @@ private:
         gathered += carried * lit(point, random, [&](const glm::dvec3& wi) {
                         return mesh.reflectance * (std::max(glm::dot(normal, wi), 0.0) / kTracedPi);
                     });
-        // By the cosine: Malley's method.
+        // Samples by the cosine: Malley's method.
         const double radius = std::sqrt(random.number());
         const double angle = 2 * kTracedPi * random.number();
         const auto [first, second] = axesAcross(normal);

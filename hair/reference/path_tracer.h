@@ -11,14 +11,14 @@
 
 #include "hair/rendering/fiber.h"
 
-// Light among fibres, followed from the eye: a path tracer in double precision over the scattering
-// of fiber.h, independent of those that judge our shading and of the device.
+// Light transport among fibres: a path tracer from the eye in double precision, with the scattering
+// of fiber.h. Independent of the tracers that judge our shading, and of the device.
 namespace hair::reference {
 
-// A triangle mesh that is matt: reflectance / pi, on the side that its normals are on.
+// A matt triangle mesh: a BRDF of reflectance / pi on the side of its normals.
 struct MattMesh {
     std::vector<glm::dvec3> positions;
-    std::vector<glm::dvec3> normals;  // unit, interpolated; one a position
+    std::vector<glm::dvec3> normals;  // unit, interpolated; one per position
     std::vector<std::array<std::uint32_t, 3>> triangles;
     glm::dvec3 reflectance{0};
     enum class Sides { front, both } sides = Sides::front;
@@ -30,10 +30,10 @@ struct PointLight {
     glm::dvec3 intensity{0};  // radiant intensity: irradiance times distance^2
 };
 struct DirectionalLight {
-    glm::dvec3 direction{0};  // unit, in which light goes
-    glm::dvec3 irradiance{0};  // of a plane across it
+    glm::dvec3 direction{0};  // unit; the light travels along it
+    glm::dvec3 irradiance{0};  // on a perpendicular plane
 };
-// It is seen, and throws shadows.
+// Visible, and casts shadows.
 struct SphereLight {
     glm::dvec3 center{0};
     double radius = 0;
@@ -43,16 +43,16 @@ struct SphereLight {
 struct TracedScene {
     rendering::Fiber fiber;
     // Control points of uniform cubic B-splines from root to tip, with radii: round fibres without
-    // caps. A ray meets them from outside; inside one it goes on to the next.
+    // caps. A ray hits them from outside; inside a fibre it goes on to the next one.
     std::vector<std::vector<glm::dvec4>> curves;
     std::vector<MattMesh> meshes;
     std::vector<PointLight> points;
     std::vector<DirectionalLight> directions;
     std::vector<SphereLight> spheres;
-    glm::dvec3 background{0};  // radiance from everywhere
+    glm::dvec3 background{0};  // radiance from all directions
 };
 
-// A pinhole camera; a pixel is the mean over its square.
+// A pinhole camera. A pixel is the mean over its square.
 struct TracedCamera {
     glm::dvec3 position{0};
     glm::dvec3 target{0};
@@ -64,22 +64,22 @@ struct TracedCamera {
 
 struct TracedPicture {
     std::vector<glm::dvec3> radiances;  // [row][column], top row first
-    std::vector<glm::dvec3> variances;  // of those means, from their samples' spread
+    std::vector<glm::dvec3> variances;  // of these means, from the spread of their samples
 
     glm::dvec3 mean() const;
     glm::dvec3 standardError() const;  // of mean()
 };
 
-// Paths that meet more fibres and meshes than this end.
+// Paths end after this many hits of fibres and meshes.
 inline constexpr int kMostMeetings = 63;
 
 class PathTracer {
 public:
-    explicit PathTracer(const TracedScene& scene);  // which outlives it
+    explicit PathTracer(const TracedScene& scene);  // `scene` must outlive this
     ~PathTracer();
 
-    // Two threads share the rows. The picture depends on `seed` alone, not on them. A pixel has
-    // at least two `samples`.
+    // Two threads share the rows. The picture depends only on `seed`, not on the threads.
+    // `samples`: per pixel, at least two.
     TracedPicture
     trace(const TracedCamera& camera, std::uint32_t samples, std::uint64_t seed) const;
 

@@ -19,14 +19,14 @@
 namespace hair::reference {
 namespace {
 
-// Lower bound of a segment's length in C_s, over the strand's mean: only coincident points fall
+// Lower bound on a segment's length in C_s, over the strand's mean. Only coincident points fall
 // below.
 constexpr double kLeastConstraintLength = 0.1;
 
-// The gradient of a constraint of three components by a quaternion's (x, y, z, w).
+// Gradient of a constraint with three components by a quaternion's (x, y, z, w).
 using TurnGradient = glm::dmat4x3;
 
-// From how the constraint changes with each of the four numbers.
+// `change` gives the constraint's change with each of the four numbers.
 template <class Change>
 TurnGradient gradientOf(const Change& change) {
     TurnGradient gradient;
@@ -105,10 +105,10 @@ void PositionBasedStep::holdSegment(std::size_t i) {
     const auto axis = [&](const glm::dquat& a, const glm::dquat& b) {
         return imaginary(a * e3 * glm::conjugate(b));
     };
-    // An edge of no length at rest has none.
+    // A segment without length at rest has no direction term.
     const double share = rest.lengths[i] / length;
     const glm::dvec3 misfit = (positions[i] - positions[i - 1]) / length - share * axis(q, q);
-    // By a unit segment's: what is shorter turns as it would.
+    // The gradient of a unit segment: a shorter segment turns like one.
     const TurnGradient gradient =
         gradientOf([&](const glm::dquat& unit) { return -(axis(unit, q) + axis(q, unit)); });
     const double compliance = per_square() / (parameters.stretch_stiffness * length);
@@ -129,7 +129,7 @@ void PositionBasedStep::holdJoint(std::size_t i) {
     const glm::dquat back = glm::conjugate(half);
     const glm::dquat above = state.orientations[i - 1];
     const glm::dquat here = state.orientations[i];
-    // Linear in either.
+    // Linear in both orientations.
     const auto rotation = [&](const glm::dquat& first, const glm::dquat& second) {
         return back * glm::conjugate(first) * second * back;
     };

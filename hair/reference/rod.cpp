@@ -15,10 +15,10 @@
 namespace hair::reference {
 namespace {
 
-// rad, of a whole joint: where tangents turn lines.
+// rad, of a whole joint: beyond this angle the torque is linear.
 constexpr double kSteepest = 2.0 * std::numbers::pi / 3.0;
 
-// Energy of bending over stiffness with its first two derivatives by the angle.
+// Bending energy over stiffness, and its first two derivatives by the angle.
 struct Bend {
     double energy, torque, stiffness;
 };
@@ -41,25 +41,24 @@ Bend bendBy(double angle, double copies) {
 
 // ---- A step -------------------------------------------------------------------------------------
 
-// Lower bounds, over the strand's mean segment, of the length that a segment's inertia is worked
-// out with and of a vertex's mass. Only coincident points fall below; the bounds keep divisors from
-// 0.
+// Lower bounds, over the strand's mean segment, on the length used for a segment's inertia and on a
+// vertex's mass. Only coincident points fall below. The bounds avoid division by 0.
 constexpr double kLeastLength = 0.1;
 constexpr double kLeastMass = 0.01;
 // Largest rotation of a segment in an iteration, rad: a Newton step from far away can overshoot.
 constexpr double kMostTurn = 1.0;
 
-// A pin is a spring on its vertex, as if the mass of a hundred rods had to come back in one step.
+// A pin is a spring on its vertex, as if the mass of a hundred rods had to return in one step.
 constexpr double kPinMass = 100.0;
 
-// Of generalised alpha: the share of the forces before in an acceleration as velocities take it,
-// Newmark's two weights, and the share of h^2 for which the forces of the step's end act.
+// Generalised alpha: the share of the earlier forces in an acceleration used by velocities,
+// Newmark's two weights, and the fraction of h^2 over which the forces at the end of the step act.
 constexpr double kAlphaForces = 1.0 / 3.0;
 constexpr double kGamma = 5.0 / 6.0;
 constexpr double kBeta = 4.0 / 9.0;
 constexpr double kForceShare = kBeta * (1.0 - kAlphaForces);
-// Over the strand's mean segment: what collisions stretch a segment by that then comes back at once
-// and tells nothing of the acceleration.
+// Over the strand's mean segment: a segment that collisions stretch by more returns at once, and
+// says nothing about the acceleration.
 constexpr double kLeastMisfit = 1e-4;
 
 const glm::dmat3 kIdentity(1.0);
@@ -71,7 +70,8 @@ glm::dmat3 crossMatrix(const glm::dvec3& a) {
 
 glm::dvec3 axisOf(const glm::dquat& orientation) { return orientation * glm::dvec3(0.0, 0.0, 1.0); }
 
-// Turned by a rotation vector, to second order; by less than half a turn however long it is.
+// Returns the orientation turned by a rotation vector, to second order, and by less than half a
+// turn at any length.
 glm::dquat turned(const glm::dquat& orientation, const glm::dvec3& rotation) {
     return glm::normalize(glm::dquat(1.0, 0.5 * rotation) * orientation);
 }
@@ -83,15 +83,15 @@ Joint jointAt(const RodState& state, const RodRest& rest, std::size_t i) {
         rest.twist_stiffness[i], i == 1 ? Clamp::yes : Clamp::no, rest.ellipticity);
 }
 
-// A step's unknowns are rotations of the segments; the vertices follow, so that lengths never
-// change. The step minimises
+// A step's unknowns are the segments' rotations. The vertices follow, so lengths never change. The
+// step minimises
 //   sum over i of  m_i / (2 h^2) |displacement_i|^2 + j_i / (2 h^2) |rotation_i|^2 + U_i,
-// both from the prediction, U_i the energy of joint i. All of this in N m. Air that brakes gives
-// the prediction the velocities of vertices that nothing else holds, and |d|^2 becomes d (1 + h K)
-// d.
+// both measured from the prediction, with the energy U_i of joint i. All terms are in N m. With air
+// drag, the prediction has the velocities of free vertices in the air, and |d|^2 becomes
+// d (1 + h K) d.
 //
-// Generalised alpha predicts otherwise, by the accelerations before, and lets forces act for
-// kForceShare of h^2. A joint's viscosity is its stiffness against what it turned in the substep.
+// Generalised alpha predicts from the earlier accelerations instead, and lets forces act over
+// kForceShare of h^2. A joint's viscosity is its stiffness against its turn in the substep.
 struct RodSubstep {
     RodState& state;
     const RodRest& rest;
@@ -101,18 +101,18 @@ struct RodSubstep {
     std::vector<glm::dvec3> displacements;  // of vertices, m
     std::vector<glm::dvec3> rotations;  // of segments, rad
     std::vector<glm::dmat3> drag;  // of vertices, 1/s
-    std::vector<glm::dvec3> predicted_turns;  // of segments, rad; the first is the follicle's turn
+    std::vector<glm::dvec3> predicted_turns;  // of segments, rad; the first is the follicle's
     std::vector<glm::dvec3> loads;  // accelerations of the vertices, m/s^2
     bool stretched = false;  // by collisions
 
     std::size_t size() const { return rest.lengths.size(); }
     double forceShare() const { return second_order ? kForceShare : 1.0; }
-    // Of joints, over their stiffness.
+    // Viscosity of joints, over their stiffness.
     double viscosity() const {
         return second_order ? scheme.damping / substep
                             : std::max(scheme.damping / substep - 1.0, 0.0);
     }
-    // What accelerations before add to a prediction, m or rad.
+    // Returns the contribution of earlier accelerations to a prediction, m or rad.
     glm::dvec3 carried(const glm::dvec3& taken, const glm::dvec3& real) const {
         return substep * substep * ((0.5 - kBeta) * taken + kBeta * kAlphaForces * real);
     }
@@ -147,8 +147,8 @@ void RodSubstep::predict(
     predicted_turns = {
         (turned_by.w < 0.0 ? -2.0 : 2.0) * glm::dvec3(turned_by.x, turned_by.y, turned_by.z)};
     state.orientations[0] = follicle;
-    // The prediction itself stretches segments: it is what displacements are against.
-    glm::dvec3 misfits{0.0};  // what collisions did, from the root down
+    // The prediction itself stretches segments; displacements are relative to it.
+    glm::dvec3 misfits{0.0};  // by collisions, from the root down
     const double mean = std::accumulate(rest.lengths.begin(), rest.lengths.end(), 0.0) /
                         static_cast<double>(size() - 1);
     glm::dvec3 position = state.root;
@@ -193,9 +193,9 @@ void RodSubstep::turn(std::span<const glm::dvec3> turns) {
     }
 }
 
-// One Newton step. `Below` is the least energy of all below a vertex as a quadratic function of how
-// the vertex moves (x) and the segment that ends there turns (t): x A x / 2 + x B t + t C t / 2 +
-// a x + b t; going up, the turn of each segment is eliminated.
+// One Newton step. `Below` is the least energy of everything below a vertex, as a quadratic
+// function of the vertex's movement (x) and the turn of the segment that ends there (t):
+// x A x / 2 + x B t + t C t / 2 + a x + b t. Going up, each segment's turn is eliminated.
 void RodSubstep::iterate() {
     struct Below {
         glm::dmat3 A{0.0}, B{0.0}, C{0.0};
@@ -220,8 +220,8 @@ void RodSubstep::iterate() {
         joint.torque -= viscosity() * (joint.stiffness * bent);
         joint.stiffness *= 1.0 + viscosity();
 
-        // Geometric stiffness: tension straightens. Pressure would bend, which is left out lest the
-        // minimum be a saddle.
+        // Geometric stiffness: tension straightens. Compression would bend; it is left out, because
+        // the minimum could become a saddle.
         force += mass * displacements[i];
         const double tension = -glm::dot(force, axis);
         below.A += mass;
@@ -230,7 +230,7 @@ void RodSubstep::iterate() {
                                              (kIdentity - glm::outerProduct(axis, axis));
         below.b += inertia * rotations[i];
 
-        // From the vertex at the end of the segment to that at its start: x + lever t.
+        // From the vertex at the segment's end to the vertex at its start: x + lever t.
         const glm::dmat3 lever = -rest.lengths[i] * crossMatrix(axis);
         const glm::dmat3 from_lever = glm::transpose(lever) * below.B;
         below.C +=
@@ -306,17 +306,17 @@ Joint bendAndTwist(
     const glm::dquat& first, const glm::dquat& second, double bend_stiffness,
     double twist_stiffness, Clamp clamp, double ellipticity) {
     // The relative rotation: first a twist round the third axis, then a bend by `angle`. Opposite
-    // third axes leave w = z = 0; which twist they get is of no account.
+    // third axes leave w = z = 0; their twist does not matter.
     glm::dquat r = glm::conjugate(first) * second;
     if (r.w < 0.0) r = -r;
     if (r.w * r.w + r.z * r.z < 1e-12) r.w = 1e-6;
-    const double cosine = std::sqrt(r.w * r.w + r.z * r.z);  // of half of the angle
+    const double cosine = std::sqrt(r.w * r.w + r.z * r.z);  // of half the angle
     const double sine = std::sqrt(r.x * r.x + r.y * r.y);
     const double angle = 2.0 * std::atan2(sine, cosine);
     const double twist = 2.0 * std::atan2(r.z, r.w);
 
-    // Both have length sine * cosine: `across` is the axis that the angle grows round, `beside` is
-    // perpendicular to it and to the first frame's third axis.
+    // Both have the length sine * cosine. `across` is the bend's axis; `beside` is perpendicular to
+    // it and to the first frame's third axis.
     const glm::dvec3 across(r.w * r.x - r.z * r.y, r.w * r.y + r.z * r.x, 0.0);
     const glm::dvec3 beside(across.y, -across.x, 0.0);
     const glm::dvec3 axis(0.0, 0.0, 1.0);
@@ -332,8 +332,8 @@ Joint bendAndTwist(
     const double fade_slope = fades ? 2.0 * square / (square_there * square_there) : 0.0;
 
     const glm::dvec3 twist_gradient = axis + beside / square;
-    // K(p) of the frame halfway, whose axes are the first frame's after half of the twist, and how
-    // the energy changes with p, which half of a twist adds to and the bend's axis turns with.
+    // K(p) in the halfway frame, which has the first frame's axes after half of the twist, and the
+    // energy's change with p. p changes by half of a twist and with the bend's axis.
     const double direction = std::atan2(r.y, r.x);
     const double squeezed = (ellipticity - 1.0 / ellipticity) / 2.0;
     const double directed = bend_stiffness * ((ellipticity + 1.0 / ellipticity) / 2.0 +
@@ -342,8 +342,8 @@ Joint bendAndTwist(
     if (sine > 0.0)
         turning = -bend_stiffness * squeezed * std::sin(2.0 * direction) * bend.energy *
                   (axis - beside / (sine * sine));
-    // How the part of the bend grows that goes along the longer axis, at right angles to the first
-    // axis of the frame halfway: its square is what costs more than the shorter axis's.
+    // Growth of the bend's component along the longer axis, perpendicular to the first axis of the
+    // halfway frame. Its square costs the additional energy relative to the shorter axis.
     const double along_longer = sine > 0.0 ? std::sqrt(2.0 * bend.energy) / sine : 2.0;
     const glm::dvec3 stiff =
         glm::dvec3(std::cos(twist / 2.0), std::sin(twist / 2.0), -0.5 * along_longer * r.y);
@@ -351,8 +351,8 @@ Joint bendAndTwist(
     const glm::dvec3 gradient = directed * bend.torque * bend_axis + turning +
                                 twist_stiffness * (twist * fade * twist_gradient -
                                                    0.5 * twist * twist * fade_slope * across);
-    // What the small rotations make of it; the torque is exact, and so is where Newton's method
-    // goes.
+    // The stiffness for small rotations. The torque is exact, and so is the limit of Newton's
+    // method.
     const glm::dmat3 stiffness =
         bend_stiffness * ((glm::dmat3(1.0) - glm::outerProduct(axis, axis)) / ellipticity +
                           (ellipticity - 1.0 / ellipticity) * glm::outerProduct(stiff, stiff)) +

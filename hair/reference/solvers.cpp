@@ -21,7 +21,7 @@ namespace {
 
 // ---- Rods ---------------------------------------------------------------------------------------
 
-// What a method for rods needs of a step.
+// Inputs of a rod method's step.
 struct RodStep {
     std::span<const glm::dvec3> accelerations;
     RodRoot root;
@@ -30,13 +30,13 @@ struct RodStep {
     const Step& step;
 };
 
-// One step of a strand, and where collisions take it then.
+// One step of a strand, and the push by collisions after it.
 struct RodMethod {
     void (*step)(RodState&, const RodRest&, const RodStep&);
     void (*push)(RodState&, const RodRest&, std::span<const glm::dvec3>, double substep);
 };
 
-// Rods by one of these methods as a solver of a Reference.
+// A Reference's solver of rods by one of these methods.
 class RodSolver : public Solver {
 public:
     RodSolver(
@@ -105,7 +105,7 @@ void RodSolver::adopt(const Substep& substep) {
         rootOf(substep.frame));
 }
 
-// Inextensible, by Newton's method.
+// Inextensible rods, by Newton's method.
 void stepInextensibleRod(RodState& state, const RodRest& rest, const RodStep& step) {
     const RodSettings& settings = step.settings.rod;
     const bool alpha = settings.integrator == RodIntegrator::generalized_alpha;
@@ -187,7 +187,7 @@ std::vector<glm::dvec3> velocitiesOf(const Substep& substep, const Step& step) {
     return velocities;
 }
 
-// Of the strand as the substep starts; empty without air that brakes.
+// Returns the drag at the start of the substep; empty without air.
 std::vector<glm::dmat3>
 dragOf(const Substep& substep, const SimulationSettings& settings, const Step& step) {
     if (substep.air.empty()) return {};
@@ -203,7 +203,8 @@ void stepRest(const Substep& substep, const SimulationSettings&, const Step&) {
     }
 }
 
-// The substep's system of the local constraint with an energy, of all that acts on vertices.
+// The substep's system of the local constraint with an energy, with everything that acts on
+// vertices.
 void bendShape(
     const Substep& substep, ConstPoints rest, std::span<const glm::dmat3> drag,
     const SimulationSettings& settings, const Step& step) {
@@ -279,7 +280,7 @@ void stepShape(const Substep& substep, const SimulationSettings& settings, const
                 projectLengths(positions, rest, lightness);
     }
 
-    // Bodies come between lengths and lengths: one pass more where the strand touches one.
+    // Bodies act between two length passes: one more pass if the strand touches a body.
     std::vector<Pushed> met(vertices);
     for (std::size_t i = 1; i < vertices; ++i) {
         met[i] = substep.push_out(positions[i], before[i]);
@@ -420,7 +421,7 @@ void Reference::advance(const Air& air, double then) {
                     .kept = &friction_kept_});
     for (std::size_t i = 0; i < accelerations.size(); ++i)
         accelerations[i] += glm::dvec3(settings_.gravity) + contact_accelerations[i];
-    // While hair settles time stands still, and no hand pulls.
+    // While hair settles, time stands still and no hand pulls.
     if (then > time())
         reference::addPulls(
             settings_.pulls,

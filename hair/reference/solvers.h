@@ -21,44 +21,44 @@ namespace hair::reference {
 struct Substep {
     std::size_t strand = 0;
     Points positions;
-    Points previous;  // becomes the positions before the substep, or what the solver makes of them
-    ConstPoints rest;  // where the groom was made, m
-    ConstPoints accelerations;  // of gravity and all that is held for a whole step, m/s^2
-    ConstPoints air;  // its velocity at the vertices, m/s; empty: it does not brake
+    Points previous;  // becomes the positions before the substep, or what the solver needs
+    ConstPoints rest;  // in the groom's frame, m
+    ConstPoints accelerations;  // gravity and everything constant over a whole step, m/s^2
+    ConstPoints air;  // air velocity at the vertices, m/s; empty: no drag
     simulation::RigidMotion frame;  // of the head at the substep's end
     simulation::RigidMotion frame_before;  // and at its start
-    // Where a vertex comes to lie that the substep has moved from `before` to `position`.
+    // Returns the contact of a vertex that the substep moved from `before` to `position`.
     PushOut push_out;
 };
 
-// What moves the strands of a Reference, as GuideSolver moves those of a Simulation.
+// Moves the strands of a Reference, as GuideSolver moves those of a Simulation.
 class Solver {
 public:
     virtual ~Solver() = default;
 
     virtual void step(const Substep& substep) = 0;
 
-    // Derives the state of its own from positions and previous positions that someone else wrote.
+    // Derives the solver's own state from positions and previous positions that other code wrote.
     // Accelerations and push_out are empty.
     virtual void adopt(const Substep&) {}
 };
 
-// The settings' solver; null where nothing moves: `none` without keyframes.
+// Makes the solver of the settings; null if nothing moves: `none` without keyframes.
 std::unique_ptr<Solver>
 makeSolver(const groom::Groom& groom, const SimulationSettings& settings, const Step& step);
 
-// The simulation on the CPU in double, on a head that moves: a Solver, substep by substep. Plain
-// and slow; hair/simulation/simulation.h has the one that is measured.
+// The simulation on the CPU in double, on a moving head: a Solver, substep by substep. Simple and
+// slow; hair/simulation/simulation.h has the measured one.
 class Reference {
 public:
     Reference(const groom::Groom& groom, const SimulationSettings& settings, std::uint32_t seed);
 
-    // Positions and those one substep earlier, [strand][vertex], m.
+    // Sets positions, and positions one substep earlier, [strand][vertex], m.
     void setState(std::span<const glm::dvec3> positions, std::span<const glm::dvec3> previous);
 
-    // One time step under gravity, the wind and the hands of the current time.
+    // Simulates one time step under gravity, wind and hands at the current time.
     void step();
-    // One time step under gravity and in still air; time stands still.
+    // Simulates one time step under gravity in still air. Simulated time does not advance.
     void settle();
 
     double time() const { return steps_ * step_.whole; }
@@ -66,9 +66,10 @@ public:
     std::span<const glm::dvec3> previous() const { return previous_; }
 
 private:
-    // What air does to every vertex now, [strand][vertex].
+    // Returns the air at every vertex now, [strand][vertex].
     Air airNow(const SimulationSettings& settings) const;
-    // One step, in which the head goes from where it is now to where it is at the time `then`.
+    // Simulates one step, in which the head moves from its present pose to its pose at the time
+    // `then`.
     void advance(const Air& air, double then);
 
     template <class Points>

@@ -18,7 +18,7 @@
 namespace hair::reference {
 namespace {
 
-// Lower bound of a segment's length in its spring, over the strand's mean: only coincident points
+// Lower bound on a segment's length in its spring, over the strand's mean. Only coincident points
 // fall below.
 constexpr double kLeastSpringLength = 0.1;
 
@@ -27,7 +27,7 @@ constexpr double kLeastSpringLength = 0.1;
 glm::dvec4 toVector(const glm::dquat& q) { return {q.x, q.y, q.z, q.w}; }
 glm::dquat toQuaternion(const glm::dvec4& v) { return {v.w, v.x, v.y, v.z}; }
 
-// The matrix of q -> a q b.
+// Returns the matrix of q -> a q b.
 glm::dmat4 sandwich(const glm::dquat& a, const glm::dquat& b) {
     glm::dmat4 matrix;
     for (int column = 0; column < 4; ++column) {
@@ -42,14 +42,15 @@ glm::dvec3 thirdAxis(const glm::dquat& q) { return q * glm::dvec3(0.0, 0.0, 1.0)
 
 // ---- Joints -------------------------------------------------------------------------------------
 
-// What of a joint's stiffness is in the quadratic part of its energy, for the components of r.
+// Returns the part of a joint's stiffness in the quadratic part of its energy, for the components
+// of r.
 glm::dvec4 excessOf(const RodRest& rest, std::size_t i) {
     const double greatest = std::max(rest.bend_stiffness[i], rest.twist_stiffness[i]);
     const double bend = greatest - rest.bend_stiffness[i];
     return {bend, bend, greatest - rest.twist_stiffness[i], 0.0};
 }
 
-// Minus the gradient of E_bt by r where it is this.
+// Returns minus the gradient of E_bt by r.
 glm::dvec4 pullAt(const RodRest& rest, std::size_t i, const glm::dvec4& r) {
     const double greatest = std::max(rest.bend_stiffness[i], rest.twist_stiffness[i]);
     glm::dvec4 pull = 4.0 * excessOf(rest, i) * r;
@@ -89,7 +90,7 @@ struct CosseratStep {
         const double total = std::accumulate(rest.lengths.begin(), rest.lengths.end(), 0.0);
         return std::max(total / static_cast<double>(size() - 1), 1e-6);
     }
-    // h k, k the two equal eigenvalues of K.
+    // h k, where k is the double eigenvalue of K.
     double brakeAt(std::size_t i) const {
         return parameters.substep * (drag[i][0][0] + drag[i][1][1] + drag[i][2][2]) / 2.0;
     }
@@ -139,7 +140,7 @@ void CosseratStep::orient() {
     }
 }
 
-// The tridiagonal system by Gaussian elimination. Air's excess is at the last positions.
+// Solves the tridiagonal system by Gaussian elimination. Takes air's excess at the last positions.
 void CosseratStep::place() {
     const double per_square = 1.0 / (parameters.substep * parameters.substep);
     std::vector<double> diagonal(size(), 0.0);
@@ -233,9 +234,9 @@ bendTwistEnergy(const RodRest& rest, std::span<const glm::dquat> orientations, s
     return 4.0 * greatest * (1.0 - std::abs(r.w)) - 2.0 * glm::dot(excessOf(rest, i) * r, r);
 }
 
-// The paper's closed form, of which |q| falls with lambda beyond |v|, from infinity; where it is 1
-// is the greatest of all. Newton's method for 1 / |q| = 1 by t = lambda - |v|, kept between bounds.
-// lambda b + v b e3 = t b + (|v| b + v b e3) loses nothing where t is small.
+// The paper's closed form. For lambda > |v|, |q| falls from infinity, and the maximum is at
+// |q| = 1. Newton's method for 1 / |q| = 1 in t = lambda - |v|, kept between bounds. The form
+// lambda b + v b e3 = t b + (|v| b + v b e3) loses no precision for small t.
 glm::dquat balancedOrientation(const glm::dquat& b, const glm::dvec3& edge) {
     const glm::dquat v(0.0, -2.0 * edge);
     const glm::dquat e3(0.0, 0.0, 0.0, 1.0);

@@ -13,7 +13,7 @@
 namespace hair::reference {
 namespace {
 
-// A value with its gradient.
+// A value and its gradient.
 struct Dual {
     double value = 0.0;
     glm::dvec3 gradient{0.0};
