@@ -95,7 +95,7 @@ private:
 // Commands that a queue accepts.
 enum class QueueKind {
     all,
-    compute,  // no graphics: barriers omit graphics stages, whose commands others order
+    compute,  // no graphics: barriers omit graphics stages, which others order
 };
 
 // A command buffer being recorded. Borrows the buffer and its sets; adds no barriers by itself.

@@ -87,7 +87,7 @@ private:
         Scope scope;
         std::string pass;
         std::uint64_t submission = 0;
-        VkPipelineStageFlags2 ordered = 0;  // stages whose later commands come after it
+        VkPipelineStageFlags2 ordered = 0;  // stages with all later commands after it
         bool available = false;  // a write: a barrier has made it available
         std::vector<Scope> visible;  // for a write: the scopes it is visible to
     };

@@ -78,7 +78,7 @@ extern "C" void onInterrupt(int signal) {
     std::signal(signal, SIG_DFL);
 }
 
-// What endInterrupted() does last: files to remove and LastWords to call.
+// Last actions of endInterrupted(): files to remove and LastWords to call.
 struct Ending {
     std::mutex mutex;
     std::multiset<std::filesystem::path> leftovers;

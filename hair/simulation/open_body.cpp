@@ -210,7 +210,7 @@ private:
     }
 
     // Whether no triangle lies between the ends. Through a triangle, winding numbers jump by 1.
-    // Beside its rim they change by the edge's turn round the rim, which is less than half a turn:
+    // Next to its rim they change by the edge's turn round the rim, which is less than half a turn:
     // 1/2.
     bool isSmooth(const Edge& edge) const {
         return std::abs(windings_[edge.from] - windings_[edge.to]) < 0.5f;
