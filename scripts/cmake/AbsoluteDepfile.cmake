@@ -1,6 +1,6 @@
 # cmake -DDEPFILE=shader.d -DOUTPUT=shader.spv -DFOLDER=shaders -P AbsoluteDepfile.cmake
-# Names the files of a depfile by absolute paths: those in it are relative to FOLDER, and CMake would
-# take them to be relative to the build.
+# Makes the file names in a depfile absolute. They are relative to FOLDER, but CMake would take them
+# to be relative to the build.
 file(READ "${DEPFILE}" text)
 string(REGEX REPLACE "^.*: " "" files "${text}")  # what depends on them is OUTPUT
 string(REGEX REPLACE "[ \n]+" ";" files "${files}")

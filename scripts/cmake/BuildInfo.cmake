@@ -1,7 +1,7 @@
 # cmake -DOUTPUT=build_info.h -DSOURCE=… -DVERSION=… -DCOMPILER=… -DTYPE=… -DFLAGS=…
 #     -P BuildInfo.cmake
-# Run at every build: the commit changes without CMake being run again. The file is touched only when
-# something in it changed.
+# Runs at every build, because the commit can change without a new CMake run. Touches the file only
+# if its contents change.
 find_program(GIT git)
 set(commit "")
 set(dirty false)
@@ -17,7 +17,7 @@ if(GIT)
 endif()
 string(STRIP "${FLAGS}" flags)
 string(REGEX REPLACE " +" " " flags "${flags}")
-# As a C++ string.
+# Escaped for a C++ string.
 string(REPLACE "\\" "\\\\" flags "${flags}")
 string(REPLACE "\"" "\\\"" flags "${flags}")
 set(text "#pragma once

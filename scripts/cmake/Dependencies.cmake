@@ -1,5 +1,5 @@
-# Finds every library and tool, and gives each one target name whatever the system calls it.
-# Packages come first everywhere, so a vcpkg toolchain or a Vulkan SDK works as well as scripts/setup.
+# Finds every library and tool, and gives each one a single target name, whatever the system calls
+# it. Packages come first, so a vcpkg toolchain or a Vulkan SDK works as well as scripts/setup.
 # Nothing is downloaded here. docs/dependencies.md says why each one is needed.
 
 set(HAIRBENCH_DEPS "${CMAKE_CURRENT_LIST_DIR}/../../.deps")  # what scripts/setup fetched
@@ -24,7 +24,7 @@ endfunction()
 # ---- tools
 find_program(CCACHE ccache)
 if(CCACHE AND NOT CMAKE_CXX_COMPILER_LAUNCHER)
-    # Without these it would not keep what is compiled with a precompiled header.
+    # Without these, ccache would not cache files that use a precompiled header.
     set(launcher "${CMAKE_COMMAND}" -E env CCACHE_SLOPPINESS=pch_defines,time_macros "${CCACHE}")
     set(CMAKE_C_COMPILER_LAUNCHER "${launcher}")
     set(CMAKE_CXX_COMPILER_LAUNCHER "${launcher}")
@@ -41,8 +41,8 @@ if(NOT TARGET Vulkan::Headers)
     find_package(Vulkan REQUIRED)
 endif()
 
-# volk is compiled here: Debian 12 packages only its sources, and a packaged library may have been
-# built for other headers than the ones we include.
+# volk is compiled here. Debian 12 packages only its sources, and a packaged library may have been
+# built for other headers than ours.
 find_file(VOLK_SOURCE volk.c
     HINTS "$ENV{VULKAN_SDK}/include" "$ENV{VULKAN_SDK}/Include"
     PATH_SUFFIXES volk Volk)
@@ -67,8 +67,8 @@ target_link_libraries(hairbench::vma INTERFACE Vulkan::Headers)
 
 # ---- the viewer
 find_package(glfw3 CONFIG REQUIRED)
-# Dear ImGui is compiled here, of sources: a packaged library's Vulkan back end is linked with the
-# loader's functions, and with volk's in their place it crashes.
+# Dear ImGui is compiled here, from source. The Vulkan back end of a packaged library is linked with
+# the loader's functions, and crashes with volk's in their place.
 find_path(IMGUI_DIR imgui.h PATHS "${HAIRBENCH_DEPS}/imgui" NO_DEFAULT_PATH)
 mark_as_advanced(IMGUI_DIR)
 if(NOT IMGUI_DIR)
@@ -84,7 +84,7 @@ add_library(hairbench_imgui STATIC
     ${IMGUI_DIR}/backends/imgui_impl_vulkan.cpp)
 target_include_directories(hairbench_imgui SYSTEM PUBLIC ${IMGUI_DIR})
 target_compile_definitions(hairbench_imgui PRIVATE IMGUI_IMPL_VULKAN_NO_PROTOTYPES VK_NO_PROTOTYPES)
-# It then tells engine/ui.cpp of its widgets, while somebody asks.
+# With this, Dear ImGui reports its widgets to engine/ui.cpp on request.
 target_compile_definitions(hairbench_imgui PUBLIC IMGUI_ENABLE_TEST_ENGINE)
 target_compile_options(hairbench_imgui PRIVATE -w)
 target_link_libraries(hairbench_imgui PUBLIC glfw Vulkan::Headers)
@@ -93,8 +93,8 @@ find_file(HAIRBENCH_UI_FONT DejaVuSans.ttf
     PATHS /usr/share/fonts/truetype/dejavu /usr/share/fonts/TTF /usr/share/fonts/dejavu)
 mark_as_advanced(HAIRBENCH_UI_FONT)
 
-# glslang again, as a library: shaders are compiled while the viewer runs. Its package names
-# SPIRV-Tools' libraries as if they had been found, and later releases have fewer of its own.
+# glslang as a library, to compile shaders while the viewer runs. Its package names SPIRV-Tools'
+# libraries as if they had been found; later releases have fewer libraries of their own.
 find_package(SPIRV-Tools-opt CONFIG QUIET)
 find_package(SPIRV-Tools-link CONFIG QUIET)
 find_package(glslang CONFIG REQUIRED)
@@ -136,8 +136,8 @@ hairbench_header_only(valijson valijson/validator.hpp)
 # ---- tests only
 if(BUILD_TESTING OR NOT DEFINED BUILD_TESTING)
     find_package(GTest CONFIG REQUIRED)
-    # SwiftShader comes with Chromium, whose description of it has a path that only Chromium
-    # understands: tests have the loader read this one (VK_DRIVER_FILES).
+    # SwiftShader comes with Chromium. Its own ICD file has a path that only Chromium understands,
+    # so tests make the loader read this one (VK_DRIVER_FILES).
     find_library(HAIRBENCH_SWIFTSHADER vk_swiftshader NO_DEFAULT_PATH
         PATHS /usr/lib/chromium /usr/lib/chromium-browser /usr/lib64/chromium-browser
             /opt/google/chrome)

@@ -1,15 +1,15 @@
-# `cmake --install` and `cpack`. An installed tree may be moved: programs find what is theirs from
-# where they are (engine/program_files.h), which is why these folders have no variables.
+# `cmake --install` and `cpack`. An installed tree can be moved, because programs find their files
+# relative to themselves (engine/program_files.h). So these folders have no variables.
 
 install(TARGETS hairbench RUNTIME DESTINATION bin)
 install(TARGETS hairbench_mesh_reader RUNTIME DESTINATION libexec/hairbench)
-# Python environments are the user's to make, of what is pinned.
+# Users make the Python environments themselves, from pinned requirements.
 install(PROGRAMS scripts/python-environment DESTINATION libexec/hairbench)
 install(FILES scripts/requirements.txt scripts/requirements-module.txt
     scripts/requirements-reference.txt
     DESTINATION libexec/hairbench)
 
-# What is read while the program runs is named as in the source tree.
+# Files that are read at run time are named as in the source tree.
 install(DIRECTORY scenes DESTINATION share/hairbench PATTERN "make_*.py" EXCLUDE)
 install(DIRECTORY shaders DESTINATION share/hairbench PATTERN "CMakeLists.txt" EXCLUDE)
 install(DIRECTORY benchmarks/report/page DESTINATION share/hairbench/benchmarks/report)
@@ -25,7 +25,7 @@ install(DIRECTORY hair/groom/formats DESTINATION share/hairbench/hair/groom
 
 set(help_dir "${PROJECT_BINARY_DIR}/help")  # benchmarks/CMakeLists.txt
 install(FILES "${help_dir}/hairbench" DESTINATION share/bash-completion/completions)
-# Where zsh looks below /usr/local, and Debian's below /usr.
+# zsh searches the first folder under /usr/local; Debian's searches the second under /usr.
 foreach(folder site-functions vendor-completions)
     install(FILES "${help_dir}/_hairbench" DESTINATION share/zsh/${folder})
 endforeach()
@@ -34,7 +34,7 @@ install(DIRECTORY "${help_dir}/man1" DESTINATION share/man)
 install(FILES README.md DESTINATION share/doc/hairbench)
 install(FILES LICENSE DESTINATION share/doc/hairbench RENAME copyright)
 install(DIRECTORY docs DESTINATION share/doc/hairbench)
-# The forms of reports, to read and for `doctor --reports`.
+# The schemas of reports, to read and for `doctor --reports`.
 install(DIRECTORY results DESTINATION share/hairbench
     FILES_MATCHING PATTERN "*.schema.json" PATTERN "pictures" EXCLUDE PATTERN "local" EXCLUDE)
 install(DIRECTORY results DESTINATION share/doc/hairbench
@@ -57,8 +57,8 @@ set(CPACK_STRIP_FILES ON)
 set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
 set(CPACK_DEBIAN_PACKAGE_SECTION graphics)
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
-# Loaded while the program runs, which dpkg-shlibdeps does not see.
+# Loaded at run time, so dpkg-shlibdeps does not see it.
 set(CPACK_DEBIAN_PACKAGE_DEPENDS libvulkan1)
-# A device where there is no GPU, the viewer's letters, and what makes Python environments.
+# A device for machines without a GPU, the viewer's font, and a tool to make Python environments.
 set(CPACK_DEBIAN_PACKAGE_RECOMMENDS "mesa-vulkan-drivers, fonts-dejavu-core, python3-venv")
 include(CPack)

@@ -1,13 +1,13 @@
-# Compiles GLSL to SPIR-V when the project is built and puts it into a static library, so that the
-# program needs no file at run time. Expects GLSLANG_VALIDATOR and SPIRV_VAL (Dependencies.cmake).
+# Compiles GLSL to SPIR-V at build time and puts it into a static library, so that the program needs
+# no shader files at run time. Expects GLSLANG_VALIDATOR and SPIRV_VAL (Dependencies.cmake).
 
 # hairbench_shaders(<target> HEADER <path> NAMESPACE <name> SHADERS <path>...)
 # Adds the static library <target>, which defines <name>::shaderCode() and <name>::shaderPaths() as
-# <header> declares them. engine/shaders.h has those of the program.
-# A path is an entry point, relative to the folder that calls this and with the stage as its
-# extension: simulation/wind.comp, strands/tessellation.tese. Included files are found relative to
-# that folder and to shaders/, and need not be listed: the compiler reports them, and changing one
-# rebuilds whoever includes it.
+# declared in <header>. engine/shaders.h declares those of the program. A path is an entry point,
+# relative to the calling folder, with its stage as extension: simulation/wind.comp,
+# strands/tessellation.tese. Included files are found relative to that folder and to shaders/. They
+# need not be listed: the compiler reports them, and a change to one rebuilds all files that include
+# it.
 function(hairbench_shaders target)
     cmake_parse_arguments(PARSE_ARGV 1 arg "" "HEADER;NAMESPACE" "SHADERS")
     set(source_dir "${CMAKE_CURRENT_SOURCE_DIR}")
@@ -36,18 +36,18 @@ function(hairbench_shaders target)
     set(HAIRBENCH_SHADER_ROWS "${rows}")
     configure_file("${CMAKE_CURRENT_FUNCTION_LIST_DIR}/shader_code.cpp.in"
         "${output_dir}/shader_code.cpp" @ONLY)
-    # The includes are found by the compiler only once they exist, hence OBJECT_DEPENDS.
+    # OBJECT_DEPENDS, because the compiler can only find the includes once they exist.
     set_source_files_properties("${output_dir}/shader_code.cpp"
         PROPERTIES OBJECT_DEPENDS "${embedded}")
     add_library(${target} STATIC "${output_dir}/shader_code.cpp")
-    # What its source depends on would not hold of a file that includes it.
+    # In a unity build, the dependencies of this source would not apply to the including file.
     set_target_properties(${target} PROPERTIES UNITY_BUILD OFF)
     target_compile_features(${target} PUBLIC cxx_std_20)
     target_include_directories(${target} PUBLIC "${PROJECT_SOURCE_DIR}")
 endfunction()
 
-# One shader: GLSL -> SPIR-V, validated where spirv-val exists -> a list of words to #include. The
-# remaining arguments are the compiler's -I.
+# Compiles one shader: GLSL -> SPIR-V, validated if spirv-val exists -> a list of words to #include.
+# The remaining arguments are -I options of the compiler.
 function(_hairbench_shader source_dir output_dir shader)
     set(spirv "${output_dir}/${shader}.spv")
     set(embed "${CMAKE_CURRENT_FUNCTION_LIST_DIR}/EmbedShader.cmake")
@@ -58,9 +58,9 @@ function(_hairbench_shader source_dir output_dir shader)
     if(SPIRV_VAL)
         set(validate COMMAND "${SPIRV_VAL}" --target-env vulkan1.3 --scalar-block-layout "${spirv}")
     endif()
-    # -g keeps names and texts for captures, messages and reloading (engine/shaders.h); -gVS
-    # would need an extension. Files are named relative to the shader's folder, so that the code is
-    # the same wherever the project lies and engine/shaders.h can make the same.
+    # -g keeps names and texts for captures, messages and reloading (engine/shaders.h); -gVS would
+    # need an extension. Files are named relative to the shader's folder, so that the code does not
+    # depend on the project's place, and engine/shaders.h can compile the same code.
     set(absolute "${CMAKE_CURRENT_FUNCTION_LIST_DIR}/AbsoluteDepfile.cmake")
     add_custom_command(
         OUTPUT "${spirv}"

@@ -1,20 +1,20 @@
-# What our own targets are compiled with; libraries of others are left alone.
+# Compile options of our own targets. Third-party libraries are left alone.
 
 option(HAIRBENCH_WERROR "Treat warnings in our own code as errors" ON)
 set(HAIRBENCH_SANITIZE "" CACHE STRING
     "Sanitizers to build with, as -fsanitize takes them: address,undefined or thread")
 
-# Hidden by default, project-wide: assimp pulls in a library that exports its own tinygltf, and the
-# two would otherwise be merged when the program starts.
+# Hidden by default in the whole project. assimp pulls in a library that exports its own tinygltf;
+# otherwise the dynamic linker would merge it with ours at program start.
 set(CMAKE_C_VISIBILITY_PRESET hidden)
 set(CMAKE_CXX_VISIBILITY_PRESET hidden)
 set(CMAKE_VISIBILITY_INLINES_HIDDEN ON)
 
-# Messages name files from the top of the source tree, and no program of ours names the machine that
-# built it.
+# Messages name files relative to the source tree, and our programs do not name the machine that
+# built them.
 set(HAIRBENCH_SHORT_NAMES "-fmacro-prefix-map=${PROJECT_SOURCE_DIR}/=")
 
-# Every target of ours calls this; it also applies the sanitizers when they are asked for.
+# Every target of ours calls this. It also applies the requested sanitizers.
 function(hairbench_warnings target)
     hairbench_sanitizers(${target})
     if(NOT CMAKE_CXX_COMPILER_ID MATCHES "GNU|Clang")
@@ -28,8 +28,8 @@ function(hairbench_warnings target)
         target_compile_options(${target} PRIVATE -Werror)
     endif()
     if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
-        # These depend on what the optimizer sees, so they come and go with the compiler's version:
-        # worth reading, not worth failing a build for. Under the sanitizers they are mostly wrong.
+        # These depend on the optimizer and so on the compiler's version. They are worth reading,
+        # but not worth failing a build. With sanitizers they are mostly wrong.
         set(keep "-Wno-error=")
         if(HAIRBENCH_SANITIZE)
             set(keep "-Wno-")
@@ -38,8 +38,8 @@ function(hairbench_warnings target)
                 stringop-overread free-nonheap-object)
             target_compile_options(${target} PRIVATE ${keep}${warning})
         endforeach()
-        # False alarms: std::string in GCC 12 (bug 105651), and since 13 every function that takes a
-        # temporary and returns a reference to something else, such as a row of a table.
+        # False alarms: std::string in GCC 12 (bug 105651), and since GCC 13 every function that
+        # takes a temporary and returns a reference to something else, such as a table row.
         if(CMAKE_CXX_COMPILER_VERSION VERSION_LESS 13)
             target_compile_options(${target} PRIVATE -Wno-restrict)
         else()
@@ -48,12 +48,12 @@ function(hairbench_warnings target)
     endif()
 endfunction()
 
-# By itself: precompiled headers of programs are none of C.
+# A separate target, because the precompiled headers of programs are C++, not C.
 if(HAIRBENCH_SANITIZE)
     add_library(sanitized_programs OBJECT "${CMAKE_CURRENT_LIST_DIR}/sanitized_programs.c")
 endif()
 
-# The link option is PUBLIC: whoever links a sanitized library needs the run-time library too.
+# The link option is PUBLIC: a target that links a sanitized library needs the run-time library too.
 function(hairbench_sanitizers target)
     if(NOT HAIRBENCH_SANITIZE)
         return()
