@@ -41,7 +41,6 @@ enum class DrawnFrom {
     meshes,  // task and mesh stages
 };
 
-// One pipeline-statistics query.
 class PipelineStatistics {
 public:
     PipelineStatistics(const Device& device, DrawnFrom drawn_from);

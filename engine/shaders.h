@@ -60,7 +60,6 @@ private:
     mutable std::map<std::string, std::shared_ptr<const ShaderCode>> extended_;
 };
 
-// A compiler error in a shader.
 struct ShaderError {
     std::string file;  // relative to the shader folder
     int line = 0;  // from 1; 0: unknown

@@ -14,8 +14,8 @@
 namespace hair::reference {
 
 struct BendStep {
-    // [vertex], root unused. `pushes`: substep^2 times the accelerations, the free movement, and
-    // air's contribution to both, m. `masses`: relative to the vertex's own mass.
+    // [vertex], root unused, both with air's part. `pushes`: free movement plus substep^2 times the
+    // accelerations, m. `masses`: effective mass over the vertex's own.
     std::vector<glm::dvec3> pushes;
     std::vector<glm::dmat3> masses;
     // Push of air along the tangent at a vertex when the strand turns there, m.

@@ -96,7 +96,7 @@ struct Pushed {
     bool touches = false;
     double held = 0.0;  // fraction of its motion along the surface that friction removes
 };
-// For a vertex that moved from `before` to `position`.
+// Returns the contact of a vertex that moved from `before` to `position`.
 using PushOut = std::function<Pushed(const glm::dvec3& position, const glm::dvec3& before)>;
 
 // Contact of one vertex with every capsule, in list order, each in the frame that it moves with;
@@ -110,7 +110,6 @@ struct Contact {
     simulation::RigidMotion frame;  // of the head at the end of the substep
     simulation::RigidMotion frame_before;  // of the head at its start
 
-    // Returns the contact of a vertex that moved from `before` to `position`.
     Pushed operator()(const glm::dvec3& position, const glm::dvec3& before) const {
         Pushed pushed{.position = position};
         double nearest = std::numeric_limits<double>::infinity();

@@ -291,7 +291,6 @@ void stepShape(const Substep& substep, const SimulationSettings& settings, const
         solveLengths(positions, rest, 1, lightness, met);
 }
 
-// Follow the leader.
 void stepFtl(const Substep& substep, const SimulationSettings& settings, const Step& step) {
     const std::vector<glm::dmat3> drag = dragOf(substep, settings, step);
     reference::stepFtl(

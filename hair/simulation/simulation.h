@@ -151,7 +151,7 @@ public:
     // True at vertices in contact with a body and at all vertices below them on the strand.
     std::vector<bool> readContacts() const;
 
-    // Returns the present condition of the guides. Waits for the device.
+    // Waits for the device.
     GuideCondition condition() const;
     // Balance, if /simulation/rest asks for it and the solver has a rest shape; else null.
     const RestBalance* balance() const { return solver_ ? solver_->balance() : nullptr; }
