@@ -9,7 +9,7 @@
 namespace hair::rendering {
 namespace {
 
-// All that is skipped, one row each.
+// All settings that back ends don't draw, one row each.
 constexpr std::array kBackendLimits{
     BackendLimit{
         Backend::lines, "`/render/coverage` `analytic`", "its lines are a pixel wide",
@@ -34,7 +34,7 @@ constexpr std::array kOnGraphicsProcessors{Backend::software,     Backend::expan
                                            Backend::pulling,      Backend::mesh,
                                            Backend::tessellation, Backend::pulling_geometry};
 
-// Why the back end can't draw the case; nothing where it can.
+// The reason why the back end can't draw the case; absent where it can.
 std::optional<std::string> obstacle(
     Backend backend, const engine::Device& device, const Settings& settings,
     const StrandPlan& plan) {

@@ -12,7 +12,7 @@
 // Which back end draws a case's strands.
 namespace hair::rendering {
 
-// What a back end doesn't draw: docs/rendering.md has the table.
+// A setting that a back end doesn't draw: docs/rendering.md has the table.
 struct BackendLimit {
     Backend backend;
     std::string_view asked_for;
@@ -21,21 +21,22 @@ struct BackendLimit {
 };
 std::span<const BackendLimit> backendLimits();
 
-// Throws engine::Unsupported for what the back end doesn't draw.
+// Throws engine::Unsupported for settings that the back end doesn't draw.
 void checkBackend(Backend backend, const Settings& settings);
 
-// Back ends that draw the same picture, those first that are faster on devices of the kind:
-// docs/rendering.md has both orders and where they are from.
+// Returns the back ends that draw the same picture, fastest first on this kind of device.
+// docs/rendering.md has both orders and their sources.
 std::span<const Backend> backendOrder(const engine::DeviceInfo& device);
 
 struct BackendChoice {
     Backend backend = Backend::tessellation;
-    std::string variant;  // StrandBackend::variant() of what was made of it
+    std::string variant;  // StrandBackend::variant() of the back end that was made
     std::string reason;
 };
 
-// The case's own back end or, where that is `automatic`, the first of backendOrder() that can draw
-// the case on the device. Throws engine::Unsupported for a case that the one of its own can't draw.
+// Returns the case's own back end or, where that is `automatic`, the first of backendOrder() that
+// can draw the case on the device. Throws engine::Unsupported where the case's own back end can't
+// draw it, or where none can.
 BackendChoice chooseBackend(
     const engine::Device& device, const Settings& settings, const StrandPlan& plan,
     const StrandStages& stages);

@@ -28,7 +28,7 @@ std::string geometryShader(QuadKind quads) {
     return quads == QuadKind::camera ? "strands/strand.geom" : "shadows/hair.geom";
 }
 
-// No strand at all.
+// Draws no strands.
 class EmptyBackend : public StrandBackend {
 public:
     void draw(engine::Commands&, const StrandPicture&) const override {}
@@ -36,7 +36,7 @@ public:
     std::optional<ExpectedCounts> expected() const override { return std::nullopt; }
 };
 
-// Both ends of every piece.
+// Returns the number of vertices: both ends of every piece.
 std::uint32_t lineListVertices(const StrandPlan& plan) {
     const std::uint64_t count =
         std::uint64_t{2} * plan.patches() * plan.strands_per_patch * plan.forced_tessellation;
@@ -46,8 +46,8 @@ std::uint32_t lineListVertices(const StrandPlan& plan) {
     return static_cast<std::uint32_t>(count);
 }
 
-// Strand points evaluated in the vertex stage of a line list, then the same geometry and fragment
-// stages as tessellation.
+// Evaluates strand points in the vertex stage of a line list, with the geometry and fragment stages
+// of tessellation.
 class PullingGeometryBackend : public StrandBackend {
 public:
     explicit PullingGeometryBackend(const BackendContext& context)
@@ -82,8 +82,8 @@ private:
     engine::GraphicsPipeline pipeline_;
 };
 
-// Strands as lines a pixel wide. Of what they cover of a pixel, opaque ones take as many of its
-// samples, at random: one is a dotted line.
+// Draws strands as lines a pixel wide. An opaque strand takes random samples of a pixel in
+// proportion to its coverage, so a single strand is a dotted line.
 class LinesBackend : public StrandBackend {
 public:
     explicit LinesBackend(const BackendContext& context)
@@ -119,14 +119,14 @@ private:
     engine::GraphicsPipeline pipeline_;
 };
 
-// Lines of pieces one after the other, whose ends are two corners each.
+// Lines of consecutive pieces. Each end of a piece has two corners.
 struct PieceLines {
     std::uint32_t lines;
     std::uint32_t pieces;  // of a line
-    std::uint32_t ends;  // from a line's first end to the next one's
+    std::uint32_t ends;  // from the first end of a line to that of the next
 };
 
-// The corners of the pieces' quads.
+// Returns the corners of the pieces' quads.
 std::vector<std::uint32_t> quadIndices(const PieceLines& of) {
     std::vector<std::uint32_t> indices;
     indices.reserve(std::size_t{6} * of.lines * of.pieces);
@@ -140,7 +140,7 @@ std::vector<std::uint32_t> quadIndices(const PieceLines& of) {
     return indices;
 }
 
-// Corners of quads made in the vertex stage, which evaluates the points as well.
+// Makes the corners of quads in the vertex stage, which evaluates the points as well.
 class PullingBackend : public StrandBackend {
 public:
     explicit PullingBackend(const BackendContext& context)
@@ -175,7 +175,7 @@ public:
     std::optional<ExpectedCounts> expected() const override { return std::nullopt; }
 
 private:
-    // Isolines of patches.
+    // Counts the isolines of all patches.
     static std::uint32_t lineCount(const StrandPlan& plan) {
         const std::uint64_t count = std::uint64_t{plan.patches()} * plan.strands_per_patch;
         if (count > std::numeric_limits<std::uint32_t>::max()) {
@@ -185,8 +185,8 @@ private:
         return static_cast<std::uint32_t>(count);
     }
 
-    // Isolines of an instance: so many that an instance is worth its while, so few that their
-    // corners' list is short.
+    // Isolines per instance: enough to make an instance worth its cost, few enough for a short list
+    // of corners.
     static std::uint32_t blockOf(const StrandPlan& plan) {
         constexpr std::uint32_t kCorners = 4096;
         return std::max(kCorners / (2 * (plan.forced_tessellation + 1)), 1u);
@@ -210,8 +210,8 @@ private:
     engine::GraphicsPipeline pipeline_;
 };
 
-// Corners of quads made in the vertex stage from points that are there. The camera's picture draws
-// the strands that it can show, lights' maps all of them.
+// Makes the corners of quads in the vertex stage from the points of a PointsPass. The camera's
+// picture draws only the strands that it can show, shadow maps all of them.
 class ExpandedBackend : public StrandBackend {
 public:
     explicit ExpandedBackend(const BackendContext& context)
@@ -288,7 +288,7 @@ private:
             .strands = points_.strandCount()};
     }
 
-    // Where points between segments are there twice, a segment is a line.
+    // Where segments have end points of their own, a line is a segment; otherwise it is a strand.
     static PieceLines strandLines(const BackendContext& context) {
         const StrandPlan& plan = context.plan;
         if (context.strands.taper == Taper::segment)
@@ -323,7 +323,7 @@ private:
     }
 
     const PointsPass& points_;
-    bool is_listed_;  // by prepare(): what the picture can show
+    bool is_listed_;  // prepare() lists the strands that the picture can show
     std::uint32_t draws_;
     std::uint32_t indices_per_strand_;
     engine::Buffer indices_;
@@ -333,8 +333,8 @@ private:
     engine::GraphicsPipeline pipeline_;
 };
 
-// The shaders of the stages up to the last one. Throws engine::Unsupported for stages that the
-// device hasn't.
+// Returns the shaders of the stages up to the last one. Throws engine::Unsupported for stages that
+// the device lacks.
 std::vector<std::string> stageShaders(const BackendContext& context) {
     const StrandStages& stages = context.stages;
     const auto path = [&](StrandStage stage, const std::string& file) {
@@ -542,7 +542,7 @@ StageWatch::StageWatch(const engine::Device& device)
 
 void StageWatch::seeAll() { see(0, 0); }
 
-void StageWatch::seeNone() { see(0xffffffff, 0x9e3779b9); }  // any number that is nothing special
+void StageWatch::seeNone() { see(0xffffffff, 0x9e3779b9); }  // an arbitrary number
 
 StageWatch::Seen StageWatch::seen() const {
     const gpu::StageWatch watch = engine::downloadAs<gpu::StageWatch>(device_, buffer_).front();

@@ -32,10 +32,10 @@ constexpr std::array kLobe{1.0, 2.0 / 3.0, 2.0 / 3.0, 2.0 / 3.0, 0.25, 0.25, 0.2
 static_assert(offsetof(gpu::EnvironmentParameters, irradiance) == 20);
 static_assert(sizeof(gpu::EnvironmentParameters) == 128);
 
-// Radiance is clamped here. A half-precision file holds a sun of up to 65504.
+// Radiance is clamped to this. A half-precision file holds a sun of up to 65504.
 constexpr float kBrightest = 1e6f;
 
-// The picture's radiance times the strength, clamped to [0, kBrightest]; 0 where it is no number.
+// The picture's radiance times the strength, clamped to [0, kBrightest]; NaN becomes 0.
 engine::FloatPixels soundLight(engine::FloatPixels picture, float strength) {
     for (float& value : picture.rgb) {
         value *= strength;
@@ -78,7 +78,7 @@ void forEachTexel(const engine::FloatPixels& picture, double turn, Function f) {
     }
 }
 
-// Directions that share a sphere about evenly.
+// Directions spread about evenly over the sphere.
 std::vector<glm::dvec3> spread(std::uint32_t count) {
     std::vector<glm::dvec3> directions;
     if (count == 12) {
@@ -128,13 +128,13 @@ std::vector<LightSettings> environmentLights(
             middles, {}, [&](const glm::dvec3& middle) { return glm::dot(middle, direction); });
         irradiances[static_cast<std::size_t>(nearest - middles.begin())] += radiance;
     });
-    // A cap of the part's solid angle, 2 pi (1 - cos r), and as wide again in area: light of one
-    // part and the next joins without a gap between their lobes.
+    // A cap of a part's solid angle, 2 pi (1 - cos r), with its area doubled, so that the light of
+    // neighbouring parts joins without a gap.
     const double radius =
         std::numbers::sqrt2 * std::acos(std::max(1.0 - 2.0 / std::max(count, 1u), -1.0));
     std::vector<LightSettings> lights;
     for (std::uint32_t i = 0; i < count; ++i) {
-        // A light's color is irradiance / pi; display RGB up to 1, and the strength.
+        // A light's colour is irradiance / pi, split into display RGB up to 1 and a strength.
         const glm::dvec3 color = irradiances[i] / std::numbers::pi;
         const double strength = std::max({color.r, color.g, color.b, 1e-12});
         const glm::dvec3 part = color / strength;

@@ -27,7 +27,7 @@ double logistic(double x, double scale) { return 1 / (1 + std::exp(-x / scale));
 
 double mean(const glm::dvec3& color) { return (color.r + color.g + color.b) / 3; }
 
-// Means that are weighted by what lobes or paths carry.
+// Means weighted by the light that lobes or paths carry.
 struct WeightedMeans {
     double weight = 0;
     double shift = 0;
@@ -44,7 +44,7 @@ struct WeightedMeans {
 
 // ---- What shaders read --------------------------------------------------------------------------
 
-// What a fibre scatters, as the settings say, without the address of the averages.
+// Returns the optics of the settings' fibre, without the address of the averages.
 gpu::HairOptics makeHairOptics(const ShadingSettings& shading) {
     const Fiber fiber = makeFiber(shading);
     const double s = fiber.azimuthal_scale;
@@ -55,7 +55,7 @@ gpu::HairOptics makeHairOptics(const ShadingSettings& shading) {
         .sin_tilts = {},
         .cos_tilts = {},
         .inverse_azimuthal_scale = static_cast<float>(1 / s),
-        // The logistic distribution has tanh(a / 2s) in [-a, a].
+        // The logistic distribution integrates to tanh(a / 2s) over [-a, a].
         .trimmed = static_cast<float>(1 / std::tanh(std::numbers::pi / (2 * s))),
         .density_factor = shading.density_factor,
         .unused = 0,
@@ -69,7 +69,7 @@ gpu::HairOptics makeHairOptics(const ShadingSettings& shading) {
     return optics;
 }
 
-// The averages that dual scattering looks up, over cos theta_i.
+// Returns the averages that dual scattering looks up, over cos theta_i.
 std::vector<gpu::FiberAverage> makeFiberAverages(const ShadingSettings& shading) {
     const Fiber fiber = makeFiber(shading);
     std::vector<gpu::FiberAverage> table;
@@ -129,7 +129,7 @@ double halfTurn(double x, double scale) {
 FiberPath fiberPath(const Fiber& fiber, double theta_o, double h) {
     const double gamma_o = std::asin(std::clamp(h, -1.0, 1.0));
     const double cos_theta_t = std::sqrt(1 - square(std::sin(theta_o) / fiber.eta));
-    // sin gamma_t = h / eta'; eta' is the index that the plane across sees.
+    // sin gamma_t = h / eta', where eta' is the refractive index in the plane across the fibre.
     const double gamma_t =
         std::asin(h * std::cos(theta_o) / std::sqrt(square(fiber.eta) - square(std::sin(theta_o))));
     const glm::dvec3 transmitted =
@@ -156,7 +156,8 @@ FiberAverages averageOverFiber(const Fiber& fiber, double theta) {
     WeightedMeans forward_means;
     WeightedMeans backward_means;
     for (int i = 0; i < kPlaces; ++i) {
-        // h = sin gamma, for A_p has square roots of 1 - h^2; both halves of a fibre are alike.
+        // Steps are in gamma, h = sin gamma, because A_p has square roots of 1 - h^2. Both halves
+        // of a fibre are alike.
         const double step = kPi / 2 / kPlaces;
         const double gamma = (i + 0.5) * step;
         const double width = std::sin(gamma + step / 2) - std::sin(gamma - step / 2);
@@ -168,7 +169,7 @@ FiberAverages averageOverFiber(const Fiber& fiber, double theta) {
             const glm::dvec3 carried = width * path.attenuations[p];
             averages.forward += forward * carried;
             averages.backward += (1 - forward) * carried;
-            // Lobes in different places spread light too.
+            // Lobes with different shifts spread light, too.
             const double shift = fiber.shifts[p];
             const double spread = fiber.variances[p] + square(shift);
             forward_means.add(forward * mean(carried), shift, spread);
@@ -194,8 +195,9 @@ LocalScattering localScattering(const FiberAverages& averages) {
         const double once = b * passed / rest;
         const double thrice = b * b * b * passed / (rest * rest * inner);
         local.albedo[channel] = once + thrice;
-        // Fibres that are passed forward: of i by chance, i f of the light that gets through. So it
-        // is the sum over i of i (1 + f) passed^i, over sum of passed^i; and the same for three
+        // Mean number of fibres that light passes forward: i on its way out and, for the light that
+        // gets through a random number of fibres with mean i, i f on its way in. So it is the sum
+        // over i of i (1 + f) passed^i, over the sum of passed^i. The same holds for three
         // scatterings backward.
         const double passes_once = (1 + f) / rest;
         const double passes_thrice = (1 + f) * (1 + passed) / rest + 2 * f * f / inner;
@@ -207,7 +209,8 @@ LocalScattering localScattering(const FiberAverages& averages) {
             3 * averages.backward_variance + passes_thrice * averages.forward_variance);
     }
     local.shift = means.meanShift();
-    // Where nothing comes back it is that of one scattering: shaders divide by it.
+    // Where nothing comes back, the variance is that of one scattering, because shaders divide by
+    // it.
     local.variance = means.weight > 0 ? means.meanVariance() : averages.backward_variance;
     return local;
 }

@@ -21,7 +21,7 @@ namespace {
 static_assert(sizeof(gpu::BoundStrand) == 56 && offsetof(gpu::BoundStrand, offset) == 24);
 static_assert(sizeof(gpu::RootFrame) == 24);
 
-// The numbers of the bound strands in random order: levels of detail keep the first ones.
+// Returns the numbers of the bound strands in random order: levels of detail keep the first ones.
 std::vector<std::uint32_t> randomOrder(const groom::Groom& groom, std::uint32_t seed) {
     std::vector<std::uint32_t> order(groom.bindings.size());
     std::iota(order.begin(), order.end(), 0u);
@@ -30,10 +30,10 @@ std::vector<std::uint32_t> randomOrder(const groom::Groom& groom, std::uint32_t 
     return order;
 }
 
-// A strand that follows the head alone may be anywhere beside its guides.
+// A strand that follows the head alone may be at any distance from its guides.
 constexpr float kAnyReach = 1e6f;  // m
 
-// What the width of a strand at its root is multiplied with, so that it is its own.
+// Returns the factor that takes the width at the root to the strand's own width.
 float widthFactor(
     const groom::Groom& groom, const StrandSettings& settings,
     const groom::StrandBinding& binding) {
@@ -49,7 +49,7 @@ float widthFactor(
     return width > 0.0 ? static_cast<float>(binding.width / width) : 1.0f;
 }
 
-// `residuals`: of the strands in that order, or none.
+// `residuals` has the strands in the same order, or none.
 std::vector<gpu::BoundStrand> boundStrands(
     const groom::Groom& groom, const StrandSettings& settings,
     const std::vector<std::uint32_t>& order, const StrandResiduals& residuals) {
@@ -85,8 +85,8 @@ std::vector<gpu::RootFrame> rootFrames(const groom::Groom& groom) {
     return frames;
 }
 
-// How far roots come from where the mean motion of all of them would take them, in the poses that
-// a clip has at even times, m.
+// Returns the greatest distance of a root from where the mean motion of all roots would take it, m,
+// over evenly spaced poses of the clip.
 double scalpReach(const groom::Groom& groom, const groom::DeformingMesh& mesh) {
     constexpr int kPoses = 64;
     std::vector<glm::vec3> roots;
@@ -104,7 +104,8 @@ double scalpReach(const groom::Groom& groom, const groom::DeformingMesh& mesh) {
     return reach;
 }
 
-// Of the cubic through the values of offsets: its weights' magnitudes add up to 1 + t (1 - t).
+// Overshoot of the cubic through the values of offsets: the magnitudes of its weights add up to 1 +
+// t (1 - t).
 constexpr float kOvershoot = 1.25f;
 
 }  // namespace
@@ -179,8 +180,8 @@ GroomBuffers::GroomBuffers(
         std::vector<glm::vec4> rest;
         for (const glm::vec3& point : groom.points) rest.emplace_back(point, 0.0f);
         view_.rest_guides = upload(rest_guides_, rest, "guides at rest");
-        // A strand may be corrected by as much as a root leaves the motion of the whole scalp, and
-        // its guides be as far away on the other side.
+        // A strand may be corrected by as much as its root departs from the motion of the whole
+        // scalp. Its guides may be as far away on the other side.
         const float reach = static_cast<float>(2.0 * scalpReach(groom, *deforming));
         view_.radius += reach;
         view_.offset_reach += reach;

@@ -13,9 +13,9 @@
 
 namespace hair::rendering {
 
-// What rendering knows of the hair: where the guides are now, and what is between them. The
-// simulation and GroomBuffers fill it in; the renderer never includes the simulation. Addresses are
-// device addresses.
+// The hair as rendering sees it: the guides now, and the strands between them. The simulation and
+// GroomBuffers fill it in; the renderer never includes the simulation. Addresses are device
+// addresses.
 struct StrandView {
     std::uint64_t guides = 0;  // vec4 [guide][vertex], m, root first
     std::uint64_t root_triangles = 0;  // uint [triangle][3], guide indices
@@ -31,18 +31,18 @@ struct StrandView {
     std::uint64_t offsets = 0;  // StrandOffsets::values
     std::uint64_t residuals = 0;  // StrandResiduals::samples; 0: bound strands have none
     std::uint64_t rest_tangents = 0;  // vec3 [guide][vertex], restTangents(); 0: without residuals
-    glm::vec3 centre{0.0f};  // of a sphere that the strands can't leave, m, before the head moved
-    float radius = 0.0f;  // of it
+    glm::vec3 centre{0.0f};  // of the strands' bounding sphere, m, before the head's motion
+    float radius = 0.0f;  // of that sphere, m
     float offset_reach = 0.0f;  // m, how far offsets move a strand's points
     float greatest_width = 0.0f;  // m, of strands at level 0 of detail
-    float greatest_width_scale = 0.0f;  // of levels of detail by distance: strand_plan.h; 0: any
+    float greatest_width_scale = 0.0f;  // greatestWidthScale(); 0: any
     glm::mat4 head{1.0f};  // rigid motion of the root normals and of the mesh under the hair, or,
                            // where that deforms, of the scalp on average
-    // Of a mesh under the hair that deforms; null: it keeps its shape.
+    // The mesh under the hair, if it deforms; null: it keeps its shape.
     const groom::DeformingMesh* deforming = nullptr;
-    double time = 0.0;  // s, that it is seen at
-    glm::dmat4 carried{1.0};  // its rigid motion after it has been deformed
-    std::uint64_t rest_guides = 0;  // vec4 [guide][vertex], m; w 0; where it deforms
+    double time = 0.0;  // s, the time of its pose
+    glm::dmat4 carried{1.0};  // its rigid motion after deformation
+    std::uint64_t rest_guides = 0;  // vec4 [guide][vertex], m; w 0; only with `deforming`
     std::uint32_t guide_count = 0;
     std::uint32_t vertices_per_guide = 0;
     std::uint32_t triangle_count = 0;
@@ -51,11 +51,11 @@ struct StrandView {
     std::uint32_t offset_samples = 0;
 };
 
-// What rendering reads of a groom and does not change, on the device.
+// The constant data of a groom on the device, for rendering.
 class GroomBuffers {
 public:
-    // `model` is what settings.strands.offsets names, null if that is empty; `deforming` is the
-    // mesh under the hair where an animation deforms it, and outlives the buffers. Throws
+    // `model` is the file that settings.strands.offsets names, null if that is empty. `deforming`
+    // is the mesh under the hair where an animation deforms it; it must outlive the buffers. Throws
     // engine::Error as checkStrands and makeStrandOffsets do.
     GroomBuffers(
         const engine::Device& device, const groom::Groom& groom, const Settings& settings,
@@ -78,11 +78,11 @@ private:
     StrandView view_;
 };
 
-// B that GroomBuffers of a groom take at most, and FramesPass for it.
+// Upper bound of the bytes that GroomBuffers of a groom and a FramesPass for it take.
 std::uint64_t groomBufferBytes(const Settings& settings, const groom::GroomSize& size);
 
-// Whether the groom has what the strands are to be drawn with. Throws engine::Error
-// "<JSON pointer>: <reason>".
+// Checks that the groom has the data that the settings need. Throws engine::Error "<JSON pointer>:
+// <reason>".
 void checkStrands(const StrandSettings& settings, const groom::Groom& groom);
 
 }  // namespace hair::rendering

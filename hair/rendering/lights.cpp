@@ -41,7 +41,7 @@ gpu::Light makeLight(const RenderSettings& render, const LightSettings& light) {
         result.to_light = -face.normal;
         result.half_width = face.half_width;
         result.half_height = face.half_height;
-        // In front of its middle irradiance over pi is the radiance times this.
+        // In front of its middle, irradiance / pi is the radiance times the form factor.
         if (light.reference_distance > 0.0f)
             result.color /= static_cast<float>(rectangleFormFactor(light));
     }

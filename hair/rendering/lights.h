@@ -19,20 +19,20 @@ std::vector<gpu::Light> makeLights(const Settings& settings);
 
 // The face of a rectangle light.
 struct RectangleFace {
-    glm::vec3 normal;  // unit length: where its light goes
-    glm::vec3 half_width;  // m, from its middle to that of a side
+    glm::vec3 normal;  // unit length; the direction of its light
+    glm::vec3 half_width;  // m, from the middle of the face to that of a side
     glm::vec3 half_height;  // m
 };
 
 RectangleFace rectangleFace(const LightSettings& light);
 
-// Irradiance over pi, for a radiance of 1, of a surface that faces a rectangle's middle at its
-// reference_distance: the form factor of a rectangle and a parallel element on its axis (Howell,
-// Menguec, Daun and Siegel, Thermal Radiation Heat Transfer, of an element before a corner, four
-// times).
+// Returns irradiance / pi, for a radiance of 1, on a surface that faces a rectangle's middle at its
+// reference_distance. It is the form factor of a rectangle and a parallel element on its axis: four
+// times that of an element in front of a corner (Howell, Menguec, Daun and Siegel, Thermal
+// Radiation Heat Transfer).
 double rectangleFormFactor(const LightSettings& light);
 
-// How many shadow maps a light has of each kind, where there are shadows: one where it has no size.
+// Number of shadow maps of each kind that a light has, where there are shadows. 1 without a size.
 std::uint32_t shadowMaps(const LightSettings& light);
 
 // The value of kLightKinds in shading/options.glsl.

@@ -14,10 +14,10 @@ namespace {
 static_assert(offsetof(gpu::StrandMeshPush, blocks) == 8 && sizeof(gpu::StrandMeshPush) == 20);
 
 constexpr const char* kMesh = "/strands/backend: mesh";
-constexpr std::uint32_t kMostInvocations = 128;  // what every device has, of tasks as of meshes
+constexpr std::uint32_t kMostInvocations = 128;  // the guaranteed minimum, for tasks and meshes
 constexpr std::uint32_t kProcessorGroup = 8;
 
-// Of a mesh workgroup: strands/mesh/draw.glsl.
+// Memory of a mesh work group: strands/mesh/draw.glsl.
 constexpr std::uint32_t kStrandBytes = 80;  // BlockStrand, vectors strided
 constexpr std::uint32_t kSharedBytes =
     gpu::kMeshVertices / 4 * kStrandBytes + gpu::kMeshVertices / 2 * 4 * sizeof(glm::vec4);

@@ -14,32 +14,32 @@
 
 namespace hair::rendering {
 
-// How the back end `mesh` is made for a device.
+// Sizes of the back end `mesh` for a device.
 struct MeshSizes {
-    std::uint32_t points = 0;  // of strands, that a mesh workgroup may have
-    std::uint32_t task_group = 0;  // invocations in a task workgroup, of a block each
-    std::uint32_t mesh_group = 0;  // in a mesh workgroup
+    std::uint32_t points = 0;  // most points of strands per mesh work group
+    std::uint32_t task_group = 0;  // invocations per task work group; each takes a block
+    std::uint32_t mesh_group = 0;  // invocations per mesh work group
 };
 
-// As large as the device can and likes to have them; on a processor, which runs a vector of
-// invocations at a time, no more than that. Throws engine::Unsupported where it can't have what
-// every device should.
+// Returns the largest sizes that the device supports and prefers. On a processor, groups are no
+// larger than the vector of invocations that it runs at a time. Throws engine::Unsupported where
+// the device's limits are too small for the shaders.
 MeshSizes meshSizes(const engine::DeviceInfo& device);
 
-// Blocks of strands that mesh workgroups draw, at the finest level of detail. Throws
-// engine::Unsupported for more than shaders number.
+// Returns the number of blocks of strands that mesh work groups draw at the finest level of detail.
+// Throws engine::Unsupported for more than shaders can number.
 std::uint32_t
 countBlocks(const StrandPlan& plan, const StrandSettings& strands, std::uint32_t points);
 
-// Strands by task and mesh stages: the task stage leaves out the blocks of strands that the picture
-// can't show or the level of detail doesn't draw, the mesh stage evaluates each point once and
-// makes the quads of those that are left.
+// Draws strands by task and mesh stages. The task stage culls the blocks of strands that the
+// picture can't show or the level of detail doesn't draw. The mesh stage evaluates each point of
+// the others once and makes their quads.
 class MeshBackend : public StrandBackend {
 public:
-    // Throws engine::Unsupported for what the device can't do.
+    // Throws engine::Unsupported for features or limits that the device lacks.
     explicit MeshBackend(const BackendContext& context);
 
-    // The same of a case, before it is made.
+    // Throws as the constructor does, without making the back end.
     static void
     check(const engine::Device& device, const Settings& settings, const StrandPlan& plan);
 
@@ -50,8 +50,8 @@ public:
 
 private:
     MeshSizes sizes_;
-    gpu::StrandMeshPush push_;  // but for the picture
-    std::uint32_t groups_;  // of the task stage
+    gpu::StrandMeshPush push_;  // all but the picture's address
+    std::uint32_t groups_;  // work groups of the task stage
     engine::GraphicsPipeline pipeline_;
 };
 

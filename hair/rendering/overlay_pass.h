@@ -12,7 +12,7 @@
 #include "hair/rendering/render_assets.h"
 #include "hair/settings.h"
 
-// What is drawn over the finished hair to show the simulation.
+// Overlays on the finished hair that show the simulation.
 namespace hair::rendering {
 
 // The wire frame of a capsule: a ring at each end of its axis, four lines between them and two
@@ -26,8 +26,8 @@ std::vector<gpu::BodyLine> meshLines(const groom::Mesh& mesh, Follows follows);
 std::vector<gpu::BodyLine>
 bodyLines(const SimulationSettings& settings, std::span<const groom::Mesh> meshes);
 
-// Ribbons over the finished hair: the simulated guides, the root triangles (thesis figures 4.2 and
-// 4.6) and the bodies that hair collides with, seen through hair and head.
+// Draws ribbons over the finished hair: the simulated guides, the root triangles (thesis figures
+// 4.2 and 4.6) and the bodies that hair collides with, seen through hair and head.
 class OverlayPass {
 public:
     OverlayPass(const engine::Device& device, const Settings& settings, const RenderAssets& assets);

@@ -30,7 +30,7 @@ std::size_t pointsPerStrand(const StrandSettings& strands, const StrandPlan& pla
     return std::size_t{plan.segments} * plan.forced_tessellation + 1;
 }
 
-// Where it counts that a point is fetched as a whole, for all invocations at once:
+// On a processor, a texel fetch reads whole points for all invocations at once, which is faster:
 // docs/performance.md.
 bool readsTexels(const engine::Device& device, std::size_t bytes) {
     return device.info().type == "cpu" &&
@@ -44,7 +44,7 @@ pointsBuffer(const engine::Device& device, std::size_t bytes, const std::string&
         {.size = std::max(bytes, kPointBytes), .usage = engine::Usage::storage, .name = name}};
 }
 
-// A point, and where segments begin some more.
+// A piece takes one iteration for its point, and some more where a segment begins.
 std::uint32_t evaluatedBlock(
     const engine::Device& device, const StrandSettings& strands, const StrandPlan& plan) {
     return strandBlock(device, strands, plan, 4);
@@ -66,7 +66,7 @@ evaluateStage(const engine::Device& device, const Settings& settings, const Stra
 
 }  // namespace
 
-// Shaders number points in 32 bits, of which the last stands for none.
+// Shaders number points in 32 bits; the last number stands for no point.
 void checkPoints(const StrandPlan& plan) {
     const std::uint64_t points =
         plan.strands() * plan.segments * (std::uint64_t{plan.forced_tessellation} + 1);
@@ -109,7 +109,7 @@ PointsPass::PointsPass(
 void PointsPass::record(
     engine::Commands& commands, std::uint64_t picture,
     const gpu::PictureParameters& parameters) const {
-    // After the last frame's picture, and after the guides' frames of this one.
+    // Waits for the last frame's picture and for this frame's frames along guides.
     commands.barrier(Access::compute_write, Access::transfer_write);
     commands.fill(bounds_, 0);
     commands.barrier(Access::transfer_write, Access::compute_write);

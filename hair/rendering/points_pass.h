@@ -14,37 +14,38 @@
 
 namespace hair::rendering {
 
-// Throws engine::Unsupported for more strands than shaders number.
+// Throws engine::Unsupported for more points than shaders can number.
 void checkPoints(const StrandPlan& plan);
 
-// B that the points of all drawn strands take.
+// Returns the bytes that the points of all drawn strands take.
 std::uint64_t pointsBytes(const StrandSettings& strands, const StrandPlan& plan);
 
-// The points of all drawn strands, each evaluated once, for every picture of a frame: the camera's
-// and the lights'. Levels of detail are the camera's in all of them. 16 bytes a point.
+// Evaluates each point of all drawn strands once a frame, for the camera's picture and the shadow
+// maps. All of them use the camera's levels of detail. 16 bytes a point.
 class PointsPass {
 public:
-    // `culls`: strands that the camera can't see get no points; only where no light's map needs
-    // them. As checkPoints().
+    // `culls`: strands that the camera can't see get no points. Only for pictures in which no
+    // shadow map needs them. Throws as checkPoints() does.
     PointsPass(
         const engine::Device& device, const Settings& settings, const StrandPlan& plan, bool culls);
 
-    // `picture` is the address of `parameters`, the camera's.
+    // `picture` is the device address of `parameters`, which are the camera's.
     void record(
         engine::Commands& commands, std::uint64_t picture,
         const gpu::PictureParameters& parameters) const;
 
     const engine::Buffer& points() const { return points_; }  // gpu::PointsPush::points
     const engine::Buffer& pieces() const { return pieces_; }  // gpu::PointsPush::pieces
-    const engine::Buffer& bounds() const { return bounds_; }  // gpu::HairBounds, of the camera
-    // The points as texels; absent where nobody would read them so.
+    // Gpu::HairBounds in the camera's picture.
+    const engine::Buffer& bounds() const { return bounds_; }
+    // The points as a texel buffer; null where the device reads them by address.
     const engine::TexelView* texels() const { return texels_ ? &*texels_ : nullptr; }
     std::uint32_t strandCount() const { return push_.strands; }
     std::uint64_t bytes() const { return points_.size() + pieces_.size(); }
 
 private:
-    gpu::PointsPush push_;  // but for the picture
-    std::uint32_t blocks_;  // of strands, one to an invocation
+    gpu::PointsPush push_;  // all but the picture's address
+    std::uint32_t blocks_;  // blocks of strands; one per invocation
     engine::Buffer points_;
     std::optional<engine::TexelView> texels_;
     engine::Buffer pieces_;
@@ -52,18 +53,20 @@ private:
     engine::ComputePipeline evaluate_;
 };
 
-// The specialization constants that say where points are, and those with strandConstants():
-// strands/points/layout.glsl.
+// The specialization constants of strands/points/layout.glsl. pointsConstants() has
+// strandConstants(), too.
 engine::Constants placeConstants(const StrandPlan& plan);
 engine::Constants pointsConstants(const StrandSettings& strands, const StrandPlan& plan);
 
-// Whether shaders read and write points 64 bits at a time: a device that takes one element of one
-// invocation at a time takes 64 bits of it as soon as 32.
+// Whether shaders read and write points 64 bits at a time. A device that takes one element of one
+// invocation at a time reads 64 bits as fast as 32.
 bool readsPairs(const engine::Device& device);
 
-// Strands of an invocation, of which each piece takes so many turns of loops. What is read once for
-// all of them counts on a processor, that there are many invocations elsewhere. Strands of a groom
-// have guides of their own. Mesa's lavapipe ends an invocation's loops after 65,535 turns in all.
+// Returns the number of strands per invocation, where each piece of a strand takes `turns`
+// iterations of loops. On a processor, an invocation reads once what its strands share. Other
+// devices need many invocations and get 1. Strands of a groom have guides of their own, share
+// nothing and get 1, too. Mesa's lavapipe ends an invocation's loops after 65,535 iterations in
+// all.
 std::uint32_t strandBlock(
     const engine::Device& device, const StrandSettings& strands, const StrandPlan& plan,
     std::uint32_t turns);

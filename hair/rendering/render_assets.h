@@ -11,12 +11,12 @@
 #include "hair/settings.h"
 #include "hair/shading_settings.h"
 
-// What a picture shows beside the hair, and the colours that it is worked out in.
+// The contents of a picture beside the hair, and its working colours.
 namespace hair::rendering {
 
-// What a picture shows beside the hair, as files gave it.
+// The contents of a picture beside the hair, as read from files.
 struct RenderAssets {
-    const groom::Mesh* head = nullptr;  // that the hair grows on; null: none
+    const groom::Mesh* head = nullptr;  // the mesh that the hair grows on; null: none
     std::vector<groom::Mesh> meshes;  // of /render/meshes, in their order
     // The meshes of /simulation/distance_fields, where bodies are drawn.
     std::vector<groom::Mesh> field_meshes;
@@ -24,20 +24,20 @@ struct RenderAssets {
     std::optional<engine::FloatPixels> environment;  // of /render/environment
 };
 
-// Whether a picture is worked out in linear RGB with sRGB's primaries; in display RGB, as in the
-// thesis, otherwise.
+// Whether a picture is computed in linear RGB with sRGB's primaries. Otherwise it is computed in
+// display RGB, as in the thesis.
 inline bool hasLinearLight(const RenderSettings& render) {
     return render.tone_map != ToneMap::none;
 }
 
-// sRGB's curve (IEC 61966-2-1), channel by channel.
+// The transfer curve of sRGB (IEC 61966-2-1), channel by channel.
 glm::dvec3 toLinear(const glm::dvec3& display);
 glm::dvec3 toDisplay(const glm::dvec3& linear);
 
-// A setting's display RGB as the picture's working colour.
+// Converts a setting's display RGB to the picture's working colour.
 glm::vec3 workingColor(const RenderSettings& render, const glm::vec3& display);
 
-// Format of the colors that a picture is rendered to.
+// Format of the colours that a picture is rendered to.
 inline VkFormat colorFormat(const RenderSettings& render) {
     return hasLinearLight(render) ? VK_FORMAT_R16G16B16A16_SFLOAT : VK_FORMAT_R8G8B8A8_UNORM;
 }
@@ -51,14 +51,14 @@ inline engine::TargetDescription targetDescription(const RenderSettings& render)
         .color_format = colorFormat(render)};
 }
 
-// The colour of much hair and the absorption in a fibre, which make each other: Chiang et al. 2016,
-// A practical and controllable hair and fur model for production path tracing, equation (9).
+// The colour of a mass of hair and the absorption in a fibre determine each other: Chiang et al.
+// 2016, A practical and controllable hair and fur model for production path tracing, equation (9).
 
-// sigma_a, over a radius of a fibre, of red, green and blue: from the pigments, or that for which
-// much hair has /shading/color. Linear colours below 1e-4 count as 1e-4.
+// Returns sigma_a per radius of a fibre, for red, green and blue: from the pigments, or such that a
+// mass of hair has /shading/color. Linear colours below 1e-4 count as 1e-4.
 glm::dvec3 absorption(const ShadingSettings& shading);
 
-// The linear RGB that much hair has.
+// Returns the linear RGB of a mass of hair.
 glm::dvec3 linearColor(const ShadingSettings& shading);
 
 }  // namespace hair::rendering

@@ -34,7 +34,7 @@ Settings withBackend(Settings settings, Backend backend) {
     return settings;
 }
 
-// To hair an environment is further lights, where there are any.
+// Hair is lit by the environment as additional lights, if there are any.
 Settings litByEnvironment(Settings settings, const RenderAssets& assets) {
     const std::uint32_t count = settings.shading.environment_lights;
     if (!assets.environment || count == 0) return settings;
@@ -44,7 +44,7 @@ Settings litByEnvironment(Settings settings, const RenderAssets& assets) {
     return settings;
 }
 
-// To meshes it is none.
+// Meshes are lit by the environment's harmonics, not by its lights.
 Settings litByHarmonics(Settings settings) {
     settings.shading.environment_lights = 0;
     return settings;
@@ -143,7 +143,7 @@ gpu::PictureParameters pictureParameters(
 }
 
 std::uint64_t rendererBytes(const Settings& settings, const StrandPlan& plan) {
-    constexpr std::uint64_t kWholeBlock = 8;  // strands that are looked at together, at most
+    constexpr std::uint64_t kWholeBlock = 8;  // most strands per invocation
     std::uint64_t bytes = targetBytes(rendered(settings)) + shadowMapBytes(settings);
     if (!settings.render.hair) return bytes;
     bytes += transparencyBytes(settings.render);
@@ -156,7 +156,7 @@ std::uint64_t rendererBytes(const Settings& settings, const StrandPlan& plan) {
                      rendered(settings), (strands + kWholeBlock) * plan.segments *
                                              std::uint64_t{plan.forced_tessellation})
                      .sum();
-    // Lists of strands: of the camera's picture, and of depth and opacity of lights' maps.
+    // Lists of strands: one for the camera's picture, and two for depth and opacity in shadow maps.
     const std::uint64_t lists = (backend == Backend::expanded ? 1 : 0) +
                                 (hasHairMaps(settings) && readsPoints(settings) ? 2 : 0);
     bytes += lists * sizeof(std::uint32_t) * strands;

@@ -25,7 +25,7 @@
 
 namespace hair::rendering {
 
-// Addresses of what else shaders read; 0 where they don't.
+// Addresses of other buffers that shaders read; 0 where they don't.
 struct PictureBuffers {
     std::uint64_t guide_normals = 0;  // FramesPass::normals()
     std::uint64_t guide_turns = 0;  // FramesPass::turns()
@@ -37,24 +37,26 @@ struct PictureBuffers {
     std::uint64_t fragments = 0;
 };
 
-// What every shader of a picture reads. `plan` is the one that planStrands makes of the settings.
+// Returns the parameters that every shader of a picture reads. `plan` is planStrands() of the
+// settings.
 gpu::PictureParameters pictureParameters(
     const Settings& settings, const StrandPlan& plan, const StrandView& view,
     const PictureBuffers& buffers);
 
-// B of device memory that a Renderer's images and strands take, but for its assets. The settings
-// have the back end that draws them.
+// Bytes of device memory that a Renderer's images and strands take, without its assets. The
+// settings must name the back end that draws them.
 std::uint64_t rendererBytes(const Settings& settings, const StrandPlan& plan);
 
-// Draws pictures of a head of hair: the passes frames (where strands are offset), points (where a
-// back end draws from them), mesh_shadow and hair_shadow (where asked for), scene, strands,
-// composite (where fragments are blended at the end), overlay (where asked for) and resolve (where
-// the picture is not what is rendered). Where passes may join, scene, strands and overlay are one
-// rendering, at whose end samples are resolved.
+// Draws pictures of a head of hair, in these passes: frames (where strands have offsets or
+// residuals), skin (where the mesh under the hair deforms), points (where a back end draws from
+// them), mesh_shadow and hair_shadow (where asked for), scene, strands, composite (where fragments
+// are blended at the end), overlay (where asked for) and resolve (where the picture is not the
+// rendered image). Where passes may join, scene, strands and overlay are one rendering, which
+// resolves samples at its end.
 class Renderer {
 public:
-    // `view` gives the counts, which stay as they are. Throws engine::Unsupported for what the
-    // device can't do. Only what the camera sees of strands goes by `stages`.
+    // `view` gives the counts, which must not change. `stages` applies to the camera's picture of
+    // the strands alone. Throws engine::Unsupported for features that the device lacks.
     Renderer(
         const engine::Device& device, const Settings& settings, const StrandView& view,
         const RenderAssets& assets, const StrandStages& stages = {});
@@ -63,7 +65,7 @@ public:
 
     void record(engine::Passes& passes, const StrandView& view);
 
-    // `camera` is for the next picture and those after it.
+    // Takes effect from the next picture on.
     void setCamera(const CameraSettings& camera) { settings_.camera = camera; }
 
     const engine::Target& target() const { return target_; }

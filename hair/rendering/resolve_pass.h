@@ -9,10 +9,10 @@
 
 namespace hair::rendering {
 
-// Rendered samples -> the picture, where it is not what is rendered (engine::Resolve): the mean
-// over MSAA samples and SSAA pixels (thesis 2.3.7). Of linear light the mean is kept as the
-// target's radiance(), and the picture is what the tone map makes of it. Where rendering's end
-// resolves, this is a rendering of nothing: what it takes is what the resolve does.
+// Resolves the rendered samples to the picture where they differ (engine::Resolve): the mean over
+// MSAA samples and SSAA pixels (thesis 2.3.7). In linear light, the target's radiance() keeps the
+// mean, and the tone map makes the picture from it. Where an attachment resolves at the end of
+// rendering, this pass is an empty rendering, so its time is that of the resolve.
 class ResolvePass {
 public:
     ResolvePass(
@@ -26,7 +26,7 @@ public:
     void record(engine::Commands& commands, const engine::Target& target) const;
 
 private:
-    std::optional<engine::ComputePipeline> pipeline_;  // none: by an attachment
+    std::optional<engine::ComputePipeline> pipeline_;  // absent: an attachment resolves
 };
 
 }  // namespace hair::rendering

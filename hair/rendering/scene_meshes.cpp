@@ -16,7 +16,7 @@ namespace {
 
 constexpr std::uint32_t kShadowImages = 3;  // ShadowPass::images(), bound after a material's
 
-// Corner indices of the triangles, those of the first material first.
+// Returns the corner indices of the triangles, sorted by material.
 std::vector<std::uint32_t> sortedIndices(const groom::Mesh& mesh) {
     std::vector<std::uint32_t> order(mesh.triangles.size());
     for (std::uint32_t i = 0; i < order.size(); ++i) order[i] = i;
@@ -134,7 +134,7 @@ std::uint64_t meshBytes(const groom::Mesh& mesh) {
                           mesh.texture_coordinates.size() * sizeof(glm::vec2) +
                           mesh.triangles.size() * sizeof(mesh.triangles[0]);
     for (const engine::Pixels& picture : mesh.pictures)
-        bytes += picture.rgba.size() + picture.rgba.size() / 3;  // smaller levels
+        bytes += picture.rgba.size() + picture.rgba.size() / 3;  // mip levels
     return bytes;
 }
 

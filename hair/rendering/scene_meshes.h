@@ -22,7 +22,7 @@
 // The head and other meshes of a picture.
 namespace hair::rendering {
 
-// The mesh where the settings place it.
+// Returns the mesh where the settings place it.
 groom::Mesh placed(groom::Mesh mesh, const MeshSettings& settings);
 
 // A mesh's triangles on the device, sorted by material.
@@ -38,19 +38,19 @@ struct MeshGeometry {
 
     engine::Buffer positions;  // vec3
     engine::Buffer normals;  // vec3
-    engine::Buffer texture_coordinates;  // vec2; of the mesh, which may have none
+    engine::Buffer texture_coordinates;  // vec2; empty where the mesh has none
     engine::Buffer indices;
     std::vector<Part> parts;
 };
 
-// B of a mesh's triangles and pictures on the device.
+// Bytes of a mesh's triangles and pictures on the device.
 std::uint64_t meshBytes(const groom::Mesh& mesh);
 
-// What mesh shaders sample of a material, at the first bindings: base colour, metallic and
-// roughness, normals.
+// Number of a material's images that mesh shaders sample, at the first bindings: base colour,
+// metallic and roughness, normals.
 inline constexpr std::uint32_t kMaterialImages = 3;
 
-// What a material needs a pipeline of its own for.
+// The properties that give a material a pipeline of its own.
 struct MeshLook {
     bool base_color_texture = false;
     bool metallic_roughness_texture = false;
@@ -77,7 +77,7 @@ struct MeshMaterial {
 // coordinates are left out.
 class MeshMaterials {
 public:
-    // `blank` is what is bound where a material has no texture.
+    // `blank` is bound where a material has no texture.
     MeshMaterials(
         const engine::Device& device, const RenderSettings& settings, const groom::Mesh& mesh,
         const engine::SampledImage& blank);
@@ -86,32 +86,32 @@ public:
     std::span<const MeshMaterial> materials() const { return materials_; }
 
 private:
-    // Maps, as materials_ refers to their elements.
+    // Maps keep their elements in place, because materials_ refers to them.
     std::map<std::pair<std::uint32_t, engine::Texels>, engine::Texture> textures_;
     std::map<std::tuple<groom::Wrap, groom::Wrap, bool>, engine::Sampler> samplers_;
     std::vector<MeshMaterial> materials_;
 };
 
 // The meshes of a picture on the device: the head, which moves or deforms, and others, which don't.
-// Drawn material by material.
+// They are drawn material by material.
 class SceneMeshes {
 public:
     SceneMeshes(const engine::Device& device, const Settings& settings, const RenderAssets& assets);
 
     bool empty() const { return meshes_.empty(); }
 
-    // Draws the head from other buffers from now on, which have it where it is in the world: vec3
-    // [vertex] each.
+    // Draws the head from these buffers from now on: vec3 [vertex] each, in the world.
     void deform(const engine::Buffer& positions, const engine::Buffer& normals);
 
-    // Lit, into the target that is being rendered to. `shadows` are ShadowPass::images().
+    // Draws the meshes, lit, into the target that is being rendered to. `shadows` are
+    // ShadowPass::images().
     void draw(
         engine::Commands& commands, std::uint64_t picture,
         std::span<const engine::SampledImage> shadows) const;
 
-    // Depth alone, of kDepthFormat and one sample: what a light or the eye sees of both sides of
-    // the meshes, which may be open. `picture` is the address of the gpu::PictureParameters with
-    // its view.
+    // Draws depth alone, of kDepthFormat and one sample, from both sides of the meshes, which may
+    // be open. `picture` is the address of the gpu::PictureParameters with the view of a light or
+    // the eye.
     void drawDepth(engine::Commands& commands, std::uint64_t picture) const;
 
 private:

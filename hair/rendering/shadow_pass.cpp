@@ -37,7 +37,7 @@ Sphere boundsOf(std::span<const glm::vec3> points) {
     return sphere;
 }
 
-// The bounds of a mesh, however it is turned about its origin.
+// The bounds of a mesh under any rotation about its origin.
 Sphere boundsOf(const groom::Mesh& mesh, const MeshSettings& placed) {
     const Sphere sphere = boundsOf(mesh.positions);
     return {
@@ -51,24 +51,23 @@ Sphere moved(const glm::mat4& rigid, const Sphere& sphere) {
 
 // ---- Views of lights ----------------------------------------------------------------------------
 
-// How a light looks at what it lights: a perspective view of all that it is to see, or a parallel
-// one of directional lights.
+// The view of a light: orthographic for a directional light, perspective otherwise.
 struct LightView {
-    glm::mat4 view_projection;  // world -> clip; planes exchanged as in viewProjection()
-    glm::vec3 eye;  // m; of a directional light far away
+    glm::mat4 view_projection;  // world -> clip; reversed depth as in viewProjection()
+    glm::vec3 eye;  // m; far away for a directional light
     glm::vec4 depth_terms;  // as in gpu::ShadowMap
     float texel_near;  // m, as in gpu::ShadowMap
     float texel_slope;
 };
 
 constexpr float kMostHalfAngle = 75.0f;  // degrees
-constexpr float kNearest = 0.01f;  // of the far end
-constexpr float kLeastRadius = 0.001f;  // m: nothing to see still gives a view
-// Strands turn to a directional light as to a point this many times as far as what it lights is
-// wide: 0.001 rad off at most.
+constexpr float kNearest = 0.01f;  // as a fraction of the far end's distance
+constexpr float kLeastRadius = 0.001f;  // m: gives a view even where there is nothing to see
+// Strands face a directional light as if it were a point this many radii of the map away: at most
+// 0.001 rad off.
 constexpr float kFarAway = 1000.0f;
 
-// The direction with length 1; downward where it has none.
+// Returns the direction with length 1; downward if it has no length.
 glm::vec3 unit(const glm::vec3& direction) {
     const float length = glm::length(direction);
     return length > 0.0f ? direction / length : glm::vec3(0.0f, -1.0f, 0.0f);
@@ -108,10 +107,10 @@ LightView perspectiveView(
         .texel_slope = 2.0f * slope / texels};
 }
 
-// A map of side x side texels shows bounds.seen and `margin` texels round it. Where the light is in
-// it, or so near that it would see it under more than 150 degrees, the map shows 150 degrees round
-// its centre, and what is beyond throws no shadow. Neither does what is nearer to a point light
-// than a hundredth of the far end of bounds.range: depth would be too coarse.
+// A map of side x side texels shows bounds.seen and `margin` texels round it. Where the light is
+// inside bounds.seen, or sees it under more than 150 degrees, the map shows 150 degrees round its
+// centre, and nothing beyond casts a shadow. Nor does anything nearer to a point light than a
+// hundredth of the far end of bounds.range, because depth would be too coarse.
 LightView lightView(
     const LightSettings& light, const ShadowBounds& bounds, std::uint32_t side, float margin) {
     const auto texels = static_cast<float>(side);
@@ -126,21 +125,24 @@ LightView lightView(
     return perspectiveView(light.position, unit(to_centre), bounds.range, widened * slope, texels);
 }
 
-// Evenly over the disc of radius 1 (Vogel 1979, A better way to construct the sunflower head).
+// Returns a point of an even distribution over the disc of radius 1 (Vogel 1979, A better way to
+// construct the sunflower head).
 glm::vec2 onDisc(std::uint32_t index, std::uint32_t count) {
     const float radius = std::sqrt((static_cast<float>(index) + 0.5f) / static_cast<float>(count));
     const float angle = 2.39996323f * static_cast<float>(index);
     return radius * glm::vec2(std::cos(angle), std::sin(angle));
 }
 
-// Evenly over the square from -1 to 1: x in equal steps, y by the golden section.
+// Returns a point of an even distribution over the square from -1 to 1: x in equal steps, y by the
+// golden section.
 glm::vec2 onSquare(std::uint32_t index, std::uint32_t count) {
     const float place = static_cast<float>(index) + 0.5f;
     return 2.0f * glm::vec2(place / static_cast<float>(count), glm::fract(place * 0.618033989f)) -
            1.0f;
 }
 
-// The mean base colour of the head's triangles, working colours; those of meshes without one.
+// The mean base colour of the head's triangles by area, as working colour and without textures.
+// Black without a head.
 glm::vec3 meanColor(const Settings& settings, const RenderAssets& assets) {
     if (!assets.head || !settings.render.head) return glm::vec3(0.0f);
     const groom::Mesh& mesh = *assets.head;
@@ -159,7 +161,7 @@ glm::vec3 meanColor(const Settings& settings, const RenderAssets& assets) {
 
 // ---- Images and buffers -------------------------------------------------------------------------
 
-// GLSL takes it that what an address points to is aligned to 16 bytes, where nothing else is said.
+// GLSL assumes that a buffer reference is aligned to 16 bytes, unless it says otherwise.
 constexpr std::size_t kPictureStride = (sizeof(gpu::PictureParameters) + 15) / 16 * 16;
 
 static_assert(offsetof(gpu::ShadowMap, corner) == 80 && sizeof(gpu::ShadowMap) == 116);
@@ -168,7 +170,7 @@ static_assert(offsetof(gpu::ShadowParameters, softness) == 192 * 116 + 8);
 constexpr VkFormat kLayerFormat = VK_FORMAT_R32G32B32A32_SFLOAT;
 constexpr VkImageLayout kRead = VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL;
 
-// A light's maps are beside each other.
+// The maps of a light are consecutive.
 std::vector<MapOfLight> mapsOfLights(const Settings& settings) {
     const ShadingSettings& shading = settings.shading;
     std::vector<MapOfLight> maps;
@@ -225,7 +227,7 @@ void toRead(engine::Commands& commands, const engine::Image& image, VkImageLayou
         engine::Access::shading_read);
 }
 
-// For what is drawn next, after the last frame's pictures have read the image.
+// Prepares the image for the next draws, after the last frame's pictures have read it.
 void toDraw(engine::Commands& commands, const engine::Image& image, VkImageLayout to) {
     commands.transition(
         image, VK_IMAGE_LAYOUT_UNDEFINED, to, engine::Access::shading_read,
@@ -268,8 +270,9 @@ LightSettings lightSample(const LightSettings& light, const glm::vec3& seen, std
     const std::uint32_t count = shadowMaps(light);
     LightSettings sample = light;
     if (count == 1) return sample;
-    // Of a sphere the disc is taken whose edge is the sphere's outline from `seen`; of a disc at
-    // infinity its projection, in which all of its parts light alike what faces its middle.
+    // A sphere is sampled on the disc bounded by its outline as seen from `seen`. A disc at
+    // infinity is sampled on its projection, where equal parts give equal light to a surface that
+    // faces its middle.
     const bool directional = light.type == LightType::directional;
     const glm::vec3 axis = unit(directional ? light.direction : seen - light.position);
     const glm::mat4 view = looking(glm::vec3(0.0f), axis);
@@ -343,7 +346,7 @@ bool hasHairMaps(const Settings& settings) {
 
 std::uint64_t shadowMapBytes(const Settings& settings) {
     Settings lit = settings;
-    // To hair an environment is further lights; meshes have a map of each, too.
+    // The environment adds lights for hair. Each of them also has a map of the meshes.
     if (!settings.render.environment.empty())
         lit.shading.lights.resize(
             settings.shading.lights.size() + settings.shading.environment_lights,
@@ -428,7 +431,7 @@ void ShadowPass::writeParameters(
     parameters.stopped = shadows.stopped;
     parameters.softness = shadows.softness;
     parameters.mesh_color = mesh_color_;
-    // What is sampled round a point lies in the map: the filter, and strands a texel wide.
+    // The map has room for samples round a point: those of the filter, and strands a texel wide.
     const float margin = std::max(shadows.softness, 0.5f) + 1.0f;
     const ShadowBounds bounds = scene_.bounds(view);
     seen_.clear();
@@ -454,7 +457,7 @@ void ShadowPass::writeParameters(
         gpu::PictureParameters picture = of;
         picture.view_projection = seen.view_projection;
         picture.eye = seen.eye;
-        // Rays through texels meet strands as thin as they are.
+        // Deep shadow maps trace rays through texels, so strands keep their width.
         const bool widens = shadows.hair != HairShadows::deep_shadow;
         picture.pixel_near = widens ? seen.texel_near : 0.0f;
         picture.pixel_slope = widens ? seen.texel_slope : 0.0f;

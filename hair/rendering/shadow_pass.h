@@ -20,7 +20,7 @@
 #include "hair/rendering/scene_meshes.h"
 #include "hair/settings.h"
 
-// Shadows: what lights look at, the atlas of their maps, and the passes that draw them.
+// Shadows: the views of lights, the atlas of their maps, and the passes that draw them.
 namespace hair::rendering {
 
 struct Sphere {
@@ -28,33 +28,33 @@ struct Sphere {
     float radius = 0.0f;     // m
 };
 
-// A sphere that strands can't leave however they hang, but for what solvers stretch them: about
-// their roots, as far as they are long.
+// Returns a sphere that strands can't leave in any pose, except where solvers stretch them: it
+// encloses their roots, with room for the length of the strands.
 Sphere strandBounds(const groom::Groom& groom, const StrandSettings& settings);
 
-// The least sphere round both; a sphere of no radius counts as none.
+// Returns the smallest sphere round both; a sphere of radius 0 counts as empty.
 Sphere enclosing(const Sphere& a, const Sphere& b);
 
-// What lights have to see.
+// The regions that shadow maps have to show.
 struct ShadowBounds {
     Sphere seen;  // a light's map shows all of it: the hair and the head
-    Sphere range;  // a light's map reaches from its near to its far end: all that is drawn
+    Sphere range;  // the depth range of a light's map: everything that is drawn
 };
 
-// Where the bodies and the hair of a picture are.
+// Bounds of the meshes and the hair of a picture.
 class ShadowScene {
 public:
     ShadowScene(const Settings& settings, const RenderAssets& assets);
 
-    // The bounds with the head and the hair where `view` has them.
+    // Returns the bounds with the head and the hair where `view` has them.
     ShadowBounds bounds(const StrandView& view) const;
 
 private:
-    Sphere head_;  // before it moved
+    Sphere head_;  // before its motion
     Sphere others_;
 };
 
-// Square parts of one size in an image: in rows, as many of them as columns or one less.
+// Equal square parts of an image, in as many rows as columns or one row less.
 struct ShadowAtlas {
     std::uint32_t parts = 0;
     std::uint32_t side = 0;  // of a part, px
@@ -64,40 +64,41 @@ struct ShadowAtlas {
     VkRect2D part(std::uint32_t index) const;
 };
 
-// A shadow map: the light, and which of the light's points it is seen from.
+// A shadow map: its light, and the number of the point on the light that it is drawn from.
 struct MapOfLight {
     std::uint32_t light = 0;
     std::uint32_t sample = 0;
 };
 
-// A light like this one but in one point of its face, or direction of its disc, as it is seen from
-// `seen`: the light itself where it has one map. `index`, below shadowMaps(), tells apart those
-// that stand for equal parts of its light.
+// Returns the light moved to one point of its face or, where it is a disc at infinity, turned to
+// one direction of its disc, as seen from `seen`. Returns the light itself where it has one map.
+// `index` is below shadowMaps(); each index stands for an equal part of the light.
 LightSettings lightSample(const LightSettings& light, const glm::vec3& seen, std::uint32_t index);
 
-// Whether there are maps of hair.
+// Whether there are shadow maps of hair.
 bool hasHairMaps(const Settings& settings);
 
-// B of all lights' maps, those of an environment's lights among them.
+// Returns the bytes of all shadow maps, including those of an environment's lights.
 std::uint64_t shadowMapBytes(const Settings& settings);
 
-// Throws engine::Unsupported where the device has no such images.
+// Throws engine::Unsupported where the device has no images of this size.
 void checkAtlas(const engine::Device& device, const ShadowAtlas& atlas);
 
-// What lights see: the depth of meshes, and of hair its depth and opacity in layers (Yuksel and
+// Draws shadow maps: the depth of meshes and, for hair, its depth and opacity in layers (Yuksel and
 // Keyser 2008, Deep opacity maps) or what a ray through each texel meets (Lokovic and Veach 2000,
-// Deep shadow maps). Each light that throws shadows has a part of an atlas; one with a size that of
-// its middle, or several, each of another point of its face (LightSettings::shadow_samples).
+// Deep shadow maps). Each light that casts shadows has a part of an atlas. A light with a size has
+// one part for its middle, or several for different points of its face
+// (LightSettings::shadow_samples).
 class ShadowPass {
 public:
-    // `points` are there where readsPoints(). Throws engine::Unsupported where the device lacks the
-    // images.
+    // `points` must be set where readsPoints(). Throws engine::Unsupported where the device lacks
+    // the images.
     ShadowPass(
         const engine::Device& device, const Settings& settings, const StrandPlan& plan,
         const RenderAssets& assets, const PointsPass* points = nullptr);
 
-    // The passes "mesh_shadow" and "hair_shadow", where asked for. `picture` is what the camera's
-    // picture reads: levels of detail are those of its lod_eye.
+    // Records the passes "mesh_shadow" and "hair_shadow", where asked for. `picture` is the
+    // camera's: levels of detail are those of its lod_eye.
     void record(
         engine::Passes& passes, const SceneMeshes& meshes, const StrandView& view,
         const gpu::PictureParameters& picture);
@@ -110,7 +111,7 @@ public:
     std::span<const engine::SampledImage> images() const { return images_; }
 
 private:
-    // What a light sees.
+    // The parameters of one map's picture.
     struct LightPicture {
         std::uint64_t address;  // of `parameters` on the device
         gpu::PictureParameters parameters;
@@ -122,7 +123,7 @@ private:
 
     Settings settings_;
     ShadowScene scene_;
-    std::vector<MapOfLight> maps_;  // of the atlas's parts
+    std::vector<MapOfLight> maps_;  // [part of the atlas]
     bool mesh_maps_;
     bool hair_maps_;
     ShadowAtlas atlas_;
@@ -134,7 +135,7 @@ private:
     engine::Sampler sampler_;
     std::vector<engine::SampledImage> images_;
     glm::vec3 mesh_color_;
-    // Of the frame that is recorded:
+    // Values of the frame that is recorded:
     std::vector<LightPicture> seen_;
     std::vector<std::byte> written_;  // into pictures_
     std::unique_ptr<StrandBackend> depth_;

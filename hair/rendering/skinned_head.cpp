@@ -26,7 +26,7 @@ using engine::Access;
 static_assert(sizeof(gpu::CarriedRoot) == 52 && offsetof(gpu::CarriedRoot, inverse_edges) == 36);
 static_assert(sizeof(gpu::SkinPush) == 36);
 
-// The pass finds roots as they are without it.
+// The pass computes roots without its own corrections.
 engine::ComputeDescription skinStage(const StrandSettings& strands, StrandPlan plan) {
     plan.skinned = false;
     return {
@@ -38,7 +38,7 @@ engine::ComputeDescription skinStage(const StrandSettings& strands, StrandPlan p
 // The hair as it is at rest.
 StrandView atRest(StrandView view) {
     view.guides = view.rest_guides;
-    view.contacts = view.rest_guides;  // whose w is 0: none
+    view.contacts = view.rest_guides;  // w is 0: no contact
     view.head = glm::mat4(1.0f);
     return view;
 }
@@ -131,8 +131,8 @@ void SkinnedHead::record(
     engine::Commands& commands, std::uint64_t picture, const gpu::PictureParameters& parameters,
     std::uint32_t slot) const {
     if (!roots_.address()) return;
-    // After whoever still draws with the corrections that are overwritten, and so after the guides'
-    // frames, which were to be drawn with.
+    // Waits for draws that still read the old corrections, and so, by the chain of barriers, for
+    // the frames along guides.
     commands.barrier(Access::vertex_read, Access::compute_write);
     commands.uses(
         {{parameters.guides, Access::compute_read},

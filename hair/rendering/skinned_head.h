@@ -18,26 +18,27 @@
 
 namespace hair::rendering {
 
-// The mesh under the hair where an animation deforms it, and the roots of drawn strands, each on
-// the triangle of the mesh that was nearest to it at rest. Guides' roots are the simulation's to
-// move; those of strands between guides follow their guides and are then corrected here.
+// The mesh under the hair where an animation deforms it, and the roots of drawn strands, each bound
+// to the triangle of the mesh that was nearest to it at rest. The simulation moves the roots of
+// guides. The roots of strands between guides follow their guides and are then corrected here.
 class SkinnedHead {
 public:
-    // `view` has a mesh that deforms. Finds the roots at rest on the device and waits.
+    // `view` must have a mesh that deforms. Finds the roots at rest on the device and waits.
     SkinnedHead(
         const engine::Device& device, const Settings& settings, const StrandPlan& plan,
         const StrandView& view);
 
-    // Works out the mesh at the view's time. No frame in flight may read the slot.
+    // Writes the mesh at the view's time. No frame in flight may read the slot.
     void write(std::uint32_t slot, const StrandView& view);
 
     // vec3 [vertex], in the world; upload buffers.
     const engine::Buffer& positions(std::uint32_t slot) const { return positions_[slot]; }
     const engine::Buffer& normals(std::uint32_t slot) const { return normals_[slot]; }
 
-    // Corrects the roots for what is drawn next. After what moves guides and their frames, which
-    // compute sees; the corrections are then visible to the stages before the rasteriser, and to a
-    // PointsPass. `picture` is the address of the gpu::PictureParameters.
+    // Records the correction of the roots for the draws that follow. The guides and their frames
+    // must be up to date and visible to compute. The corrections are then visible to the stages
+    // before the rasteriser, and to a PointsPass. `picture` is the address of the
+    // gpu::PictureParameters.
     void record(
         engine::Commands& commands, std::uint64_t picture, const gpu::PictureParameters& parameters,
         std::uint32_t slot) const;
@@ -46,7 +47,7 @@ public:
     const engine::Buffer& corrections() const { return corrections_; }
 
 private:
-    // Kept, so that a picture takes no memory anew.
+    // Kept, so that no picture allocates memory.
     struct Work {
         groom::DeformingMesh::Scratch scratch;
         std::vector<glm::dvec3> positions;  // [vertex], of the mesh, m

@@ -17,9 +17,9 @@ static_assert(offsetof(gpu::SoftwarePush, width) == 88 && sizeof(gpu::SoftwarePu
 
 constexpr const char* kSoftware = "/strands/backend: software";
 constexpr std::size_t kSampleBytes = 8;  // two words
-constexpr std::uint32_t kCoveredPieces = 128;  // by an invocation, at the most
+constexpr std::uint32_t kCoveredPieces = 128;  // at most, per invocation
 
-// Samples are where the device has them.
+// Throws engine::Unsupported for counts and positions of samples that the shaders don't know.
 std::uint32_t checkedSamples(const engine::Device& device, std::uint32_t samples) {
     const bool known = samples == 1 || samples == 2 || samples == 4 || samples == 8;
     if (!known)
@@ -43,25 +43,25 @@ softwareBuffer(const engine::Device& device, std::size_t bytes, const std::strin
          .name = "software " + name}};
 }
 
-// With 64-bit atomics as well as integers: one pass over the pieces, where else there are two.
+// With 64-bit integers and atomics, one pass over the pieces is enough; otherwise it takes two.
 bool isPacked(const engine::Device& device) {
     return readsPairs(device) && device.has(engine::Feature::long_atomics);
 }
 
-// A turn for each piece, and for its place in the list.
+// A piece takes an iteration to test it, and more to list it.
 std::uint32_t foundBlock(const BackendContext& context) {
     return strandBlock(context.device, context.strands, context.plan, 3);
 }
 
-// What is the same for all pixels is read once by each invocation: on a processor there are as many
-// as lavapipe runs at a time.
+// Each invocation reads once what all pixels share. On a processor, a work group has as many
+// invocations as lavapipe runs at a time.
 std::uint32_t pixelGroup(const engine::Device& device) {
     return device.info().type == "cpu" ? 8 : 32;
 }
 
-// Whether invocations of `shade` take a pixel each. Lavapipe ends an invocation's loops after
-// 65,535 turns in all, and each light takes turns of its own for each texel of its map; where
-// lights are few an invocation takes many pixels and reads the picture's parameters once.
+// Whether each invocation of `shade` takes one pixel. Lavapipe ends an invocation's loops after
+// 65,535 iterations in all, and each light adds iterations for each texel of its map. With few
+// lights, an invocation takes many pixels and reads the picture's parameters once.
 bool shadesPixelsApart(const BackendContext& context) {
     constexpr std::uint32_t kFewLights = 2;
     return std::ranges::any_of(context.output.shading, [](const engine::Constant& constant) {
@@ -78,8 +78,8 @@ engine::Constants softwareConstants(const BackendContext& context, std::uint32_t
     return constants;
 }
 
-// The points as texels, for stages that have the variant: those with 64-bit atomics. Null where
-// points or samples are too many for the device to fetch so.
+// The points as a texel buffer, for the stages that have a variant for it: those with 64-bit
+// atomics. Null where the device can't fetch so many points or samples as texels.
 const engine::TexelView* texelsOf(const BackendContext& context) {
     const std::size_t samples = sampleCount(context.target->description());
     const bool fits = samples <= context.device.info().limits.maxTexelBufferElements;
@@ -99,7 +99,7 @@ softwareStage(const BackendContext& context, const std::string& name, std::uint3
         .push_size = sizeof(gpu::SoftwarePush)};
 }
 
-// A stage that fetches from so many buffers as texels, where the device reads them so.
+// A stage that fetches from `buffers` texel buffers, where texelsOf() is set.
 engine::ComputeDescription texelStage(
     const BackendContext& context, const std::string& name, std::uint32_t buffers,
     std::uint32_t block = 1) {
@@ -267,8 +267,9 @@ void SoftwareBackend::findPieces(engine::Commands& commands, gpu::SoftwarePush c
     commands.dispatchInvocations(blocks, gpu::kSoftwareStrandGroup);
 }
 
-// An invocation has few pieces, but where every one has costs of its own as many as are sure to be
-// done before lavapipe ends its loops.
+// Dispatches an invocation for every kCoveredPieces pieces of all strands. Only listed pieces are
+// covered, so most invocations have few. kCoveredPieces are few enough to be done before lavapipe
+// ends an invocation's loops.
 void SoftwareBackend::coverPieces(engine::Commands& commands, gpu::SoftwarePush constants) const {
     constants.points = points_.points().address();
     constants.list = list_.address();
@@ -336,8 +337,9 @@ void SoftwareBackend::findWindows(engine::Commands& commands, gpu::SoftwarePush 
     commands.dispatch(divideUp(constants.height, gpu::kTile));
 }
 
-// With 64-bit atomics how near a sample's piece is and which are one number; else it is first found
-// how near the nearest is, and then which that are so near is the first.
+// With 64-bit atomics, the depth and the number of a sample's piece are one word. Without them, a
+// first pass finds the nearest depth of each sample, and a second pass the first piece at that
+// depth.
 void SoftwareBackend::cover(engine::Commands& commands, const StrandPicture& picture) const {
     gpu::SoftwarePush constants = push(picture);
     const gpu::SoftwarePush first = ofPart(constants, gpu::kCoverFirst);
@@ -396,7 +398,7 @@ void SoftwareBackend::draw(engine::Commands& commands, const StrandPicture& pict
         {{samples_, Access::fragment_read},
          {constants.colors, Access::fragment_read},
          {points_.bounds(), Access::vertex_read}});
-    // One draw for each sample: shading by sample is a feature that not every device has.
+    // One draw per sample, because sample-rate shading is a feature that not every device has.
     for (constants.choice = 0; constants.choice < samples_per_pixel_; ++constants.choice) {
         commands.bind(show_, constants);
         if (texels_) commands.images(show_, {}, std::array{&sample_texels_});

@@ -16,7 +16,7 @@
 
 namespace hair::rendering {
 
-// Bytes of what `software` keeps for each sample, pixel and piece of strand.
+// Bytes of the buffers that the back end `software` keeps for samples, tiles and pieces of strands.
 struct SoftwareSizes {
     std::size_t samples = 0;
     std::size_t colors = 0;  // 0 without linear light
@@ -28,25 +28,25 @@ struct SoftwareSizes {
     std::size_t sum() const { return samples + colors + list + large + tiles + windows; }
 };
 
-// `pieces`: of all strands that a dispatch looks at, whole blocks of them.
+// `pieces` counts the pieces of all strands of a dispatch, rounded up to whole blocks of strands.
 SoftwareSizes softwareSizes(const engine::TargetDescription& target, std::uint64_t pieces);
 
-// Strands rasterised in compute, opaque, from their points. Pieces of strands leave their number
-// and depth at the samples that they cover, by atomic minima; each sample that shows a strand is
-// shaded once; and two triangles bring color and depth into the target. What shows no hair costs
-// nothing: samples are cleared, shaded and drawn within the hair's bounds on the screen. Some
-// strands come first; of the others the pieces are left out that are behind those and the scene.
+// Rasterises opaque strands in compute, from their points. Pieces of strands write their number and
+// depth to the samples that they cover, by atomic minima. Each sample that shows a strand is shaded
+// once, and two triangles bring colour and depth into the target. Clearing, shading and drawing are
+// limited to the hair's bounds on the screen. Some strands are drawn first; pieces of the others
+// are culled where they lie behind those or the scene.
 //
-// Pieces are the quads that the other back ends draw, and samples lie where Vulkan's standard
-// positions are, so that the picture is theirs but for rounding; with several samples each is
-// shaded by itself, not once a pixel.
+// Pieces are the quads that the other back ends draw, and samples lie at Vulkan's standard
+// positions, so the picture matches theirs up to rounding. With several samples, each is shaded by
+// itself, not once a pixel.
 class SoftwareBackend : public StrandBackend {
 public:
     // Needs context.target, with sampled_depth, and context.points. Throws engine::Unsupported for
     // what the device or the back end can't do.
     explicit SoftwareBackend(const BackendContext& context);
 
-    // The same of a case, before it is made.
+    // Throws as the constructor does, without making the back end.
     static void
     check(const engine::Device& device, const Settings& settings, const StrandPlan& plan);
 
@@ -59,7 +59,8 @@ public:
 private:
     SoftwareBackend(const BackendContext& context, const SoftwareSizes& sizes);
 
-    // What every stage knows; it adds the addresses of what it touches, and no others.
+    // The push constants that all stages share. Each stage adds the addresses that it uses, and no
+    // others.
     gpu::SoftwarePush push(const StrandPicture& picture) const;
     void clear(engine::Commands& commands, const StrandPicture& picture) const;
     void cover(engine::Commands& commands, const StrandPicture& picture) const;
@@ -74,21 +75,22 @@ private:
     const engine::Target& target_;
     const PointsPass& points_;
     std::uint32_t samples_per_pixel_;
-    std::uint32_t block_;  // strands that an invocation looks at
+    std::uint32_t block_;  // strands per invocation
     std::uint32_t blocks_;
     std::uint32_t pieces_per_strand_;
     bool is_packed_;  // with 64-bit integers and atomics
-    const engine::TexelView* texels_;  // the points; null: all is read by address
+    const engine::TexelView* texels_;  // the points; null where shaders read by address alone
     engine::Buffer samples_;
     engine::Buffer colors_;  // empty without linear light
     engine::Buffer counts_;  // gpu::PieceCounts
-    // Pieces that may be seen, of the first strands and then of the others. It has room for whole
-    // blocks: the last one, of fewer strands, may be among the first.
+    // Pieces that may be visible: those of the first strands, then those of the others. It has room
+    // for whole blocks, because the last block, which may have fewer strands, may be among the
+    // first.
     engine::Buffer list_;
-    engine::Buffer large_;  // pieces with many samples
+    engine::Buffer large_;  // pieces that cover many samples
     engine::Buffer tiles_;
     engine::Buffer windows_;
-    // Where the points are texels.
+    // Only where texels_ is set.
     engine::TexelView sample_texels_;
     engine::TexelView tile_texels_;
     engine::TexelView window_texels_;
@@ -98,7 +100,7 @@ private:
     engine::ComputePipeline find_;
     engine::ComputePipeline cover_;
     engine::ComputePipeline cover_large_;
-    std::uint32_t shaded_columns_;  // of workgroups, for each row of pixels
+    std::uint32_t shaded_columns_;  // work groups per row of pixels
     engine::ComputePipeline shade_;
     engine::GraphicsPipeline show_;
 };

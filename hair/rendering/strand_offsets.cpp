@@ -28,8 +28,8 @@ static_assert(sizeof(gpu::TurnsPush) == 48 && offsetof(gpu::TurnsPush, guides) =
 
 // ---- Offsets of a model -------------------------------------------------------------------------
 
-// A cubic needs 3 points beside the root; more make its fit one by arc length. The most is what a
-// table of 1,024 profiles has room for.
+// A cubic needs 3 points beside the root; more points make it a fit by arc length. A table of 1,024
+// profiles has room for kMostPoints.
 constexpr std::uint32_t kLeastPoints = 16;
 constexpr std::uint32_t kMostPoints = 4096;
 
@@ -57,8 +57,8 @@ Cubic fit(std::span<const glm::vec3> strand, const groom::AlongStrand& along) {
     return {root, moments * glm::inverse(normal_matrix)};
 }
 
-// The strands of a model that offsets can be taken from, at most `most` and spread over the file:
-// those with a length. Throws engine::Error where there is none.
+// Picks the strands of a model that offsets are taken from: those with a length, at most `most`,
+// spread over the file. Throws engine::Error if no strand has a length.
 groom::StrandSet offsetModel(const groom::StrandSet& strands, std::uint32_t most) {
     std::vector<std::uint32_t> usable;
     for (std::uint32_t i = 0; i < strands.strandCount(); ++i)
@@ -72,10 +72,10 @@ groom::StrandSet offsetModel(const groom::StrandSet& strands, std::uint32_t most
     return groom::resample(std::move(picked), points);
 }
 
-// Adds the offsets of a strand of a model from its smooth shape, enlarged from that one's length to
-// `length` and turned about it by `turn` (1: all the way round), to `samples`, evenly spaced from
-// root to tip. The smooth shape is the cubic through the root that fits the strand best by arc
-// length; the offsets are in its frame that does not turn about it.
+// Adds the offsets of a model's strand from its smooth shape to `samples`, which are evenly spaced
+// from root to tip. The offsets are scaled from the length of the smooth shape to `length` and
+// turned about it by `turn` (1: a full turn). The smooth shape is the cubic through the root that
+// fits the strand best by arc length. The offsets are in its rotation-minimising frame.
 void addModelOffsets(
     std::span<const glm::vec3> strand, double length, double turn, std::span<glm::vec3> samples) {
     const groom::AlongStrand along(strand);
@@ -84,7 +84,7 @@ void addModelOffsets(
     for (std::size_t i = 0; i < strand.size(); ++i)
         smooth[i] = glm::vec3(cubic.at(along.fraction(i)));
     const std::vector<groom::StrandFrame> frames = groom::strandFrames(smooth, nullptr);
-    // A strand that ends where it began may have a smooth shape of next to no length.
+    // A strand that ends where it began may have a smooth shape of almost no length.
     const double scale =
         length / std::max(groom::AlongStrand(smooth).length(), 0.01 * along.length());
 
@@ -114,11 +114,11 @@ void addModelOffsets(
 
 // ---- Curls and variation ------------------------------------------------------------------------
 
-// The offsets that are made and not taken from a model. All add to `samples`, evenly spaced from
-// the root to the tip of a strand of `length` m, and leave the first alone; `profile` is a number
-// that the random ones come from.
+// Procedural offsets. All functions add to `samples`, evenly spaced from the root to the tip of a
+// strand of `length` m, and leave the first alone. `profile` is the key of the random numbers.
 
-// Adds `offset(along)`, along in (0, 1], which grows over the fraction `start` of the strand.
+// Adds `offset(along)`, along in (0, 1]. The offset fades in over the fraction `start` of the
+// strand.
 template <class Offset>
 void add(double start, std::span<glm::vec3> samples, Offset&& offset) {
     for (std::size_t i = 1; i < samples.size(); ++i) {
@@ -127,7 +127,7 @@ void add(double start, std::span<glm::vec3> samples, Offset&& offset) {
     }
 }
 
-// A helix of a random phase and frequency.
+// Adds a helix of random phase and frequency.
 void addCurl(
     const StrandCurlSettings& settings, double length, std::uint32_t seed, std::uint32_t profile,
     std::span<glm::vec3> samples) {
@@ -141,7 +141,7 @@ void addCurl(
     });
 }
 
-// Smooth noise: a random vector of at most the amplitude at every change of direction.
+// Adds smooth noise: a random vector of at most the amplitude at every change of direction.
 void addVariation(
     const StrandVariationSettings& settings, double length, std::uint32_t seed,
     std::uint32_t profile, std::span<glm::vec3> samples) {
@@ -172,7 +172,8 @@ double meanLength(const groom::Groom& groom) {
     return sum / groom.strand_count;
 }
 
-// Intervals that `count` things of a strand need.
+// Returns the intervals that `count` turns or changes of a strand need. Throws engine::Error for
+// more than the table can have.
 std::uint32_t intervalsFor(
     double count, double intervals_each, const std::string& pointer, const std::string& things) {
     const double most = StrandOffsets::kMostSamples / intervals_each;
@@ -184,7 +185,7 @@ std::uint32_t intervalsFor(
     return static_cast<std::uint32_t>(std::ceil(count * intervals_each));
 }
 
-// What starts slowly has to be seen starting slowly.
+// Enough to resolve the slow start of offsets.
 constexpr std::uint32_t kLeastIntervals = 32;
 
 std::uint32_t samplesFor(
@@ -235,7 +236,7 @@ FramesPass::FramesPass(const engine::Device& device, const StrandView& view) {
 
 void FramesPass::record(engine::Commands& commands, const StrandView& view) const {
     using engine::Access;
-    // The pass waits for whoever still draws with the frames that are overwritten.
+    // Waits for draws that still read the old frames.
     commands.barrier(Access::vertex_read, Access::compute_write);
     if (frame_) {
         commands.uses({{view.guides, Access::compute_read}, {normals_, Access::compute_write}});

@@ -14,24 +14,24 @@
 #include "hair/rendering/groom_buffers.h"
 #include "hair/settings.h"
 
-// Offsets of strands from their smooth shape, and the frames along guides that they and residuals
-// are in.
+// Offsets of strands from their smooth shape, and the frames along guides that offsets and
+// residuals refer to.
 namespace hair::rendering {
 
-// Frames along the guides that don't turn about them, for the offsets of strands. They start at the
-// root with what the groom has at rest, turned as little as the guide's direction there has turned:
-// as long as that isn't reversed they move without a jump. And how the guides have turned since
-// rest, for residuals: in the same way, from the root on.
+// Rotation-minimising frames along the guides, for the offsets of strands. At the root, a frame is
+// the groom's frame at rest, turned by the smallest rotation that follows the guide's direction
+// there; it moves without a jump as long as that direction isn't reversed. For residuals, the pass
+// computes the rotation of the guides since rest in the same way, from the root on.
 class FramesPass {
 public:
-    // Whether what is drawn of `view` has either.
+    // Whether the strands of `view` have offsets or residuals.
     static bool isNeeded(const StrandView& view);
 
-    // `view` gives the counts, and which of the two there are.
+    // `view` gives the counts, and says which of the two are needed.
     FramesPass(const engine::Device& device, const StrandView& view);
 
-    // Belongs after what moves the guides, which compute sees, and before what draws. The frames
-    // are then visible to the stages before the rasteriser.
+    // Belongs after the pass that moves the guides, which must be visible to compute, and before
+    // the draws. The frames are then visible to the stages before the rasteriser.
     void record(engine::Commands& commands, const StrandView& view) const;
 
     // vec3 [guide][vertex], unit length, across the guide; empty without offsets.
@@ -46,9 +46,9 @@ private:
     engine::Buffer turns_;
 };
 
-// Offsets of drawn strands from their smooth shape: thesis 2.3.8.2 and 2.3.8.3. Computed once; a
-// strand takes one of the profiles by a hash, the same at every level of detail. A vector is along
-// the normal, the binormal and the tangent of a frame that does not turn about the strand. The
+// Offsets of drawn strands from their smooth shape: thesis 2.3.8.2 and 2.3.8.3. They are computed
+// once. A hash picks a profile for each strand, the same at every level of detail. A vector is
+// along the normal, the binormal and the tangent of a rotation-minimising frame of the strand. The
 // first sample, at the root, is 0.
 struct StrandOffsets {
     static constexpr std::uint32_t kProfiles = 64;  // without a model
@@ -69,20 +69,20 @@ struct StrandOffsets {
 
 // Whether strands are drawn off their smooth shape at all.
 bool hasOffsets(const StrandSettings& settings);
-// Whether they are offset along frames: by a table, or by a function of the scene's own.
+// Whether their offsets need frames: offsets of a table, or of the scene's own function.
 bool hasFrames(const StrandSettings& settings);
-// How far that function takes them at most, m: its parameter `reach`. 0 without one.
+// Greatest offset that the function makes, m: its parameter `reach`. 0 without a function.
 float functionReach(const StrandSettings& settings);
 
-// B of a table of offsets for guides of a mean length, m, where a model has kMostProfiles strands
-// of 64 points: for who does not know the groom yet.
+// Estimates the bytes of a table of offsets where the groom is not known yet. `length` is the
+// guides' mean length, m; a model is taken to have kMostProfiles strands of 64 points.
 std::uint64_t offsetBytes(const StrandSettings& settings, double length);
 
-// Curls, variation and the offsets of `model`, added up. Frequencies are per metre of the guides'
-// mean length at rest, which stands for the length of every strand, and the model's offsets grow
-// with it. `model` is what settings.offsets names, null if that is empty; up to kMostProfiles of
-// its strands, spread over the file, become profiles, each turned about itself at random.
-// Throws engine::Error, beginning with the JSON pointer, for what a table can't hold: more than
+// Adds up curls, variation and the offsets of `model`. Frequencies are per metre of the guides'
+// mean length at rest, which stands for the length of every strand, and the model's offsets scale
+// with it. `model` is the file that settings.offsets names, null if that is empty. Up to
+// kMostProfiles of its strands, spread over the file, become profiles, each turned about its axis
+// at random. Throws engine::Error, beginning with the JSON pointer, for more than a table can hold:
 // 1,024 turns or 2,048 changes of direction on a strand.
 StrandOffsets makeStrandOffsets(
     const StrandSettings& settings, const groom::Groom& groom, const groom::StrandSet* model,

@@ -20,7 +20,7 @@ struct BlendContext {
     const engine::Device& device;
     const Settings& settings;
     const engine::Target& target;
-    const StrandView& view;  // for the sphere that strands can't leave
+    const StrandView& view;  // for the bounding sphere of the strands
 };
 
 // The pipeline of a pass that blends a fragment over every pixel of the target.
@@ -38,7 +38,7 @@ compositePipeline(const RenderSettings& render, const char* fragment_shader) {
 
 // ---- Drawn at once ------------------------------------------------------------------------------
 
-// Fragments go to the target at once, over what is there or over black.
+// Blends fragments into the target directly, over its contents or over black.
 class DirectBlend : public StrandBlend {
 public:
     enum class Over { picture, black };
@@ -77,14 +77,14 @@ private:
     Over over_;
 };
 
-// The nearest fragment is seen.
+// Shows the nearest fragment.
 std::unique_ptr<StrandBlend> makeOpaqueBlend(const BlendContext& context) {
     return std::make_unique<DirectBlend>(context.settings.render, "strands/strand.frag");
 }
 
-// What /render/show asks for: a color of the nearest fragment, or counts, which add up: of
-// fragments that pass the test of depth in the order in which they are drawn, or of all in front of
-// what was there before the strands.
+// Shows what /render/show asks for: a colour of the nearest fragment, or a sum of counts.
+// `overdraw` counts the fragments that pass the depth test in drawing order; `density` counts all
+// fragments in front of the scene.
 std::unique_ptr<StrandBlend> makeShownBlend(const BlendContext& context) {
     const Show show = context.settings.render.show;
     if (show == Show::overdraw || show == Show::density)
@@ -98,16 +98,16 @@ std::unique_ptr<StrandBlend> makeShownBlend(const BlendContext& context) {
     return std::make_unique<DirectBlend>(context.settings.render, "strands/strand_show.frag");
 }
 
-// The nearest fragment of every sample; one covers as many as its alpha says.
+// Shows the nearest fragment of every sample; a fragment's alpha says how many samples it covers.
 std::unique_ptr<StrandBlend> makeSampleBlend(const BlendContext& context) {
     return std::make_unique<DirectBlend>(context.settings.render, "strands/samples.frag");
 }
 
 // ---- Discarded ----------------------------------------------------------------------------------
 
-// For strands whose primitives are discarded before they are rasterised: they touch no attachment,
-// and none may be there that their pipeline does not name. The target is rendered to without them,
-// so that its share of the pass is the same as in other pictures.
+// For strands whose primitives are discarded before rasterisation. They write no attachment, and
+// their rendering may only have attachments that their pipeline names. An empty rendering to the
+// target comes before, so that its share of the pass is the same as in other pictures.
 class DiscardedBlend : public StrandBlend {
 public:
     StrandOutput output() const override { return {.depth_format = VK_FORMAT_UNDEFINED}; }
@@ -127,20 +127,21 @@ public:
     }
 };
 
-// Nothing is seen: of StrandStages that end before raster.
+// Shows nothing: for StrandStages that end before raster.
 std::unique_ptr<StrandBlend> makeDiscardedBlend() { return std::make_unique<DiscardedBlend>(); }
 
 // ---- Lists of fragments -------------------------------------------------------------------------
 
-// 4 GiB of nodes: what 32-bit offsets reach.
+// 4 GiB of nodes, the reach of 32-bit offsets.
 constexpr std::uint64_t kMostNodes = (std::uint64_t{1} << 32u) / sizeof(gpu::FragmentNode);
 
-// That are rendered.
+// Counts the rendered pixels.
 std::uint64_t pixelCount(const RenderSettings& render) {
     return std::uint64_t{render.width} * render.ssaa * render.height * render.ssaa;
 }
 
-// What lists of fragments have for each pixel, and how many fragments they have room for.
+// Bytes of the list heads, one for each pixel, and the number of fragments that the lists have room
+// for.
 std::uint64_t headBytes(const RenderSettings& render) {
     return sizeof(std::uint32_t) * pixelCount(render);
 }
@@ -244,7 +245,7 @@ private:
     engine::GraphicsPipeline composite_;
 };
 
-// All fragments in their order, from lists.
+// Blends all fragments in order of depth, from a list for each pixel.
 std::unique_ptr<StrandBlend> makeListBlend(const BlendContext& context) {
     return std::make_unique<ListBlend>(context);
 }
@@ -351,7 +352,7 @@ private:
                 Access::fragment_read);
         }
         target.beginRendering(commands, engine::Load::keep, {}, last);
-        // One draw for each sample: shading by sample is a feature that not every device has.
+        // One draw per sample, because sample-rate shading is a feature that not every device has.
         for (std::uint32_t i = 0; i < samples_; ++i) {
             commands.bind(composite_, gpu::CompositePush{.fragments = 0, .sample_index = i});
             commands.images(
@@ -372,7 +373,7 @@ private:
     engine::GraphicsPipeline composite_;
 };
 
-// A weighted mean of all fragments: McGuire and Bavoil 2013.
+// Blends a weighted mean of all fragments: McGuire and Bavoil 2013.
 std::unique_ptr<StrandBlend> makeWeightedBlend(const BlendContext& context) {
     return std::make_unique<WeightedBlend>(context);
 }
@@ -392,7 +393,7 @@ constexpr std::array kBlends{
     BlendRow{Transparency::fragment_list, makeListBlend},
 };
 
-// Throws engine::Unsupported for what the device lacks.
+// Throws engine::Unsupported for features that the device lacks.
 std::unique_ptr<StrandBlend> makeBlend(const BlendContext& context) {
     if (context.settings.render.show != Show::shading) return makeShownBlend(context);
     const auto row =
@@ -410,7 +411,7 @@ StrandOutput shaded(StrandOutput output, const Settings& settings) {
     return output;
 }
 
-// A picture without hair asks nothing of the device.
+// A picture without hair requires no feature of the device.
 StrandStages drawnStages(const Settings& settings, const StrandStages& stages) {
     return settings.render.hair ? stages : StrandStages{.last = std::nullopt};
 }

@@ -18,7 +18,7 @@
 // The pass that draws strands: kinds of transparency, their texture, and the pass itself.
 namespace hair::rendering {
 
-// How many of a picture's fragments the lists have room for, and how many there were.
+// Capacity of the lists of fragments, and the number of fragments that a picture had.
 struct ListedFragments {
     std::uint64_t capacity = 0;
     std::uint64_t wanted = 0;
@@ -26,52 +26,53 @@ struct ListedFragments {
     std::uint64_t dropped() const { return wanted > capacity ? wanted - capacity : 0; }
 };
 
-// What a back end records of a picture's strands.
+// Commands that a back end records for a picture's strands.
 struct RecordedStrands {
     engine::PassKind kind;  // of the pass that draws them
     engine::FunctionRef<void(engine::Commands&)> prepare;  // before rendering begins
     engine::FunctionRef<void(engine::Commands&)> draw;  // within it
-    engine::Target::Last last;  // whether the picture is complete then
+    engine::Target::Last last;  // whether the picture is complete afterwards
 };
 
-// What becomes of strands' fragments: one kind of transparency.
+// One kind of transparency: how strands' fragments are blended.
 class StrandBlend {
 public:
     virtual ~StrandBlend() = default;
 
-    // What a back end's pipeline writes, but for how strands are shaded.
+    // The outputs of a back end's pipeline, without the shading of strands.
     virtual StrandOutput output() const = 0;
 
-    // The pass "strands", which draws them, and "composite", where there is one.
+    // Records the pass "strands", which draws them, and "composite", where there is one.
     virtual void record(
         engine::Passes& passes, const engine::Target& target,
         const RecordedStrands& strands) const = 0;
 
-    // Whether record() but draws into the target, so that what has been drawn there may go before
-    // in the same rendering.
+    // Whether record() only draws into the target, so that the strands can join a rendering that
+    // has already drawn into it.
     virtual bool drawsAtOnce() const { return false; }
 
     // The value of PictureParameters::fragments.
     virtual std::uint64_t fragments() const { return 0; }
 
-    // Memory that transparency takes beside the target.
+    // Bytes of memory that transparency takes beside the target.
     virtual std::uint64_t bytes() const { return 0; }
 
-    // The fragments of the last picture; waits for the device. Absent where they are not listed.
+    // Counts the fragments of the last picture; waits for the device. Absent where they are not
+    // listed.
     virtual std::optional<ListedFragments> listed() const { return std::nullopt; }
 };
 
-// B of what transparency takes beside a picture's target.
+// Bytes that transparency takes beside a picture's target.
 std::uint64_t transparencyBytes(const RenderSettings& render);
 
 // The specialization constants of shaders/shading/options.glsl.
 engine::Constants shadingConstants(const Settings& settings);
 
-// What fragment shaders of strands sample, at these bindings: the strands' texture, then
-// ShadowPass::images().
+// Number of images that fragment shaders of strands sample, bound in this order: the strands'
+// texture, then ShadowPass::images().
 inline constexpr std::uint32_t kStrandImages = 4;
 
-// The picture on strands, on the device, for strands/texture.glsl: its colours become working
+// The texture of strands on the device, for strands/texture.glsl. Its colours become working
 // colours. One white pixel where there is none.
 class StrandTexture {
 public:
@@ -86,25 +87,25 @@ private:
     engine::Sampler sampler_;
 };
 
-// Draws a picture's strands with the transparency that is asked for: the pass "strands" and, where
-// fragments are blended after all are known, "composite".
+// Draws a picture's strands with the transparency of the settings: the pass "strands" and, where
+// fragments are blended after all of them are known, "composite".
 class StrandPass {
 public:
-    // `view` has the sphere that the strands can't leave, which weighted_blended goes by; `points`
-    // are there where readsPoints(). Throws engine::Unsupported for what the device lacks.
+    // weighted_blended uses the bounding sphere of the strands in `view`. `points` must be set
+    // where readsPoints(). Throws engine::Unsupported for features that the device lacks.
     StrandPass(
         const engine::Device& device, const Settings& settings, const StrandPlan& plan,
         const engine::Target& target, const StrandView& view, const PointsPass* points,
         const StrandStages& stages = {});
 
     // The picture's images are the kStrandImages that strands/fragment.glsl samples. `last` says
-    // whether the picture is complete then.
+    // whether the picture is complete afterwards.
     void record(
         engine::Passes& passes, const engine::Target& target, const StrandPicture& picture,
         engine::Target::Last last) const;
 
-    // Whether scene and strands may be drawn in one rendering: by prepare() before it and draw() in
-    // it, instead of record().
+    // Whether scene and strands may share one rendering: prepare() before it and draw() in it,
+    // instead of record().
     bool joinsScene() const { return joins_scene_; }
     void prepare(engine::Commands& commands, const StrandPicture& picture) const {
         backend_->prepare(commands, picture);

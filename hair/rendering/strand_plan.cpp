@@ -14,10 +14,10 @@
 namespace hair::rendering {
 namespace {
 
-// A body moves what is inside of it out, however far that is.
+// A body moves points inside it to its surface, however far that is.
 constexpr float kAnywhere = 1e6f;  // m
 
-// Mean over the strands, m.
+// Mean width over the strands, m.
 double meanWidth(const groom::Groom& groom, const StrandSettings& settings) {
     if (settings.width == WidthSource::groom) {
         const double sum = std::accumulate(groom.widths.begin(), groom.widths.end(), 0.0);
@@ -27,8 +27,7 @@ double meanWidth(const groom::Groom& groom, const StrandSettings& settings) {
     return std::lerp(tapered, double{settings.root_width}, double{settings.taper_start});
 }
 
-// Root of the mean square distance of guide points from their mean, m: the radius of a sphere with
-// the points on it.
+// Root mean square distance of guide points from their mean, m. For points on a sphere, its radius.
 double radius(const groom::Groom& groom) {
     glm::dvec3 sum(0.0);
     double squares = 0.0;
@@ -47,7 +46,7 @@ std::uint32_t smallestFactor(std::uint32_t number) {
     return number;
 }
 
-// Lines have no width to divide, and what is not shading shows whole strands.
+// Lines have no width to divide, and the other pictures of /render/show show whole strands.
 bool drawsMergedHairs(const Settings& settings) {
     const LodSettings& lod = settings.lod;
     return lod.merged == MergedStrands::hairs &&
@@ -55,7 +54,7 @@ bool drawsMergedHairs(const Settings& settings) {
            settings.render.show == Show::shading && settings.strands.backend != Backend::lines;
 }
 
-// The number that strands/lod.glsl has, to the last bit.
+// Equals the number in strands/lod.glsl to the last bit.
 float scaledCount(std::uint32_t count, float scale) {
     return std::max(static_cast<float>(count) * scale, 1.0f);
 }
@@ -67,8 +66,8 @@ float thesisRandom(double x, double y) {
     return static_cast<float>(std::floor(fraction * 0x1p24)) * 0x1p-24f;
 }
 
-// The level at this distance from the camera, m: 0 up to near_distance, then growing with its
-// logarithm to maximum_level at far_distance.
+// The level at a distance from the camera, m: 0 up to near_distance, then linear in the distance's
+// logarithm up to maximum_level at far_distance.
 double levelAtDistance(const LodSettings& lod, double distance) {
     const double octaves = std::log2(distance / lod.near_distance);
     const double all = std::log2(double{lod.far_distance} / lod.near_distance);
@@ -144,7 +143,7 @@ planStrands(const StrandView& view, const Settings& settings, std::uint32_t isol
     plan.residuals = strands.source == StrandSource::groom && view.residuals != 0;
     plan.skinned = view.deforming != nullptr;
     plan.merged_hairs = drawsMergedHairs(settings);
-    // A model of the scene's own may ask where on a strand it is, as colours of its own do.
+    // The scene's own shading model may ask for its place on the strand, as strand colours do.
     plan.own_colors = settings.shading.strand_variation > 0.0f ||
                       settings.shading.tip_lightening > 0.0f ||
                       settings.shading.model == ShadingModel::extension;

@@ -11,8 +11,8 @@
 
 namespace hair::rendering {
 
-// The strands of a picture as points in memory, for who exports, measures or tests them. Both ends
-// of every guide segment are there: the last point of one is the first of the next.
+// The strands of a picture as points in memory, for export, measurement and tests. Every guide
+// segment has both of its ends: the last point of a segment is the first of the next.
 struct StrandPoints {
     StrandPlan plan;
     // [triangle][strand][guide segment][0 .. tessellation], root first. In LodMode::distance the
@@ -25,7 +25,7 @@ struct StrandPoints {
        std::uint32_t point) const;
 };
 
-// Points that are evaluated in one go: 32 MiB of them. Every device has larger buffers.
+// Most points that are evaluated at once: 32 MiB of them. Every device has larger buffers.
 inline constexpr std::uint32_t kMostPointsAtOnce = 1u << 20;
 
 // Evaluates all strands on the device and waits. Throws engine::Unsupported for more than 2^32 - 1

@@ -16,7 +16,7 @@
 namespace hair::rendering {
 namespace {
 
-constexpr std::uint32_t kMostSteps = 32767;  // of a sample's numbers
+constexpr std::uint32_t kMostSteps = 32767;  // in a coordinate of a sample
 const auto kMostPlace = static_cast<std::uint32_t>(gpu::kResidualPlaces);
 
 // ---- Curves of strands at rest ------------------------------------------------------------------
@@ -104,7 +104,7 @@ private:
 
     const groom::Groom& groom_;
     Curve curve_;
-    double single_;  // how much of the heaviest guide alone
+    double single_;  // share of the heaviest guide alone
     std::vector<glm::dvec3> controls_;  // [1 + vertex + 1], m
 };
 
@@ -120,8 +120,9 @@ std::uint32_t placeAt(double along) {
     return static_cast<std::uint32_t>(std::lround(along * kMostPlace));
 }
 
-// A strand's points with places that ascend, from 0 to kMostPlace. Leaves out points at the places
-// of others, none of which is the first or the last, and gives what is farthest from these.
+// A strand's points at ascending places, from 0 to kMostPlace. Leaves out points with places that
+// are taken, never the first or the last, and records their distances from the points that are
+// kept.
 class PlacedPoints {
 public:
     void take(std::span<const glm::vec3> points, std::size_t vertices) {
@@ -165,8 +166,8 @@ private:
     double farthest_left_out_ = 0.0;
 };
 
-// Whether every place is found from where it would be among evenly spaced ones: by the sample at
-// its even place, moved by kResidualGuess = 1/4 of an interval, and that one's neighbour.
+// Whether every place can be found without a search: by the sample at its place among evenly spaced
+// ones, shifted by kResidualGuess = 1/4 of an interval, or by a neighbour of that sample.
 bool isEven(std::span<const PlacedPoint> points) {
     const auto intervals = static_cast<double>(points.size() - 1);
     for (std::size_t i = 0; i < points.size(); ++i) {
@@ -181,8 +182,9 @@ glm::uvec2 packed(const glm::ivec3& steps, std::uint32_t place) {
     return {low.x | low.y << 16u, low.z | place << 16u};
 }
 
-// A curve stays within the hull of its control points in Bernstein's form: the samples, and a third
-// of an interval on along the slope at either end of it.
+// Bounds the length of the curve's vectors. The curve stays within the hull of its control points
+// in Bernstein form: the samples, and the points a third of an interval along the slope at both of
+// its ends.
 double reachOf(std::span<const glm::dvec3> samples, std::span<const PlacedPoint> points) {
     const auto slope = [&](std::size_t i) {
         return (samples[i + 1] - samples[i]) /
@@ -192,7 +194,8 @@ double reachOf(std::span<const glm::dvec3> samples, std::span<const PlacedPoint>
         return static_cast<double>(points[i + 1].place - points[i].place);
     };
     const std::size_t intervals = samples.size() - 1;
-    // Of the parabola through a sample and its neighbours; at the ends that of the next sample.
+    // The slope of the parabola through a sample and its neighbours. The ends use the parabola of
+    // the next sample.
     const auto steepness = [&](std::size_t i) {
         if (intervals == 1) return slope(0);
         if (i == 0) return slope(0) + size(0) / (size(0) + size(1)) * (slope(0) - slope(1));
@@ -247,7 +250,7 @@ StrandResiduals makeStrandResiduals(
             .first = static_cast<std::uint32_t>(residuals.samples.size()),
             .count = static_cast<std::uint32_t>(vectors.size()),
             .step = static_cast<float>(greatest / kMostSteps)};
-        // Less than the smallest step is none.
+        // Residuals below the smallest step count as none.
         const double step = residual.step > 0.0f ? double{residual.step} : 1.0;
         for (std::size_t i = 0; i < vectors.size(); ++i) {
             const glm::dvec3 steps =

@@ -10,46 +10,47 @@
 #include "hair/groom/groom.h"
 #include "hair/strand_settings.h"
 
-// What strands of a file are off the curves that the mean of their guides gives, so that at rest
-// the file's strands are what is drawn.
+// Residuals: the differences of a file's strands from the curves of their guides' mean. With them,
+// the strands drawn at rest are those of the file.
 namespace hair::rendering {
 
 // The residual of one strand: samples, one for each point of the file.
 struct StrandResidual {
-    std::uint32_t first = 0;  // of StrandResiduals::samples
+    std::uint32_t first = 0;  // index into StrandResiduals::samples
     std::uint32_t count = 0;  // at least 2
-    float step = 0.0f;  // m, of a sample's whole numbers
+    float step = 0.0f;  // m, unit of a sample's integers
     float reach = 0.0f;  // m: no vector of the curve through the samples is longer
 };
 
-// How long the vectors are that take points of the file to something, m.
+// Lengths of vectors from the points of a file to other points, m.
 struct Lengths {
     double mean = 0.0;
     double greatest = 0.0;
 };
 
-// The residuals of strands. A sample is four numbers of 16 bits: the three of a vector in steps, in
-// the axes of the groom at rest, and its place along the strand, 0 at the root and 65,535 at the
-// tip. Points at the places of others are left out. Rounding moves a point by up to half of the
-// step in each direction, 2.7e-5 of the strand's greatest residual, and along the strand by
-// 1/131,070 of its length.
+// The residuals of strands. A sample is four integers of 16 bits: a vector in steps, in the axes of
+// the groom at rest, and its place along the strand, 0 at the root and 65,535 at the tip. A point
+// is left out if its place is taken. Rounding moves a point by up to half a step along each axis,
+// 2.7e-5 of the strand's greatest residual, and along the strand by 1/131,070 of its length.
 struct StrandResiduals {
-    std::vector<StrandResidual> strands;  // in the order that was asked for
-    // shaders/strands/residuals.glsl. First {h, 0}: so many halvings find a place among a strand's
-    // samples, none where all strands' are spaced evenly. Then strand after strand.
+    std::vector<StrandResidual> strands;  // in the requested order
+    // Layout of shaders/strands/residuals.glsl. The first is {h, 0}: h steps of bisection find a
+    // place among a strand's samples; 0 where the samples of all strands are evenly spaced. The
+    // samples follow, strand after strand.
     std::vector<glm::uvec2> samples;
     Lengths kept;  // of all residuals
-    Lengths left;  // from the drawn curve to the points of the file, roundings of floats left out
+    Lengths left;  // from the drawn curve to the points of the file, without rounding of floats
 };
 
-// The residuals of the bound strands `order`, whose points groom.bound_points has to have, beside
-// the curves that the settings ask for, or beside the root of a strand that follows the head alone.
+// Returns the residuals of the bound strands `order`, which need their points in
+// groom.bound_points. Residuals are relative to the curves of the settings or, for a strand that
+// follows the head alone, to its root.
 StrandResiduals makeStrandResiduals(
     const groom::Groom& groom, const StrandSettings& settings,
     std::span<const std::uint32_t> order);
 
-// Directions along the guides at rest, [guide][vertex]: unit vectors from the vertex before to the
-// one after, 0 where these are at one place.
+// Returns the directions along the guides at rest, [guide][vertex]: unit vectors from the previous
+// vertex to the next, 0 where both are at one place.
 std::vector<glm::vec3> restTangents(const groom::Groom& groom);
 
 }  // namespace hair::rendering
