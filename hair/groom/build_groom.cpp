@@ -31,11 +31,11 @@ namespace {
 
 // ---- Even spacing -------------------------------------------------------------------------------
 
-constexpr std::uint32_t kMostVertices = 256;  // of guides whose number is not given
+constexpr std::uint32_t kMostVertices = 256;  // for guides with no given number
 
 // A place between two neighbouring points.
 struct Place {
-    std::size_t point;  // the one before it
+    std::size_t point;  // index of the point before it
     double fraction;  // 0 there, 1 at the next
 };
 
@@ -43,8 +43,8 @@ double segmentLength(std::span<const glm::vec3> points, std::size_t segment) {
     return glm::distance(glm::dvec3(points[segment]), glm::dvec3(points[segment + 1]));
 }
 
-// Places at equal distances along a strand. Without length its segments count as equally long:
-// the points stay where they are, and what else they have still goes from root to tip.
+// Finds places at equal distances along a strand. In a strand without length, all segments count as
+// equally long: the points stay where they are, and their attributes still run from root to tip.
 void spaceEvenly(std::span<const glm::vec3> points, std::size_t first, std::span<Place> places) {
     const std::size_t segments = points.size() - 1;
     double total = 0.0;
@@ -54,7 +54,7 @@ void spaceEvenly(std::span<const glm::vec3> points, std::size_t first, std::span
 
     const double step = total / static_cast<double>(places.size() - 1);
     std::size_t segment = 0;
-    double start = 0.0;  // of the segment, from the root
+    double start = 0.0;  // of the segment, as arc length from the root
     for (std::size_t k = 0; k < places.size(); ++k) {
         const double wanted = static_cast<double>(k) * step;
         for (; segment < segments; ++segment) {
@@ -92,7 +92,7 @@ void append(std::vector<Value>& to, const std::vector<Value>& from, std::span<co
     for (const Place& place : places) to.push_back(interpolateAt(from, place));
 }
 
-// The places of all strands, in order, a strand at a time.
+// Visits the places of all strands in order, one strand at a time.
 template <class Visit>
 void forEachPlace(const StrandSet& strands, std::span<const std::uint32_t> sizes, Visit&& visit) {
     std::vector<Place> places;
@@ -135,13 +135,13 @@ void place(StrandSet& strands, const FilePlacementSettings& settings) {
         *strands.widths.everywhere = static_cast<float>(*strands.widths.everywhere * scale);
 }
 
-// What brushes do to the strands of a groom that is styled.
+// The brush strokes for a groom that is styled.
 Strokes strokesOf(const GroomSettings& settings, const Groom& styled, const Mesh* mesh) {
     return Strokes(settings.edits, mesh, settings.style.clearance, middleOfRoots(styled));
 }
 
-// The strands that are guides: all for a count of 0. Decided before brushes move them, so that a
-// stroke makes no others.
+// Returns the strands that become guides; a count of 0 takes all. They are chosen before brushes
+// move strands, so that strokes don't change the choice.
 std::vector<std::uint32_t> guidesOf(const Groom& dense, std::uint32_t count, std::uint32_t seed) {
     if (count != 0 && count != dense.strand_count) return chooseGuides(dense, count, seed);
     std::vector<std::uint32_t> all(dense.strand_count);
@@ -149,7 +149,7 @@ std::vector<std::uint32_t> guidesOf(const Groom& dense, std::uint32_t count, std
     return all;
 }
 
-// All strands as guides, or the chosen ones with the others bound to them.
+// Makes all strands guides, or the chosen ones with the others bound to them.
 Groom withGuides(Groom dense, const std::vector<std::uint32_t>& chosen, const Mesh* mesh) {
     if (chosen.size() == dense.strand_count) {
         dense.bindings = bindStrands(dense, chosen);
@@ -162,14 +162,14 @@ Groom withGuides(Groom dense, const std::vector<std::uint32_t>& chosen, const Me
     return guides;
 }
 
-// Strands by their points alone.
+// Strands as points alone.
 struct Polylines {
     std::vector<std::uint32_t> ends;  // [strand], index after its last point
     std::vector<glm::vec3> points;
 };
 
-// The strands as they are drawn at rest: the file's, but where styling moved them what it made.
-// `before` and `after` are the strands' resampled points, [strand][vertex].
+// Returns the strands as they are drawn at rest: a strand of the file or, if styling moved it, its
+// styled points. `before` and `after` are the strands' resampled points, [strand][vertex].
 Polylines
 drawnStrands(Polylines file, std::span<const glm::vec3> before, std::span<const glm::vec3> after) {
     if (std::ranges::equal(before, after)) return file;
@@ -187,7 +187,7 @@ drawnStrands(Polylines file, std::span<const glm::vec3> before, std::span<const 
     return drawn;
 }
 
-// Puts strands to the groom's bound ones that follow the head alone.
+// Adds strands that follow the head alone to the groom's bound strands.
 void addFixed(Groom& groom, const StrandSet& strands) {
     for (std::uint32_t i = 0; i < strands.strandCount(); ++i) {
         const std::span<const glm::vec3> points = strands.strand(i);
@@ -238,7 +238,7 @@ Groom fromFile(
 
 }  // namespace
 
-// ---- What is to be made -------------------------------------------------------------------------
+// ---- Expected sizes -----------------------------------------------------------------------------
 
 GroomSize expectedSize(const GroomSettings& settings, std::uint64_t file_bytes) {
     constexpr std::uint64_t kPointBytes = sizeof(glm::vec3);

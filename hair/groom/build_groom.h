@@ -10,38 +10,38 @@
 #include "hair/groom/named_files.h"
 #include "hair/settings.h"
 
-// From files or growth to the guides of a scene, and from strands as files hold them to guides with
-// one number of points.
+// Builds the guides of a scene from files or by growth, and makes guides with equal numbers of
+// points from strands of files.
 namespace hair::groom {
 
-// The guides that a scene asks for, styled and brushed: from the strands of settings.file or, if
-// that is empty, grown. File names are relative to `directory`, the scene's folder. `mesh` is what
-// the hair grows on: of settings.mesh for a file, where null is nothing, and of settings.grow.mesh
-// for growth, which needs it. Throws engine::Error "path: reason" with the path of the file or of
-// the mesh, also for what `check` throws.
+// Returns the guides of a scene, styled and brushed: from the strands of settings.file or, if that
+// is empty, grown. File names are relative to `directory`, the scene's folder. Hair of a file grows
+// on `mesh`, made from settings.mesh, or on nothing where that is null. Growth needs `mesh`, made
+// from settings.grow.mesh. Throws engine::Error "path: reason" with the path of the file or of the
+// mesh, also for errors that `check` throws.
 Groom buildGroom(
     const GroomSettings& settings, const Mesh* mesh, const std::filesystem::path& directory,
     std::uint32_t seed, const NamedFileCheck& check = {});
 
-// What buildGroom() would make, by the settings and the size of settings.file alone: of grown hair
-// the counts, and of a file what is there if a point takes 12 bytes and a strand has
-// kUncountedPoints where the settings don't say. A file that is compressed may hold more.
+// Predicts the size of buildGroom()'s result from the settings and the size of settings.file alone.
+// The settings give the counts of grown hair. For a file, a point is taken as 12 bytes and a strand
+// as kUncountedPoints points, where the settings don't say. A compressed file may hold more.
 GroomSize expectedSize(const GroomSettings& settings, std::uint64_t file_bytes);
 
 inline constexpr std::uint64_t kUncountedPoints = 16;
 
-// Every strand with `vertices` >= 2 points, evenly spaced by arc length along its polyline, both
-// ends kept to the bit; what its points have is interpolated with them. A strand that has so many
-// already keeps them as they are. A strand of one point, or without length, stays at its place.
-// Throws engine::Error if that makes 2^32 points or more.
+// Resamples every strand to `vertices` >= 2 points, evenly spaced by arc length along its polyline.
+// Both ends are kept to the bit, and attributes of points are interpolated. A strand that already
+// has this number of points stays as it is. A strand of one point, or without length, stays at its
+// place. Throws engine::Error if the result has 2^32 points or more.
 StrandSet resample(StrandSet strands, std::uint32_t vertices);
 
-// The same with a number of points for each strand, at least 2 or what it has.
+// The same with a number of points for each strand: at least 2, or its present number.
 StrandSet resample(StrandSet strands, std::span<const std::uint32_t> sizes);
 
-// Guides of the strands, with their widths and root triangles, resampled to `vertices` points; 0:
-// as many as their longest list has, 2 to 256. Takes lengths as metres.
-// Throws engine::Error where there is no strand.
+// Makes guides of the strands, with their widths and root triangles, resampled to `vertices`
+// points. 0 takes the greatest number of points of a strand, clamped to [2, 256]. Lengths count as
+// metres. Throws engine::Error where there is no strand.
 Groom toGroom(StrandSet strands, std::uint32_t vertices);
 
 }  // namespace hair::groom

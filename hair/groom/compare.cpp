@@ -28,8 +28,8 @@ namespace {
 
 constexpr std::uint32_t kStrandsAtOnce = 64;
 
-// Calls `work(strand)` for every strand once. `make_work` makes one for each thread, so that it can
-// have memory of its own; what it writes must be the strand's own. A step of that name.
+// Calls `work(strand)` once for every strand, as a step of this name. `make_work` makes a `work`
+// for each thread, so that each has memory of its own. It may only write the strand's own data.
 template <class MakeWork>
 void forEachStrand(
     const char* name, std::uint32_t strands, std::uint32_t threads, MakeWork&& make_work) {
@@ -62,7 +62,7 @@ struct StrandSample {
     glm::dvec3 tangent;
 };
 
-// Places on a strand that has a length, at arc lengths that ascend.
+// Finds places on a strand that has a length, at ascending arc lengths.
 class StrandWalk {
 public:
     explicit StrandWalk(std::span<const glm::vec3> points) : points_(points) {
@@ -96,7 +96,7 @@ private:
 // The strands of a groom that have a length.
 struct MeasuredStrands {
     const StrandSet& set;
-    std::vector<std::uint32_t> strands;  // indices, in an order of their own
+    std::vector<std::uint32_t> strands;  // indices, in an order of neighbours in space
     std::vector<double> lengths;  // m
     std::vector<std::size_t> first_samples;  // [strand + 1]
 
@@ -105,10 +105,10 @@ struct MeasuredStrands {
     std::size_t samples(std::uint32_t i) const { return first_samples[i + 1] - first_samples[i]; }
 };
 
-// A millionth: lengths that are a whole number of spacings may be a little more in floats.
+// A length of a whole number of spacings may be a little more in floats.
 constexpr double kSpacingSlack = 1e-6;
 
-// What is wrong with strands is the error of the groom of that name.
+// Throws engine::Error with the name of the groom for strands that can't be compared.
 MeasuredStrands measureStrands(const StrandSet& set, double spacing, const char* name) {
     std::vector<double> lengths(set.strandCount());
     std::vector<std::uint32_t> with_length;
@@ -131,7 +131,7 @@ MeasuredStrands measureStrands(const StrandSet& set, double spacing, const char*
     }
     if (with_length.empty()) throw engine::Error(name, "it has no strand with a length to compare");
 
-    // Neighbours in space one after the other: they look at the same part of the other groom.
+    // Neighbours in space follow each other, because they look at the same part of the other groom.
     MeasuredStrands measured{.set = set};
     measured.first_samples.push_back(0);
     for (const std::uint32_t place : buildTriangleTree(middles, places, 1).order) {
@@ -146,7 +146,8 @@ MeasuredStrands measureStrands(const StrandSet& set, double spacing, const char*
     return measured;
 }
 
-// The middles of as many equal pieces as there are samples: each stands for the same length.
+// Visits the samples of a strand: the middles of equal pieces, so that each stands for the same
+// length.
 template <class Visit>
 void forEachSample(const MeasuredStrands& strands, std::uint32_t strand, Visit&& visit) {
     StrandWalk walk(strands.points(strand));
@@ -158,15 +159,15 @@ void forEachSample(const MeasuredStrands& strands, std::uint32_t strand, Visit&&
 
 // ---- The nearest of many segments ---------------------------------------------------------------
 
-// A hierarchy of boxes round the segments of strands. A segment that is longer than `longest_box`
-// has several boxes along it, so that boxes are small beside what is looked for in them; it is the
-// whole segment that is found in each. Boxes are off by the rounding of floats, 1e-8 m for a head.
+// A bounding volume hierarchy of the segments of strands. A segment longer than `longest_box` has
+// several boxes along it, so that boxes are small compared with the distances of a search. Each of
+// its boxes finds the whole segment. Boxes are off by the rounding of floats, 1e-8 m for a head.
 class SegmentTree {
 public:
     struct Segment {
         glm::vec3 from;
         glm::vec3 to;
-        std::uint32_t strand;  // of the measured ones
+        std::uint32_t strand;  // among the measured ones
     };
 
     SegmentTree(const MeasuredStrands& strands, double longest_box) {
@@ -198,8 +199,8 @@ public:
         for (const std::uint32_t i : tree_.order) segments_.push_back(owners[i]);
     }
 
-    // visit(segment, squared distance) for the segments no farther away than sqrt(square), with
-    // others among them and some more than once, until it returns false.
+    // Calls visit(segment, squared distance) for the segments within sqrt(square), until it returns
+    // false. It also visits some segments farther away, and some more than once.
     template <class Visit>
     void forEachNear(const glm::dvec3& point, double square, Visit&& visit) const {
         std::array<std::uint32_t, kMostWaiting> waiting;
@@ -277,32 +278,35 @@ private:
 
 // ---- Matches ------------------------------------------------------------------------------------
 
-// What one groom's samples find in the other.
+// Results of a search for one groom's samples in the other.
 struct Found {
     std::vector<float> distances;  // [sample], m
-    std::vector<std::vector<std::uint32_t>> matched;  // [threshold][strand], samples
-    std::vector<std::vector<std::uint32_t>> together;  // the most of those in one strand
+    std::vector<std::vector<std::uint32_t>> matched;  // [threshold][strand], matched samples
+    // The most of those in one strand of the other.
+    std::vector<std::vector<std::uint32_t>> together;
 };
 
-// Whether it is counted which strand matches are in: that takes all of them, not one.
+// Whether matches are counted for each strand of the other groom, which takes all matches of a
+// sample and not one.
 enum class MatchedStrands { counted, any };
 
-// Thresholds as they are compared with.
+// A threshold in the form that is compared.
 struct Limit {
     double square;  // m^2
     double cosine;
 };
 
-// A part in a million million: a cosine of two equal directions may round below 1.
+// The cosine of two equal directions may round below 1.
 constexpr double kCosineSlack = 1e-12;
 
-// Counts of one strand's samples that find the same strand of the other groom.
+// Counts the samples of one strand that find the same strand of the other groom.
 class StrandMatches {
 public:
     StrandMatches(std::uint32_t strands, std::size_t limits)
         : seen_(strands * limits), limits_(limits), most_(limits) {}
 
-    // One of the strand's samples, counted from 1, finds `strand`. Once for each sample counts.
+    // Records that a sample of the strand, numbered from 1, finds `strand`. Each sample counts
+    // once.
     void find(std::uint32_t strand, std::size_t limit, std::uint32_t sample) {
         Seen& seen = seen_[strand * limits_ + limit];
         if (seen.last_sample == sample) return;
@@ -311,7 +315,7 @@ public:
         most_[limit] = std::max(most_[limit], ++seen.samples);
     }
 
-    // The most that found one and the same; forgets all.
+    // Returns the greatest number of samples that found a single strand, [limit], and forgets all.
     std::vector<std::uint32_t> take() {
         for (const std::size_t i : touched_) seen_[i] = {};
         touched_.clear();
@@ -333,7 +337,7 @@ std::size_t consistencySamples(std::size_t samples, std::uint32_t most) {
     return most == 0 ? samples : std::min<std::size_t>(samples, most);
 }
 
-// Looks a groom's strands up in the other's, one after the other.
+// Searches for a groom's strands in the other groom, one after the other.
 class StrandSearch {
 public:
     StrandSearch(
@@ -353,7 +357,7 @@ public:
     }
 
     void operator()(std::uint32_t strand) {
-        // No distance is more than the one before it and the way from there.
+        // A distance is at most that of the sample before, plus the way between both samples.
         glm::dvec3 before(0.0);
         double bound = std::numeric_limits<double>::infinity();
         forEachSample(strands_, strand, [&](std::size_t k, const StrandSample& sample) {
@@ -378,8 +382,8 @@ public:
     }
 
 private:
-    // Whether the sample is one of those that stand for the strand in its consistency: the middles
-    // of as many equal runs of samples.
+    // Whether the sample counts towards the strand's consistency. The counted samples are the
+    // middles of consistencySamples() equal runs of samples.
     bool isCounted(std::uint32_t strand, std::size_t k) const {
         const std::size_t samples = strands_.samples(strand);
         const std::size_t counted = consistencySamples(samples, consistency_samples_);
@@ -387,12 +391,12 @@ private:
         return k == (2 * run + 1) * samples / (2 * counted);
     }
 
-    // The nearest segment mostly matches.
+    // Tries the nearest segment first, because it mostly matches.
     void match(
         const StrandSample& sample, const SegmentTree::Nearest& nearest, MatchedStrands kind,
         std::uint32_t number) {
         is_matched_.assign(limits_.size(), false);
-        std::size_t left = limits_.size();  // that nothing is found for
+        std::size_t left = limits_.size();  // limits without a match
         const auto goOn = [&](const SegmentTree::Segment& other, double square) {
             if (square > reach_) return true;
             const glm::dvec3 along = glm::dvec3(other.to) - glm::dvec3(other.from);
@@ -509,7 +513,7 @@ std::vector<double> sharesOf(std::span<const float> ascending, std::span<const d
     return shares;
 }
 
-// Of numbers that are not negative. The bins reach to where 99 % of either groom are below.
+// The numbers must not be negative. The bins reach to the greater one of both 99th percentiles.
 DistributionFindings distributionsOf(std::vector<float> first, std::vector<float> second) {
     DistributionFindings findings{.first = spreadOf(first), .second = spreadOf(second)};
     double top = std::max(quantileOf(first, 0.99), quantileOf(second, 0.99));
@@ -531,8 +535,8 @@ std::vector<float> lengthsOf(const MeasuredStrands& strands) {
     return {strands.lengths.begin(), strands.lengths.end()};
 }
 
-// The angle between successive chords over the arc from one middle to the next. On a circle that is
-// its curvature whatever the step; two chords at least.
+// Curvature is the angle between successive chords over the arc between their middles. On a circle
+// it is exact for any step. There are at least two chords.
 std::vector<float> curvaturesOf(const MeasuredStrands& strands, double wanted_step) {
     std::vector<float> curvatures;
     for (std::uint32_t i = 0; i < strands.count(); ++i) {

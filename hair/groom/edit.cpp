@@ -30,7 +30,8 @@ std::string millimetres(double metres) {
 
 // ---- Leaving out --------------------------------------------------------------------------------
 
-// The strands of these ascending indices, with the root triangles that are left of them.
+// Returns the strands of these ascending indices, with the root triangles that keep all of their
+// corners. Throws engine::Error if no strand is left.
 StrandSet keepStrands(const StrandSet& strands, std::span<const std::uint32_t> kept) {
     if (kept.empty()) throw engine::Error("no strand is left");
     if (kept.size() == strands.strandCount()) return strands;
@@ -84,7 +85,7 @@ void keepPoints(std::vector<Value>& values, const std::vector<bool>& kept) {
     values.resize(next);
 }
 
-// Without points at the place of the one before them; returns how many those were.
+// Drops points at the place of the point before them. Returns their number.
 std::uint64_t dropRepeatedPoints(StrandSet& strands) {
     std::vector<bool> kept(strands.points.size(), true);
     std::uint64_t dropped = 0;
@@ -211,10 +212,10 @@ EditedStrands filterStrands(
 // ---- Smooth -------------------------------------------------------------------------------------
 
 StrandSet smoothStrands(StrandSet strands, double length) {
-    std::vector<std::size_t> segments;  // of a strand, that have a length
+    std::vector<std::size_t> segments;  // of a strand; those with a length
     std::vector<double> lengths;
     std::vector<glm::dvec3> directions;
-    std::vector<double> above;  // the diagonal, of the eliminated matrix
+    std::vector<double> above;  // above the diagonal of the eliminated matrix
     engine::Step step("smooths strands", strands.strandCount());
     for (std::uint32_t strand = 0; strand < strands.strandCount(); ++strand) {
         step.advance();
@@ -234,8 +235,8 @@ StrandSet smoothStrands(StrandSet strands, double length) {
         if (count < 2) continue;
         const std::vector<glm::dvec3> rough = directions;
 
-        // Thomas's algorithm. Between neighbours i and i + 1 flows length^2 over the way from one
-        // middle to the next.
+        // Thomas's algorithm. The flow between neighbours i and i + 1 is length^2 over the distance
+        // between their middles.
         const auto flow = [&](std::size_t i) {
             return length * length / (0.5 * (lengths[i] + lengths[i + 1]));
         };
@@ -256,7 +257,7 @@ StrandSet smoothStrands(StrandSet strands, double length) {
         for (std::size_t k = 0; k + 1 < points.size(); ++k) {
             if (next < count && segments[next] == k) {
                 const double size = glm::length(directions[next]);
-                // Directions that cancel out leave none: the strand keeps its own there.
+                // Where directions cancel out, the strand keeps its own.
                 const glm::dvec3 along = size > 1e-12 ? directions[next] / size : rough[next];
                 place += lengths[next++] * along;
             }

@@ -60,23 +60,24 @@ constexpr StrandImporter kImporters[] = {
     {"OBJ", kObj, "", importObj},
     {"glTF", kGltf, "", importGltfStrands},
     {"binary glTF", kGlb, "glTF", importGltfStrands},
-    // Has three magics, but its library goes by the extension.
+    // USD has three magics, but its library goes by the extension.
     {"USD", kUsd, "", importUsd, false},
     {"USC-HairSalon's strands", kData, "", importHairData},
     {"NumPy's array", kNpy, "\x93NUMPY", importNpy},
-    // .usdz is a zip archive, too.
+    // It has no magic here, because .usdz is a zip archive, too.
     {"NumPy's archive", kNpz, "", importNpz},
     {"Embree's scene", kXml, "", importEmbreeXml},
     {"CT2Hair's strands", kBin, "", importCt2Hair},
     {"Alembic", kAbc, "Ogawa", importAlembic},
 };
 
-// Files that are not read, but known by their first bytes: what they are and what to do with them.
+// A format that is not read but known by its first bytes, with advice on what to do.
 struct OtherFormat {
     std::string_view magic;
     std::string_view name;
     std::string_view advice;
-    std::array<std::string_view, 4> may_be{};  // extensions of what is read and begins so, too
+    // Extensions of formats that are read and begin alike.
+    std::array<std::string_view, 4> may_be{};
 };
 
 constexpr std::string_view kToUsd = "import it in Blender and export its curves as USD";
@@ -100,18 +101,18 @@ constexpr OtherFormat kOtherFormats[] = {
     {"\x80\x04\x95", "a Python pickle", "write its arrays by numpy.savez"},
 };
 
-// The row of a file that begins so; null where none does.
+// Returns the row with the magic that the file begins with; null if there is none.
 const OtherFormat* otherFormatOf(std::string_view head, std::string_view extension) {
     for (const OtherFormat& other : kOtherFormats) {
-        const bool may_be_ours = !extension.empty() &&  // as the names that a row doesn't have are
+        const bool may_be_ours = !extension.empty() &&  // unused elements of may_be are empty, too
                                  std::ranges::find(other.may_be, extension) != other.may_be.end();
         if (head.starts_with(other.magic) && !may_be_ours) return &other;
     }
     return nullptr;
 }
 
-// Throws for a file that begins as another format's do. A count may begin with three bytes of any
-// kind; where the extension is ours only four or more of them say that it is none.
+// Throws for a file that begins like those of another format. A file with an extension of ours may
+// begin with a count of any value, so a magic of three bytes does not refuse it.
 void refuseOther(
     const fs::path& path, std::string_view head, std::string_view extension, bool is_ours) {
     const OtherFormat* const other = otherFormatOf(head, extension);
@@ -184,7 +185,8 @@ std::string readExtensions() {
     std::string all;
     std::string_view before;
     for (const StrandImporter& importer : kImporters) {
-        if (importer.extensions.front() == before) continue;  // a format's versions follow it
+        // The versions of a format are adjacent.
+        if (importer.extensions.front() == before) continue;
         before = importer.extensions.front();
         for (const std::string_view extension : importer.extensions)
             all.append(all.empty() ? "" : ", ").append(extension);
@@ -202,7 +204,7 @@ importStrands(const fs::path& path, std::uint32_t points_per_strand, const Named
     const engine::Step step("reads " + path.filename().string());
     engine::OpenFile file(path);
     const StrandImporter& importer = importerOf(path, file);
-    // The bytes are not filled with zeros first: grooms have hundreds of megabytes.
+    // The bytes are not filled with zeros first, because grooms have hundreds of megabytes.
     const std::size_t size = importer.from_memory ? file.size() : 0;
     const auto storage = std::make_unique_for_overwrite<char[]>(size);
     const std::span bytes(storage.get(), size);

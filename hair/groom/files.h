@@ -14,12 +14,12 @@
 #include "hair/groom/groom.h"
 #include "hair/groom/named_files.h"
 
-// Files of strands: the tables of formats, and whole files by their extension or first bytes.
+// Files of strands: the tables of formats, and reading and writing by extension or first bytes.
 namespace hair::groom {
 
-// A writer of strands. `write` returns what the format can't hold of these strands, a sentence
-// each; what it does hold reads back equal to the last bit. Throws engine::Error where the format
-// can't hold them at all.
+// A writer of strands. `write` returns a sentence for each kind of data that the format can't hold
+// of these strands; everything else reads back equal to the last bit. Throws engine::Error where
+// the format can't hold the strands at all.
 struct StrandExporter {
     std::string_view extension;  // lower case, with the dot
     std::vector<std::string> (*write)(const StrandSet& strands, std::ostream& out);
@@ -28,16 +28,16 @@ struct StrandExporter {
 // A new format is a row here.
 std::span<const StrandExporter> strandExporters();
 
-// ".hair, .hgl, ...": what strands can be written as.
+// Returns the extensions of formats that can be written: ".hair, .hgl, ...".
 std::string writtenExtensions();
 
-// The row of the path's extension. Throws engine::Error "path: reason" with the known ones if there
-// is none.
+// Returns the exporter for the path's extension. Throws engine::Error "path: reason" with the known
+// extensions if there is none.
 const StrandExporter& strandExporterOf(const std::filesystem::path& path);
 
-// Writes the format of the path's extension, whole or not at all. Returns what it can't hold.
-// `poll` is called now and then and ends the writing by what it throws.
-// Throws engine::Error "path: reason".
+// Writes the strands in the format of the path's extension, completely or not at all. Returns the
+// sentences of StrandExporter::write. `poll` is called now and then; an exception of it ends the
+// writing. Throws engine::Error "path: reason".
 std::vector<std::string> exportStrands(
     const StrandSet& strands, const std::filesystem::path& path,
     const engine::WritePoll& poll = {});
@@ -51,23 +51,23 @@ inline std::string lowerCaseExtension(const std::filesystem::path& path) {
     return extension;
 }
 
-// A file in memory. `path` is where it came from, for formats that name other files and for those
-// that another program reads; empty: from nowhere, then nothing else is opened.
+// A file in memory. `path` is its origin, for formats that name other files or that another program
+// reads. If it is empty, no other file is opened.
 struct StrandFile {
     std::span<const std::byte> bytes;
     std::filesystem::path path;
-    // Of formats that can leave it out, such as a PLY of points alone; 0: not known.
+    // For formats that can leave it out, such as a PLY of points alone; 0: not known.
     std::uint32_t points_per_strand = 0;
-    NamedFileCheck check{};  // of those other files
+    NamedFileCheck check{};  // for those other files
 };
 
 // A reader of strands. Its errors begin with the place in the file, "byte N" or "line N", and don't
-// name the file. It refuses what is not exactly the format, before it allocates by a count that the
-// file's size does not bear out.
+// name the file. It refuses files that are not exactly of the format, and checks counts against the
+// file's size before it allocates by them.
 struct StrandImporter {
     std::string_view name;  // for messages
     std::span<const std::string_view> extensions;  // lower case, with the dot
-    std::string_view magic;  // how every such file begins; empty: it can't be told
+    std::string_view magic;  // first bytes of all such files; empty: there are none
     StrandSet (*read)(const StrandFile& file);
     bool from_memory = true;  // reads `bytes`; false: another program reads the file at `path`
 };
@@ -75,16 +75,16 @@ struct StrandImporter {
 // A new format is a row here.
 std::span<const StrandImporter> strandImporters();
 
-// ".hair, .tfx, ...": what strands can be read from.
+// Returns the extensions of formats that can be read: ".hair, .tfx, ...".
 std::string readExtensions();
 
-// The row that reads a file: that of its first bytes where they are a format's, otherwise that of
-// its extension, in any case. Throws engine::Error "path: reason", which says of some files that
-// are not read what they are and what to do.
+// Returns the importer of a file: by its first bytes where they are a format's magic, otherwise by
+// its extension, in upper or lower case. Throws engine::Error "path: reason". For some formats that
+// are not read, the reason names the format and says what to do.
 const StrandImporter& strandImporterOf(const std::filesystem::path& path);
 
-// `points_per_strand`: what the file may leave out, see StrandFile. A format that states it itself
-// takes no notice. Throws engine::Error "path: place: reason", also for what `check` throws.
+// `points_per_strand`: see StrandFile. Formats that state it themselves ignore it. Throws
+// engine::Error "path: place: reason", also for errors that `check` throws.
 StrandSet importStrands(
     const std::filesystem::path& path, std::uint32_t points_per_strand = 0,
     const NamedFileCheck& check = {});

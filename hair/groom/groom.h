@@ -21,13 +21,13 @@ struct StrandBinding {
     std::array<std::uint32_t, 3> guides{};
     glm::vec3 weights{1.0f, 0.0f, 0.0f};  // sum 1; all 0: no guide counts
     glm::vec3 offset{0.0f, 0.0f, 0.0f};   // m; puts the root where the file has it
-    float width = 0.0f;  // m, at the root; 0: as that of all others
+    float width = 0.0f;  // m, at the root; 0: the common width
 
     bool followsHead() const { return weights == glm::vec3(0.0f); }
 };
 
-// Guide hairs at rest with the triangles that span them: what import and growth make, and what
-// simulation and rendering read. Nothing changes it after it is built.
+// Guide hairs at rest with the triangles that span them. Import and growth make it, simulation and
+// rendering read it. Nothing changes it after it is built.
 struct Groom {
     std::uint32_t strand_count = 0;
     std::uint32_t vertices_per_strand = 0;  // V >= 2, the same for every strand
@@ -36,12 +36,12 @@ struct Groom {
     std::vector<float> widths;  // [strand][vertex], diameters, m; empty: not known
     // Guide indices; strands grow between them.
     std::vector<std::array<std::uint32_t, 3>> root_triangles;
-    // The strands of the file, or the grown ones, that the guides were chosen from, and then those
-    // that follow the head alone.
+    // The strands, of the file or grown, that the guides were chosen from. Strands that follow the
+    // head alone come after them.
     std::vector<StrandBinding> bindings;
-    // Their own points at rest, of which the bindings give the mean of the guides. Those of a
-    // strand with vertices_per_strand points are one to each vertex of the guides, all others are
-    // where their arc length is along the strand. Empty: not known.
+    // The bound strands' own points at rest; the bindings give only the mean of their guides. In a
+    // strand with vertices_per_strand points, each point belongs to a vertex of the guides. Points
+    // of other strands are placed by arc length. Empty: not known.
     std::vector<std::uint32_t> bound_ends;  // [binding], index after its last point; ascends
     std::vector<glm::vec3> bound_points;  // [point], strand after strand, m, root first
 
@@ -50,7 +50,7 @@ struct Groom {
         return std::span(points).subspan(
             std::size_t{index} * vertices_per_strand, vertices_per_strand);
     }
-    std::span<const glm::vec3> strand(std::uint32_t) const&& = delete;  // of a groom that is kept
+    std::span<const glm::vec3> strand(std::uint32_t) const&& = delete;  // would dangle
     std::span<const glm::vec3> boundStrand(std::size_t binding) const& {
         const std::uint32_t first = binding == 0 ? 0 : bound_ends[binding - 1];
         return std::span(bound_points).subspan(first, bound_ends[binding] - first);
@@ -58,7 +58,7 @@ struct Groom {
     std::span<const glm::vec3> boundStrand(std::size_t) const&& = delete;
 };
 
-// What strands may have: nothing, one value everywhere, or a value for each point.
+// An attribute of strands: none, one value everywhere, or a value for each point.
 template <class Value>
 struct PointAttribute {
     std::optional<Value> everywhere;  // counts where `values` is empty
@@ -71,10 +71,10 @@ struct PointAttribute {
     }
 };
 
-// Strands as files hold them: each with a number of points of its own, and with whatever else the
-// format stores. Importers make it, exporters write it; a Groom is made from it.
-// Holds in every set: `ends` ascends strictly (a strand has a point at least) and its last is the
-// number of points; all numbers are finite; vectors that are not empty have the size said here.
+// Strands as files hold them: each has its own number of points, and there is other data that the
+// format stores. Importers make it, exporters write it, and a Groom is made from it. In every set,
+// `ends` ascends strictly (a strand has at least one point) and its last element is the number of
+// points, all numbers are finite, and vectors that are not empty have the sizes stated here.
 struct StrandSet {
     std::vector<std::uint32_t> ends;  // [strand], index after its last point
     std::vector<glm::vec3> points;  // [point], strand after strand, root first, file's unit
@@ -86,8 +86,8 @@ struct StrandSet {
     std::vector<std::uint8_t> guides;  // [strand], 1 for those that the file calls guides, or 0
     std::vector<std::array<std::uint32_t, 3>> root_triangles;  // strand indices
     std::optional<double> metres_per_unit;  // where the format or the file states it
-    std::string comment;  // what the file says of itself
-    std::vector<std::string> warnings;  // what the file has and this can't hold
+    std::string comment;  // the file's own description
+    std::vector<std::string> warnings;  // data of the file that this can't hold
 
     std::uint32_t strandCount() const { return static_cast<std::uint32_t>(ends.size()); }
     std::uint32_t first(std::uint32_t strand) const { return strand == 0 ? 0 : ends[strand - 1]; }

@@ -2,12 +2,12 @@
 
 #include <cstdint>
 
-// Counts of a groom, for who works out sizes before there is one.
+// Counts of a groom, to estimate sizes before it is built.
 namespace hair::groom {
 
 struct Groom;
 
-// How much of a groom there is, as far as memory goes.
+// The counts that determine the memory of a groom.
 struct GroomSize {
     std::uint64_t guides = 0;
     std::uint64_t vertices_per_guide = 0;

@@ -46,7 +46,8 @@ struct Entry {
     auto operator<=>(const Entry&) const = default;
 };
 
-// Those of `count` rows of points that are equal to one before them. Takes 16 bytes for each.
+// Returns those of `count` rows of points that are equal to an earlier row. Takes 16 bytes for each
+// row.
 std::vector<std::uint32_t> findDuplicates(
     std::uint32_t count, const std::function<std::span<const glm::vec3>(std::uint32_t)>& row) {
     std::vector<Entry> entries;
@@ -55,7 +56,7 @@ std::vector<std::uint32_t> findDuplicates(
     std::ranges::sort(entries);
 
     std::vector<std::uint32_t> duplicates;
-    std::vector<std::uint32_t> unlike;  // rows with one hash: all but always one
+    std::vector<std::uint32_t> unlike;  // different rows of one hash: almost always one
     for (std::size_t i = 0; i < entries.size(); ++i) {
         if (i == 0 || entries[i].hash != entries[i - 1].hash) unlike.clear();
         const auto points = row(entries[i].row);
@@ -81,22 +82,22 @@ struct Known {
 constexpr std::array kKnown{
     Known{"m", 1.0}, Known{"cm", 0.01}, Known{"mm", 0.001}, Known{"inch", 0.0254}};
 
-// Heads are 0.15 m wide and 0.2 m long, more or less, and hair is 0.01 m to 1 m long. The scatter
-// is a factor: with 1.5, the extent of a part of a scalp or of a bearded head is still likely, and
-// an inch is well apart from a centimetre.
+// Heads are about 0.15 m wide and 0.2 m long, and hair is 0.01 m to 1 m long. The scatter is a
+// factor: with 1.5, the extent of a part of a scalp or of a bearded head is still likely, and an
+// inch is well apart from a centimetre.
 constexpr double kRootExtent = 0.2;
 constexpr double kRootScatter = 1.5;
 constexpr double kLength = 0.1;
 constexpr double kLengthScatter = 10.0;
 
-// Square of the number of scatters that a size is off.
+// Squared deviation of a size from the expected one, in units of the scatter.
 double misfit(double size, double expected, double scatter) {
     const double off = size > 0.0 ? std::log(size / expected) / std::log(scatter) : 0.0;
     return off * off;
 }
 
-// The unit of human hair in which the extent of the roots is nearest to that of a scalp and the
-// median strand is as long as hair is. Either may be 0: then it says nothing.
+// Guesses the unit of human hair in which the extent of the roots is closest to a scalp's and the
+// median length is that of hair. An argument of 0 is ignored.
 Unit guessUnit(double root_extent, double median_length) {
     const Known* best = &kKnown.front();
     double least = std::numeric_limits<double>::infinity();
@@ -151,7 +152,7 @@ void inspectInside(
     findings.deepest = deepest;
 }
 
-// The mesh, in metres, has a triangle at least.
+// The mesh is in metres and has at least one triangle.
 MeshFindings inspectOnMesh(const StrandSet& strands, const Mesh& mesh, double metres_per_unit) {
     MeshFindings findings{.tolerance = kSurfaceTolerance};
     const NearestSurface surface(mesh.positions, mesh.triangles);

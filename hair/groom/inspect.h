@@ -12,7 +12,7 @@
 #include "hair/groom/groom.h"
 #include "hair/groom/mesh/mesh.h"
 
-// What is in a file of strands, and what is odd about it.
+// Contents and oddities of a file of strands.
 namespace hair::groom {
 
 // The quartiles, extremes and mean of many numbers.
@@ -25,9 +25,9 @@ struct Spread {
     double mean = 0.0;
 };
 
-// What counts as on the surface, m. Triangles stray from the round head that they stand for: by
-// e^2 / 8 r with edges of e = 2 cm on a head of r = 10 cm, a coarse one, by 0.5 mm. Hair is as wide
-// as 0.1 mm, and off by more than a millimetre shows.
+// Points within this distance count as on the surface, m. Triangles deviate from the round head
+// that they stand for by e^2 / 8 r: 0.5 mm for a coarse mesh with edges of e = 2 cm on a head of r
+// = 10 cm. Hair is up to 0.1 mm wide, and a distance of more than a millimetre is visible.
 inline constexpr double kSurfaceTolerance = 1e-3;
 
 // How strands lie on the mesh that they grow on; distances in metres.
@@ -42,7 +42,7 @@ struct MeshFindings {
     std::string not_closed;  // why the three are absent
 };
 
-// What is in a groom and what is odd about it. Lengths are in the file's unit.
+// Contents and oddities of a groom. Lengths are in the file's unit.
 struct StrandFindings {
     std::uint32_t strands = 0;
     std::size_t points = 0;
@@ -66,15 +66,15 @@ struct StrandFindings {
     std::optional<MeshFindings> mesh;
 };
 
-// `mesh` may be null; it is in metres, and the strands are scaled to metres by `metres_per_unit`,
-// or, where that is absent, by what the findings say.
+// `mesh` is in metres and may be null. The strands are scaled to metres by `metres_per_unit` or,
+// where that is absent, by the unit of the findings.
 StrandFindings
 inspect(const StrandSet& strands, const Mesh* mesh, std::optional<double> metres_per_unit);
 
 // The length of a polyline.
 double arcLength(std::span<const glm::vec3> points);
 
-// Strands that are equal to one before them, point for point, ascending.
+// Returns the strands that are equal to an earlier one, point for point, in ascending order.
 std::vector<std::uint32_t> duplicateStrands(const StrandSet& strands);
 
 struct Unit {
@@ -85,13 +85,12 @@ struct Unit {
 
 Unit statedUnit(double metres);
 
-// The number that a share (0 to 1) of them is below, between two of them where its rank isn't whole
-// (Hyndman and Fan 1996, Sample quantiles in statistical packages, definition 7). At least one
-// number; leaves them in another order: a copy of them all would be too much.
+// Returns the quantile at a share from 0 to 1, interpolated between two numbers where its rank
+// isn't whole (Hyndman and Fan 1996, Sample quantiles in statistical packages, definition 7). Needs
+// at least one number. Reorders the numbers, because a copy would take too much memory.
 double quantileOf(std::span<float> numbers, double share);
 
-// Quartiles as quantileOf() has them; also leaves the numbers in another order. All 0 without
-// numbers.
+// Quartiles by quantileOf(), so it also reorders the numbers. All 0 without numbers.
 Spread spreadOf(std::vector<float>& numbers);
 
 }  // namespace hair::groom

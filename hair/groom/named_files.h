@@ -5,8 +5,8 @@
 
 namespace hair::groom {
 
-// Asked of every file that another one names - buffers and pictures of a glTF file, textures of a
-// mesh - before it is opened; what it throws ends the reading. Empty: all are opened.
+// Called for every file that another file names (buffers and pictures of a glTF file, textures of a
+// mesh) before it is opened. An exception of it ends the reading. Empty: all files are opened.
 using NamedFileCheck = std::function<void(const std::filesystem::path& file)>;
 
 }  // namespace hair::groom

@@ -11,8 +11,8 @@
 
 namespace hair::groom {
 
-// Does something for each index below `count`, in any order and on all processors, as a step of
-// that name; what it throws comes out of here.
+// Calls `work` for each index below `count`, in any order and on all processors, as a step of this
+// name. Passes exceptions on.
 template <class Work>
 void inParallel(const char* name, std::uint32_t count, Work&& work) {
     static constexpr std::uint32_t kTaken = 256;  // indices at a time
