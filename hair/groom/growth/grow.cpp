@@ -15,9 +15,9 @@
 namespace hair::groom {
 namespace {
 
-constexpr double kLeastRise = 0.05;  // of a direction along the normal
+constexpr double kLeastRise = 0.05;  // least part of a direction along the normal
 
-// The unit vector along the surface, or zero where the vector has no part along it.
+// The unit vector of the part along the surface, or zero where there is none.
 glm::dvec3 alongSurface(const glm::dvec3& vector, const glm::dvec3& normal) {
     const glm::dvec3 flat = vector - glm::dot(vector, normal) * normal;
     const double length = glm::length(flat);
@@ -50,7 +50,7 @@ constexpr glm::dvec3 kGravity{0.0, -1.0, 0.0};
 // Length of a guide where the map is black, m: no segment may be without length.
 constexpr double kShortest = 0.001;
 
-// The direction after a length s at which droop * s = turn.
+// The direction after an arc length s with droop * s = turn.
 glm::dvec3 drooped(const glm::dvec3& direction, double turn) {
     const double cosine = glm::dot(direction, kGravity);
     const glm::dvec3 across = direction - cosine * kGravity;

@@ -21,9 +21,9 @@ namespace hair::groom {
 // whorl    along the surface, round the point c of the scalp that is nearest to its position, at
 //          the distance r from it: strength (r / radius) exp((1 - (r / radius)^2) / 2), which is
 //          `strength` at the radius and less everywhere else.
-// parting  along the surface, away from the line at the distance d: strength exp(-d / reach); past
-//          an end, times the cosine between the way from there and the way across the line.
-// With a whorl or a parting, no direction is nearer to the surface than asin 0.05.
+// parting  along the surface, away from the line at the distance d: strength exp(-d / reach);
+//          beyond an end, times the cosine between the way from there and the way across the line.
+// With a whorl or a parting, directions are at least asin 0.05 off the surface.
 class DirectionField {
 public:
     // Borrows its arguments; `parting` may be null.
@@ -46,9 +46,9 @@ private:
 // Segment k of length l runs along d at its middle, s = (k + 1/2) l; all segments of a guide have
 // the same length, together settings.length times the length map times 1 - length_variation times a
 // random number of the guide in [0, 1), and at least 1 mm.
-// root_normals are the scalp's, the comb left out. Pictures are files relative to `directory`. The
-// same arguments give the same groom. Throws engine::Error if the mesh has no such scalp, a picture
-// can't be read or has no texture coordinates to lie on, or leaves no room for roots.
+// root_normals are the scalp's, without the comb. Pictures are files relative to `directory`. The
+// same arguments give the same groom. Throws engine::Error if the mesh has no such scalp, if a
+// picture can't be read, needs texture coordinates that are not there, or leaves no room for roots.
 Groom grow(
     const Mesh& mesh, const GrowSettings& settings, const std::filesystem::path& directory,
     std::uint32_t guides, std::uint32_t seed);

@@ -42,7 +42,7 @@ Edges directedEdges(const Scalp& scalp) {
     return edges;
 }
 
-// How many pieces of triangles joined by edges there are.
+// Counts the pieces of triangles that are joined by edges.
 std::size_t countPieces(const Scalp& scalp, const Edges& edges) {
     std::vector<std::size_t> parent(scalp.triangles.size());
     std::iota(parent.begin(), parent.end(), std::size_t{0});
@@ -90,11 +90,11 @@ EdgePoint nearestOnEdge(const glm::dvec3& from, const glm::dvec3& to, const glm:
 
 // ---- The line of a parting ----------------------------------------------------------------------
 
-constexpr int kSamples = 128;  // pieces of the line, of which none is longer than this part of it
+constexpr int kSamples = 128;  // pieces of the line; none is longer than this part of it
 constexpr int kHalvings = 14;  // of a piece, at most
-constexpr int kRounds = 4;  // to the plane and back: what is left falls with the angle squared
+constexpr int kRounds = 4;  // to the plane and back: the error falls with the angle squared
 
-// Part of the spacing of roots that they keep from the line, and the least of it, m.
+// Distance of roots from the line, as a part of their spacing, and the least distance, m.
 constexpr double kGapPart = 0.04;
 constexpr double kLeastGap = 0.0005;
 
@@ -103,8 +103,8 @@ glm::dvec3 unit(const glm::dvec3& v) {
     return length > 0.0 ? v / length : glm::dvec3(0.0);
 }
 
-// The straight line between two points as it lies on the scalp, at fractions from 0 to 1: in the
-// plane through it that is at right angles to the scalp. What is nearest alone would keep to the
+// The straight line between two points, projected to the scalp at fractions from 0 to 1, in the
+// plane through the line at right angles to the scalp. Nearest points alone would keep to the
 // mesh's edges.
 class Projection {
 public:
@@ -137,7 +137,7 @@ public:
         return true;
     }
 
-    // The fraction at which the line leaves the scalp, between one over it and one off it.
+    // The fraction at which the line leaves the scalp, between a fraction over it and one off it.
     double boundary(double over, double off) const {
         for (int i = 0; i < 40; ++i) {
             const double middle = 0.5 * (over + off);
@@ -363,7 +363,7 @@ void eraseCrossing(
         const glm::dvec3 edge = positions[b] - positions[a];
         const double t = across[a] / (across[a] - across[b]);
         const PartingLine::Place crossing = line.place(positions[a] + t * edge);
-        // The surface bulges over the edge; what is further away is on the scalp's other side.
+        // The surface bulges over the edge; a crossing farther away is on the scalp's other side.
         return crossing.distance < 0.5 * glm::length(edge) && crossing.beyond < margin;
     };
     std::erase_if(triangles, [&](const std::array<std::uint32_t, 3>& triangle) {

@@ -25,26 +25,27 @@ struct Hairline {
 // Throws engine::Error if the scalp is no disc.
 Hairline traceHairline(const Scalp& scalp);
 
-// The point of the hairline after this length; one beyond its end goes on from its start.
+// Returns the point of the hairline after this length. Lengths beyond its end go on from its
+// start.
 SurfacePoint hairlinePoint(const Scalp& scalp, const Hairline& hairline, double length);
 
-// The length at which the hairline is nearest to a point.
+// Returns the length at which the hairline is nearest to a point.
 double nearestLength(const Scalp& scalp, const Hairline& hairline, const glm::dvec3& point);
 
-// The line on a scalp from which hair is combed away: the straight line between the ends, taken to
-// the scalp in the plane at right angles to it, as far as that is not off the scalp's boundary.
+// The line on a scalp from which hair is combed away: the straight line between the ends,
+// projected to the scalp in the plane at right angles to it, up to the scalp's boundary.
 class PartingLine {
 public:
     // Throws engine::Error if no line is left on the scalp.
     PartingLine(const Scalp& scalp, const NearestSurface& surface, const PartingSettings& settings);
 
-    // Where a point is, seen from the nearest point of the line.
+    // The place of a point relative to the nearest point of the line.
     struct Place {
         double along = 0.0;     // m, of that point from the line's start
         double distance = 0.0;  // m
         double across = 0.0;    // m, positive on the line's left seen from outside
         double beyond = 0.0;    // m, past the line's end along its direction; 0 beside the line
-        glm::dvec3 away{0.0};   // m, the way to the point less its part beyond
+        glm::dvec3 away{0.0};   // m, the way to the point without its part beyond
     };
     Place place(const glm::dvec3& point) const;
 
@@ -70,18 +71,18 @@ private:
 // Pairs of roots along the line, one on its left and one on its right, from end to end.
 struct PartingRows {
     std::vector<std::array<SurfacePoint, 2>> pairs;
-    double spacing = 0.0;  // m, along the line, at most what was asked for
+    double spacing = 0.0;  // m, along the line, at most the requested one
     double gap = 0.0;      // m, from a root to the line
 
-    // m, what other roots keep from the line: then the circle through neighbours of a row is empty,
-    // and they have an edge.
+    // m, the distance of other roots from the line. With it, the circle through neighbours of a row
+    // is empty, so that they have an edge.
     double reach() const { return gap + 0.5 * spacing; }
 };
 
 PartingRows partingRows(
     const PartingLine& line, const Scalp& scalp, const NearestSurface& surface, double spacing);
 
-// Takes away the triangles with an edge that leads over the line or past its ends within `margin`.
+// Removes the triangles with an edge that crosses the line, or passes its ends within `margin`.
 void eraseCrossing(
     std::vector<std::array<std::uint32_t, 3>>& triangles, const std::vector<glm::dvec3>& positions,
     const PartingLine& line, double margin);

@@ -13,7 +13,7 @@
 namespace hair::groom {
 namespace {
 
-// Points picked at random, uniform in area, each known by its number.
+// Random points, uniform in area, each known by its number.
 struct RootSamples {
     std::vector<std::uint32_t> numbers;
     std::vector<glm::vec3> positions;  // m
@@ -44,14 +44,14 @@ constexpr std::uint32_t kCandidatesPerRoot = 10;
 constexpr std::uint32_t kLeastProbes = 4096;
 constexpr std::uint64_t kTriesPerRoot = 1000;
 
-// Roots that are spread for each that the mask keeps, at most. Where it is so uneven that more
+// Most roots that are spread for each root that the mask keeps. If the mask is so uneven that more
 // would be needed, the rest of the roots is independent.
 constexpr double kMostSpreadPerRoot = 4.0;
 
 // A triangle is bald where the density is below this.
 constexpr double kBlack = 0.01;
 
-// Where roots may be: not in the way of a parting's rows, and not where the mask is black.
+// The places where roots may be: not near a parting's rows, and not where the mask is black.
 struct Ground {
     const Scalp& scalp;
     const RootOptions& options;
@@ -62,18 +62,19 @@ struct Ground {
         return density(point) > 0.0 &&
                !(rows && options.parting->isNear(point.position, rows->reach()));
     }
-    // Below 1 for the samples that the mask keeps, of which those with the smallest are as good a
-    // choice as any.
+    // Below 1 for the samples that the mask keeps. Of too many, those with the smallest values are
+    // as good a choice as any.
     double chance(std::uint32_t number) const {
         return random01(options.seed, number, purpose::root_mask) /
                density(rootSample(scalp, options.seed, number));
     }
 };
 
-// Numbers of at most `count` samples.
+// Returns the numbers of at most `count` samples.
 std::vector<std::uint32_t>
 spreadRoots(const Ground& ground, std::uint32_t count, const std::vector<glm::vec3>& fixed) {
-    // Where the mask doesn't keep all, four standard deviations more than are needed on average.
+    // Where the mask doesn't keep all, it takes four standard deviations more than are needed on
+    // average.
     const double mean = ground.density.mean();
     const double needed = mean < 1.0 ? (count + 4.0 * std::sqrt(count) + 4.0) / mean : count;
     const auto total =
@@ -97,7 +98,7 @@ spreadRoots(const Ground& ground, std::uint32_t count, const std::vector<glm::ve
     return numbers;
 }
 
-// Independent samples, none of them among `taken`.
+// Returns independent samples, none of them among `taken`.
 std::vector<std::uint32_t> independentRoots(
     const Ground& ground, std::uint32_t count, const std::vector<std::uint32_t>& taken) {
     const RootSamples samples = takeSamples(
@@ -127,11 +128,11 @@ void eraseBald(
     });
 }
 
-// Puts roots on a scalp of any shape and spans them as surfaceTriangles() does. How many there are
-// in an area is in proportion to the mask there. `random` roots are independent of each other;
-// `poisson_disc` ones are spread over what isn't black, then each is kept with the probability that
-// the mask gives. No triangle reaches over what is black. Throws engine::Error if the scalp has no
-// room for them or the mask can't be used.
+// Puts roots on a scalp of any shape, with the triangles of surfaceTriangles(). The number of roots
+// in an area is in proportion to the mask. `random` roots are independent of each other.
+// `poisson_disc` roots are spread over the part that isn't black, then each is kept with the mask's
+// probability. No triangle reaches over a black part. Throws engine::Error if the scalp has no room
+// for the roots or the mask can't be used.
 Roots surfaceRoots(
     const Scalp& scalp, const NearestSurface& surface, const RootOptions& options,
     const PartingRows* rows) {
@@ -169,7 +170,8 @@ glm::dvec3 middle(const std::array<SurfacePoint, 2>& pair) {
     return 0.5 * (glm::dvec3(pair[0].position) + glm::dvec3(pair[1].position));
 }
 
-// Rows that end at the hairline end with two of its roots: where it is cut for that.
+// Returns the places where the hairline is cut for rows that end at it: the last two roots of such
+// a row are roots of the hairline.
 std::vector<double> hairlineCuts(
     const Scalp& scalp, const Hairline& hairline, const PartingLine& parting,
     const PartingRows& rows) {
@@ -181,9 +183,9 @@ std::vector<double> hairlineCuts(
     return cuts;
 }
 
-// Puts `guides` >= 3 roots on a scalp that is a disc, some evenly along the hairline, the rest
-// spread over the inside, and spans them by triangles that are Delaunay on the sphere of
-// directions. Throws engine::Error if the scalp is no disc or can't be flattened.
+// Puts `guides` >= 3 roots on a scalp that is a disc: some evenly along the hairline, the rest
+// spread over the inside. Their triangles are Delaunay on the sphere of directions. Throws
+// engine::Error if the scalp is no disc or can't be flattened.
 Roots discRoots(const Scalp& scalp, const RootOptions& options, const PartingRows* rows) {
     const Hairline hairline = traceHairline(scalp);
     const Flattening flattening = flatten(scalp);
@@ -238,8 +240,8 @@ Roots discRoots(const Scalp& scalp, const RootOptions& options, const PartingRow
 
 // ---- Roots of either kind -----------------------------------------------------------------------
 
-// Mean distance to the nearest neighbour of roots that are spread, as a part of the root of their
-// share of the area: the best there is, a hexagonal packing, has 1.07.
+// Mean distance of spread roots to the nearest neighbour, relative to the square root of the area
+// for each root. The optimum, a hexagonal packing, has 1.07.
 constexpr double kSpacing = 0.8;
 
 Roots placedRoots(
@@ -276,7 +278,7 @@ hairlineLengths(double total, std::uint32_t count, std::vector<double> cuts, dou
         const double to = (i + 1 < cuts.size() ? cuts[i + 1] : cuts[0] + total) - gap;
         const auto left = count - static_cast<std::uint32_t>(lengths.size());
         const double share = std::round(count * (to - from) / (total - cut_away));
-        // The last part takes what is left; each has its two ends.
+        // The last part takes the rest; each part has its two ends.
         const std::uint32_t here =
             i + 1 == cuts.size() ? left
                                  : std::clamp(static_cast<std::uint32_t>(share), 2u, left - 2);

@@ -13,16 +13,16 @@
 #include "hair/groom_settings.h"
 #include "hair/random.h"
 
-// Where the guides of a scalp have their roots, and the triangles between those.
+// The roots of a scalp's guides, and the triangles between them.
 namespace hair::groom {
 
 struct RootOptions {
     std::uint32_t guides = 0;
     std::uint32_t seed = 0;
     RootPlacement placement = RootPlacement::poisson_disc;
-    const Texture* mask = nullptr;           // null: everywhere alike
+    const Texture* mask = nullptr;           // null: the same everywhere
     const PartingLine* parting = nullptr;    // null: none
-    bool dense = false;  // many roots, of which nobody needs rows or triangles
+    bool dense = false;  // many roots, without rows or triangles
 };
 
 struct Roots {
@@ -32,25 +32,26 @@ struct Roots {
     std::vector<std::array<std::uint32_t, 3>> triangles;
 };
 
-// Puts `guides` >= 1 roots on the scalp. Where it is a disc without a mask that can be flattened,
-// poisson_disc roots lie in part evenly along its hairline, and their triangles are Delaunay on the
-// sphere of directions; on every other scalp they lie in proportion to the mask, with the triangles
-// of surfaceTriangles(). With a parting two rows of the roots run along it, and no triangle reaches
-// over it; fewer guides than both rows and three more have none. Throws engine::Error if the mask
-// leaves no place for them.
+// Puts `guides` >= 1 roots on the scalp. On a disc without a mask that can be flattened, some of
+// the poisson_disc roots lie evenly along its hairline, and the triangles are Delaunay on the
+// sphere of directions. On every other scalp, roots lie in proportion to the mask, with the
+// triangles of surfaceTriangles(). With a parting, two rows of roots run along it, and no triangle
+// reaches over it; this needs three more guides than both rows have. Throws engine::Error if the
+// mask leaves no place for the roots.
 Roots placeRoots(const Scalp& scalp, const NearestSurface& surface, const RootOptions& options);
 
-// How many of `guides` roots lie on the hairline. The thesis's 86 guides with 136 root triangles
-// have 34 there (Euler: 2 * 86 - 2 - 34 = 136); the ratio of edge to area keeps it proportional to
-// the square root.
+// Number of `guides` roots that lie on the hairline. The thesis's 86 guides with 136 root triangles
+// have 34 there (Euler: 2 * 86 - 2 - 34 = 136). The number is proportional to the square root of
+// `guides`, as an edge is to that of an area.
 std::uint32_t boundaryRootCount(std::uint32_t guides);
 
-// Lengths along a hairline of `total` m at which `count` roots are evenly spaced, the first at 0.
-// With up to two cuts they go from `gap` after one to `gap` before the next, a root at either end.
+// Returns lengths along a hairline of `total` m at which `count` roots are evenly spaced, the first
+// at 0. With up to two cuts, they go from `gap` after a cut to `gap` before the next, with a root
+// at either end.
 std::vector<double>
 hairlineLengths(double total, std::uint32_t count, std::vector<double> cuts, double gap);
 
-// The sample with this number: points picked at random, uniform in area.
+// Returns the sample with this number, of random points uniform in area.
 inline SurfacePoint rootSample(const Scalp& scalp, std::uint32_t seed, std::uint32_t number) {
     return sampleSurface(
         scalp, {random01(seed, number, purpose::root_triangle),

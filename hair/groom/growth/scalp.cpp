@@ -42,7 +42,7 @@ std::string list(const char* kind, const std::vector<std::string>& names) {
     return text;
 }
 
-// Triangles whose index names the name.
+// Returns the triangles with the index of this name.
 std::vector<std::uint32_t> withIndex(
     std::span<const std::uint32_t> indices, const std::vector<std::string>& names,
     const std::string& name) {
@@ -266,7 +266,7 @@ Flattening flatten(const Scalp& scalp) {
         centroid += facet.centroid * (glm::length(facet.area_vector) / scalp.area());
         area_vector += facet.area_vector;
     }
-    // From a closed surface the vectors cancel: a scalp needs a side that it faces.
+    // The vectors of a closed surface cancel, but a scalp must face one side.
     if (glm::length(area_vector) < 1e-3 * scalp.area()) {
         throw engine::Error("the scalp wraps all the way round and can't be flattened");
     }

@@ -33,17 +33,17 @@ struct SurfacePoint {
 };
 
 // Takes the triangles that scalpTriangles() gives for the name. Vertices at the same position
-// become one, with the mean of their normals; triangles that vanish by that are left out. Throws
+// become one, with the mean of their normals. Triangles that collapse are left out. Throws
 // engine::Error if nothing has the name or the triangles have no area.
 Scalp extractScalp(const Mesh& mesh, const std::string& name = "scalp");
 
-// The point of a triangle with these weights of its corners, sum 1.
+// Returns the point of a triangle with these weights of its corners, sum 1.
 SurfacePoint surfacePoint(const Scalp& scalp, std::uint32_t triangle, const glm::dvec3& weights);
 
-// The point that three numbers in [0, 1) pick; uniform numbers give points uniform in area.
+// Returns the point that three numbers in [0, 1) pick; uniform numbers give points uniform in area.
 SurfacePoint sampleSurface(const Scalp& scalp, const std::array<float, 3>& random);
 
-// The texture coordinates at a point of a scalp that has them.
+// Returns the texture coordinates at a point of a scalp that has them.
 glm::dvec2 textureCoordinate(const Scalp& scalp, const SurfacePoint& point);
 
 // A map from the scalp to the plane: the direction in which a point is seen from `centre`,
@@ -60,18 +60,18 @@ struct Flattening {
     glm::dvec2 operator()(const glm::vec3& position) const;
 };
 
-// The axis is the scalp's mean normal. The centre lies on the line along it through the scalp's
-// centroid, where the scalp is seen most squarely: at the centre of curvature of a spherical cap.
-// Throws engine::Error if from no such centre the whole scalp is seen from its inner side.
+// The axis is the scalp's mean normal. The centre is on the line along the axis through the scalp's
+// centroid, where the scalp is seen most squarely: for a spherical cap, the centre of curvature.
+// Throws engine::Error if no such centre sees the whole scalp from its inner side.
 Flattening flatten(const Scalp& scalp);
 
-// A polygon in the plane that many points are tried against.
+// A polygon in the plane, to test many points against.
 class Outline {
 public:
     explicit Outline(std::vector<glm::dvec2> polygon);
 
-    // Inside by crossing parity, and further from each edge than a thousandth of the edge's length:
-    // rounding puts no such point on it.
+    // Whether a point is inside by crossing parity, and farther from each edge than a thousandth of
+    // the edge's length, so that rounding can't put it on the edge.
     bool contains(const glm::dvec2& point) const;
 
 private:
@@ -82,10 +82,10 @@ private:
     std::vector<std::uint32_t> edges_;  // those that meet each row, by their first vertex
 };
 
-// The triangles of what has that name: a material, else a part, else a vertex group, which takes
-// the triangles whose three corners have at least half of the full weight; of all that share the
-// name. "*" takes every triangle. Throws engine::Error that lists what the mesh has if nothing has
-// the name or it has no triangles.
+// Returns the triangles of all materials of that name, or else of all parts, or else of all vertex
+// groups. A vertex group has the triangles with at least half of the full weight at each corner.
+// "*" takes every triangle. Throws engine::Error with a list of the mesh's names if nothing has the
+// name or it has no triangles.
 std::vector<std::uint32_t> scalpTriangles(const Mesh& mesh, const std::string& name);
 
 }  // namespace hair::groom

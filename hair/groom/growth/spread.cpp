@@ -23,8 +23,8 @@ std::uint32_t spreadBits(std::uint32_t value) {
     return spread;
 }
 
-// A key's number such that buckets of near cubes follow each other. Morton 1966, A computer
-// oriented geodetic data base.
+// The number of a key; in its order, buckets of near cubes follow each other. Morton 1966, A
+// computer oriented geodetic data base.
 std::uint32_t mortonCode(std::uint32_t key) {
     return spreadBits(key & kCubeMask) | spreadBits(key >> kCubeBits & kCubeMask) << 1 |
            spreadBits(key >> 2 * kCubeBits) << 2;
@@ -97,7 +97,7 @@ void PointGrid::erase(std::uint32_t place) {
 }
 
 PointGrid::Cube PointGrid::cube(const glm::vec3& point) const {
-    static constexpr double limit = 1e9;  // what lies further out shares the last cube
+    static constexpr double limit = 1e9;  // points farther out share the last cube
     const auto along = [this](float coordinate) {
         return static_cast<int>(std::clamp(std::floor(coordinate / radius_), -limit, limit));
     };
@@ -119,8 +119,8 @@ std::uint32_t PointGrid::key(const Cube& cube) {
     return along(cube.x) | along(cube.y) << kCubeBits | along(cube.z) << 2 * kCubeBits;
 }
 
-// All buckets are asked for before the first is needed, and so are the points: what takes time is
-// memory.
+// Prefetches all buckets before the first is needed, and then the points, because memory takes the
+// time.
 std::size_t PointGrid::findNear(const glm::vec3& point, Neighbours& neighbours) const {
     const Cube centre = cube(point);
     std::array<const Bucket*, 27> buckets;
@@ -150,8 +150,8 @@ std::vector<std::uint32_t> spread(
     double area) {
     assert(count <= candidates.size());
     if (count == 0) return {};
-    // Yuksel's r_max: no set of so many points has all of them further apart than 2 r_max. A point
-    // on the boundary has half of its disc on the surface.
+    // Yuksel's r_max: in no set of so many points are all of them farther apart than 2 r_max. A
+    // point on the boundary has half of its disc on the surface.
     const double discs = count + 0.5 * static_cast<double>(fixed.size());
     const double reach = 2.0 * std::sqrt(area / (2.0 * std::numbers::sqrt3 * discs));
     std::vector<glm::vec3> points(candidates.begin(), candidates.end());
@@ -163,7 +163,7 @@ std::vector<std::uint32_t> spread(
         return near4 * near4;
     };
 
-    // Takes away the most crowded candidate until `count` are left.
+    // Removes the most crowded candidate until `count` are left.
     std::vector<double> weights(grid.size(), 0.0);  // [place]
     std::vector<FallingQueue::Entry> entries;
     inParallel("weighs roots", grid.size(), [&](std::uint32_t place) {

@@ -12,11 +12,11 @@
 #include <glm/geometric.hpp>
 #include <glm/vec3.hpp>
 
-// Points spread evenly over a surface, and what finds the most crowded of them.
+// Spreads points evenly over a surface, with the structures that find the most crowded point.
 namespace hair::groom {
 
-// Gives out the greatest of many entries whose weights only fall. Entries wait unsorted in bins by
-// weight; only the highest bin is a heap.
+// A priority queue of entries with weights that only fall. Entries wait unsorted in bins by weight;
+// only the highest bin is a heap.
 class FallingQueue {
 public:
     struct Entry {
@@ -35,8 +35,8 @@ public:
         std::ranges::make_heap(bins_[open_]);
     }
 
-    // The item with the greatest weight, of a queue that isn't empty. weightOf(item) is an item's
-    // weight now.
+    // Removes and returns the item with the greatest weight; the queue must not be empty.
+    // weightOf(item) is the current weight of an item.
     template <class WeightOf>
     std::uint32_t pop(WeightOf&& weightOf) {
         while (true) {
@@ -105,7 +105,7 @@ public:
         }
     }
 
-    // Near points don't see it any more.
+    // Removes a point; forEachNear() no longer visits it.
     void erase(std::uint32_t place);
 
 private:
@@ -127,7 +127,7 @@ private:
     };
     using Neighbours = std::array<NearCube, 27>;
 
-    // Fills in the cubes round a point that may have points, and returns how many.
+    // Fills in the cubes round a point that may have points. Returns their number.
     std::size_t findNear(const glm::vec3& point, Neighbours& neighbours) const;
     Cube cube(const glm::vec3& point) const;
     std::size_t number(const Cube& cube) const;  // of its bucket

@@ -23,7 +23,7 @@ constexpr auto kNone = TriangleNet::kNone;
 std::uint32_t after(std::uint32_t corner) { return TriangleNet::after(corner); }
 std::uint32_t before(std::uint32_t corner) { return TriangleNet::before(corner); }
 
-// How far beyond straight the way past a vertex may bend for the edge there to count as inside,
+// Angle over 180 degrees up to which two edges at a vertex may be replaced by one that passes it,
 // rad.
 constexpr double kStraight = 0.02;
 
@@ -175,8 +175,8 @@ SurfaceNet::SurfaceNet(const Scalp& scalp, std::span<const SurfacePoint> roots)
     separateFans(corners);
 }
 
-// Makes a vertex where several sheets meet one vertex for each. `corners` are all that their
-// vertices have.
+// Splits each vertex where several sheets meet, so that each sheet has a vertex of its own.
+// `corners` are all corners of their vertices.
 void SurfaceNet::separateFans(std::span<const std::uint32_t> corners) {
     std::unordered_set<std::uint32_t> seen;
     for (const std::uint32_t corner : corners) {
@@ -208,7 +208,7 @@ bool SurfaceNet::areJoined(std::uint32_t corner, std::uint32_t vertex) const {
     });
 }
 
-// Whether both new triangles face the way of the old ones.
+// Whether both new triangles face the same way as the old ones.
 bool SurfaceNet::staysUnfolded(std::uint32_t corner) const {
     const glm::dvec3 a = position(corner);
     const glm::dvec3 b = position(after(corner));
@@ -254,14 +254,15 @@ void SurfaceNet::makeDelaunay() {
     flipSuspects();
 }
 
-// Flips one edge of the fan's vertex so that its two neighbours there are joined past it: in the
-// plane that the fan unrolls to, where the vertex is the origin, the shortest such new edge.
-// Returns false if there is none.
+// Flips one edge of the fan's vertex, so that an edge past the vertex joins its two neighbours
+// there. Of all such flips it takes that with the shortest new edge, measured in the plane that the
+// fan unrolls to, with the vertex at the origin. Returns false if there is none.
 bool SurfaceNet::flipAway(const TriangleNet::Fan& fan) {
     const auto count = fan.corners.size();
     const glm::dvec3 centre = position(fan.corners[0]);
-    std::vector<double> angles{0.0};  // [neighbour], one more than corners: the first again, or
-    std::vector<glm::dvec3> neighbours;  // the boundary's other one
+    // [neighbour], one more than corners: at the end the first again, or the boundary's other one.
+    std::vector<double> angles{0.0};
+    std::vector<glm::dvec3> neighbours;
     for (const std::uint32_t corner : fan.corners) {
         const glm::dvec3 from = position(after(corner)) - centre;
         const glm::dvec3 to = position(before(corner)) - centre;
@@ -332,7 +333,7 @@ void SurfaceNet::remove(std::uint32_t vertex, Stuck stuck) {
     flipSuspects();
 }
 
-// Works from inside to the boundary, so that as little as possible is dropped with that.
+// Works from the inside to the boundary, where it drops triangles, so that few are dropped.
 void SurfaceNet::removeScalpVertices() {
     const auto isLeft = [&](std::uint32_t vertex) {
         return sources_[vertex] >= root_count_ && corners_[vertex] != kNone;
@@ -365,7 +366,7 @@ void SurfaceNet::peel() {
     }
 }
 
-// A root in several fans has one number, and an edge no third triangle.
+// Gives a root in several fans one number, and no edge a third triangle.
 std::vector<std::array<std::uint32_t, 3>> SurfaceNet::triangles() const {
     std::set<std::pair<std::uint32_t, std::uint32_t>> edges;
     std::vector<std::array<std::uint32_t, 3>> triangles;

@@ -12,9 +12,9 @@
 // Triangles that are changed by flips of edges.
 namespace hair::groom {
 
-// Triangles that know their neighbours, to be changed by flips. Corner c of cell t has the number
-// 3 t + c; it also stands for the edge opposite, which runs from the next corner's vertex to the
-// one after it.
+// Triangles that know their neighbours, to be changed by flips. Corner c of cell t has the number 3
+// t + c. It also stands for the opposite edge, which runs from the next corner's vertex to the one
+// after it.
 class TriangleNet {
 public:
     static constexpr std::uint32_t kNone = ~0u;
@@ -26,7 +26,7 @@ public:
         return corner % 3 == 0 ? corner + 2 : corner - 1;
     }
 
-    // Triangles are neighbours where two, and no third one, run along an edge in opposite
+    // Two triangles are neighbours where they, and no third one, run along an edge in opposite
     // directions.
     explicit TriangleNet(std::span<const std::array<std::uint32_t, 3>> triangles);
 
@@ -46,12 +46,12 @@ public:
     };
     Fan fan(std::uint32_t corner) const;
 
-    // The edge opposite, which has a twin, becomes the quadrilateral's other diagonal, from the
-    // corner's vertex to the twin's. Returns the quadrilateral's sides.
+    // Replaces the opposite edge, which must have a twin, by the quadrilateral's other diagonal,
+    // from the corner's vertex to the twin's. Returns the quadrilateral's sides.
     std::array<std::uint32_t, 4> flip(std::uint32_t corner);
     // Cuts a cell into three; edge 2 of each is one of the old sides. Returns the cells.
     std::array<std::uint32_t, 3> split(std::uint32_t cell, std::uint32_t vertex);
-    // Makes one cell, which it returns, of the three round a corner's vertex.
+    // Joins the three cells round a corner's vertex to one. Returns it.
     std::uint32_t join(const std::array<std::uint32_t, 3>& corners);
     void erase(std::uint32_t cell);
     void renameVertex(std::uint32_t corner, std::uint32_t vertex) { vertices_[corner] = vertex; }
@@ -65,8 +65,8 @@ private:
     std::vector<std::uint32_t> twins_;  // [corner]
 };
 
-// Flips edges until shouldFlip(corner) holds for none of the suspects and of those that flips make
-// suspect; ends after `most` flips. Calls flipped(corner) after each. Lawson 1977, Software for C1
+// Flips edges until shouldFlip(corner) holds for no suspect, including those that flips add, or
+// until `most` flips are made. Calls flipped(corner) after each. Lawson 1977, Software for C1
 // surface interpolation.
 template <class Test, class Flipped>
 void flipEdges(
@@ -82,17 +82,17 @@ void flipEdges(
     }
 }
 
-// A scalp cut at roots, from which the scalp's own vertices are then taken out.
-// Lengths and angles are those of the straight triangles in space.
+// A scalp cut at roots; afterwards, the scalp's own vertices can be removed. Lengths and angles are
+// those of the straight triangles in space.
 class SurfaceNet {
 public:
     SurfaceNet(const Scalp& scalp, std::span<const SurfacePoint> roots);
 
-    // Flips edges whose opposite angles have a sum of more than 180 degrees, where the surface
-    // isn't folded by that and no two vertices get a second edge.
+    // Flips edges with opposite angles of more than 180 degrees in sum, unless that folds the
+    // surface or gives two vertices a second edge.
     void makeDelaunay();
-    // Edges at a vertex are flipped away until its triangles are three, which become one; on the
-    // boundary until no flip stays inside, and the rest is dropped.
+    // Flips the edges at each vertex away until three triangles are left, which become one. On the
+    // boundary, it flips until no flip stays inside, and drops the rest.
     void removeScalpVertices();
     // Drops long, low triangles from the boundary.
     void peel();
@@ -100,7 +100,7 @@ public:
     std::vector<std::array<std::uint32_t, 3>> triangles() const;
 
 private:
-    enum class Stuck { keep, erase };  // what becomes of a vertex that no flip frees
+    enum class Stuck { keep, erase };  // for a vertex that no flip frees
 
     void separateFans(std::span<const std::uint32_t> corners);
     void anchor(std::uint32_t cell);

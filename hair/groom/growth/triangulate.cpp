@@ -43,7 +43,7 @@ bool edgesMeet(const Edge& p, const Edge& q) {
            sign(orientation(q.a, q.b, p.a)) * sign(orientation(q.a, q.b, p.b)) <= 0;
 }
 
-// Whether the edges from b go back along each other.
+// Whether the two edges from b lie on each other.
 bool foldsBack(GridPoint a, GridPoint b, GridPoint c) {
     return orientation(a, b, c) == 0 && (a.x - b.x) * (c.x - b.x) + (a.y - b.y) * (c.y - b.y) >= 0;
 }
@@ -64,7 +64,7 @@ void checkSimple(std::span<const GridPoint> polygon) {
     }
 }
 
-// By the sign of twice the area. That is below 2^(2 kGridBits + 1) for a simple polygon, and sums
+// Uses the sign of twice the area. It is below 2^(2 kGridBits + 1) for a simple polygon, and sums
 // that overflow on the way wrap back.
 bool isClockwise(std::span<const GridPoint> polygon) {
     std::uint64_t sum = 0;
@@ -111,7 +111,7 @@ std::vector<std::array<std::uint32_t, 3>> clipEars(std::span<const GridPoint> po
             assert(failures < n);
             ++failures;
         }
-        ++at;  // after a cut too: the next ear elsewhere, so that no vertex gets a fan of thin ones
+        ++at;  // after a cut, too, so that no vertex gets a fan of thin triangles
     }
     triangles.push_back({rest[0], rest[1], rest[2]});
     return triangles;
@@ -202,7 +202,7 @@ void Triangulation::insert(std::uint32_t point) {
         if (side(corner, point) > 0) {
             suspects_.push_back(corner);
         } else if (net_.twin(corner) != TriangleNet::kNone) {
-            // The point lies on this edge: the flat cell goes.
+            // The point lies on this edge: a flip removes the flat cell.
             for (const std::uint32_t flipped : net_.flip(corner)) suspects_.push_back(flipped);
         } else {
             throw engine::Error("point " + std::to_string(point) + " lies on the boundary");
@@ -243,7 +243,8 @@ void checkDistinct(std::span<const GridPoint> points) {
         "points " + std::to_string(first) + " and " + std::to_string(second) + " coincide");
 }
 
-// The bits of x at the even places, of y at the odd ones: points that follow each other are close.
+// Interleaves the bits of x, at the even places, with those of y, at the odd ones, so that points
+// that follow each other are close.
 std::uint64_t mortonCode(GridPoint point) {
     std::uint64_t code = 0;
     for (int bit = 0; bit < kGridBits; ++bit) {
@@ -253,8 +254,8 @@ std::uint64_t mortonCode(GridPoint point) {
     return code;
 }
 
-// Rounds of random points, each about twice as large as the one before, along a curve within a
-// round: walks stay short and so do flip cascades. Amenta, Choi and Rote 2003, Incremental
+// Orders points in random rounds, each about twice as large as the one before, and along a curve
+// within a round. This keeps walks and flip cascades short. Amenta, Choi and Rote 2003, Incremental
 // constructions con BRIO.
 std::vector<std::uint32_t> insertionOrder(std::span<const GridPoint> points, std::uint32_t first) {
     struct Entry {
@@ -292,11 +293,11 @@ triangulate(std::span<const glm::dvec2> points, std::uint32_t boundary_count) {
 
 namespace {
 
-// Roots keep this weight of each corner, so that rounding puts none on an edge.
+// Least weight of each corner at a root, so that rounding puts no root on an edge.
 constexpr double kLeastWeight = 1e-6;
 
-// Cuts a triangle at its roots, in the plane of weights. That is affine to space, so the triangles
-// are Delaunay only after makeDelaunay().
+// Cuts a triangle at its roots, in the plane of weights. This plane is affine to space, so the
+// triangles are Delaunay only after makeDelaunay().
 void cut(
     std::vector<std::array<std::uint32_t, 3>>& triangles,
     const std::array<std::uint32_t, 3>& corners, std::span<const std::uint32_t> members,
@@ -336,8 +337,8 @@ cutAtRoots(const Scalp& scalp, std::span<const SurfacePoint> roots) {
 
 namespace {
 
-// The piece of each triangle of the scalp: a number that triangles have in common if a way over
-// edges joins them.
+// Returns the piece of each triangle of the scalp: a number that triangles have in common if edges
+// connect them.
 std::vector<std::uint32_t> pieces(const Scalp& scalp) {
     const TriangleNet net(scalp.triangles);
     std::vector<std::uint32_t> parent(scalp.triangles.size());

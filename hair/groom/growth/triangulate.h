@@ -22,22 +22,23 @@ namespace hair::groom {
 std::vector<std::array<std::uint32_t, 3>>
 triangulate(std::span<const glm::dvec2> points, std::uint32_t boundary_count);
 
-// The triangles between roots that lie on a scalp of any shape: it is cut at the roots, its own
-// vertices are taken out one by one, and edges are flipped until angles opposite an edge have a sum
-// of at most 180 degrees, as in a Delaunay triangulation. Each triangle is counter-clockwise seen
-// from outside, an edge has at most two, which run along it in opposite directions, and none joins
-// pieces of the scalp that have no edge in common. Along a boundary roots are joined where the
-// triangle is not much longer than high; no triangle reaches over a hole. A piece with one root has
-// the triangle {a, a, a}; one whose roots span none has {a, b, b} from each to the next.
+// Returns the triangles between roots on a scalp of any shape. The scalp is cut at the roots, its
+// own vertices are removed one by one, and edges are flipped until angles opposite an edge have a
+// sum of at most 180 degrees, as in a Delaunay triangulation. Each triangle is counter-clockwise
+// seen from outside. An edge has at most two triangles, which run along it in opposite directions.
+// No triangle joins pieces of the scalp that have no edge in common. Along a boundary, roots are
+// joined where the triangle is not much longer than high; no triangle reaches over a hole. A piece
+// with one root has the triangle {a, a, a}. A piece with several roots but no triangle has {a, b,
+// b} from each root to the next.
 std::vector<std::array<std::uint32_t, 3>>
 surfaceTriangles(const Scalp& scalp, std::span<const SurfacePoint> roots);
 
-// The scalp's triangles, those with roots cut into ones that have the roots as corners. Vertices
-// are numbered: the roots, then the scalp's.
+// Returns the scalp's triangles, cut so that roots are corners. Vertices are numbered: the roots,
+// then the scalp's.
 std::vector<std::array<std::uint32_t, 3>>
 cutAtRoots(const Scalp& scalp, std::span<const SurfacePoint> roots);
 
-// Points of the plane with whole coordinates, on which geometric questions have exact answers.
+// Points of the plane with integer coordinates, for which geometric predicates are exact.
 
 // |coordinate| < 2^kGridBits: then the largest intermediate of inCircle() is below 2^(4 kGridBits +
 // 6) < 2^127.

@@ -28,10 +28,10 @@ namespace {
 
 constexpr std::uint32_t kHairPoints = 6;
 constexpr double kEdgeStep = 0.0005;  // m, between places on the scalp's edge
-constexpr double kRise = 0.3;  // of a hair over the surface at its root: tangent of the angle
+constexpr double kRise = 0.3;  // slope of a hair at its root: tangent of its angle to the surface
 constexpr double kMostTurn = 25.0 * std::numbers::pi / 180.0;
 
-// Places along the edges that one triangle of the scalp has.
+// Returns places along the edges with one triangle of the scalp.
 std::vector<glm::vec3> edgePlaces(const Scalp& scalp) {
     std::map<std::pair<std::uint32_t, std::uint32_t>, int> uses;
     for (const auto& triangle : scalp.triangles)
@@ -47,7 +47,7 @@ std::vector<glm::vec3> edgePlaces(const Scalp& scalp) {
     return places;
 }
 
-// The part of the mesh within the band of the scalp's edge.
+// The part of the mesh within a band round the scalp's edge.
 class Band {
 public:
     Band(const Mesh& mesh, const Scalp& scalp, const NearestSurface& surface, double width)
@@ -102,7 +102,7 @@ private:
     Scalp whole_;
 };
 
-// Along the surface.
+// Returns the direction along the surface, turned by `turn`.
 glm::dvec3 lyingDown(const glm::dvec3& direction, const glm::dvec3& normal, double turn) {
     glm::dvec3 flat = direction - glm::dot(direction, normal) * normal;
     if (glm::length(flat) < 0.05) {  // it stands up: then down the slope

@@ -22,7 +22,8 @@
 namespace hair::groom {
 namespace {
 
-constexpr double kWeightSum = 0.01;  // that weights in 8 bits are off 1 by, rounded one by one
+// Greatest distance from 1, as of weights rounded one by one to 8 bits.
+constexpr double kWeightSum = 0.01;
 
 tinygltf::Model loadAnimated(const std::filesystem::path& path) {
     engine::OpenFile file(path);
@@ -65,7 +66,7 @@ const tinygltf::Animation& clipOf(const tinygltf::Model& model, const std::strin
     throw engine::Error("has no animation '" + clip + "'; its animations are " + known);
 }
 
-// The numbers of an accessor, all finite.
+// Returns the numbers of an accessor. Throws engine::Error unless all are finite.
 GltfNumbers finiteNumbers(const tinygltf::Model& model, int accessor, GltfIntegers integers) {
     GltfNumbers numbers = readNumbers(model, accessor, integers);
     for (const double value : numbers.values)
@@ -89,7 +90,7 @@ vectorsOf(const tinygltf::Model& model, int accessor, std::size_t count, const s
 
 }  // namespace
 
-// ---- What a file says ---------------------------------------------------------------------------
+// ---- Reading a file -----------------------------------------------------------------------------
 
 // Makes a MeshAnimation of a model.
 class GltfAnimationReader {
@@ -115,7 +116,7 @@ private:
     using Interpolation = MeshAnimation::Interpolation;
     using Property = MeshAnimation::Property;
 
-    // All of the file's nodes, those of other scenes and joints outside of the scene among them.
+    // Reads all nodes of the file, including those of other scenes and joints outside of the scene.
     void readNodes() {
         const std::size_t count = model_.nodes.size();
         std::vector<int> parents(count, -1);
@@ -399,7 +400,7 @@ MeshAnimation::MeshAnimation(const std::filesystem::path& path, const std::strin
 
 // ---- At a time ----------------------------------------------------------------------------------
 
-// glTF 2.0, appendix C. Rotations are x, y, z, w and come out as unit quaternions.
+// Interpolates by glTF 2.0, appendix C. Rotations are x, y, z, w and come out as unit quaternions.
 void MeshAnimation::Channel::at(double time, std::vector<double>& result) const {
     const bool is_cubic = interpolation == Interpolation::cubic_spline;
     const auto value = [&](std::size_t key, std::size_t part) {

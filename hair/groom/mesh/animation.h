@@ -17,22 +17,23 @@
 
 namespace hair::groom {
 
-// The names of a mesh file's animations, numbers ("0", "1" ...) where they have none. Empty for
-// formats whose animations nobody here plays. Throws engine::Error "path: reason".
+// Returns the names of a mesh file's animations, numbers ("0", "1" ...) for those without. Empty
+// for formats with animations that are not read. Throws engine::Error "path: reason".
 std::vector<std::string> animationNames(const std::filesystem::path& path);
 
-// Where the vertices of a file's meshes are over time. Of glTF 2.0: sections 3.7.2.2 (morph
-// targets), 3.7.3 (skins), 3.11 and appendix C (animations). Of USD: one clip, "points", of what
-// readUsdSamples() gives. Everything is worked out in double precision.
+// The positions of a file's vertices over time. glTF 2.0: sections 3.7.2.2 (morph targets), 3.7.3
+// (skins), 3.11 and appendix C (animations). USD: one clip, "points", with the samples of
+// readUsdSamples(). Everything is computed in double precision.
 class MeshAnimation {
 public:
-    // The scene's nodes and what morph targets weigh, at a time. One that is used again takes no
-    // memory anew.
+    // The scene's nodes and the weights of morph targets at a time. A pose that is used again
+    // allocates nothing.
     struct Pose {
-        std::vector<std::vector<glm::dmat4>> joints;  // [part][joint] of a skin; [part][0] else
+        // [part][joint] with a skin, otherwise [part][0].
+        std::vector<std::vector<glm::dmat4>> joints;
         std::vector<std::vector<double>> weights;  // [part][morph target]
 
-        // What they are worked out of.
+        // Intermediate values.
         struct Placing {
             glm::dvec3 translation;  // m
             glm::dquat rotation;  // unit length
@@ -43,23 +44,23 @@ public:
         std::vector<glm::dmat4> transforms;  // [node], to the scene
         std::vector<double> value;  // of a channel
 
-        // Of USD: between which samples, both the same at the ends.
+        // USD: the samples before and after the time, the same at the ends.
         std::size_t before = 0, after = 0;
-        double share = 0.0;  // of the latter
+        double share = 0.0;  // weight of the sample after
     };
 
     // `clip` is the name of one of the file's animations, or its number in animationNames(). Throws
-    // engine::Error "path: reason" for what glTF does not allow: joints that the skin lacks,
-    // weights of joints whose sum is not 1, keyframes that don't ascend, numbers that are not
-    // finite. A channel that names no node, or a property of another extension, is passed over.
+    // engine::Error "path: reason" for faults against glTF: joints that the skin lacks, weights of
+    // joints with a sum other than 1, keyframes that don't ascend, numbers that are not finite.
+    // Channels that name no node, or a property of another extension, are skipped.
     MeshAnimation(const std::filesystem::path& path, const std::string& clip);
 
-    // Of the meshes that importMesh() reads of the same file, in the same order.
+    // The vertices of the meshes that importMesh() reads of the same file, in the same order.
     std::size_t vertexCount() const { return vertex_count_; }
     // The time of the last keyframe, s; at least 0.
     double duration() const { return duration_; }
 
-    // Before the first keyframe of a channel and after its last these hold.
+    // The first and last keyframes of a channel hold before and after them.
     void poseAt(double time, Pose& pose) const;
     // m
     glm::dvec3 position(const Pose& pose, std::size_t vertex) const;
@@ -101,7 +102,7 @@ private:
         std::vector<std::size_t> joints;  // [joint], indices into nodes_
         std::vector<glm::dmat4> inverse_binds;  // [joint]
         std::size_t influences = 0;
-        // [vertex][influence]: a joint and its weight; weights of a vertex add up to 1
+        // [vertex][influence]: a joint and its weight; the weights of a vertex add up to 1.
         std::vector<std::pair<std::uint32_t, double>> influence_list;
     };
 

@@ -36,7 +36,7 @@ double volume(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c, con
     return glm::dot(glm::cross(b - a, c - a), d - a);
 }
 
-// Whether a segment whose ends lie on either side of a triangle's plane meets the triangle.
+// Whether a segment meets a triangle, if the segment's ends are on either side of its plane.
 bool meets(const glm::dvec3& from, const glm::dvec3& to, const FacePoints& triangle) {
     const double ab = volume(from, to, triangle[0], triangle[1]);
     const double bc = volume(from, to, triangle[1], triangle[2]);
@@ -73,7 +73,7 @@ bool shareACorner(const Face& a, const Face& b) {
     return std::ranges::any_of(a, [&](std::uint32_t corner) { return contains(b, corner); });
 }
 
-// [triangle]: whether another one, with none of its corners, goes through it.
+// [triangle]: whether a triangle without a common corner goes through it.
 std::vector<bool> crossedTriangles(
     const std::vector<glm::vec3>& positions, const std::vector<Face>& triangles,
     const TriangleTree& tree) {
@@ -119,7 +119,7 @@ std::vector<bool> crossedTriangles(
 
 // ---- Patches ------------------------------------------------------------------------------------
 
-// Sets of numbers that are joined, each at first by itself.
+// Disjoint sets of numbers (union-find); at first, each number is a set by itself.
 class Joined {
 public:
     explicit Joined(std::size_t count) : before_(count) {
@@ -137,10 +137,10 @@ public:
     }
 
 private:
-    std::vector<std::uint32_t> before_;  // one of the same set that is no greater
+    std::vector<std::uint32_t> before_;  // a number of the same set that is no greater
 };
 
-// Triangles by the set that `setOf` says each is of.
+// Groups triangles by the set that `setOf` gives for each.
 template <class SetOf>
 std::vector<std::vector<std::uint32_t>> gather(std::size_t triangles, SetOf&& setOf) {
     std::vector<std::vector<std::uint32_t>> sets;
@@ -153,7 +153,7 @@ std::vector<std::vector<std::uint32_t>> gather(std::size_t triangles, SetOf&& se
     return sets;
 }
 
-// Triangles that hang together by edges of two.
+// Returns the patches of triangles that are connected by edges of two.
 std::vector<std::vector<std::uint32_t>>
 patchesOf(std::size_t triangles, const std::vector<std::array<std::uint32_t, 2>>& pairs) {
     Joined joined(triangles);
@@ -161,7 +161,7 @@ patchesOf(std::size_t triangles, const std::vector<std::array<std::uint32_t, 2>>
     return gather(triangles, [&](std::uint32_t i) { return joined.first(i); });
 }
 
-// Triangles that hang together by corners.
+// Returns the parts of triangles that are connected by corners.
 std::vector<std::vector<std::uint32_t>> partsOf(const ClosedMesh& mesh) {
     Joined joined(mesh.positions.size());
     for (const auto& [a, b, c] : mesh.triangles) joined.join(a, b), joined.join(b, c);
@@ -169,7 +169,7 @@ std::vector<std::vector<std::uint32_t>> partsOf(const ClosedMesh& mesh) {
         mesh.triangles.size(), [&](std::uint32_t i) { return joined.first(mesh.triangles[i][0]); });
 }
 
-// ---- What lies on either side -------------------------------------------------------------------
+// ---- Winding numbers on either side -------------------------------------------------------------
 
 struct Sides {
     double front, behind;  // winding numbers beside the middle of a triangle
@@ -206,14 +206,15 @@ private:
     double offset_;
 };
 
-// What lies on either side of a patch, by some of its triangles.
+// Winding numbers on either side of a patch, at some of its triangles.
 struct PatchSides {
     double least_front = 1e30;
     double greatest_behind = -1e30;
-    double middle = 0.0;  // the mean of both sides, weighed by area
+    double middle = 0.0;  // the mean of both sides, weighted by area
 };
 
-// A patch is so many at most: what is beside it changes only by the openings.
+// Triangles of a patch that are evaluated at most: winding numbers beside it change only near
+// openings.
 constexpr std::size_t kMostAsked = 64;
 
 PatchSides sidesOfPatch(const std::vector<std::uint32_t>& patch, const Beside& beside) {
@@ -232,11 +233,11 @@ PatchSides sidesOfPatch(const std::vector<std::uint32_t>& patch, const Beside& b
     return sides;
 }
 
-// Winding numbers of multipoles are off by less.
+// Bound of the error of winding numbers by multipoles.
 constexpr double kSeriesError = 0.01;
 
-// Between its sides a patch that bounds a body is above 0, about 1/2, and one that faces inward as
-// far below. So may be a sheet before an open mesh, but not by itself.
+// The mean winding number of both sides is about 1/2 for a patch that bounds a body, and about -1/2
+// for one that faces inward. A sheet in front of an open mesh may be as low, but not by itself.
 constexpr double kFacesInward = -0.25;
 
 bool facesInward(
@@ -268,7 +269,7 @@ constexpr const char* kTurnOutward =
     throw engine::Error("the surface encloses nothing", reason.str());
 }
 
-// In words and by how much; empty: it is a closed surface.
+// Describes the faults and their numbers; empty for a closed surface.
 std::string
 faultsOf(const MeshEdges& edges, std::size_t crossed, std::size_t inner, std::size_t repeated) {
     std::string text = edges.faults;
@@ -285,7 +286,7 @@ faultsOf(const MeshEdges& edges, std::size_t crossed, std::size_t inner, std::si
 // ---- Closed meshes ------------------------------------------------------------------------------
 
 // Whether the sign of the nearest triangle is right everywhere: no triangle goes through another,
-// and outside of each part is outside of all.
+// and the outside of each part is the outside of all.
 bool boundsABody(const ClosedMesh& closed) {
     const TriangleTree tree = buildTriangleTree(closed.positions, closed.triangles, 4);
     const std::vector<bool> crossed = crossedTriangles(closed.positions, closed.triangles, tree);
@@ -298,7 +299,7 @@ bool boundsABody(const ClosedMesh& closed) {
     });
 }
 
-// Absent where it is none, or none whose inside is in.
+// Absent where the mesh is not closed, or is inside out.
 std::optional<ClosedMesh> closedMesh(const Mesh& mesh) {
     try {
         return closeMesh(mesh);
@@ -328,7 +329,7 @@ OpenMesh openMesh(const Mesh& mesh) {
         const PatchSides sides = sidesOfPatch(patch, beside);
         if (facesInward(joined, patch, sides)) throwInward(joined, patch);
         greatest = std::max(greatest, sides.greatest_behind);
-        // What is crossed may be inside with a part of it alone.
+        // Only a part of a crossed triangle may be inside.
         if (sides.least_front < 0.5 - 2 * kSeriesError || crossed[patch.front()]) continue;
         for (const std::uint32_t triangle : patch) inner[triangle] = true;
         inner_count += patch.size();

@@ -18,9 +18,9 @@
 namespace hair::groom {
 namespace {
 
-// Of a triangle's size: two edges that are shorter across each other than this are without area.
+// Relative to a triangle's squared edges: triangles with a smaller area count as without area.
 constexpr double kNoArea = 1e-9;
-// How many times as long as at rest edges may be on average.
+// Greatest ratio of the mean edge length to that at rest.
 constexpr double kMostStretch = 4.0;
 
 // Absent where the triangle has no area.
@@ -34,7 +34,7 @@ std::optional<glm::dmat3> triangleFrame(const std::array<glm::dvec3, 3>& corners
     return glm::dmat3(along, glm::cross(normal / area, along), normal / area);
 }
 
-// The rotation that turns one unit vector to another the shortest way; none where they are
+// The smallest rotation that turns one unit vector to another; the identity where they are
 // opposite.
 glm::dquat shortestTurn(const glm::dvec3& from, const glm::dvec3& to) {
     const double cosine = glm::dot(from, to);
@@ -217,8 +217,8 @@ double DeformingMesh::clipTime(double time) const {
     return std::fmod(played, duration);
 }
 
-// Where the surface round every vertex faces: the sum of its triangles' normals, weighted by their
-// areas, of all vertices at the same place; what has none faces up. Unit length.
+// Finds the directions that the surface faces at every vertex: the sum of the normals of the
+// triangles at its place, weighted by area. Vertices without triangles face up. Unit length.
 void DeformingMesh::facing(
     std::span<const glm::dvec3> positions, std::vector<glm::dvec3>& sums) const {
     sums.assign(positions.size(), glm::dvec3(0.0));

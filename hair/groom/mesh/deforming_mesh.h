@@ -17,13 +17,14 @@
 
 namespace hair::groom {
 
-// What carries a point: the triangle of the mesh at rest that is nearest to it.
+// The binding of a point to the triangle of the mesh that is nearest to it at rest.
 struct SurfaceBinding {
     std::array<std::uint32_t, 3> corners;  // vertices
     glm::dvec3 weights;  // of the corners, at the triangle's nearest point; sum 1
     glm::dvec3 nearest;  // that point at rest, m
     glm::dmat3 frame;  // at rest: along the first edge, across it in the triangle, its normal
-    glm::dmat2 edges;  // at rest, from the first corner to the others, along the first two of these
+    // At rest, from the first corner to the others, in the frame's first two axes.
+    glm::dmat2 edges;
 };
 
 // A rigid motion since rest: x -> rotation x + translation.
@@ -34,14 +35,15 @@ struct SurfaceMotion {
     glm::dvec3 operator()(const glm::dvec3& point) const { return rotation * point + translation; }
 };
 
-// How a point that is bound to a triangle moves when the triangle's corners are at `corners`: with
-// the point of the triangle that it was nearest to, turned as the triangle has turned. The rotation
-// is the one of the polar decomposition of the triangle's deformation, so it does not depend on
-// which corner is the first. A triangle without area does not turn.
+// Returns how a bound point moves when the triangle's corners are at `corners`. The point moves
+// with its nearest point of the triangle, and turns as the triangle turns. The rotation is that of
+// the polar decomposition of the triangle's deformation, so it does not depend on which corner is
+// the first. A triangle without area does not turn.
 SurfaceMotion motionOf(const SurfaceBinding& binding, const std::array<glm::dvec3, 3>& corners);
 
-// The rigid motion that is in the middle of others: the mean of their rotations, and the one of
-// where they take `points` (as many, at least one). Exact where all of them are one motion.
+// Returns the mean of rigid motions: the mean of their rotations, and the translation that takes
+// the mean of `points` to the mean of the moved points. Needs a point for each motion, and at least
+// one. Exact where all motions are the same.
 SurfaceMotion meanMotion(std::span<const SurfaceMotion> motions, std::span<const glm::vec3> points);
 
 // A mesh that an animation deforms over simulated time.
@@ -50,11 +52,11 @@ public:
     // `mesh` is importMesh() of the animation's file. Throws engine::Error where they don't fit.
     DeformingMesh(const Mesh& mesh, MeshAnimation animation, const AnimationSettings& settings);
 
-    // Triangles without area carry nothing. Throws engine::Error for a mesh without any other.
+    // Binds points to triangles that have an area. Throws engine::Error for a mesh without any.
     std::vector<SurfaceBinding> bind(std::span<const glm::vec3> points) const;
 
-    // What is worked out on the way: whoever asks at many times keeps one, and its results', so
-    // that none takes memory anew.
+    // Intermediate values. Callers that ask at many times keep one, and the results, so that
+    // nothing is allocated again.
     struct Scratch {
         MeshAnimation::Pose pose;
         std::vector<glm::dvec3> facing;
@@ -68,15 +70,16 @@ public:
     // [vertex], m
     void positions(double time, Scratch& scratch, std::vector<glm::dvec3>& positions) const;
     std::vector<glm::dvec3> positions(double time) const;
-    // The normals of the mesh, each turned as the surface round its vertex has turned; `positions`
-    // as above. Unit length.
+    // Returns the normals of the mesh, each turned as the surface round its vertex has turned.
+    // `positions` are those of positions(). Unit length.
     void normals(
         std::span<const glm::dvec3> positions, Scratch& scratch,
         std::vector<glm::vec3>& normals) const;
     std::vector<glm::vec3> normals(std::span<const glm::dvec3> positions) const;
 
     std::span<const glm::vec3> restPositions() const { return rest_; }
-    // Simulated time in which the clip is played once, s; 0: it has one pose.
+    // Simulated time in which the clip is played once, s. 0 for a clip of one pose, or at the speed
+    // 0.
     double period() const;
 
 private:

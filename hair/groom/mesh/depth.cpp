@@ -82,7 +82,7 @@ bool DepthInside::isOutside(const glm::ivec3& cell) {
         outside_[static_cast<std::size_t>((cell.z * kDepthCells + cell.y) * kDepthCells + cell.x)];
     if (answer == Answer::unknown) {
         const glm::dvec3 centre = low_ + (glm::dvec3(cell) + 0.5) * cell_;
-        // A hair's breadth more than half the diagonal, for points on the cell's corners.
+        // Slightly more than half the diagonal, for points on the cell's corners.
         const double reach = 0.5001 * glm::length(cell_);
         answer = signedDistance(centre) > reach ? Answer::outside : Answer::neither;
     }

@@ -12,15 +12,15 @@
 
 namespace hair::groom {
 
-// How deep points are inside a body. On which side of a closed surface a point is, the nearest
-// triangle's pseudonormal says; of an open one, whether the winding number is 1/2 or more, within
-// the box round the mesh. The depth is the distance from the mesh's own triangles, those with the
-// inside on both sides apart: no cap closes an opening here, so that a point near one counts as
-// deeper than it is for the simulation.
+// The depth of points inside a body. For a closed surface, the nearest triangle's pseudonormal
+// tells inside from outside. For an open one, a point within the mesh's bounding box is inside
+// where the winding number is 1/2 or more. The depth is the distance from the mesh's own triangles,
+// except those with the inside on both sides. No cap closes an opening here, so a point near an
+// opening counts as deeper than it is for the simulation.
 //
-// Most of a groom is well outside: of a closed body, cells of a grid that have no part of the mesh
-// in them, once found to be outside, answer for all points in them. Not for several threads at
-// once; a copy for each.
+// Most of a groom is well outside. For a closed body, a grid remembers its cells that contain no
+// part of the mesh and are outside; they answer for all points in them. Not for several threads at
+// once; each needs a copy.
 class DepthInside {
 public:
     explicit DepthInside(BodyMesh mesh);

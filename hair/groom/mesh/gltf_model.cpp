@@ -1,5 +1,5 @@
-// The only unit that has tinygltf's functions and sees nlohmann's JSON: assimp's libdraco exports a
-// tinygltf of its own, so this one is compiled in here, with hidden visibility.
+// The only unit that contains tinygltf's functions and sees nlohmann's JSON. assimp's libdraco
+// exports a tinygltf of its own, so this one is compiled in here, with hidden visibility.
 #include <nlohmann/json.hpp>
 #define TINYGLTF_IMPLEMENTATION
 #define TINYGLTF_NO_INCLUDE_JSON
@@ -121,7 +121,7 @@ void appendChunk(std::string& file, std::uint32_t type, std::string_view data, c
     file.append(data).append(padded - data.size(), padding);
 }
 
-// A file of these chunks.
+// Returns a file of these chunks.
 std::string glbFile(const GlbChunks& chunks) {
     std::string data;
     data.reserve(chunks.json.size() + chunks.binary.size() + 64);
@@ -139,7 +139,7 @@ std::string glbFile(const GlbChunks& chunks) {
 
 bool isGlb(std::string_view file) { return file.starts_with(kMagic); }
 
-// tinygltf looks for the end of the second chunk 8 bytes too late.
+// Checked here, because tinygltf looks for the end of the second chunk 8 bytes too late.
 GlbChunks glbChunks(std::string_view file) {
     if (file.size() < kHeaderSize) fail(file.size(), "truncated: the header alone is 12 bytes");
     const std::uint32_t version = wordAt(file, 4);
@@ -162,7 +162,7 @@ namespace {
 
 using json = nlohmann::json;
 
-// tinygltf takes its recursion from the file; no glTF file is half as deep.
+// tinygltf recurses as deep as the file nests. No real glTF file is half as deep.
 constexpr int kMaximumDepth = 64;
 // tinygltf counts base 64 in int.
 constexpr std::size_t kMaximumJson = std::numeric_limits<std::int32_t>::max();
@@ -186,15 +186,15 @@ constexpr std::array<std::string_view, 11> kSections{
 constexpr std::array<std::string_view, 3> kImageSections{"images", "textures", "samplers"};
 constexpr std::array<std::string_view, 2> kMotionSections{"skins", "animations"};
 
-// The first line of what tinygltf or nlohmann says, which may go on with all the file's data.
+// The first line of an error of tinygltf or nlohmann, which may go on with all the file's data.
 std::string firstLine(std::string_view text) {
     constexpr std::size_t kLongest = 200;
     const std::string_view line = text.substr(0, std::min(text.find('\n'), kLongest));
     return line.empty() ? "not a glTF file" : std::string(line);
 }
 
-// The data of the first buffer, where it is in the JSON, as .glb files have it: tinygltf takes half
-// a minute for half a gigabyte of base 64. Empty where there is none.
+// Takes the data of the first buffer out of the JSON, for a binary chunk as in .glb files: tinygltf
+// takes half a minute for half a gigabyte of base 64. Empty where there is none in the JSON.
 std::string takeData(json& document) {
     const auto buffers = document.find("buffers");
     if (buffers == document.end() || !buffers->is_array() || buffers->empty()) return {};
@@ -212,8 +212,8 @@ std::string takeData(json& document) {
     return {};
 }
 
-// The images without what is in them, taken from the document: tinygltf would look for their bytes
-// outside of buffers.
+// Takes the images out of the document, without their contents, because tinygltf would look for
+// their bytes outside of buffers.
 std::vector<tinygltf::Image> takeImages(json& document) {
     std::vector<tinygltf::Image> images;
     const auto section = document.find("images");
@@ -231,8 +231,8 @@ std::vector<tinygltf::Image> takeImages(json& document) {
     return images;
 }
 
-// tinygltf wants what glTF does not ask for: skins whose matrices are the identity have none. Says
-// whether there are any.
+// Names missing inverse bind matrices, because tinygltf requires them. glTF lets skins leave them
+// out where they are the identity. Returns whether any were missing.
 bool nameMissingMatrices(json& document) {
     const auto skins = document.find("skins");
     if (skins == document.end() || !skins->is_array()) return false;
@@ -253,7 +253,7 @@ bool isRead(const std::string& section, GltfImages images, GltfMotion motion) {
            (motion == GltfMotion::read && isOf(kMotionSections));
 }
 
-// Takes the sections that aren't read out of the document, and says whether there were any.
+// Removes the sections that aren't read from the document. Returns whether there were any.
 bool dropOthers(json& document, GltfImages images, GltfMotion motion) {
     if (!document.is_object()) return false;
     bool found = false;
@@ -265,7 +265,7 @@ bool dropOthers(json& document, GltfImages images, GltfMotion motion) {
     return found;
 }
 
-// How many brackets are open at most.
+// The greatest number of open brackets.
 int depthOf(std::string_view text) {
     int depth = 0;
     int most = 0;
@@ -282,7 +282,7 @@ int depthOf(std::string_view text) {
 }
 
 struct Rewritten {
-    std::optional<std::string> file;  // absent where it is the file that was given
+    std::optional<std::string> file;  // absent where the given file stays as it is
     std::vector<tinygltf::Image> images;
 };
 
@@ -295,7 +295,7 @@ Rewritten rewritten(std::string_view file, GltfImages images, GltfMotion motion)
     if (depthOf(chunks.json) > kMaximumDepth)
         throw engine::Error("the JSON has more than " + std::to_string(kMaximumDepth) + " levels");
     try {
-        // Not by nlohmann's callback, whose time is the square of an array's length.
+        // Not by nlohmann's callback, which takes quadratic time in the length of an array.
         json document = json::parse(chunks.json.begin(), chunks.json.end());
         bool has_others = dropOthers(document, images, motion);
         const std::string data = isGlb(file) ? std::string() : takeData(document);
@@ -316,7 +316,7 @@ Rewritten rewritten(std::string_view file, GltfImages images, GltfMotion motion)
     }
 }
 
-// The files that buffers are in: tinygltf opens what it finds by these alone. `user_data` is a
+// The files of buffers. tinygltf opens files only by these functions; their `user_data` is a
 // FileAccess.
 struct FileAccess {
     bool allowed = false;
@@ -394,7 +394,7 @@ tinygltf::Model loadGltf(
                       &model, &error, &warning, reinterpret_cast<const unsigned char*>(text.data()),
                       size, folder)
                 : loader.LoadASCIIFromString(&model, &error, &warning, text.data(), size, folder);
-        // It goes on after some errors, without what they are in.
+        // tinygltf goes on after some errors, without the parts that have them.
         if (!loaded || !error.empty()) throw engine::Error(firstLine(error));
     } catch (const engine::Error&) {
         throw;
@@ -410,7 +410,7 @@ namespace {
 
 // ---- Gltf accessors -----------------------------------------------------------------------------
 
-// An accessor's elements where they lie in the file, every one of them inside its buffer.
+// The elements of an accessor in the file, all of them inside their buffer.
 struct Elements {
     const tinygltf::Accessor& accessor;
     std::string name;  // for messages
@@ -429,7 +429,7 @@ struct Elements {
     }
 };
 
-// Whether or not it is sparse. The accessor outlives what is returned.
+// Does not look at the sparse part of the accessor, which must outlive the result.
 Elements denseElements(
     const tinygltf::Model& model, const tinygltf::Accessor& accessor, const std::string& name) {
     const tinygltf::BufferView& view = at(model.bufferViews, accessor.bufferView, "buffer view");
@@ -461,7 +461,7 @@ Elements elementsOf(const tinygltf::Model& model, int index) {
     return denseElements(model, accessor, name);
 }
 
-// Each element as it lies there.
+// Copies the elements unchanged.
 template <class Value>
 std::vector<Value> copy(const Elements& elements) {
     std::vector<Value> values(elements.accessor.count);
@@ -469,7 +469,7 @@ std::vector<Value> copy(const Elements& elements) {
     return values;
 }
 
-// Vectors of integers that stand for 0 to 1.
+// Copies vectors of integers that stand for 0 to 1.
 template <class Vector, class Stored>
 std::vector<Vector> copyNormalized(const Elements& elements) {
     using Integer = typename Stored::value_type;
@@ -521,7 +521,7 @@ std::vector<std::uint32_t> readUnsigned(const Elements& elements) {
     }
 }
 
-// The numbers of elements of Stored, appended to the values.
+// Appends the numbers of elements of type Stored to the values.
 template <class Stored>
 void appendNumbers(const Elements& elements, GltfIntegers integers, GltfNumbers& numbers) {
     constexpr bool kIsFloat = std::is_same_v<Stored, float>;
@@ -538,7 +538,7 @@ void appendNumbers(const Elements& elements, GltfIntegers integers, GltfNumbers&
             std::memcpy(
                 &value, elements.first + i * elements.stride + component * sizeof value,
                 sizeof value);
-            // The least signed number is -1 too.
+            // The least signed integer stands for -1, too.
             const double number = static_cast<double>(value) / one;
             numbers.values.push_back(one > 1.0 ? std::max(number, -1.0) : number);
         }
@@ -599,7 +599,7 @@ bool hasTriangles(const tinygltf::Primitive& primitive) {
 // glTF 2.0, section 3.6.2.3: a sparse accessor is zeros, or what its buffer view holds, with some
 // elements replaced.
 GltfNumbers readNumbers(const tinygltf::Model& model, int index, GltfIntegers integers) {
-    constexpr std::size_t kMost = std::size_t{1} << 24;  // elements without a byte in the file
+    constexpr std::size_t kMost = std::size_t{1} << 24;  // elements that take no byte of the file
     const std::string name = numbered("accessor", index);
     const tinygltf::Accessor& accessor = at(model.accessors, index, "accessor");
     GltfNumbers numbers;

@@ -1,6 +1,6 @@
 #pragma once
 
-// tinygltf's classes differ with these.
+// tinygltf's classes depend on these macros.
 #define TINYGLTF_NO_STB_IMAGE
 #define TINYGLTF_NO_STB_IMAGE_WRITE
 #define TINYGLTF_NO_EXTERNAL_IMAGE
@@ -26,11 +26,11 @@
 
 namespace hair::groom {
 
-// The bytes that base 64 text is of (RFC 4648, section 4), padded to whole groups of 4 characters;
-// absent where it is no such text.
+// Decodes base 64 text (RFC 4648, section 4), padded to whole groups of 4 characters; absent where
+// it is no such text.
 std::optional<std::string> decodeBase64(std::string_view text);
 
-// What a binary glTF file holds (glTF 2.0, section 4.4).
+// The chunks of a binary glTF file (glTF 2.0, section 4.4).
 struct GlbChunks {
     std::string_view json;
     std::string_view binary;  // empty where there is none
@@ -38,30 +38,30 @@ struct GlbChunks {
 
 bool isGlb(std::string_view file);
 
-// Throws engine::Error "byte N: reason" for a header and chunks that the file doesn't bear out.
+// Throws engine::Error "byte N: reason" for a header and chunks that don't match the file's size.
 GlbChunks glbChunks(std::string_view file);
 
-// What of a file's images there is.
+// How much of a file's images is read.
 enum class GltfImages {
     skipped,
-    named,  // name, bufferView and uri, data in it included, as the file says; textures and
-            // samplers
+    // Name, bufferView and uri, with data in it, as in the file; textures and samplers, too.
+    named,
 };
 
-// Whether skins and animations are read, or left out with whatever may be wrong about them.
+// Whether skins and animations are read, or left out without a check.
 enum class GltfMotion { skipped, read };
 
-// glTF 2.0, .gltf or, by its first bytes, .glb. Buffers in files of their own are read from the
-// folder of `path` once `check` has seen them, or refused where that is empty. What nobody here
-// needs is left out. Refuses extensions that the file requires and that change the geometry. Throws
+// Reads glTF 2.0: .gltf or, by its first bytes, .glb. Buffers in files of their own are read from
+// the folder of `path` after a call of `check`, or refused where `path` is empty. Sections that
+// nothing here needs are left out. Refuses required extensions that change the geometry. Throws
 // engine::Error without naming the file.
 tinygltf::Model loadGltf(
     std::span<const std::byte> bytes, const std::filesystem::path& path,
     GltfImages images = GltfImages::skipped, GltfMotion motion = GltfMotion::skipped,
     const NamedFileCheck& check = {});
 
-// What a glTF file's numbers lead to, with every index and range looked at. Errors begin with what
-// is wrong: "accessor 2: ...".
+// Access to the elements of a glTF file, with checks of every index and range. Errors begin with
+// the element at fault: "accessor 2: ...".
 
 inline std::string numbered(const char* kind, int index) {
     return kind + (" " + std::to_string(index));
@@ -84,14 +84,14 @@ std::optional<int> findAttribute(const tinygltf::Primitive& primitive, const std
 std::vector<float> readScalars(const tinygltf::Model& model, int accessor);
 std::vector<glm::vec3> readVectors(const tinygltf::Model& model, int accessor);
 
-// An accessor of any kind, sparse ones among them.
+// The numbers of an accessor of any kind, sparse ones included.
 struct GltfNumbers {
     std::size_t components = 0;  // of an element
     std::vector<double> values;  // [element][component]
 };
 
-// What integers that are not normalized are: refused, or the numbers that they are. Normalized ones
-// stand for 0 to 1, signed ones for -1 to 1 (glTF 2.0, section 3.11).
+// Whether integers that are not normalized are refused or read as they are. Normalized ones stand
+// for 0 to 1, signed ones for -1 to 1 (glTF 2.0, section 3.11).
 enum class GltfIntegers { normalized, whole };
 
 GltfNumbers readNumbers(const tinygltf::Model& model, int accessor, GltfIntegers integers);
@@ -103,7 +103,8 @@ bool hasTriangles(const tinygltf::Primitive& primitive);
 std::vector<glm::vec3>
 readPositions(const tinygltf::Model& model, const tinygltf::Primitive& primitive);
 
-// `values` of the attribute `name` of a primitive that has `count` positions.
+// Returns `values` of the attribute `name`. Throws engine::Error unless there are `count`, the
+// number of positions.
 template <class Value>
 std::vector<Value> matching(std::vector<Value> values, std::size_t count, const std::string& name) {
     if (values.size() == count) return values;
@@ -119,8 +120,8 @@ struct GltfColors {
 };
 GltfColors readColors(const tinygltf::Model& model, int accessor);
 
-// The vertices that a primitive names, all of them below `vertex_count`; 0, 1, 2 ... where it has
-// no indices.
+// Returns the vertices that a primitive names, all of them below `vertex_count`; 0, 1, 2 ... where
+// it has no indices.
 std::vector<std::uint32_t> readIndices(
     const tinygltf::Model& model, const tinygltf::Primitive& primitive, std::size_t vertex_count);
 
@@ -132,9 +133,9 @@ struct GltfPlace {
     int node;
 };
 
-// Visits the primitives of the default scene's meshes. Errors, of `visit` as well, begin with the
-// mesh and primitive where there is one. Throws engine::Error also where the scene's nodes are no
-// tree.
+// Visits the primitives of the default scene's meshes. Errors, also those of `visit`, begin with
+// the mesh and primitive where there is one. Throws engine::Error also where the scene's nodes are
+// not a tree.
 void forEachPrimitive(
     const tinygltf::Model& model, const std::function<void(const GltfPlace& place)>& visit);
 

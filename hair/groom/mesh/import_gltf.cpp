@@ -38,7 +38,7 @@ std::string_view bytesOfView(const tinygltf::Model& model, int index) {
     return {reinterpret_cast<const char*>(buffer.data.data()) + view.byteOffset, view.byteLength};
 }
 
-// RFC 2397, in base 64: what is behind the comma.
+// Decodes the data of a URI in base 64: RFC 2397.
 std::string bytesOfDataUri(std::string_view uri) {
     constexpr std::string_view kMark = ";base64,";
     const std::size_t mark = uri.find(kMark);
@@ -48,7 +48,7 @@ std::string bytesOfDataUri(std::string_view uri) {
     return *std::move(bytes);
 }
 
-// RFC 3986, section 2.1: "%20" is a space.
+// Decodes percent signs, "%20" to a space: RFC 3986, section 2.1.
 std::string decodePercents(std::string_view uri) {
     std::string decoded;
     for (std::size_t i = 0; i < uri.size(); ++i) {
@@ -65,8 +65,8 @@ std::string decodePercents(std::string_view uri) {
     return decoded;
 }
 
-// Image `index` of a model that was loaded with GltfImages::named: a PNG or JPEG in a buffer, in
-// base 64, or in a file of `folder`. Throws engine::Error "image 2 'skin': reason".
+// Decodes image `index` of a model that was loaded with GltfImages::named: a PNG or JPEG in a
+// buffer, in base 64, or in a file of `folder`. Throws engine::Error "image 2 'skin': reason".
 engine::Pixels decodeGltfImage(
     const tinygltf::Model& model, int index, const std::filesystem::path& folder,
     const NamedFileCheck& check) {
@@ -87,13 +87,13 @@ engine::Pixels decodeGltfImage(
 // ---- Gltf materials -----------------------------------------------------------------------------
 
 struct GltfMaterials {
-    std::vector<Material> materials;  // of triangles without one, then the file's
+    std::vector<Material> materials;  // the default one, then the file's
     std::vector<engine::Pixels> pictures;
 };
 
 constexpr std::size_t kMostPixels = std::size_t{1} << 27;
 
-// glTF's factors are linear, ours are display RGB; IEC 61966-2-1.
+// Encodes glTF's linear factors as display RGB; IEC 61966-2-1.
 float encodeSrgb(double linear) {
     return static_cast<float>(
         linear <= 0.0031308 ? 12.92 * linear : 1.055 * std::pow(linear, 1.0 / 2.4) - 0.055);
@@ -177,7 +177,7 @@ private:
         return texture;
     }
 
-    // Each image once.
+    // Decodes each image once.
     std::uint32_t picture(int image) {
         const auto [known, is_new] =
             numbers_.try_emplace(image, static_cast<std::uint32_t>(pictures_.size()));
@@ -194,15 +194,15 @@ private:
     Textures textures_;
     const std::filesystem::path& folder_;
     const NamedFileCheck& check_;
-    std::map<int, std::uint32_t> numbers_;  // of images among the pictures
+    std::map<int, std::uint32_t> numbers_;  // [image], index into pictures_
     std::vector<engine::Pixels> pictures_;
     std::size_t pixels_ = 0;
 };
 
-// glTF 2.0, section 3.9: base colour, metallic, roughness, normals, alpha mode, double sided; other
-// parts and extensions of materials are ignored. BLEND is read as MASK at one half. What has no
-// material is matt grey. Textures, where they are wanted, have to be on TEXCOORD_0 without
-// KHR_texture_transform. Throws engine::Error that names the material and the image.
+// Reads materials of glTF 2.0, section 3.9: base colour, metallic, roughness, normals, alpha mode,
+// double sided. Other parts and extensions of materials are ignored. BLEND is read as MASK at one
+// half. Triangles without a material are matt grey. Textures, if read, must be on TEXCOORD_0
+// without KHR_texture_transform. Throws engine::Error that names the material and the image.
 GltfMaterials readMaterials(
     const tinygltf::Model& model, Textures textures, const std::filesystem::path& folder,
     const NamedFileCheck& check) {
@@ -220,9 +220,9 @@ GltfMaterials readMaterials(
 
 // ---- Import gltf --------------------------------------------------------------------------------
 
-using Corners = std::array<std::size_t, 3>;  // numbers of indices
+using Corners = std::array<std::size_t, 3>;  // positions in the list of indices
 
-// Triangle `i` as glTF 2.0, section 3.7.2.1, numbers its corners.
+// The corners of triangle `i`: glTF 2.0, section 3.7.2.1.
 Corners cornersOf(int mode, std::size_t i) {
     switch (mode) {
     case TINYGLTF_MODE_TRIANGLE_STRIP:
@@ -242,7 +242,7 @@ std::size_t triangleCount(int mode, std::size_t index_count) {
     return index_count / 3;
 }
 
-// The group's weights, 0 for all vertices so far where it is new.
+// Returns the group's weights; none where the group is new.
 std::vector<float>& weightsOf(Mesh& mesh, const std::string& name) {
     const auto group = std::ranges::find(mesh.vertex_groups, name, &VertexGroup::name);
     if (group != mesh.vertex_groups.end()) return group->weights;
@@ -304,7 +304,8 @@ private:
         if (const auto accessor = findAttribute(primitive, "TEXCOORD_0")) {
             const auto coordinates =
                 matching(readTextureCoordinates(model_, *accessor), count, "TEXCOORD_0");
-            mesh_.texture_coordinates.resize(first, glm::vec2(0.0f));  // of those without
+            // For earlier vertices without any.
+            mesh_.texture_coordinates.resize(first, glm::vec2(0.0f));
             mesh_.texture_coordinates.insert(
                 mesh_.texture_coordinates.end(), coordinates.begin(), coordinates.end());
             has_texture_coordinates_ = true;

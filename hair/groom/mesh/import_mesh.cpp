@@ -30,8 +30,8 @@ namespace {
 
 // ---- Import assimp ------------------------------------------------------------------------------
 
-// Whatever assimp reads, by a child (mesh_reader.cpp). Of a PLY's vertices it takes whatever
-// follows them in memory for more.
+// Reads the formats of assimp, in a child process (mesh_reader.cpp). The faces of a PLY are checked
+// before, because assimp reads memory behind the vertices for indices out of range.
 Mesh importAssimp(
     const std::filesystem::path& path, Textures textures, const NamedFileCheck& check) {
     if (lowerCaseExtension(path) == ".ply") {
@@ -41,9 +41,9 @@ Mesh importAssimp(
     const std::string program = engine::helperProgram("hairbench_mesh_reader").string();
     ReadMesh read;
     try {
-        // A vertex is 32 bytes, and no format has one in less than one.
+        // A vertex takes 32 bytes here and at least one byte in any format.
         const std::size_t most = (std::size_t{64} << 20) + 64 * std::filesystem::file_size(path);
-        // An absolute path, which is no option whatever it begins with.
+        // An absolute path can't be taken for an option.
         read = readMeshStream(
             engine::runTool({program, std::filesystem::absolute(path).string()}, most));
     } catch (const std::system_error&) {
@@ -159,7 +159,7 @@ std::span<const MeshImporter> meshImporters() { return mesh_importers; }
 Mesh importMesh(const std::filesystem::path& path, Textures textures, const NamedFileCheck& check) {
     const MeshImporter& importer = importerFor(path);
     const engine::Step step("reads " + path.filename().string());
-    engine::OpenFile{path};  // what can't be opened is refused in the same words for every format
+    engine::OpenFile{path};  // gives the same error for all formats if it can't be opened
     try {
         Mesh mesh = importer.import(path, textures, check);
         checkMesh(mesh);

@@ -10,9 +10,9 @@
 
 namespace hair::groom {
 
-// A reader of mesh files. It gives triangles whose indices are in range, members of the sizes that
-// mesh.h says, and a name and colour per material; normals may be missing or zero. Its errors don't
-// name the file.
+// A reader of mesh files. Its triangles have indices in range, its members have the sizes that
+// mesh.h states, and each material has a name and a colour. Normals may be missing or zero. Its
+// errors don't name the file.
 struct MeshImporter {
     std::span<const std::string_view> extensions;  // lower case, with the dot
     Mesh (*import)(
@@ -22,10 +22,10 @@ struct MeshImporter {
 // A new format is a row here.
 std::span<const MeshImporter> meshImporters();
 
-// Reads a mesh by its extension, in any case. The mesh has at least one triangle, finite positions
-// and texture coordinates, weights from 0 to 1, and unit normals. Lengths are the file's; formats
-// that state their unit (glTF, FBX, COLLADA, USD) come out in metres. Throws engine::Error "path:
-// reason", also for what `check` throws.
+// Reads a mesh in the format of its extension, in upper or lower case. The mesh has at least one
+// triangle, finite positions and texture coordinates, weights from 0 to 1, and unit normals.
+// Lengths are in the file's unit; formats that state their unit (glTF, FBX, COLLADA, USD) come out
+// in metres. Throws engine::Error "path: reason", also for errors that `check` throws.
 Mesh importMesh(
     const std::filesystem::path& path, Textures textures = Textures::skipped,
     const NamedFileCheck& check = {});

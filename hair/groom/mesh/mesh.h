@@ -13,7 +13,7 @@
 
 namespace hair::groom {
 
-// What is beyond a picture's edges.
+// The wrap mode beyond a picture's edges.
 enum class Wrap { repeat, mirror, clamp };
 
 // A picture on a surface.
@@ -21,10 +21,10 @@ struct MaterialTexture {
     std::uint32_t picture = 0;  // index into Mesh::pictures
     Wrap horizontal = Wrap::repeat;
     Wrap vertical = Wrap::repeat;
-    bool is_smooth = true;  // between its pixels
+    bool is_smooth = true;  // interpolates between pixels
 };
 
-// In glTF 2.0's terms (section 3.9), colours apart.
+// A material in glTF 2.0's terms (section 3.9), except for colours.
 struct Material {
     std::string name;
     glm::vec3 base_color{0.8f, 0.8f, 0.8f};  // display RGB
@@ -32,14 +32,14 @@ struct Material {
     float metallic = 0.0f;
     float roughness = 1.0f;
     float normal_scale = 1.0f;
-    std::optional<float> cutoff;  // what is less opaque is not there; absent: all is there
+    std::optional<float> cutoff;  // parts that are less opaque are not drawn; absent: all are
     bool double_sided = false;
-    std::optional<MaterialTexture> base_color_texture;  // display RGB and opacity: factors
-    std::optional<MaterialTexture> metallic_roughness_texture;  // blue and green: factors
+    std::optional<MaterialTexture> base_color_texture;  // factors of display RGB and opacity
+    std::optional<MaterialTexture> metallic_roughness_texture;  // factors in blue and green
     std::optional<MaterialTexture> normal_texture;  // right, up, out; -1 to 1 as 0 to 255
 };
 
-// Vertices that a modelling program gave a name to.
+// A group of vertices that a modelling program named.
 struct VertexGroup {
     std::string name;
     std::vector<float> weights;  // [vertex], 0 to 1
@@ -59,7 +59,7 @@ struct Mesh {
     std::vector<VertexGroup> vertex_groups;
 };
 
-// Whether who reads a mesh wants its materials' textures.
+// Whether the textures of a mesh's materials are read.
 enum class Textures { skipped, decoded };
 
 }  // namespace hair::groom

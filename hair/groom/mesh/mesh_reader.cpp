@@ -1,6 +1,5 @@
-// The program that reads meshes by assimp for import_mesh.cpp: a child with limits on time and
-// memory, since files that assimp was not made for make it write where it should not, loop, or take
-// gigabytes.
+// The program that reads meshes by assimp for import_mesh.cpp: a child process with limits on time
+// and memory, because malformed files make assimp write out of bounds, loop, or take gigabytes.
 #include <algorithm>
 #include <cstdint>
 #include <exception>
@@ -22,17 +21,18 @@
 namespace hair::groom {
 namespace {
 
-// ---- What assimp gives --------------------------------------------------------------------------
+// ---- The scene of assimp ------------------------------------------------------------------------
 
 // Node transforms are applied, polygons triangulated, points and lines left out. Parts are the
 // nodes that hold triangles, by their names or those of their meshes: objects and groups in most
 // formats. Vertex groups are the bones. Texture coordinates are the first set, 0 for parts without.
-// Of materials, the diffuse colour and its texture where that is a file.
+// Materials have the diffuse colour, and its texture where that is a file.
 constexpr unsigned kSteps = aiProcess_Triangulate | aiProcess_JoinIdenticalVertices |
                             aiProcess_GenSmoothNormals | aiProcess_SortByPType |
                             aiProcess_GlobalScale | aiProcess_RemoveComponent;
 
-// What isn't read below: with it gone, vertices that differ in nothing else are joined.
+// Components that are not read below. Without them, vertices that differ in nothing else are
+// joined.
 constexpr unsigned kIgnored =
     aiComponent_TANGENTS_AND_BITANGENTS | aiComponent_COLORS | aiComponent_TEXCOORDSn(1) |
     aiComponent_TEXCOORDSn(2) | aiComponent_TEXCOORDSn(3) | aiComponent_TEXCOORDSn(4) |
@@ -48,7 +48,7 @@ Material toMaterial(const aiMaterial& source) {
     return material;
 }
 
-// The file of the diffuse texture, beside the mesh's; empty where there is none.
+// The file of the diffuse texture, relative to the mesh's folder; empty where there is none.
 std::string textureOf(const aiMaterial& source) {
     aiString name;
     unsigned coordinates = 0;
@@ -81,7 +81,7 @@ void appendVertices(Mesh& mesh, const aiMesh& part, const aiMatrix4x4& transform
         mesh.normals.emplace_back(turned.x, turned.y, turned.z);
     }
     if (!part.HasTextureCoords(0)) return;
-    mesh.texture_coordinates.resize(first, glm::vec2(0.0f));  // of the parts without
+    mesh.texture_coordinates.resize(first, glm::vec2(0.0f));  // for earlier parts without any
     for (unsigned i = 0; i < part.mNumVertices; ++i) {
         const aiVector3D& coordinate = part.mTextureCoords[0][i];
         mesh.texture_coordinates.emplace_back(coordinate.x, 1.0f - coordinate.y);  // v was up
@@ -103,7 +103,7 @@ void appendTriangles(
     }
 }
 
-// Bones: what moves with one is what was painted with its weight.
+// Adds a vertex group for each bone, with the bone's weights.
 void appendGroups(Mesh& mesh, const aiMesh& part, std::uint32_t first) {
     for (unsigned i = 0; i < part.mNumBones; ++i) {
         const aiBone& bone = *part.mBones[i];
@@ -119,7 +119,7 @@ void appendGroups(Mesh& mesh, const aiMesh& part, std::uint32_t first) {
     }
 }
 
-// A node is a part, by its own name or that of what it holds.
+// Makes a part of a node, with the name of the node or else of its first mesh.
 void appendNode(
     Mesh& mesh, const aiScene& scene, const aiNode& node, const aiMatrix4x4& transform) {
     if (node.mNumMeshes == 0) return;
@@ -174,8 +174,8 @@ ReadMesh read(const std::filesystem::path& path) {
     return read;
 }
 
-// No more than what a file of this size can need: assimp's trees of text files are some 40 times as
-// large as the files.
+// Limits this process to the time and memory that a file of this size can need. Assimp's trees of
+// text files are about 40 times as large as the files.
 void limitSelf(std::uintmax_t file_size) {
     const rlim_t seconds = 8 + file_size / 2'000'000;
     const rlimit time{.rlim_cur = seconds, .rlim_max = seconds + 1};
@@ -183,7 +183,7 @@ void limitSelf(std::uintmax_t file_size) {
     const rlimit none{.rlim_cur = 0, .rlim_max = 0};
     setrlimit(RLIMIT_CORE, &none);
     setrlimit(RLIMIT_FSIZE, &none);
-#ifndef HAIRBENCH_SANITIZE  // whose own memory is terabytes of addresses
+#ifndef HAIRBENCH_SANITIZE  // sanitizers reserve terabytes of addresses
     const rlim_t bytes = (rlim_t{512} << 20) + 64 * file_size;
     const rlimit memory{.rlim_cur = bytes, .rlim_max = bytes};
     setrlimit(RLIMIT_AS, &memory);
@@ -193,8 +193,8 @@ void limitSelf(std::uintmax_t file_size) {
 }  // namespace
 }  // namespace hair::groom
 
-// Its argument is the file; the mesh goes to standard output as mesh_stream.h has it, and what is
-// wrong to standard error, in one line.
+// The argument is the file. The mesh goes to standard output in the format of mesh_stream.h, and an
+// error goes to standard error in one line.
 int main(int argc, char** argv) {
     try {
         if (argc != 2) throw engine::Error("one argument: a file of a mesh");

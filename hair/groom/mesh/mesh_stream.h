@@ -11,18 +11,18 @@
 #include "hair/groom/formats/binary_file.h"
 #include "hair/groom/mesh/mesh.h"
 
-// Meshes from the program that reads them to the one that wants them: arrays, little-endian, each
-// with its number of elements before it, and nothing between. Who reads trusts nothing of it, for
+// The stream of a mesh from the program that reads it to its parent: little-endian arrays, each
+// with its number of elements before it, without padding. The parent trusts nothing in it, because
 // the file may have taken over the program.
 namespace hair::groom {
 
 // A mesh without pictures.
 struct ReadMesh {
     Mesh mesh;
-    std::vector<std::string> textures;  // [material]: file of the base colours', or empty
+    std::vector<std::string> textures;  // [material]: file of the base colour's texture, or empty
 };
 
-// A member of both directions: `stream` is a MeshWriter or a MeshParser.
+// Writes or reads a mesh: `stream` is a MeshWriter or a MeshParser.
 template <class Stream, class MeshOrConst>
 void streamMesh(Stream& stream, MeshOrConst& mesh) {
     stream.array(mesh.positions);
@@ -89,7 +89,7 @@ public:
     template <class Elements, class Read>
     void each(Elements& elements, const Read& read) {
         const std::uint64_t count = takeCount();
-        require(count, sizeof(std::uint64_t));  // each has the length of a name at least
+        require(count, sizeof(std::uint64_t));  // each has at least the length of a name
         elements.resize(count);
         for (auto& element : elements) read(element);
     }
@@ -117,8 +117,8 @@ inline void writeMeshStream(std::ostream& out, const ReadMesh& read) {
     writer.each(read.textures, [&](const std::string& name) { writer.array(name); });
 }
 
-// Refuses what is not exactly such a stream, arrays whose sizes disagree, and indices of no vertex.
-// Throws engine::Error "byte N: reason".
+// Refuses malformed streams, arrays with sizes that disagree, and indices out of range. Throws
+// engine::Error "byte N: reason".
 inline ReadMesh readMeshStream(std::span<const std::byte> bytes) {
     ReadMesh read;
     MeshParser parser(bytes);

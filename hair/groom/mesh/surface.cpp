@@ -60,7 +60,7 @@ std::vector<EdgeSide> sortedSides(std::span<const Triangle> triangles) {
     return sides;
 }
 
-// Edges that are shared wrongly in one way.
+// The edges with one kind of fault.
 struct Fault {
     const char* what;
     std::size_t edges = 0;
@@ -150,8 +150,8 @@ void turnEdge(
     other = {c, a, d};
 }
 
-// The two sides that run along each edge in opposite directions. Throws engine::Error that says how
-// many edges are shared otherwise and where the first of them is.
+// Returns the two sides that run along each edge in opposite directions. Throws engine::Error with
+// the number of edges that are shared otherwise and the place of the first of them.
 std::vector<std::array<Side, 2>>
 pairSides(std::span<const Triangle> triangles, std::span<const glm::vec3> positions) {
     SharedEdges edges(triangles, positions);
@@ -159,13 +159,14 @@ pairSides(std::span<const Triangle> triangles, std::span<const glm::vec3> positi
     return std::move(edges.pairs);
 }
 
-// Leaves out triangles with equal corners, and turns the longest edge of those whose corners lie on
-// a line: the same surface and still closed, without triangles that have no normal. Throws as
-// pairSides does.
-// Every round turns at least one edge. If the triangle behind the longest side of a flat one is
-// flat too, its own longest side is as long or longer, so following them ends at one that can be
-// turned; that leaves fewer flat triangles, or flat ones with a shorter edge. So it ends, but for
-// coordinates too different for the differences of their products to be exact.
+// Leaves out triangles with equal corners, and flips the longest edge of triangles with corners on
+// a line. The surface stays the same and closed, and every triangle gets a normal. Throws as
+// pairSides does, and where flat triangles are left.
+// Every round flips at least one edge. If the triangle behind the longest side of a flat triangle
+// is flat, too, its own longest side is at least as long. So following these sides ends at an edge
+// that can be flipped. A flip leaves fewer flat triangles, or flat ones with a shorter edge, so the
+// rounds end. The exception is coordinates so different that differences of their products are
+// inexact.
 void removeFlatTriangles(std::vector<Triangle>& triangles, std::span<const glm::vec3> positions) {
     for (std::size_t rounds = triangles.size() + 1; rounds > 0; --rounds) {
         std::erase_if(triangles, [](const Triangle& t) {
@@ -404,10 +405,10 @@ double squareDistance(const glm::dvec3& p, const glm::vec3& low, const glm::vec3
 
 using Candidate = NearestCandidate;
 
-// The point of a triangle that is nearest: over the face where the point lies within the three
-// planes through the edges, else the nearest of the edges' (the regions of Ericson 2005, Real-time
-// collision detection, 5.1.5). A triangle without area has only edges, one without length only
-// corners.
+// Compares the nearest point of a triangle with the best so far. That point is on the face where
+// `p` lies within the three planes through the edges, otherwise on the nearest edge (the regions of
+// Ericson 2005, Real-time collision detection, 5.1.5). A triangle without area has only edges, one
+// without length only corners.
 void compare(const glm::dvec3& p, const CornerPoints& corners, std::size_t slot, Candidate& best) {
     const std::array from{
         p - glm::dvec3(corners[0]), p - glm::dvec3(corners[1]), p - glm::dvec3(corners[2])};

@@ -25,55 +25,55 @@ struct Pseudonormals {
 };
 
 // A surface that bounds a volume: every edge belongs to two triangles that run along it in opposite
-// directions. It may have several parts, one in another (a cavity) or apart; that they don't cut
-// each other is not checked. No triangle is without area.
+// directions. It may have several parts, apart or one in another (a cavity). Parts may cut each
+// other; this is not checked. No triangle is without area.
 struct ClosedMesh {
     std::vector<glm::vec3> positions;  // [vertex], m, each position once
     std::vector<std::array<std::uint32_t, 3>> triangles;  // counter-clockwise seen from outside
     std::vector<Pseudonormals> normals;  // [triangle]
 };
 
-// Joins vertices with equal positions, and leaves out triangles that have no area. Throws
-// engine::Error that says what is wrong and where for a mesh that is not closed, and for one whose
-// inside is out.
+// Joins vertices with equal positions, and leaves out triangles without area. Throws engine::Error
+// with the fault and its place for a mesh that is not closed or is inside out.
 ClosedMesh closeMesh(const Mesh& mesh);
 
-// Any mesh, with each position once and no triangle without area or, with the same corners in the
-// same order round, twice.
+// Any mesh, with each position once, no triangle without area and no triangle twice. Triangles are
+// the same if they have the same corners in the same cyclic order.
 struct JoinedMesh {
     std::vector<glm::vec3> positions;  // [vertex], m
     std::vector<std::array<std::uint32_t, 3>> triangles;
-    std::size_t repeated = 0;  // triangles that were left out because they were there
+    std::size_t repeated = 0;  // repeated triangles that were left out
 };
 
 JoinedMesh joinMesh(const Mesh& mesh);
 
 // How a mesh's triangles meet at its edges.
 struct MeshEdges {
-    // Triangles that run along an edge of no other in opposite directions.
+    // Pairs of triangles that run along a common edge in opposite directions, without a third one.
     std::vector<std::array<std::uint32_t, 2>> pairs;
     std::size_t boundary = 0;  // edges with one triangle
-    std::size_t opposed = 0;  // whose two triangles run along it in one direction
-    std::size_t branching = 0;  // with more than two triangles
-    std::string faults;  // the three in words and where the first of each is; empty: none
+    std::size_t opposed = 0;  // edges with two triangles that run along it in one direction
+    std::size_t branching = 0;  // edges with more than two triangles
+    // Description of the three, with the place of the first of each; empty: none.
+    std::string faults;
 };
 
 MeshEdges meshEdges(const JoinedMesh& mesh);
 
-// A hierarchy of boxes round triangles, for nearest neighbours. Every node is split in two halves
-// with as many triangles, so no path from the root is longer than halving makes it.
+// A bounding volume hierarchy of triangles, for nearest neighbours. Every split halves the
+// triangles, so no path from the root is longer than halving makes it.
 struct TriangleTree {
     struct Node {
         glm::vec3 low;
         glm::vec3 high;
-        std::uint32_t first;  // of a leaf's triangles in `order`; else of two children side by side
+        std::uint32_t first;  // of a leaf's triangles in `order`, or of two adjacent children
         std::uint32_t count;  // of a leaf's triangles; 0: an inner node
     };
     std::vector<Node> nodes;  // the root first
-    std::vector<std::uint32_t> order;  // the mesh's triangles as the leaves number them
+    std::vector<std::uint32_t> order;  // the mesh's triangles, in the order of the leaves
 };
 
-// At least one triangle; those without area count too.
+// Needs at least one triangle; triangles without area count, too.
 TriangleTree buildTriangleTree(
     std::span<const glm::vec3> positions, std::span<const std::array<std::uint32_t, 3>> triangles,
     std::size_t most_in_leaf);
@@ -83,26 +83,26 @@ struct MeshPoint {
     glm::dvec3 position{0.0};
     std::uint32_t triangle = 0;
     glm::dvec3 weights{1.0, 0.0, 0.0};  // of the triangle's corners, sum 1, none negative
-    double distance = 0.0;  // from where it was asked for
+    double distance = 0.0;  // from the point that was asked for
 };
 
-// What a search for the nearest point has found so far.
+// The best result so far of a search for the nearest point.
 struct NearestCandidate {
     double square;  // of the distance
     glm::dvec3 weights{1.0, 0.0, 0.0};
     std::size_t slot = 0;  // of the triangle
 };
 
-// Finds the point of a mesh that is nearest to a point. Borrows nothing.
+// Finds the point of a mesh that is nearest to a point. Keeps copies of its arguments.
 class NearestSurface {
 public:
-    // At least one triangle; those without area count too.
+    // Needs at least one triangle; triangles without area count, too.
     NearestSurface(
         std::span<const glm::vec3> positions,
         std::span<const std::array<std::uint32_t, 3>> triangles);
 
     MeshPoint operator()(const glm::dvec3& point) const;
-    // None where that is `reach` away, or farther: much sooner known.
+    // Returns nothing where that point is `reach` away or farther, which is known much sooner.
     std::optional<MeshPoint> within(const glm::dvec3& point, double reach) const;
 
 private:

@@ -14,7 +14,7 @@
 namespace hair::groom {
 namespace {
 
-// For solid angles the leaves are small: a triangle costs more than a multipole.
+// The leaves are small, because the solid angle of a triangle costs more than that of a multipole.
 constexpr std::size_t kMostInWindingLeaf = 4;
 constexpr std::size_t kMostWaiting = 64;  // every split halves, and counts have 32 bits
 
@@ -36,18 +36,18 @@ double turnsRound(const TriangleCorners& corners, const glm::dvec3& point) {
     return std::atan2(volume, across) / (2.0 * std::numbers::pi);
 }
 
-// The symmetric part without traces of a sum of n_i x_j, as Multipole has it.
+// The symmetric, traceless part of a sum of n_i x_j, in the order of Multipole.
 std::array<double, 5> quadrupoleOf(const glm::dmat3& sum) {
     const double third = (sum[0][0] + sum[1][1] + sum[2][2]) / 3.0;
     const auto even = [&](int i, int j) { return (sum[i][j] + sum[j][i]) / 2.0; };
     return {sum[0][0] - third, sum[1][1] - third, even(0, 1), even(0, 2), even(1, 2)};
 }
 
-// The same of a sum of n_i x_j x_k, [i].
+// The same for a sum of n_i x_j x_k, [i].
 std::array<double, 10> octupoleOf(const std::array<glm::dmat3, 3>& sum) {
     const auto even = [&](int i, int j, int k) {
         const auto at = [&](int n, int x, int y) { return sum[static_cast<std::size_t>(n)][x][y]; };
-        return (at(i, j, k) + at(j, k, i) + at(k, i, j)) / 3.0;  // even in the last two
+        return (at(i, j, k) + at(j, k, i) + at(k, i, j)) / 3.0;  // symmetric in the last two
     };
     glm::dvec3 fifth;
     for (int i = 0; i < 3; ++i) fifth[i] = (even(0, 0, i) + even(1, 1, i) + even(2, 2, i)) / 5.0;
@@ -89,8 +89,8 @@ Multipole multipoleOf(std::span<const std::array<glm::vec3, 3>> triangles) {
     return result;
 }
 
-// The solid angle of what is `away`, as far as its moments tell: of x / |x|^3 and its first and
-// second derivatives.
+// The solid angle of triangles at the offset `away`, as far as their moments tell: from x / |x|^3
+// and its first and second derivatives.
 double solidAngle(const Multipole& moments, const glm::dvec3& away) {
     const double square = glm::dot(away, away);
     const double x = away.x, y = away.y, z = away.z;
@@ -117,7 +117,7 @@ WindingNumber::WindingNumber(
         const auto& [a, b, c] = triangles[triangle];
         corners_.push_back({positions[a], positions[b], positions[c]});
     }
-    // Children come after their parents, and have its triangles side by side.
+    // Children come after their parents, and their triangles are adjacent.
     struct Range {
         std::size_t first, count;
     };
