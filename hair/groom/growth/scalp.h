@@ -40,7 +40,8 @@ Scalp extractScalp(const Mesh& mesh, const std::string& name = "scalp");
 // Returns the point of a triangle with these weights of its corners, sum 1.
 SurfacePoint surfacePoint(const Scalp& scalp, std::uint32_t triangle, const glm::dvec3& weights);
 
-// Returns the point that three numbers in [0, 1) pick; uniform numbers give points uniform in area.
+// Returns the point that three numbers in [0, 1) pick; uniform numbers give points uniform in
+// area.
 SurfacePoint sampleSurface(const Scalp& scalp, const std::array<float, 3>& random);
 
 // Returns the texture coordinates at a point of a scalp that has them.
@@ -60,9 +61,9 @@ struct Flattening {
     glm::dvec2 operator()(const glm::vec3& position) const;
 };
 
-// The axis is the scalp's mean normal. The centre is on the line along the axis through the scalp's
-// centroid, where the scalp is seen most squarely: for a spherical cap, the centre of curvature.
-// Throws engine::Error if no such centre sees the whole scalp from its inner side.
+// The axis is the scalp's mean normal. The centre is on the line along the axis through the
+// scalp's centroid, where the scalp is seen most squarely: for a spherical cap, the centre of
+// curvature. Throws engine::Error if no such centre sees the whole scalp from its inner side.
 Flattening flatten(const Scalp& scalp);
 
 // A polygon in the plane, to test many points against.
@@ -70,8 +71,8 @@ class Outline {
 public:
     explicit Outline(std::vector<glm::dvec2> polygon);
 
-    // Whether a point is inside by crossing parity, and farther from each edge than a thousandth of
-    // the edge's length, so that rounding can't put it on the edge.
+    // Whether a point is inside by crossing parity, and farther from each edge than a thousandth
+    // of the edge's length, so that rounding can't put it on the edge.
     bool contains(const glm::dvec2& point) const;
 
 private:
@@ -84,8 +85,8 @@ private:
 
 // Returns the triangles of all materials of that name, or else of all parts, or else of all vertex
 // groups. A vertex group has the triangles with at least half of the full weight at each corner.
-// "*" takes every triangle. Throws engine::Error with a list of the mesh's names if nothing has the
-// name or it has no triangles.
+// "*" takes every triangle. Throws engine::Error with a list of the mesh's names if nothing has
+// the name or it has no triangles.
 std::vector<std::uint32_t> scalpTriangles(const Mesh& mesh, const std::string& name);
 
 }  // namespace hair::groom

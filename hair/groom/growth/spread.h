@@ -15,8 +15,8 @@
 // Spreads points evenly over a surface, with the structures that find the most crowded point.
 namespace hair::groom {
 
-// A priority queue of entries with weights that only fall. Entries wait unsorted in bins by weight;
-// only the highest bin is a heap.
+// A priority queue of entries with weights that only fall. Entries wait unsorted in bins by
+// weight; only the highest bin is a heap.
 class FallingQueue {
 public:
     struct Entry {
@@ -77,8 +77,8 @@ private:
     std::size_t open_ = 0;
 };
 
-// Points sorted into cubes as wide as a radius. A point is known by its place; places that are near
-// in space are near in memory.
+// Points sorted into cubes as wide as a radius. A point is known by its place; places that are
+// near in space are near in memory.
 class PointGrid {
 public:
     PointGrid(std::span<const glm::vec3> points, double radius);

@@ -19,12 +19,12 @@ namespace {
 
 // ---- The search for a mean ----------------------------------------------------------------------
 
-// How much the points' own square distances count beside that of their mean. They are lifted to a
-// paraboloid by it, whose lower hull over a plane is the Delaunay triangulation. At 1e-6 a mean may
-// be further off by 1e-3 of the distance to the points, where that gives a smaller triangle.
+// Weight of the points' own square distances beside that of their mean. It lifts them to a
+// paraboloid, over a plane with the Delaunay triangulation as lower hull. With 1e-6, a mean may be
+// farther off by 1e-3 of the distance to the points, where that gives a smaller triangle.
 constexpr double kNearness = 1e-6;
 
-// Triangles thinner than this have no solution that rounding leaves anything of; their edges do.
+// Thinner triangles have no solution that survives rounding, but their edges do.
 constexpr double kFlat = 1e-12;
 
 class Search {
@@ -40,7 +40,7 @@ public:
         if (along > 0.0 && along < 1.0) offer({i, j, i}, {1.0 - along, along, 0.0});
     }
 
-    // Normal equations of the plane's two directions.
+    // Solves the normal equations of the plane's two directions.
     void tryTriangle(std::size_t i, std::size_t j, std::size_t k) {
         const double jj = edges(i, j, j);
         const double jk = edges(i, j, k);
@@ -98,9 +98,10 @@ struct Range {
 
 // ---- Binding ------------------------------------------------------------------------------------
 
-// How far a strand's root is from another's, and then its other vertices once the roots are put
-// together. Their squares add up to that of the roots' distance and the mean of the others': as
-// when guides are chosen, h between roots weighs as h between shapes.
+// Returns the differences of a strand from another: that of the roots, and those of the other
+// vertices once the roots are put together. Their squares add up to the squared distance of the
+// roots plus the mean of the others. So, as in the choice of guides, a distance h between roots
+// weighs as much as h between shapes.
 void differences(
     std::span<const glm::vec3> strand, std::span<const glm::vec3> other,
     std::span<glm::dvec3> apart) {
@@ -116,7 +117,8 @@ double product(std::span<const glm::dvec3> a, std::span<const glm::dvec3> b) {
         [](const glm::dvec3& p, const glm::dvec3& q) { return glm::dot(p, q); });
 }
 
-// The binding's weighted mean of a vertex of the guides; `strandOf` gives a guide's points.
+// Returns the binding's weighted mean of a vertex of the guides; `strandOf` gives a guide's
+// points.
 template <class StrandOf>
 glm::dvec3 weightedMean(const StrandBinding& binding, std::size_t vertex, StrandOf&& strandOf) {
     glm::dvec3 mean(0.0);
@@ -126,7 +128,7 @@ glm::dvec3 weightedMean(const StrandBinding& binding, std::size_t vertex, Strand
     return mean;
 }
 
-// Binds strands to the guides of one groom, one at a time, with room that it keeps.
+// Binds strands to the guides of one groom, one at a time, and keeps its memory.
 class Binder {
 public:
     Binder(const Groom& dense, const std::vector<std::uint32_t>& guides)

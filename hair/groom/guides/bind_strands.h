@@ -13,13 +13,13 @@
 // The strands between guides: each bound to three of them.
 namespace hair::groom {
 
-// Binds every strand of a dense groom to three of its guides, whose roots are near and whose mean
-// is like it. `guides` are the dense strands, in ascending order, that became the guides 0, 1, …:
-// each is bound to itself alone. With fewer than three guides some of the three are the same.
+// Binds every strand of a dense groom to three guides with near roots and a mean like the strand.
+// `guides` are the dense strands, in ascending order, that became the guides 0, 1, …; each of them
+// is bound to itself alone. With fewer than three guides, some of the three are the same.
 std::vector<StrandBinding>
 bindStrands(const Groom& dense, const std::vector<std::uint32_t>& guides);
 
-// How far the strands that the guides and bindings give are from those of the dense groom, vertex
+// The distances of the strands that guides and bindings give from those of the dense groom, vertex
 // against vertex.
 struct ReconstructionError {
     double mean = 0.0;      // m
@@ -40,35 +40,36 @@ struct Products {
     std::array<std::array<double, kMostCandidates>, kMostCandidates> of{};
 };
 
-// A weighted mean of three of the points of Products, heaviest first; where fewer have a weight,
-// the first stands in for the rest.
+// A weighted mean of three points of Products, heaviest first. Where fewer have a weight, the
+// first stands in for the rest.
 struct Mean {
     std::array<std::size_t, 3> members{};
     std::array<double, 3> weights{1.0, 0.0, 0.0};  // sum 1, none negative
 };
 
-// The mean of at most three points that comes nearest to the one point. Where several come about as
-// near it is that of points which are near themselves: in a plane, where several triangles hold
-// the point, the Delaunay triangle.
+// Returns the mean of at most three points that comes nearest to the one point. Of several that
+// are about as near, it takes that of points that are near themselves. In a plane where several
+// triangles hold the point, this is the Delaunay triangle.
 Mean nearestMean(const Products& products);
 
-// Finds those of many points that are nearest to a place. Bentley 1975, Multidimensional binary
-// search trees used for associative searching.
+// Finds the points nearest to a place. Bentley 1975, Multidimensional binary search trees used for
+// associative searching.
 class RootTree {
 public:
     explicit RootTree(std::span<const glm::vec3> points);
 
-    // Fills `nearest` with the indices of the nearest points, nearest first, of equally far ones
-    // the lower index first. Returns how many there are: fewer only where there are fewer points.
+    // Fills `nearest` with the indices of the nearest points, nearest first; of equally far
+    // points, the lower index comes first. Returns their number, which is smaller only if there
+    // are fewer points.
     std::size_t find(const glm::vec3& place, std::span<std::uint32_t> nearest) const;
 
 private:
     struct Node {
         glm::vec3 point;
         std::uint32_t source;  // the point's index
-        int axis;  // along which the points before and after it are apart
+        int axis;  // along which the node separates the points before and after it
     };
-    std::vector<Node> nodes_;  // the middle one of each range splits it
+    std::vector<Node> nodes_;  // the middle node of each range splits it
 };
 
 }  // namespace hair::groom

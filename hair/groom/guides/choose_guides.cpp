@@ -18,17 +18,17 @@
 namespace hair::groom {
 namespace {
 
-// The farthest-point traversal: again and again the strand that is least like all guides so far
-// becomes one. No set of as many guides has a strand less than half as far from all of them.
-// Gonzalez 1985, Clustering to minimize the maximum intercluster distance. It takes what lies
-// furthest out first, so that the edge of the hair is among the guides.
+// The farthest-point traversal: again and again, the strand that is least like all guides so far
+// becomes a guide. No set of as many guides halves the greatest distance of a strand from its
+// nearest guide. Gonzalez 1985, Clustering to minimize the maximum intercluster distance. It takes
+// the outermost strands first, so that the edge of the hair is among the guides.
 
-constexpr std::uint32_t kParts = 4;  // of a strand, that its shape is known by
+constexpr std::uint32_t kParts = 4;  // of a strand, to describe its shape
 
-// A strand as a point: the root and the mean of each part as seen from the root, in metres. A
-// part counts by its share of the vertices, so that the distance between two strands with the same
-// root is at most their vertices' root mean square distance, and about that for smooth strands. So
-// it weighs the same whether two strands stand h apart or go h apart from one root.
+// A strand as a point: the root, and the mean of each part relative to the root, in metres. A part
+// counts by its share of the vertices. The distance between two strands with the same root is then
+// at most the root mean square distance of their vertices, and about that for smooth strands. So
+// it weighs the same whether two strands stand h apart or separate by h from one root.
 using Feature = std::array<float, 3 + 3 * kParts>;
 
 Feature featureOf(std::span<const glm::vec3> strand) {
@@ -71,12 +71,12 @@ std::vector<std::uint32_t> telling(const Groom& dense) {
     return strands;
 }
 
-// Every strand is with the guide that is nearest to it. A new guide draws strands only from guides
-// that are less than twice as far from it as their own farthest strand, so each costs what lies
-// round it and a look at all guides.
+// Every strand belongs to its nearest guide. A new guide takes strands only from guides that are
+// less than twice as far from it as their own farthest strand, so it costs the strands round it
+// and a look at all guides.
 class Traversal {
 public:
-    // Starts from what is farthest from a random strand: at an end, whichever strand that is.
+    // Starts from the strand farthest from a random one, which is always at an end of the hair.
     Traversal(const Groom& dense, std::uint32_t random) {
         features_.reserve(dense.strand_count);
         for (std::uint32_t i = 0; i < dense.strand_count; ++i)
@@ -104,7 +104,8 @@ public:
         std::vector<Member> drawn;
         for (std::size_t i = 0; i < guides_.size(); ++i) {
             const glm::vec3 apart = guides_[i].root - root;
-            if (glm::dot(apart, apart) > guides_[i].reach) continue;  // the root's part alone
+            // The part of the roots alone.
+            if (glm::dot(apart, apart) > guides_[i].reach) continue;
             if (squareDistance(features_[guides_[i].strand], features_[strand]) <= guides_[i].reach)
                 draw(i, strand, drawn);
         }
@@ -157,8 +158,8 @@ private:
     std::vector<std::vector<Member>> members_;  // [guide]
 };
 
-// Strands that differ too little from the guides to be told apart by their features: first those
-// that still are unlike every other, vertex for vertex, then the rest.
+// Adds strands that differ too little from the guides to be told apart by their features: first
+// those that are still unlike every other, vertex for vertex, then the rest.
 void addAlike(const Groom& dense, std::uint32_t count, std::vector<std::uint32_t>& guides) {
     std::vector<bool> taken(dense.strand_count);
     for (const std::uint32_t guide : guides) taken[guide] = true;

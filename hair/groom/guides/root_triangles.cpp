@@ -81,14 +81,14 @@ spacings(std::span<const Triangle> triangles, std::span<const glm::vec3> roots) 
     return round;
 }
 
-// Leaves out the triangles that reach over places where no roots are: those with an edge of more
+// Leaves out the triangles that reach over places without roots: triangles with an edge of more
 // than three times the spacing round their corners, and slivers that are lower than 1 % of their
-// length, which hulls of rows of roots have. The spacing at a root is the median of its edges and
-// then of those medians among its neighbours, the lower one of two: on the edge of a face or a
-// parting a root has no more edges across it than others, two of them along it (a polygon's corners
-// have less than two diagonals each), and its neighbours inland have none.
-// Evenly spread roots have no edge of more than 2 spacings between them, random ones about one
-// triangle in a thousand with an edge of more than 3. If none is left, all are kept.
+// length, as in the hulls of rows of roots. The spacing at a root is the median of its edges, and
+// then the median of those of its neighbours, the lower one of two. At the edge of a face or a
+// parting, a root has no more edges across it than others, two of them along it (a polygon's
+// corners have less than two diagonals each), and its neighbours inland have none. Evenly spread
+// roots have no edges of more than 2 spacings between them. Random roots have about one triangle
+// in a thousand with an edge of more than 3. If no triangle is left, all are kept.
 std::vector<Triangle>
 withoutLongTriangles(std::vector<Triangle> triangles, std::span<const glm::vec3> roots) {
     const std::vector<double> spacing = spacings(triangles, roots);
@@ -99,8 +99,8 @@ withoutLongTriangles(std::vector<Triangle> triangles, std::span<const glm::vec3>
         const double longest =
             std::max({glm::distance(a, b), glm::distance(b, c), glm::distance(c, a)});
         const double twice_area = glm::length(glm::cross(b - a, c - a));
-        // The widest of the three: where roots get denser, the edges are as long as those of the
-        // sparser side.
+        // The widest spacing of the three, because where roots get denser, edges are as long as
+        // those of the sparser side.
         const double limit =
             std::max({spacing[triangle[0]], spacing[triangle[1]], spacing[triangle[2]]});
         return longest > kLongest * limit || twice_area < kLowest * longest * longest;
@@ -117,19 +117,21 @@ struct RootSurface {
     enum class Kind { line, plane, sphere };
     Kind kind = Kind::line;
     // A sphere is seen from its centre, with the middle of the largest gap between the roots
-    // opposite the axis; a plane along its normal, from a centre so far away that the map is as
-    // good as parallel. Of a line only the axis counts, its direction.
+    // opposite the axis. A plane is seen along its normal, from a centre so far away that the map
+    // is as good as parallel. For a line, only the axis counts: its direction.
     Flattening flattening;
     bool all_round = false;  // a sphere with roots on all sides
 };
 
-constexpr double kLineThickness = 1e-4;  // of the extent: a tenth of a hair's width on 10 cm
-constexpr std::size_t kFewestOnSphere = 10;  // through four roots a sphere goes by chance
+// Relative to the extent: a tenth of a hair's width on 10 cm.
+constexpr double kLineThickness = 1e-4;
+constexpr std::size_t kFewestOnSphere = 10;  // a sphere through four roots always exists
 constexpr double kFlattestSphere = 50.0;  // radius / extent: a bulge of 1 / 400 of the extent
-constexpr double kFarCentre = 1e4;  // of a plane's map, in extents
-constexpr int kDirections = 256;  // 14 degrees apart, in which a gap is looked for
-// Length of the mean of unit vectors to the roots, below which they are on all sides. It is (1 +
-// cos a) / 2 for roots spread evenly up to an angle a from the axis, which is then 120 degrees.
+constexpr double kFarCentre = 1e4;  // for the map of a plane, in extents
+constexpr int kDirections = 256;  // 14 degrees apart, to look for a gap
+// Length of the mean of unit vectors to the roots, below which they are on all sides. The mean is
+// (1 + cos a) / 2 for roots spread evenly up to an angle a from the axis, which is then 120
+// degrees.
 constexpr double kAllRound = 0.25;
 
 struct Axes {
@@ -137,8 +139,8 @@ struct Axes {
     glm::dmat3 directions;  // [axis], unit length
 };
 
-// Eigenvalues and vectors of a symmetric matrix. Golub and Van Loan 2013, Matrix computations, 8.5
-// (Jacobi's rotations).
+// Returns eigenvalues and eigenvectors of a symmetric matrix. Golub and Van Loan 2013, Matrix
+// computations, 8.5 (Jacobi's rotations).
 Axes eigenvectors(glm::dmat3 matrix) {
     static constexpr int sweeps = 20;  // it takes about 5
     glm::dmat3 vectors(1.0);
@@ -169,7 +171,7 @@ Axes eigenvectors(glm::dmat3 matrix) {
     return axes;
 }
 
-// Roots as seen from their mean.
+// Roots relative to their mean.
 struct Cloud {
     glm::dvec3 mean{0.0};
     std::vector<glm::dvec3> points;
@@ -192,10 +194,10 @@ Cloud cloudOf(std::span<const glm::vec3> roots) {
     return cloud;
 }
 
-// The sphere |p - c|^2 = r^2 of least sum of squares of |p|^2 - 2 c . p - (r^2 - |c|^2). Seen from
-// the mean the centre and the rest come apart, and along the axes the centre's coordinates do.
-// Coope 1993, Circle fitting by linear and nonlinear least squares. Its centre, from the mean, if
-// it is a good one.
+// Fits the sphere |p - c|^2 = r^2 with the least sum of squares of |p|^2 - 2 c . p - (r^2 -
+// |c|^2). Relative to the mean, the equations of the centre and the rest separate, and along the
+// axes those of the centre's coordinates do. Coope 1993, Circle fitting by linear and nonlinear
+// least squares. Returns the centre, relative to the mean, if the fit is good.
 std::optional<glm::dvec3> fitSphere(const Cloud& cloud) {
     const Axes& axes = cloud.axes;
     if (cloud.points.size() < kFewestOnSphere || axes.sizes[0] <= 0.0) return {};
@@ -216,7 +218,7 @@ std::optional<glm::dvec3> fitSphere(const Cloud& cloud) {
         const double off = glm::distance(p, centre) - radius;
         off_sphere += off * off / count;
     }
-    if (off_sphere >= axes.sizes[0]) return {};  // what the plane's is
+    if (off_sphere >= axes.sizes[0]) return {};  // the plane fits at least as well
     return centre;
 }
 
@@ -225,7 +227,7 @@ Flattening flattening(const glm::dvec3& centre, const glm::dvec3& axis) {
     return {.centre = centre, .axis = axis, .right = right, .up = glm::cross(axis, right)};
 }
 
-// Directions spread evenly, by the golden angle.
+// Returns one of the directions spread evenly by the golden angle.
 glm::dvec3 direction(int index) {
     const double height = 1.0 - (2.0 * index + 1.0) / kDirections;
     const double turn = index * std::numbers::pi * (3.0 - std::sqrt(5.0));
@@ -263,9 +265,9 @@ RootSurface onSphere(std::span<const glm::vec3> roots, const glm::dvec3& centre)
         .all_round = size < kAllRound};
 }
 
-// The surface of one root or more: a line where they are within 1e-4 of their extent of one, a
-// sphere where that fits ten roots or more better than a plane and its radius is at most 50 times
-// their extent, and else a plane.
+// Fits a surface to at least one root. It is a line where the roots are within 1e-4 of their
+// extent of one. It is a sphere where that fits at least ten roots better than a plane, with a
+// radius of at most 50 times their extent. Otherwise it is a plane.
 RootSurface fitRoots(std::span<const glm::vec3> roots) {
     const Cloud cloud = cloudOf(roots);
     const Axes& axes = cloud.axes;
@@ -282,8 +284,8 @@ RootSurface fitRoots(std::span<const glm::vec3> roots) {
 
 using Triangles = std::vector<std::array<std::uint32_t, 3>>;
 
-// Triangles of roots on a line, which have no area: pairs of neighbours, from the first root's
-// end to the other.
+// Returns triangles of roots on a line, which have no area: pairs of neighbours, from the first
+// root's end to the other.
 Triangles joinAlong(std::span<const glm::vec3> roots, glm::dvec3 axis) {
     if (roots.size() == 1) return {{0, 0, 0}};
     const auto along = [&](std::uint32_t i) { return glm::dot(glm::dvec3(roots[i]), axis); };
@@ -297,14 +299,14 @@ Triangles joinAlong(std::span<const glm::vec3> roots, glm::dvec3 axis) {
     return triangles;
 }
 
-// A root for each place in the plane.
+// The distinct places of roots in the plane, with a root for each.
 struct Places {
     std::vector<std::uint32_t> roots;  // [place]
     std::vector<GridPoint> points;  // [place], ascending by x, then y
 };
 
-// The places of roots on the grid that triangulate() rounds to: where the extent is the whole grid,
-// it takes the points as they are, and which are on the convex hull is as exact here as there.
+// Returns the places of roots on the grid that triangulate() rounds to. The extent fills the grid,
+// so triangulate() takes the points as they are, and the convex hull is as exact here as there.
 Places placesOf(std::span<const glm::vec3> roots, const Flattening& flattening) {
     std::vector<glm::dvec2> flat;
     for (const glm::vec3& root : roots) flat.push_back(flattening(root));
@@ -337,9 +339,9 @@ Places placesOf(std::span<const glm::vec3> roots, const Flattening& flattening) 
     return places;
 }
 
-// The places on the convex hull, counter-clockwise, those on its edges too; if all are on a line,
-// those between its ends twice. Andrew 1979, Another efficient algorithm for convex hulls in two
-// dimensions.
+// Returns the places on the convex hull, counter-clockwise, including those on its edges. If all
+// are on a line, the places between its ends come twice. Andrew 1979, Another efficient algorithm
+// for convex hulls in two dimensions.
 std::vector<std::uint32_t> convexHull(const Places& places) {
     std::vector<std::uint32_t> hull;
     const auto add = [&](std::uint32_t place, std::size_t start) {
@@ -356,11 +358,11 @@ std::vector<std::uint32_t> convexHull(const Places& places) {
     for (std::uint32_t i = 0; i < count; ++i) add(i, 0);
     const std::size_t start = hull.size() - 1;
     for (std::uint32_t i = count - 1; i-- > 0;) add(i, start);
-    hull.pop_back();  // the first again
+    hull.pop_back();  // the first place again
     return hull;
 }
 
-// Triangles of the places' roots.
+// Returns triangles of the places' roots.
 Triangles triangulatePlaces(const Places& places, const std::vector<std::uint32_t>& hull) {
     std::vector<std::uint32_t> order = hull;
     std::vector<bool> on_hull(places.points.size());
@@ -376,8 +378,8 @@ Triangles triangulatePlaces(const Places& places, const std::vector<std::uint32_
     return triangles;
 }
 
-// Roots all round a sphere leave a gap that the map can't show, outside the convex hull. Seen from
-// the other side the hull goes round it.
+// Closes the gap that the map can't show, outside the convex hull, for roots all round a sphere.
+// Seen from the other side, the hull goes round the gap.
 void closeGap(
     std::span<const glm::vec3> roots, std::span<const std::uint32_t> hull,
     const Flattening& flattening, Triangles& triangles) {
@@ -399,8 +401,8 @@ void closeGap(
     }
 }
 
-// Whether the outer side is that of the centre. Without normals, hair leaves a plane on its outer
-// side, and a sphere's is outward.
+// Whether the outer side faces the centre. Without normals, hair leaves a plane on its outer side,
+// and a sphere's outer side is outward.
 bool facesInward(const Groom& guides, const Mesh* mesh, const RootSurface& surface) {
     std::vector<glm::vec3> normals = guides.root_normals;
     if (normals.empty() && mesh) normals = rootNormals(guides, *mesh);

@@ -21,8 +21,8 @@
 namespace hair::groom {
 namespace {
 
-constexpr double kDepth = 0.6;  // of the parts' way into the braid, of that across it
-constexpr double kSection = 0.42;  // radius of a part, of the same
+constexpr double kDepth = 0.6;  // of the parts' way into the braid, relative to the way across it
+constexpr double kSection = 0.42;  // radius of a part, relative to the way across
 constexpr double kWidth = 2.0 * (1.0 + kSection);
 constexpr double kLeastLeft = 0.12;  // share of strands for which the braid is thick enough
 constexpr int kStepsPerPitch = 32;
@@ -46,11 +46,11 @@ BraidAxes axesOf(const BraidSettings& settings, const glm::dvec3& head) {
     return axes;
 }
 
-// Where in the braid a strand is.
+// The place of a strand in the braid.
 struct BraidPlace {
     int part = 0;
     double angle = 0.0;  // rad, in the section of the part
-    double radius = 0.0;  // of the section's
+    double radius = 0.0;  // relative to the section's
 };
 
 // The middle of a part and its section's radius.
@@ -61,7 +61,7 @@ struct Section {
 
 class Braid {
 public:
-    // `lengths`: what each strand has left at the tie, m.
+    // `lengths`: the length that each strand has left at the tie, m.
     Braid(const BraidSettings& settings, const BraidAxes& axes, std::vector<double> lengths)
         : axes_(axes), pitch_(settings.pitch), length_(settings.length),
           reach_(settings.width / kWidth), lengths_(std::move(lengths)) {
@@ -87,7 +87,7 @@ private:
         const double inside = std::min(u, end);
         const double phase = 2.0 * std::numbers::pi * (inside / pitch_ + part / 3.0);
         const double size = reach_ * std::sqrt(std::max(shareLeft(u), kLeastLeft));
-        // Bound tightly at the tie and the end, below which the parts are one.
+        // The braid is bound tightly at the tie and at the end, below which the parts are one.
         const double tight = std::min(
             ease(-0.3 * pitch_, 0.5 * pitch_, u),
             0.45 + 0.55 * ease(0.0, 0.4 * pitch_, std::abs(end - u)));
@@ -109,7 +109,7 @@ private:
     std::vector<double> lengths_;  // ascending
 };
 
-// The way of a strand over the head, from its root to where it enters the braid.
+// The path of a strand over the head, from its root to where it enters the braid.
 class WayToTie {
 public:
     WayToTie(const Mesh* mesh, const glm::dvec3& head, const glm::dvec3& over)
@@ -136,7 +136,7 @@ public:
                 const double wanted = kLeast + height * ease(0.0, 0.6, t);
                 const MeshPoint nearest = (*surface_)(way[i]);
                 const NearGround ground = groundUnder(way[i], nearest, *mesh_);
-                // Drawn taut it lies on the head, until it leaves for the braid.
+                // A taut strand lies on the head until it leaves for the braid.
                 const double most = glm::mix(wanted, kLeaves, ease(0.7, 1.0, t));
                 const double gap = std::clamp(ground.gap, wanted, most);
                 way[i] = ground.position + gap * ground.outward;
@@ -149,19 +149,19 @@ private:
     static constexpr std::size_t kPoints = 24;
     static constexpr int kRounds = 3;
     static constexpr double kLeast = 0.002;  // m
-    static constexpr double kHeight = 0.006;  // m, of what lies on other hair
+    static constexpr double kHeight = 0.006;  // m, of strands that lie on other hair
     static constexpr double kFar = 0.25;  // m
-    static constexpr double kLeaves = 0.06;  // m, over the head on the way to the tie
+    static constexpr double kLeaves = 0.06;  // m, over the head on the path to the tie
 
-    // Unit vectors in the plane of both, evenly turned.
+    // Interpolates unit vectors in the plane of both, by even angles.
     static glm::dvec3 turned(const glm::dvec3& from, const glm::dvec3& to, double t) {
         const double angle = std::acos(std::clamp(glm::dot(from, to), -1.0, 1.0));
         if (angle < 1e-3) return glm::normalize(glm::mix(from, to, t));
         return (std::sin((1.0 - t) * angle) * from + std::sin(t * angle) * to) / std::sin(angle);
     }
 
-    // From a to b round the head's middle: the shortest way, but from far away over the top, as the
-    // shortest may lead across the face. A Bezier curve of turns.
+    // From a to b round the head's middle by the shortest path. Paths from far away go over the
+    // top, because the shortest may lead across the face. They are a Bezier curve of rotations.
     glm::dvec3 arc(const glm::dvec3& a, const glm::dvec3& b, double t) const {
         const double from = glm::length(a);
         const double to = glm::length(b);
@@ -175,7 +175,7 @@ private:
     const Mesh* mesh_;
     std::optional<NearestSurface> surface_;
     glm::dvec3 head_;
-    glm::dvec3 over_;  // where ways from far away lead over
+    glm::dvec3 over_;  // the direction that paths from far away go over
 };
 
 double lengthOf(const std::vector<glm::dvec3>& line) {
@@ -184,7 +184,8 @@ double lengthOf(const std::vector<glm::dvec3>& line) {
     return length;
 }
 
-// Puts the points of a strand evenly along the first part of a line, which is no shorter.
+// Puts the points of a strand evenly along the first `length` of a line, which is at least as
+// long.
 void layAlong(std::span<glm::vec3> points, const std::vector<glm::dvec3>& line, double length) {
     std::size_t piece = 0;
     double before = 0.0;
@@ -212,7 +213,8 @@ Groom braid(Groom groom, const BraidSettings& settings, std::uint32_t seed, cons
         head += glm::dvec3(groom.strand(i)[0]) / double(count);
     const BraidAxes axes = axesOf(settings, head);
 
-    // Thirds from one side to the other; the middle one is part 0, which starts in the middle.
+    // The strands form thirds from one side to the other. The middle third is part 0, which starts
+    // in the middle.
     std::vector<std::uint32_t> order(count);
     std::iota(order.begin(), order.end(), 0u);
     std::ranges::stable_sort(order, {}, [&](std::uint32_t i) {

@@ -32,8 +32,8 @@ NearGround groundUnder(const glm::dvec3& point, const MeshPoint& nearest, const 
 
 namespace {
 
-// The unit vector next to `direction` along which so long a segment ends at this height, or as near
-// to it as it can.
+// The unit vector next to `direction` along which a segment of this length ends at this height, or
+// as near to it as it can.
 glm::dvec3
 turnedTo(double height, double length, const glm::dvec3& outward, const glm::dvec3& direction) {
     const double sine = std::clamp(height / length, -1.0, 1.0);
@@ -42,7 +42,7 @@ turnedTo(double height, double length, const glm::dvec3& outward, const glm::dve
     return sine * outward + std::sqrt(1.0 - sine * sine) * glm::normalize(across);
 }
 
-constexpr double kEnough = 0.3;  // of the arc length
+constexpr double kEnough = 0.3;  // clearance relative to the arc length
 constexpr double kClearEnough = 1e-6;  // m
 
 // A strand that is kept clear of a mesh.
@@ -52,8 +52,8 @@ struct ClearStrand {
     std::vector<glm::dvec3> points;
     std::vector<double> lengths;  // of the segment that ends in the vertex
     std::vector<double> wanted;  // clearance of the vertex
-    // What was last seen of each vertex: its gap, or a lower bound, and where it was. A gap changes
-    // by no more than its vertex moves.
+    // The last known gap of each vertex, or a lower bound of it, and the vertex's place then. A
+    // gap changes by no more than its vertex moves.
     std::vector<double> gaps;
     std::vector<glm::dvec3> seen;
 
@@ -70,8 +70,8 @@ struct ClearStrand {
         }
     }
 
-    // Turns one segment after the other until it ends clear, from the root on. Returns whether any
-    // turned.
+    // Turns one segment after the other, from the root on, until it ends clear of the mesh.
+    // Returns whether any turned.
     bool turnSegments() {
         static constexpr int kTurns = 8;  // of a segment: surfaces are not flat
         const std::vector<glm::dvec3> old = points;
@@ -81,7 +81,7 @@ struct ClearStrand {
         for (std::size_t i = 1; i < points.size(); ++i) {
             const glm::dvec3 edge = old[i] - old[i - 1];
             glm::dvec3 direction = lengths[i] > 0.0 ? edge / lengths[i] : edge;
-            // No segment ends deeper than it is long below the vertex above.
+            // A segment ends no deeper than its length below the vertex above.
             const double reach = 1.001 * std::max(wanted[i], lengths[i] + depth);
             depth = 0.0;
             for (int turn = 0; turn < kTurns && lengths[i] > 0.0; ++turn) {
@@ -105,8 +105,9 @@ struct ClearStrand {
         return moved;
     }
 
-    // Takes out what no turn of a single segment does, under a jaw or behind an ear: vertices are
-    // pushed to their clearance and lengths come back from the root on, in turns.
+    // Clears the vertices that no turn of a single segment does, under a jaw or behind an ear.
+    // Alternately, vertices are pushed to their clearance, and lengths are restored from the root
+    // on.
     void pushVertices() {
         static constexpr int kMostPushes = 400;
         static constexpr double kNear = 1e-4;  // m

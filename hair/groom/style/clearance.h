@@ -7,7 +7,7 @@
 #include "hair/groom/mesh/mesh.h"
 #include "hair/groom/mesh/surface.h"
 
-// What keeps strands off the mesh that they grow on.
+// Keeps strands off the mesh that they grow on.
 namespace hair::groom {
 
 // The part of a mesh's surface next to a point.
@@ -17,7 +17,7 @@ struct NearGround {
     double gap;  // negative inside
 };
 
-// `nearest` is the point of the mesh that is nearest to the point.
+// Returns the ground at `point`. `nearest` is the point of the mesh that is nearest to it.
 NearGround groundUnder(const glm::dvec3& point, const MeshPoint& nearest, const Mesh& mesh);
 
 }  // namespace hair::groom

@@ -19,9 +19,9 @@ namespace {
 
 // ---- Displacement -------------------------------------------------------------------------------
 
-// Moves the points of every strand but its root. `offsets(groom, strand, along)` gives a function
-// from a point's index to its displacement, which grows from 0 at the root to all of it at the
-// fraction `start` of the strand's length.
+// Moves the points of every strand except its root. `offsets(groom, strand, along)` gives a
+// function from a point's index to its displacement. The displacement fades in from 0 at the root
+// to its full size at the fraction `start` of the strand's length.
 template <class Offsets>
 Groom displace(Groom groom, double start, Offsets&& offsets) {
     engine::Step step("styles strands", groom.strand_count);
@@ -52,8 +52,8 @@ glm::dvec3 perpendicularPart(const glm::dvec3& vector, const glm::dvec3& unit) {
     return vector - glm::dot(vector, unit) * unit;
 }
 
-// The tangent at each point: that of the chord between its neighbours, or, where those coincide, of
-// the segment before.
+// Returns the tangent at each point: the direction of the chord between its neighbours or, where
+// those coincide, of the segment before.
 std::vector<glm::dvec3> tangents(std::span<const glm::vec3> points) {
     std::vector<glm::dvec3> tangents(points.size());
     glm::dvec3 last = rootDirection(points);
@@ -89,7 +89,7 @@ glm::dvec3 reflect(const glm::dvec3& vector, const glm::dvec3& along, double alo
     return vector - 2.0 / along_squared * glm::dot(along, vector) * along;
 }
 
-// The normal at the next point, from that at this one.
+// Carries the normal from a point to the next.
 glm::dvec3
 carried(const StrandFrame& frame, const glm::dvec3& step, const glm::dvec3& next_tangent) {
     glm::dvec3 normal = frame.normal;
@@ -101,14 +101,14 @@ carried(const StrandFrame& frame, const glm::dvec3& step, const glm::dvec3& next
     const glm::dvec3 turn = next_tangent - tangent;
     if (const double squared = glm::dot(turn, turn); squared > 1e-20)
         normal = reflect(normal, turn, squared);
-    normal = perpendicularPart(normal, next_tangent);  // of rounding alone
+    normal = perpendicularPart(normal, next_tangent);  // removes only rounding errors
     const double length = glm::length(normal);
     return length > kParallel ? normal / length : across(next_tangent);
 }
 
 // ---- Noise --------------------------------------------------------------------------------------
 
-// A random point of a cube, drawn in along its ray.
+// A random point of a cube, moved along its ray into the ball.
 glm::dvec3 randomInBall(std::uint32_t seed, std::uint32_t purpose, std::uint32_t index) {
     glm::dvec3 point;
     for (std::uint32_t axis = 0; axis < 3; ++axis)
@@ -164,10 +164,10 @@ strandFrames(std::span<const glm::vec3> points, const glm::vec3* root_normal) {
 
 namespace {
 
-// Where along its turns each strand of a groom starts, and how that wanders along it.
+// The phase at which each strand of a groom starts its turns, and how the phase drifts along it.
 class Phases {
 public:
-    // `drift` and the two after it, and `phase`, are purposes of random numbers.
+    // `phase`, and `drift` with the two numbers after it, are purposes of random numbers.
     template <class Settings>
     Phases(
         const Groom& groom, const Settings& settings, std::uint32_t seed, std::uint32_t phase,
@@ -177,7 +177,7 @@ public:
         if (settings.spacing > 0.0f) centres_ = clumpCentres(groom, settings.spacing, seed);
     }
 
-    // In turns, after so many of them.
+    // Returns the phase, in turns, after this number of turns.
     double operator()(std::uint32_t strand, double turns) const {
         const std::uint32_t like = centres_.empty() ? strand : centres_[strand];
         double phase = variation_ * random01(seed_, like, phase_purpose_);

@@ -19,9 +19,9 @@ namespace {
 
 using Points = std::vector<glm::dvec3>;
 
-constexpr double kLeastClearance = 1e-3;  // m, so that what is rounded is still outside
-constexpr double kLeastUncut = 1e-3;  // part of a strand that no cut takes
-constexpr double kStepsOfRadius = 8.0;  // of a comb
+constexpr double kLeastClearance = 1e-3;  // m, so that rounded points are still outside
+constexpr double kLeastUncut = 1e-3;  // fraction of a strand that every cut leaves
+constexpr double kStepsOfRadius = 8.0;  // steps of a comb per radius
 
 // ---- Distances ----------------------------------------------------------------------------------
 
@@ -33,7 +33,7 @@ struct OnPath {
     double distance = std::numeric_limits<double>::infinity();
 };
 
-// Part of the way from a to b that is nearest to a point.
+// The fraction of the way from a to b that is nearest to a point.
 double nearestShare(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& point) {
     const glm::dvec3 along = b - a;
     const double square = glm::dot(along, along);
@@ -53,15 +53,15 @@ OnPath nearestOnPath(const Points& path, const glm::dvec3& point) {
     return best;
 }
 
-// Where a strand comes nearest to a path, and how near.
+// The place where a strand is nearest to a path, and the distance there.
 struct OnStrand {
     std::size_t segment = 0;
     double share = 0.0;
     double distance = std::numeric_limits<double>::infinity();
 };
 
-// The shares of two segments at which they are nearest. Ericson 2005, Real-Time Collision
-// Detection, 5.1.9.
+// Returns the least distance of two segments, and the share of the first at which it is reached.
+// Ericson 2005, Real-Time Collision Detection, 5.1.9.
 double nearestOfSegments(
     const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c, const glm::dvec3& d,
     double& share) {
@@ -105,9 +105,9 @@ std::vector<double> segmentLengths(const Points& points) {
     return lengths;
 }
 
-// Segments point where they do and are as long as they were, from the root on.
+// Gives segments their old lengths from the root on, and keeps their directions.
 void restoreLengths(Points& points, const std::vector<double>& lengths) {
-    glm::dvec3 direction(0.0, 1.0, 0.0);  // of the segment above, for one whose ends met
+    glm::dvec3 direction(0.0, 1.0, 0.0);  // of the segment above, for a segment without length
     for (std::size_t i = 1; i < points.size(); ++i) {
         const glm::dvec3 edge = points[i] - points[i - 1];
         const double length = glm::length(edge);
@@ -116,8 +116,8 @@ void restoreLengths(Points& points, const std::vector<double>& lengths) {
     }
 }
 
-// The strand with this length: shorter, or going on straight beyond its tip, with vertices where
-// they were along it in parts of it.
+// Gives a strand this length: shorter, or extended straight beyond its tip. Vertices keep their
+// places as fractions of the length.
 void setLength(Points& points, std::span<float> widths, double length) {
     const Points old = points;
     const std::vector<float> old_widths(widths.begin(), widths.end());
@@ -135,7 +135,7 @@ void setLength(Points& points, std::span<float> widths, double length) {
             start += lengths[segment + 1];
             ++segment;
         }
-        // The last segment may have no length: then what is before it goes on.
+        // The last segment may have no length; then the one before it is extended.
         std::size_t along = segment;
         double from = start;
         while (along > 0 && lengths[along + 1] == 0.0) {
@@ -148,7 +148,7 @@ void setLength(Points& points, std::span<float> widths, double length) {
             widths[i] = static_cast<float>(std::lerp(
                 double{old_widths[along]}, double{old_widths[along + 1]}, std::min(share, 1.0)));
     }
-    // Vertices cut corners of the strand that they lie on.
+    // Segments between the vertices cut corners of the strand.
     std::vector<double> wanted = lengths;
     for (double& part : wanted) part *= ratio;
     restoreLengths(points, wanted);
@@ -156,7 +156,7 @@ void setLength(Points& points, std::span<float> widths, double length) {
 
 // ---- Tools --------------------------------------------------------------------------------------
 
-// Each returns whether the strand changed.
+// Each tool returns whether the strand changed.
 
 bool comb(const Points& path, double radius, double strength, Points& points) {
     const std::vector<double> lengths = segmentLengths(points);
@@ -293,7 +293,7 @@ bool Strokes::replay(std::span<glm::vec3> points, std::span<float> widths) const
     if (points.size() < 2) return false;
     bool changed = false;
     for (const Stroke& stroke : strokes_) {
-        // The next stroke sees the floats of a groom whose last stroke this is.
+        // The next stroke starts from floats, as from a groom that ends with this stroke.
         Points moved(points.begin(), points.end());
         if (!apply(stroke, moved, widths)) continue;
         if (surface_) keepClear(moved, *mesh_, *surface_, clearance_);

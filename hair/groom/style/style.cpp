@@ -21,7 +21,7 @@
 
 namespace hair::groom {
 
-// ---- All of it in order -------------------------------------------------------------------------
+// ---- All steps in order ------------------------------------------------------------------------
 
 Groom style(Groom groom, const StyleSettings& settings, std::uint32_t seed, const Mesh* mesh) {
     groom = braid(std::move(groom), settings.braid, seed, mesh);
@@ -38,7 +38,7 @@ Groom style(Groom groom, const StyleSettings& settings, std::uint32_t seed, cons
     };
     clear();
     groom = cut(std::move(groom), settings.cut);
-    clear();  // a shorter strand has its vertices elsewhere
+    clear();  // shorter strands have their vertices elsewhere
     return taper(std::move(groom), settings.taper);
 }
 
@@ -89,7 +89,7 @@ private:
     glm::dvec3 root(std::uint32_t strand) const { return groom_.strand(strand).front(); }
 
     Cube cube(std::uint32_t strand) const {
-        static constexpr double kLimit = 1e9;  // what lies further out shares the last cube
+        static constexpr double kLimit = 1e9;  // points farther out share the last cube
         const glm::dvec3 place = glm::floor(root(strand) / spacing_);
         const auto whole = [](double x) {
             return static_cast<int>(std::clamp(x, -kLimit, kLimit));
@@ -161,7 +161,7 @@ Groom clump(Groom groom, const ClumpSettings& settings, std::uint32_t seed) {
 
 namespace {
 
-constexpr double kLeast = 1e-3;  // part of a strand that is always left
+constexpr double kLeast = 1e-3;  // fraction of a strand that is always left
 
 // Arc length at which the strand first passes the plane; infinite if it never does.
 double
@@ -185,13 +185,15 @@ double arcLeft(std::span<const glm::vec3> points, const AlongStrand& along, cons
     return std::max(left, kLeast * along.length());
 }
 
-// The points of the groom that a strand's new point lies between, and the greater one's share.
+// The first of the two old points that a new point of a strand lies between, and the share of the
+// second.
 struct Between {
     std::size_t point;
     double share;
 };
 
-// Even spacing over the first `length` of a strand, which is less than all of it and not 0.
+// Returns places at even spacing over the first `length` of a strand, which is above 0 and below
+// its whole length.
 std::vector<Between> evenly(const AlongStrand& along, std::uint32_t vertices, double length) {
     std::vector<Between> places(vertices);
     std::size_t segment = 0;
