@@ -24,12 +24,12 @@ struct AlembicBasis {
 
 // A curve with knots.
 struct AlembicNurbs {
-    std::uint64_t first_knot;  // its knots are as many as vertices and the order together
+    std::uint64_t first_knot;  // the number of knots is that of vertices plus the order
     std::uint32_t order;  // degree + 1
-    std::uint32_t segments;  // knots that follow one another and differ, where the curve is
+    std::uint32_t segments;  // successive knots that differ, where the curve is
 };
 
-// Where a curve with knots is, segment after segment, and the weights of its vertices there
+// Evaluates a curve with knots, segment after segment: the weights of its vertices at a place
 // (Piegl and Tiller 1997, The NURBS Book, 2.5, algorithm A2.2).
 class AlembicKnots {
 public:
@@ -38,7 +38,7 @@ public:
     AlembicKnots(std::span<const float> knots, std::uint32_t order)
         : knots_(knots), order_(order), span_(order - 2) {}
 
-    // Segments are asked for in their order, t from 0 to 1 in one.
+    // Goes to t, from 0 to 1, of a segment. Segments must be asked for in order.
     void go(std::uint32_t segment, double t);
 
     std::size_t firstVertex() const { return span_ + 1 - order_; }
@@ -47,34 +47,36 @@ public:
 private:
     std::span<const float> knots_;
     std::uint32_t order_;
-    std::size_t span_;  // it is between this knot and the next
+    std::size_t span_;  // the place is between this knot and the next
     std::uint32_t next_segment_ = 0;
     std::array<double, kGreatestOrder> weights_{};
 };
 
-// How many vertices each curve has, and where its points are: a linear curve's are its vertices,
-// one of another kind has `pieces` and one more for each segment, even in t.
+// The number of vertices of each curve, and the places of its points. The points of a linear curve
+// are its vertices. A curve of another kind has `pieces` points for each segment, even in t, and
+// one more.
 class AlembicTopology {
 public:
-    // Of nVertices and curveBasisAndType, which may be missing. Throws for curves that are closed,
-    // for other bases, knots that are none, and weights that differ.
+    // Takes nVertices and curveBasisAndType, which may be missing. Throws for closed curves, other
+    // bases, invalid knots, and weights that differ.
     AlembicTopology(
         AlembicValues& values, const AlembicCompound& geometry, const AlembicParameter& sizes);
 
-    // Chooses how curves that are not linear are drawn between these vertices. Throws where a curve
-    // has too few for its basis. Before it, only what follows from the sizes is there.
+    // Chooses how curves that are not linear are drawn between these vertices. Throws where a
+    // curve has too few vertices for its basis. Before it, only members that follow from the sizes
+    // are valid.
     void draw(std::span<const glm::vec3> vertices, const AlembicParameter& sizes);
 
     bool isLinear() const { return !basis_ && nurbs_.empty(); }
     std::size_t curves() const { return sizes_.size(); }
     std::uint64_t vertices() const { return vertices_; }
-    std::uint64_t ends() const;  // of segments, of all curves
+    std::uint64_t ends() const;  // ends of segments, of all curves
     std::uint64_t pointsOf(std::size_t curve) const {
         return std::uint64_t{segmentsOf(curve)} * pieces_ + 1;
     }
 
-    // Calls `add` with the value at each point of curves that are not linear, as `values` of the
-    // vertices have it.
+    // Calls `add` with the value at each point of curves that are not linear, interpolated from
+    // `values` of the vertices.
     template <class Value, class Add>
     void alongVertices(std::span<const Value> values, const Add& add) const {
         std::size_t first = 0;
@@ -88,7 +90,7 @@ public:
         }
     }
 
-    // As alongVertices(), of values at the ends of segments.
+    // Like alongVertices(), for values at the ends of segments.
     template <class Value, class Add>
     void alongEnds(std::span<const Value> values, const Add& add) const {
         std::size_t first = 0;
@@ -107,7 +109,7 @@ private:
 
     template <class Value, class Add>
     void alongBasis(std::size_t curve, std::span<const Value> own, const Add& add) const {
-        // A vertex before the first and one after the last continue the curve evenly.
+        // Extrapolated vertices before the first and after the last continue the curve evenly.
         const auto vertex = [&](std::size_t i) {  // from 1 where it is pinned
             if (!is_pinned_) return wide(own[i]);
             if (i == 0) return 2.0 * wide(own[0]) - wide(own[1]);
@@ -144,7 +146,7 @@ private:
         return !basis_ || is_pinned_ ? size - 1 : (size - 4) / basis_->step + 1;
     }
 
-    // Calls `at` with the segment and t of each point of a curve that has segments.
+    // Calls `at` with the segment and t of each point of a curve with segments.
     template <class At>
     void alongSegments(std::size_t curve, const At& at) const {
         const std::uint32_t segments = segmentsOf(curve);

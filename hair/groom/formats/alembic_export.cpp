@@ -31,8 +31,8 @@ std::uint64_t murmurMix(std::uint64_t x) {
     return x ^ x >> 33;
 }
 
-// MurmurHash3 x64 128 (Austin Appleby, public domain) of seed 0: by these, Alembic's readers know
-// samples that are equal.
+// MurmurHash3 x64 128 (Austin Appleby, public domain) with seed 0. Alembic's readers recognise
+// equal samples by it.
 std::string murmurOf(std::span<const std::byte> bytes) {
     constexpr std::uint64_t kFirst = 0x87c37b91114253d5;
     constexpr std::uint64_t kSecond = 0x4cf5ad432745937f;
@@ -76,8 +76,7 @@ void append(std::string& bytes, const Value& value) {
     bytes.append(reinterpret_cast<const char*>(&value), sizeof value);
 }
 
-// Groups and data, each with the place where it will be in the file. What is borrowed must live
-// until it is written.
+// Groups and data, each with its place in the file. Borrowed data must live until it is written.
 class OgawaWriter {
 public:
     std::uint64_t data(std::string own, std::span<const std::byte> borrowed = {}) {
@@ -95,7 +94,7 @@ public:
              {}});
     }
 
-    // The number of metadata in a byte.
+    // Returns the number of a text in the table of metadata.
     std::uint8_t metadata(std::string_view text) {
         if (text.empty()) return 0;
         const auto at = std::ranges::find(metadata_, text);
@@ -108,7 +107,7 @@ public:
         std::string zero;
         append(zero, std::int32_t{0});
         std::string library;
-        append(library, std::int32_t{10803});  // Alembic 1.8.3, whose archives these are like
+        append(library, std::int32_t{10803});  // like archives of Alembic 1.8.3
         std::string sampling;  // one, with a sample at 0 s
         append(sampling, std::uint32_t{1});
         append(sampling, 1.0);
@@ -152,7 +151,7 @@ private:
     std::vector<std::string> metadata_;
 };
 
-// Properties of one sample each, which an object or a property has.
+// Properties of one sample each, of an object or a property.
 class OgawaCompound {
 public:
     explicit OgawaCompound(OgawaWriter& writer) : writer_(&writer) {}
@@ -165,7 +164,7 @@ public:
         children_.push_back(writer_->group(children));
     }
 
-    // Of numbers, at least one.
+    // Adds an array of at least one number.
     void array(
         std::string_view name, std::string_view metadata, AlembicType type, std::uint8_t extent,
         std::span<const std::byte> elements) {
@@ -175,7 +174,7 @@ public:
         children_.push_back(writer_->group(children));
     }
 
-    // `inner` is complete.
+    // Adds a compound; `inner` must be complete.
     void compound(std::string_view name, std::string_view metadata, OgawaCompound& inner) {
         children_.push_back(inner.finish());
         keys_ += inner.keys_;
@@ -219,7 +218,7 @@ private:
     OgawaWriter* writer_;
     std::vector<std::uint64_t> children_;
     std::string headers_;
-    std::string keys_;  // of what it has, for the hash
+    std::string keys_;  // of its contents, for the hash
 };
 
 struct OgawaObject {
@@ -227,7 +226,7 @@ struct OgawaObject {
     std::string hashes;
 };
 
-// An object with one child, or with none where that is null.
+// Writes an object with one child, or with none where `child` is null.
 OgawaObject writeObject(
     OgawaWriter& writer, OgawaCompound& properties, const OgawaObject* child = nullptr,
     std::string_view child_name = {}, std::string_view child_metadata = {}) {
@@ -275,7 +274,7 @@ std::string_view scopeOf(const PointAttribute<Value>& attribute) {
     return attribute.values.empty() ? "con" : "vtx";
 }
 
-// What is borrowed by the archive beside the strands themselves.
+// Data that the archive borrows beside the strands themselves.
 struct AlembicArrays {
     std::vector<std::int32_t> sizes;
     std::vector<std::int16_t> guides;
@@ -368,8 +367,8 @@ writeCurves(OgawaWriter& writer, const StrandSet& strands, const AlembicArrays& 
     return writeObject(writer, properties);
 }
 
-// The transform above the curves, which changes nothing: programs look for one, and Epic wants the
-// version of the schema on the topmost object.
+// Writes the transform above the curves, which changes nothing. Programs look for one, and Epic
+// wants the version of the schema on the topmost object.
 OgawaObject
 writeTransform(OgawaWriter& writer, const AlembicArrays& arrays, const OgawaObject& curves) {
     OgawaCompound transform(writer);

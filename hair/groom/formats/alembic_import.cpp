@@ -32,16 +32,16 @@ namespace {
 
 using namespace std::string_view_literals;
 
-// Bytes of points and triangles for each byte of the file: objects that are equal share theirs in
-// it, but not without end.
+// Most bytes of points and triangles for each byte of the file. Equal objects share data in it,
+// but not without limit.
 constexpr std::uint64_t kMostShared = 16;
 
-// What a parameter has a value for.
+// The element that a parameter has a value for.
 enum class PerWhat : std::uint8_t { object, curve, vertex, end };
 
 // ---- Objects ------------------------------------------------------------------------------------
 
-// What an object's curves have, of those that are read already its points.
+// Data of an object's curves; their points are already in the set.
 struct AlembicCurves {
     std::uint32_t strands = 0;
     std::uint32_t points = 0;
@@ -52,7 +52,7 @@ struct AlembicCurves {
     std::vector<std::uint8_t> guides;
 };
 
-// What an object has from those above it.
+// Data that an object inherits from those above it.
 struct AlembicPlace {
     AffineSpace space;
     std::optional<float> width;
@@ -60,11 +60,11 @@ struct AlembicPlace {
     std::optional<std::int32_t> guide;
 };
 
-// Numbers of an operation, by Alembic's XformOperationType: scale, translation, rotation about an
-// axis, matrix, rotations about x, y and z.
+// Count of numbers of an operation, by Alembic's XformOperationType: scale, translation, rotation
+// about an axis, matrix, rotations about x, y and z.
 constexpr std::array<std::size_t, 7> kOperationNumbers{3, 3, 4, 16, 1, 1, 1};
 
-// Properties that are read, or say nothing of the strands.
+// Properties that are read, or don't concern the strands.
 constexpr std::array kKnownProperties{
     "P"sv,
     "nVertices"sv,
@@ -121,7 +121,7 @@ public:
 private:
     // ---- Transforms ----
 
-    // An operation as a matrix of the affine group, numbers as kOperationNumbers has them.
+    // Returns an operation as an affine map, with numbers in the order of kOperationNumbers.
     static AffineSpace
     operationOf(std::size_t type, std::span<const double> numbers, const AlembicParameter& where) {
         AffineSpace space;
@@ -152,7 +152,7 @@ private:
             rotate({numbers[0], numbers[1], numbers[2]}, numbers[3]);
             break;
         case 3:
-            // Rows are for row vectors: they are the columns for column vectors.
+            // Rows of the matrix for row vectors are columns of that for column vectors.
             for (int i = 0; i < 3; ++i) {
                 const auto row = numbers.subspan(4 * static_cast<std::size_t>(i), 4);
                 space.linear[i] = {row[0], row[1], row[2]};
@@ -170,7 +170,7 @@ private:
         return space;
     }
 
-    // The space of what is below a transform: its operations from the last to the first.
+    // Returns the space below a transform: its operations from the last to the first.
     AffineSpace spaceOf(const AlembicCompound& transform, const AffineSpace& above) {
         AffineSpace space = above;
         if (const auto inherits = values_.parameterOf(transform, ".inherits")) {
@@ -232,7 +232,7 @@ private:
             readObject(child, path + '/' + std::string(child.name), place);
     }
 
-    // Names are short, and few of them are worth a sentence.
+    // Keeps names short and few, so that they fit a sentence.
     void leaveOut(std::string_view name) {
         constexpr std::size_t kMostNames = 20;
         if (left_out_.size() < kMostNames) left_out_.insert(inQuotes(name));
@@ -278,7 +278,7 @@ private:
         const AlembicCompound geometry = values_.compoundOf(properties, ".geom", path);
         const auto points = values_.parameterOf(geometry, "P");
         const auto sizes = values_.parameterOf(geometry, "nVertices");
-        if (!points && !sizes) return;  // an object that curves were taken out of
+        if (!points && !sizes) return;  // an object whose curves were removed
         if (!points || !sizes)
             failIn(
                 (points ? points->property : sizes->property).header, geometry.path,
@@ -334,7 +334,7 @@ private:
         curves.points = static_cast<std::uint32_t>(end - start);
     }
 
-    // The vertices as they lie.
+    // Appends the vertices as they are.
     void appendLinear(const AlembicParameter& points, const AffineSpace& space) {
         if (set_.points.empty() && !points.has_indices) {
             set_.points = values_.floatsOf<glm::vec3>(points);
@@ -373,7 +373,7 @@ private:
             std::to_string(topology.vertices()) + " vertices");
     }
 
-    // Values of the curves' points.
+    // Returns values for the curves' points.
     template <class Value, class Rounded>
     static PointAttribute<Value> perPoint(
         const AlembicParameter& parameter, const AlembicTopology& topology,
@@ -394,7 +394,7 @@ private:
         return result;
     }
 
-    // Values of the curves; absent where there are neither one nor as many as curves.
+    // Returns values for the curves; absent unless there is one value, or one for each curve.
     template <class Value>
     static std::optional<std::vector<Value>>
     perCurve(std::vector<Value> values, const AlembicTopology& topology) {
@@ -403,14 +403,14 @@ private:
         return values;
     }
 
-    // Diameters in the space of the file.
+    // Returns diameters in the space of the file.
     std::vector<float> widthsOf(const AlembicParameter& parameter, const AffineSpace& space) const {
         parameter.require(AlembicType::float32, 1);
         auto widths = values_.stored<float>(parameter);
         requireFinite(widths, parameter.elements.start, parameter.path);
         requireNotNegative(widths, parameter.elements.start, parameter.path);
         const double factor = space.isIdentity() ? 1.0 : space.widthFactor();
-        // A turn has the factor 1 but for rounding.
+        // A rotation has the factor 1 up to rounding.
         if (std::abs(factor - 1.0) > 1e-9)
             for (float& width : widths) width = floatOf(width * factor, parameter);
         return parameter.arranged(std::move(widths));
@@ -432,7 +432,7 @@ private:
         if (width) {
             curves.widths = perPoint(
                 *width, topology, widthsOf(*width, place.space),
-                // Between vertices a curve may be under the least of them.
+                // Between vertices, a curve may be below all of them.
                 [](double value) { return static_cast<float>(std::max(value, 0.0)); });
         } else if (place.width) {
             const double factor = place.space.isIdentity() ? 1.0 : place.space.widthFactor();
@@ -486,7 +486,7 @@ private:
         }
     }
 
-    // An integer for each curve, its own or that of what is above; empty where there is neither.
+    // Returns an integer for each curve, its own or inherited; empty where there is neither.
     std::vector<std::int32_t> integersIn(
         const AlembicCompound& parameters, std::string_view name, const AlembicTopology& topology,
         std::optional<std::int32_t> above) {
@@ -498,7 +498,8 @@ private:
         return std::move(*all);
     }
 
-    // A number for each curve's group: 0 for the name that comes first in the archive, and so on.
+    // Returns a number for each curve's group: 0 for the name that comes first in the archive, and
+    // so on.
     std::vector<std::int32_t>
     groupsNamed(const AlembicParameter& names, const AlembicTopology& topology) {
         names.require(AlembicType::text, 1);
@@ -522,7 +523,7 @@ private:
         return std::move(*all);
     }
 
-    // What hairbench's own archives have beside.
+    // Reads additional data of hairbench's own archives.
     void readUserProperties(
         const AlembicCompound& own, std::uint32_t first_strand, std::uint32_t strands) {
         if (const auto unit = values_.parameterOf(own, "hairbench:metersPerUnit")) {
@@ -554,7 +555,7 @@ private:
 
     // ---- All objects together ----
 
-    // What every object has; a warning where only some have it.
+    // Whether every object has a part. Warns where only some have it.
     template <class Has>
     bool areIn(const Has& has, const std::string& what) {
         const auto count = std::ranges::count_if(curves_, has);
@@ -604,7 +605,7 @@ private:
             join(&AlembicCurves::root_uvs, set_.root_uvs);
         if (areIn([](const AlembicCurves& c) { return !c.groups.empty(); }, "groom_group_id"))
             join(&AlembicCurves::groups, set_.groups);
-        // Guides are often curves of their own, and the others say nothing of it.
+        // Guides are often objects of their own, and the other objects don't have the parameter.
         const bool has_guides = std::ranges::any_of(
             curves_, [](const AlembicCurves& curves) { return !curves.guides.empty(); });
         for (AlembicCurves& curves : curves_)

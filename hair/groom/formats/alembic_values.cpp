@@ -127,7 +127,7 @@ std::int64_t AlembicValues::integerAt(std::uint64_t byte, const AlembicParameter
         return valueAt<std::uint32_t>(bytes(), byte);
     case AlembicType::int32:
         return valueAt<std::int32_t>(bytes(), byte);
-    case AlembicType::uint64:  // those from 2^63 on are negative, and none are in range
+    case AlembicType::uint64:  // values from 2^63 on become negative, and none are in range
     case AlembicType::int64:
         return valueAt<std::int64_t>(bytes(), byte);
     default:

@@ -11,7 +11,7 @@
 #include "hair/groom/formats/binary_file.h"
 #include "hair/groom/formats/ogawa.h"
 
-// Values of an Alembic archive's properties, in their first samples and checked for their type.
+// Values of the properties of an Alembic archive: their first samples, checked for their type.
 namespace hair::groom {
 
 // The properties of a compound by their names.
@@ -22,11 +22,11 @@ struct AlembicCompound {
     const AlembicProperty* find(std::string_view name) const;  // null: there is none
 };
 
-// Values of a property, or of one with indices (a compound of `.vals` and `.indices`); at least
-// one.
+// Values of a property, or of a property with indices (a compound of `.vals` and `.indices`); at
+// least one.
 struct AlembicParameter {
     std::string path;
-    AlembicProperty property;  // that has the values
+    AlembicProperty property;  // the property with the values
     AlembicElements elements;
     std::vector<std::uint32_t> indices;
     bool has_indices = false;
@@ -39,7 +39,7 @@ struct AlembicParameter {
     // Throws where values are of another type.
     void require(AlembicType type, std::uint8_t extent) const;
 
-    // The values that the indices name; all where there are none.
+    // Returns the values that the indices name; all values where there are no indices.
     template <class Value>
     std::vector<Value> arranged(std::vector<Value> values) const {
         if (!has_indices) return values;
@@ -50,7 +50,8 @@ struct AlembicParameter {
     }
 };
 
-// Functions throw engine::Error "byte N: path: reason". A compound and a property are read once.
+// Functions throw engine::Error "byte N: path: reason". Compounds and properties can be read only
+// once.
 class AlembicValues {
 public:
     explicit AlembicValues(std::span<const std::byte> bytes) : archive_(bytes) {}
@@ -58,18 +59,18 @@ public:
     AlembicArchive& archive() { return archive_; }
     std::span<const std::byte> bytes() const { return archive_.bytes(); }
 
-    // The compound `name` of an object's properties. Throws where there is none.
+    // Returns the compound `name` of an object's properties. Throws where there is none.
     AlembicCompound compoundOf(
         const std::vector<AlembicProperty>& properties, std::string_view name,
         const std::string& path);
-    // The compound `name` of another; without properties where there is none.
+    // Returns the compound `name` of another; without properties where there is none.
     AlembicCompound compoundIn(const AlembicCompound& outer, std::string_view name);
 
     // Absent where the property is not there or has no values.
     std::optional<AlembicParameter>
     parameterOf(const AlembicCompound& compound, std::string_view name);
 
-    // Vectors of as many float32 as a Value has, all finite.
+    // Reads vectors of as many float32 as a Value has, all finite.
     template <class Value>
     std::vector<Value> floatsOf(const AlembicParameter& parameter) const {
         parameter.require(
@@ -78,12 +79,12 @@ public:
         requireFinite(values, parameter.elements.start, parameter.path);
         return parameter.arranged(std::move(values));
     }
-    // Integers of any type, one to an element, that are in the range of int32.
+    // Reads integers of any type, one to an element, in the range of int32.
     std::vector<std::int32_t> integersOf(const AlembicParameter& parameter) const;
-    // As many numbers as expected, of type float64, all finite; indices don't count.
+    // Reads numbers of type float64, all finite, exactly as many as expected; indices don't count.
     std::vector<double> doublesOf(const AlembicParameter& parameter, std::size_t expected) const;
 
-    // The values as they are stored, of a type that has been required.
+    // Returns the values as they are stored; their type must have been checked with require().
     template <class Value>
     std::vector<Value> stored(const AlembicParameter& parameter) const {
         return arrayAt<Value>(bytes(), parameter.elements.start, parameter.elements.count);

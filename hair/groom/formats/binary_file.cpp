@@ -8,8 +8,8 @@ namespace {
 
 constexpr std::size_t kBlock = 4096;
 
-// Whether all numbers are finite: only infinities and what is not a number have all bits of the
-// exponent set. There is no branch, so that the compiler makes vector instructions of it.
+// Whether all numbers are finite: only infinities and NaNs have all bits of the exponent set. It
+// has no branch, so that the compiler makes vector instructions of it.
 bool allFinite(std::span<const float> numbers) {
     constexpr std::uint32_t kExponent = 0x7f800000;
     std::uint32_t wrong = 0;

@@ -15,7 +15,8 @@
 
 #include "engine/error.h"
 
-// Numbers and arrays of little-endian files in memory. Who reads has checked that they are there.
+// Numbers and arrays of little-endian files in memory. Callers must have checked that they are
+// within the file.
 namespace hair::groom {
 
 static_assert(std::endian::native == std::endian::little, "files are read as they lie in memory");
@@ -57,12 +58,12 @@ void writeValue(std::ostream& out, const Value& value) {
     out.write(reinterpret_cast<const char*>(&value), sizeof value);
 }
 
-// Index of the first that is infinite or not a number. Tens of gigabytes a second where it finds
-// none.
+// Returns the index of the first number that is infinite or NaN. It checks tens of gigabytes a
+// second where there is none.
 std::optional<std::size_t> firstNotFinite(std::span<const float> numbers);
 
-// Elements of floats, which lie at `offset` in the file: throws where one is not finite.
-// `name` is what one of them is, for the message.
+// Throws where an element of floats is not finite. The elements begin at `offset` in the file.
+// `name` describes an element in the message.
 template <class Element>
 void requireFinite(
     const std::vector<Element>& elements, std::uint64_t offset, std::string_view name) {

@@ -8,7 +8,7 @@
 #include <glm/matrix.hpp>
 #include <glm/vec3.hpp>
 
-// What formats of curves have in common: cubic bases, and curves that are placed by a matrix.
+// Common parts of formats of curves: cubic bases, and curves that are placed by a matrix.
 namespace hair::groom {
 
 // Weights of a segment's four control vertices by powers of t: [vertex][t^0 to t^3].
@@ -24,7 +24,7 @@ inline constexpr CurveBasis kBsplineBasis{
 inline constexpr CurveBasis kCatmullRomBasis{
     {{0.0, -0.5, 1.0, -0.5}, {1.0, 0.0, -2.5, 1.5}, {0.0, 0.5, 2.0, -1.5}, {0.0, 0.0, -0.5, 0.5}}};
 
-// The weights at t, from 0 to 1.
+// Returns the weights at t, from 0 to 1.
 inline std::array<double, 4> weightsAt(const CurveBasis& basis, double t) {
     std::array<double, 4> weights{};
     for (std::size_t i = 0; i < weights.size(); ++i) {
@@ -41,14 +41,14 @@ struct AffineSpace {
 
     bool isIdentity() const { return linear == glm::dmat3(1.0) && translation == glm::dvec3(0.0); }
 
-    // The space of the file of what is in `inner`, which is placed in this one.
+    // Returns the space of objects in `inner`, which is placed in this one.
     AffineSpace of(const AffineSpace& inner) const {
         return {linear * inner.linear, linear * inner.translation + translation};
     }
 
     glm::dvec3 place(const glm::dvec3& point) const { return linear * point + translation; }
 
-    // A width's factor: of a scale that differs by direction, the geometric mean.
+    // Returns the factor of widths; for a scale that differs by direction, the geometric mean.
     double widthFactor() const { return std::cbrt(std::abs(glm::determinant(linear))); }
 };
 

@@ -27,14 +27,14 @@ enum class HairArray : std::uint32_t {
 };
 constexpr std::uint32_t kAllHairArrays = 31;
 
-// The beginning of a .hair file as it lies there; cyhair.h says what follows.
+// The beginning of a .hair file, as it is in memory; cyhair.h says what follows.
 struct HairHeader {
     std::array<char, 4> magic{'H', 'A', 'I', 'R'};
     std::uint32_t hair_count = 0;
     std::uint32_t point_count = 0;
     std::uint32_t arrays = 0;
-    // Values where there is no array. Transparency and colour are what the format's author begins
-    // with.
+    // Values that hold where there is no array. The defaults of transparency and colour are those
+    // of the format's author.
     std::uint32_t default_segments = 0;
     float default_thickness = 0.0f;  // 0: not known
     float default_transparency = 0.0f;
@@ -62,7 +62,7 @@ std::vector<std::uint16_t> segmentsOf(const StrandSet& strands) {
     return segments;
 }
 
-// Puts what holds everywhere into the header, or says there that each point has a value.
+// Puts a value that holds everywhere into the header, or states there that each point has a value.
 template <class Value>
 void setAttribute(
     HairHeader& header, HairArray array, Value HairHeader::* everywhere,
@@ -104,8 +104,8 @@ HairHeader readHairHeader(std::span<const std::byte> bytes) {
     return header;
 }
 
-// Where the arrays lie, those that are absent with size 0. The counts are less than 2^32, so that
-// all of it fits in 64 bits.
+// The places of the arrays; absent arrays have size 0. The counts are less than 2^32, so all sums
+// fit in 64 bits.
 struct Layout {
     explicit Layout(const HairHeader& header) {
         const auto place = [&](HairArray array, std::uint64_t size) {
@@ -170,14 +170,14 @@ readEnds(const HairHeader& header, std::uint64_t start, std::span<const std::byt
     return ends;
 }
 
-// An array's elements, or what the header says for all of them.
+// The source of an attribute: an array, or the header's value for all points.
 template <class Value>
 struct Source {
     HairArray array;
     std::uint64_t start;  // of the array
     Value everywhere;
     std::uint64_t everywhere_at;  // in the header
-    std::string name;  // of one, for messages
+    std::string name;  // of an element, for messages
 };
 
 template <class Value>

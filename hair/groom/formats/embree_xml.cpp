@@ -42,7 +42,7 @@ struct XmlElement {
     std::size_t line = 0;
     std::size_t size = 0;  // bytes, with all that is in it
     std::vector<std::pair<std::string_view, std::string_view>> attributes;
-    // Before the first child, between comments: where it begins, and the line of that.
+    // The texts before the first child, split at comments, each with the line that it begins on.
     std::vector<std::pair<std::string_view, std::size_t>> texts;
     std::vector<XmlElement> children;
 
@@ -57,7 +57,8 @@ struct XmlElement {
     }
 };
 
-// Reads what such scenes have of XML: elements with attributes, text, comments and a declaration.
+// Reads the part of XML that Embree's scenes use: elements with attributes, text, comments and a
+// declaration.
 class XmlReader {
 public:
     explicit XmlReader(std::string_view text) : rest_(text) {}
@@ -86,7 +87,7 @@ private:
         return taken;
     }
 
-    // Up to and with the mark.
+    // Takes everything up to the mark, and the mark; returns the text before it.
     std::string_view takeThrough(std::string_view mark) {
         const std::size_t at = rest_.find(mark);
         if (at == std::string_view::npos) fail("truncated: " + inQuotes(mark) + " is expected");
@@ -97,7 +98,7 @@ private:
 
     void skipSpace() { take(std::min(rest_.find_first_not_of(kBlank), rest_.size())); }
 
-    // White space and comments.
+    // Skips white space and comments.
     void skipBlank() {
         skipSpace();
         while (rest_.starts_with("<!--")) {
@@ -174,12 +175,12 @@ private:
 
 // ---- Arrays -------------------------------------------------------------------------------------
 
-// The arrays of a scene, which lie in it or in the file of bytes beside it.
+// The arrays of a scene, which are in it or in the binary file beside it.
 class EmbreeArrays {
 public:
     explicit EmbreeArrays(std::filesystem::path path) : path_(std::move(path)) {}
 
-    // With numbers that are NaN.
+    // Returns vectors, which may have NaNs.
     std::vector<glm::vec4> vectors(const XmlElement& element) {
         std::vector<glm::vec4> vectors;
         if (isBeside(element)) {
@@ -209,12 +210,12 @@ public:
         return words(element, [](float number) { return std::isfinite(number); });
     }
 
-    // Those of an attribute.
+    // The floats of an attribute.
     std::vector<float> floats(const XmlElement& element, std::string_view attribute) const {
         return floats({.name = attribute, .texts = {{element.attribute(attribute), element.line}}});
     }
 
-    // `each`: how many of them an entry of the array has, for its `size`.
+    // `each`: numbers for each of the `size` entries of the array.
     std::vector<std::uint32_t> integers(const XmlElement& element, std::size_t each) {
         if (isBeside(element)) return beside<std::uint32_t>(element, each);
         std::vector<std::uint32_t> numbers;
@@ -285,7 +286,7 @@ private:
     }
 
     std::filesystem::path path_;
-    std::optional<std::string> bytes_;  // of the file beside it, once it is asked for
+    std::optional<std::string> bytes_;  // of the file beside the scene, once it is needed
 };
 
 // ---- Curves -------------------------------------------------------------------------------------
@@ -297,7 +298,7 @@ struct EmbreeBasis {
     std::uint32_t step;  // vertices from a segment to the next of its curve
 };
 
-// Vertices with tangents, which are made Bezier's.
+// Vertices with tangents, which are converted to Bezier curves.
 constexpr std::string_view kHermite = "hermite";
 
 constexpr std::array kEmbreeBases{
@@ -307,8 +308,8 @@ constexpr std::array kEmbreeBases{
 
 struct EmbreeCurvesRow {
     std::string_view element;
-    std::string_view basis;  // empty: an attribute has it
-    bool has_pairs = false;  // an index has the curve's number beside it
+    std::string_view basis;  // empty: given by an attribute
+    bool has_pairs = false;  // each index has the curve's number beside it
 };
 
 constexpr std::array kEmbreeCurves{
@@ -322,7 +323,7 @@ constexpr std::array kEmbreeCurves{
     EmbreeCurvesRow{"BezierHair", "bezier", true},
     EmbreeCurvesRow{"BezierCurves", "bezier", true}};
 
-// Segments of one strand: the first control vertex and how many there are.
+// Segments of one strand: the first control vertex and the number of segments.
 struct EmbreeStrand {
     std::uint32_t first;
     std::uint32_t segments;
@@ -391,7 +392,8 @@ private:
         --references_;
     }
 
-    // What is referred to is read anew, so that a small scene could mean an endless one.
+    // Counts the bytes that references read again, because a small scene could otherwise stand for
+    // an endless one.
     void repeated(const XmlElement& element, std::size_t bytes) {
         repeated_ += bytes;
         if (repeated_ > kMostRepeated)
@@ -400,7 +402,7 @@ private:
                               "as it is referred to");
     }
 
-    // What is named for later, and not placed.
+    // Defines nodes for later references, without placing them.
     void define(const XmlElement& element) {
         std::vector<const XmlElement*> nodes;
         for (const XmlElement& child : element.children) {
@@ -459,7 +461,7 @@ private:
                               ", expected linear, bezier, bspline, hermite or catmull_rom");
     }
 
-    // Of a curve that moves, what it is at first; null where there is none.
+    // Returns an array of curves; for moving curves, the first one. Null where there is none.
     const XmlElement*
     arrayOf(const XmlElement& element, std::string_view name, std::string_view moving) {
         const XmlElement* const animated = element.child(moving);
@@ -479,7 +481,8 @@ private:
         return vectors;
     }
 
-    // Of each vertex of a Hermite curve three: before it by a third of its tangent, it, and after.
+    // Returns three vertices for each vertex of a Hermite curve: before it by a third of its
+    // tangent, itself, and after it.
     std::vector<glm::vec4>
     withTangents(const XmlElement& element, const std::vector<glm::vec4>& positions) {
         const XmlElement* const tangents = arrayOf(element, "tangents", "animated_tangents");
@@ -498,7 +501,7 @@ private:
         return all;
     }
 
-    // Segments that follow one another, in one curve where curves have numbers.
+    // Returns strands of consecutive segments, each within one curve where curves have numbers.
     std::vector<EmbreeStrand> strandsOf(
         const XmlElement& element, const EmbreeBasis& basis, bool has_pairs, std::size_t vertices) {
         const XmlElement* const indices = element.child("indices");
@@ -587,7 +590,8 @@ private:
         }
     }
 
-    // A segment's place and radius at t from 0 to 1. Of a linear one these are its ends.
+    // Returns a segment's place and radius at t from 0 to 1; for a linear segment, one of its
+    // ends.
     static glm::dvec4
     pointOf(const EmbreeBasis& basis, std::span<const glm::vec4> corners, double t) {
         if (!basis.weights) return corners[t == 0.0 ? 0 : 1];
@@ -600,7 +604,7 @@ private:
 
     void add(const XmlElement& element, const glm::dvec4& point, const AffineSpace& space) {
         glm::dvec3 place(point);
-        // Between control vertices a curve's radius may be under the least of them.
+        // Between control vertices, a curve's radius may be less than at all of them.
         double width = 2.0 * std::max(point.w, 0.0);
         if (!space.isIdentity()) {
             place = space.place(place);
@@ -620,7 +624,7 @@ private:
 
     EmbreeArrays arrays_;
     std::map<std::string_view, std::vector<const XmlElement*>> named_;
-    int references_ = 0;  // that the node is within
+    int references_ = 0;  // references around the node
     std::size_t repeated_ = 0;  // bytes
     std::size_t not_numbers_ = 0;
     std::set<std::string_view> left_out_;

@@ -12,18 +12,18 @@
 //   </scene>
 // The basis is linear, bezier, bspline, catmull_rom or, with <tangents>, hermite. Older names are
 // LineSegments, ConeSegments, RoundLineSegments, BSplineHair, BSplineCurves, and, with a curve's
-// number beside each index, Hair, BezierHair and BezierCurves. Arrays with `ofs` and `size` lie in
-// the file beside it that ends in .bin instead. The format states no unit.
+// number beside each index, Hair, BezierHair and BezierCurves. Arrays with `ofs` and `size` are in
+// the file of the same name that ends in .bin. The format states no unit.
 namespace hair::groom {
 
-// Segments that follow one another make a strand. Linear ones are their vertices; cubic ones are
-// sampled as those of USD are, evenly in t, by the fewest points that give no strand fewer than it
-// has control vertices. Widths are twice the radii. Groups, transforms (a matrix, `translate` or
-// `scale`) and references (`ref`) to what has an `id` or is in an `assign` are followed; what else
-// the scene has, and strands with a vertex that is NaN, are left out with a warning. Refuses what
-// is no such scene, other bases, transforms in other forms, indices of no vertex, arrays of a wrong
-// length, infinite numbers, negative radii and references to over 256 MB, counted as
-// often as they are followed. Throws engine::Error "line N: reason".
+// Consecutive segments make a strand. Linear segments are their vertices. Cubic segments are
+// sampled like those of USD, evenly in t, by the fewest points that give no strand fewer points
+// than control vertices. Widths are twice the radii. Groups, transforms (a matrix, `translate` or
+// `scale`) and references (`ref`) to nodes with an `id` or in an `assign` are followed. Other
+// contents of the scene, and strands with a vertex that is NaN, are left out with a warning.
+// Refuses other files, other bases, transforms in other forms, indices out of range, arrays of a
+// wrong length, infinite numbers, negative radii and references to over 256 MB, counted as often
+// as they are followed. Throws engine::Error "line N: reason".
 StrandSet importEmbreeXml(const StrandFile& file);
 
 }  // namespace hair::groom

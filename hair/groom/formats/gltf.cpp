@@ -57,7 +57,7 @@ public:
             add(values, TINYGLTF_TARGET_ARRAY_BUFFER, kType, TINYGLTF_COMPONENT_TYPE_FLOAT);
     }
 
-    // What is the same everywhere has an array all the same.
+    // A value that is the same everywhere also gets an array.
     template <class Value>
     void addAttribute(
         const std::string& name, const PointAttribute<Value>& attribute, std::size_t count) {
@@ -113,8 +113,8 @@ private:
 
 enum class Container { text, binary };
 
-// Bytes of data, beside which there is room for the rest: a .glb file counts to 2^32, and tinygltf
-// counts base 64, 4 bytes for 3, to 2^31.
+// Most bytes of data that leave room for the rest: a .glb file counts to 2^32, and tinygltf counts
+// base 64, 4 bytes for 3, to 2^31.
 std::size_t greatestData(Container container) {
     constexpr std::size_t kRest = 1 << 16;
     return container == Container::binary ? (std::size_t{1} << 32) - kRest
@@ -177,8 +177,9 @@ Polylines chainsOf(const std::vector<std::uint32_t>& indices, std::size_t vertex
         edges, vertex_count, [](std::size_t edge) { return "line " + std::to_string(edge); });
 }
 
-// Lines without indices share no vertices. Programs that know strips write one as lines each of
-// which begins where the last one ended: there, its first vertex becomes the last one's second.
+// Lines without indices share no vertices. Programs that know strips write a strip as lines that
+// each begin where the previous one ended. There, the first vertex of a line becomes the second of
+// the previous.
 void weld(std::vector<std::uint32_t>& indices, const std::vector<glm::vec3>& points) {
     for (std::size_t i = 2; i < indices.size(); i += 2)
         if (points[i] == points[i - 1]) indices[i] = indices[i - 1];
@@ -214,7 +215,7 @@ public:
         } else {
             weld(indices, set.points);
             arrangePoints(set, chainsOf(indices, set.points.size()));
-            set.warnings.clear();  // it has left out only what was there twice
+            set.warnings.clear();  // only repeated vertices were left out
         }
         join(std::move(set));
     }
@@ -252,7 +253,7 @@ private:
         }
         for (const float width : set.widths.values)
             if (width < 0.0f) throw engine::Error("_WIDTH is negative: " + std::to_string(width));
-        // The identity would still make 0 of -0.
+        // Even the identity would make 0 of -0.
         if (transform != glm::dmat4(1.0)) place(set, transform);
         checkFinite(set);
         return set;
@@ -303,7 +304,7 @@ private:
         append(set_.warnings, set.warnings);
     }
 
-    // What only some primitives have.
+    // Drops an attribute that only some primitives have.
     template <class Value>
     void dropPartial(PointAttribute<Value>& attribute, const char* name) {
         if (attribute.values.empty() || attribute.values.size() == set_.points.size()) return;

@@ -50,7 +50,7 @@ const NpyTypeRow& rowOf(NpyType type) { return kNpyTypes[static_cast<std::size_t
 
 bool isFloat(NpyType type) { return type == NpyType::float32 || type == NpyType::float64; }
 
-// An array in memory, of which the file is known to hold all.
+// An array in memory, known to be complete in the file.
 struct NpyArray {
     NpyType type = NpyType::float32;
     bool is_fortran = false;
@@ -188,7 +188,7 @@ NpyArray readNpy(std::span<const std::byte> bytes) {
     NpyArray array{.bytes = bytes, .start = dictionary + length};
     NpyDictionary(text.substr(dictionary, length), dictionary).read(array);
 
-    // Numbers that the rest of the file has room for, so that no product overflows.
+    // The rest of the file has room for this many numbers, so that no product overflows.
     const std::uint64_t room = (text.size() - array.start) / rowOf(array.type).size;
     bool is_empty = false;
     for (const std::uint64_t size : array.shape) is_empty = is_empty || size == 0;
@@ -226,7 +226,7 @@ double numberAt(const NpyArray& array, std::uint64_t index) {
     }
 }
 
-// Where a number lies that is the index-th in C's order.
+// Returns the place of the number with this index in C's order.
 std::uint64_t placeOf(const NpyArray& array, std::uint64_t index) {
     if (!array.is_fortran) return index;
     // The last subscript runs fastest in C's order, the first one in Fortran's.
@@ -240,7 +240,8 @@ std::uint64_t placeOf(const NpyArray& array, std::uint64_t index) {
     return place;
 }
 
-// Fills `numbers` with the array's, in C's order. `name` is what one of `components` of them is.
+// Fills `numbers` with those of the array, in C's order. `name` describes a group of `components`
+// numbers.
 void readFloats(
     const NpyArray& array, std::span<float> numbers, std::size_t components,
     std::string_view name) {
@@ -259,7 +260,7 @@ void readFloats(
     }
 }
 
-// The array as strands.
+// Returns the array as strands.
 StrandSet strandsOf(const NpyArray& array) {
     if (!isFloat(array.type) || array.shape.size() != 3 || array.shape[2] != 3) {
         failAt(
@@ -289,7 +290,7 @@ constexpr std::uint32_t kEndSignature = 0x06054b50;
 constexpr std::size_t kLocalSize = 30;  // bytes, without name and extra field
 constexpr std::size_t kCentralSize = 46;
 constexpr std::size_t kEndSize = 22;
-constexpr std::uint32_t kZip64 = 0xffffffff;  // a size or an offset that stands elsewhere
+constexpr std::uint32_t kZip64 = 0xffffffff;  // a size or an offset that is stored elsewhere
 constexpr auto kNpyExtension = ".npy"sv;
 
 enum ZipMethod : std::uint16_t { kStored = 0, kDeflated = 8 };
@@ -304,7 +305,7 @@ struct ZipMember {
     std::span<const std::byte> contents;  // as they lie in the archive
 };
 
-// The directory of an archive: its place and how many members it lists.
+// The directory of an archive: its place and its number of members.
 struct ZipDirectory {
     std::uint64_t start;
     std::uint64_t end;
@@ -314,7 +315,7 @@ struct ZipDirectory {
 ZipDirectory readDirectory(std::span<const std::byte> bytes) {
     if (bytes.size() < kEndSize)
         failAt(bytes.size(), "truncated: a zip archive ends with its directory");
-    // A comment may follow it, and its length is its last two bytes.
+    // A comment may follow the directory. Its length is in the last two bytes.
     const std::size_t longest = std::min<std::size_t>(bytes.size() - kEndSize, 0xffff);
     for (std::size_t comment = 0; comment <= longest; ++comment) {
         const std::uint64_t at = bytes.size() - kEndSize - comment;
@@ -336,7 +337,7 @@ ZipDirectory readDirectory(std::span<const std::byte> bytes) {
     failAt(bytes.size(), "truncated: a zip archive ends with its directory");
 }
 
-// The member whose record in the directory is at `at`, which is moved behind it.
+// Returns the member with its directory record at `at`, and moves `at` past the record.
 ZipMember
 readMember(std::span<const std::byte> bytes, const ZipDirectory& directory, std::uint64_t& at) {
     if (directory.end - at < kCentralSize || valueAt<std::uint32_t>(bytes, at) != kCentralSignature)
@@ -394,7 +395,7 @@ std::uint32_t checksumOf(std::span<const std::byte> bytes, uLong before = 0) {
         crc32_z(before, reinterpret_cast<const Bytef*>(bytes.data()), bytes.size()));
 }
 
-// Ends an inflation in any case.
+// Ends an inflation, also after errors.
 struct MemberInflation {
     z_stream stream{};
     ~MemberInflation() { inflateEnd(&stream); }
@@ -407,7 +408,8 @@ struct InflatedBytes {
 };
 
 InflatedBytes inflatedOf(const ZipMember& member) {
-    // A bit stands for 258 bytes at the most, which is 1032 for a byte and some.
+    // Two bits, a length and a distance, stand for at most 258 bytes, so a byte stands for at most
+    // 1032.
     if (member.size / 1032 > member.contents.size() + 1)
         failAt(member.start, "more bytes are expected than the compressed ones can stand for");
     InflatedBytes inflated{
@@ -417,7 +419,7 @@ InflatedBytes inflatedOf(const ZipMember& member) {
     z_stream& stream = inflation.stream;
     constexpr int kNoZlibHeader = -15;
     if (inflateInit2(&stream, kNoZlibHeader) != Z_OK) throw engine::Error("zlib can't be started");
-    // Both sizes have 32 bits, as zlib's counts.
+    // Both sizes have 32 bits, like zlib's counts.
     stream.next_in = const_cast<Bytef*>(  // zlib's type; it only reads
         reinterpret_cast<const Bytef*>(member.contents.data()));
     stream.avail_in = static_cast<uInt>(member.contents.size());
@@ -429,7 +431,7 @@ InflatedBytes inflatedOf(const ZipMember& member) {
     return inflated;
 }
 
-// Calls `read` with the member's array. Its errors begin with the byte where the member is.
+// Calls `read` with the member's array. Errors begin with the byte of the member.
 template <class Read>
 void withArray(const ZipMember& member, const Read& read) {
     InflatedBytes inflated;
@@ -538,7 +540,7 @@ bool isStrands(const ZipMember& member) {
     return is_strands;
 }
 
-// The member with the positions: by its name, or the one of their shape.
+// Returns the member with the positions: by its name, or the only one of their shape.
 const ZipMember& positionsOf(std::span<const ZipMember> members) {
     if (const ZipMember* named = memberNamed(members, kPositions)) return *named;
     std::string names;
@@ -559,7 +561,8 @@ const ZipMember& positionsOf(std::span<const ZipMember> members) {
 
 // ---- Writing ------------------------------------------------------------------------------------
 
-// The beginning of an array's file. NumPy wants the numbers to begin at a multiple of 64 bytes.
+// Returns the beginning of an array's file. NumPy wants the numbers to begin at a multiple of 64
+// bytes.
 std::string npyHeader(NpyType type, std::span<const std::uint64_t> shape) {
     std::string dictionary = "{'descr': '" + std::string(rowOf(type).name) +
                              "', 'fortran_order': False, 'shape': " + shapeText(shape) + ", }";
@@ -573,7 +576,7 @@ std::string npyHeader(NpyType type, std::span<const std::uint64_t> shape) {
     return header + dictionary;
 }
 
-// Strands as arrays need them, and what that loses.
+// Strands resampled as arrays need them.
 struct UniformStrands {
     std::optional<StrandSet> resampled;
     std::uint32_t points;  // of a strand
@@ -609,13 +612,13 @@ public:
         const std::string name = std::string(key).append(kNpyExtension);
         const std::string header = npyHeader(type, shape);
         const std::uint64_t size = header.size() + numbers.size();
-        // Places are of 32 bits, and what is written after this has less than 1 KiB.
+        // Offsets have 32 bits, and the rest of the file takes less than 1 KiB.
         if (position_ + size > kZip64 - 1024)
             throw engine::Error("the archive would have 4 GiB or more");
         const std::uint32_t checksum =
             checksumOf(numbers, checksumOf(std::as_bytes(std::span(header))));
         std::string common;  // to both records
-        put(common, std::uint16_t{20});  // version that is needed
+        put(common, std::uint16_t{20});  // needed version
         put(common, std::uint16_t{0});
         put(common, std::uint16_t{kStored});
         put(common, std::uint16_t{0});  // time and date: 1 January 1980

@@ -16,7 +16,7 @@ namespace {
 
 // ---- Writing ------------------------------------------------------------------------------------
 
-// Writes to the stream by large blocks.
+// Writes to the stream in large blocks.
 class Text {
 public:
     explicit Text(std::ostream& out) : out_(out) { text_.reserve(kBlock + kLongestNumber); }
@@ -134,7 +134,7 @@ private:
         if (set_.points.size() == kMaximumVertices) fail("at most 2^32 - 1 vertices are expected");
         set_.points.emplace_back(numbers[0], numbers[1], numbers[2]);
         if (count < 6) return;
-        set_.colors.values.resize(set_.points.size() - 1, kWhite);  // of those without
+        set_.colors.values.resize(set_.points.size() - 1, kWhite);  // for earlier vertices without
         set_.colors.values.emplace_back(numbers[3], numbers[4], numbers[5]);
         ++colored_;
     }
@@ -152,7 +152,7 @@ private:
                 "vertex " + std::to_string(*number) + " is named, there are " +
                 std::to_string(vertices));
         }
-        // Vertices may follow: only the end of the file shows whether it is there.
+        // Vertices may follow, so only the end of the file shows whether the index is valid.
         if (static_cast<std::size_t>(index) > greatest_.index || greatest_.line == 0) {
             greatest_ = {static_cast<std::size_t>(index), line_};
         }
@@ -191,7 +191,7 @@ private:
     std::size_t faces_ = 0;
     std::size_t loose_points_ = 0;
     std::size_t colored_ = 0;
-    Index greatest_;  // vertex that a line names
+    Index greatest_;  // greatest vertex that a line names
     bool has_other_indices_ = false;
     bool last_is_segment_ = false;  // the last element was of two points, in this group
 };
@@ -213,7 +213,7 @@ std::string_view withoutComment(std::string_view statement) {
 
 bool isContinued(std::string_view line) { return line.ends_with('\\'); }
 
-// The lines that a backslash before each line's end makes one of; `line` is the first.
+// Joins lines that end with a backslash to the next; `line` is the first.
 std::string joinContinued(std::string_view line, TextLines& lines) {
     std::string joined;
     while (isContinued(line) && !lines.atEnd()) {

@@ -14,9 +14,9 @@ namespace hair::groom {
 // A StrandExporter's `write`. Numbers are the shortest decimals that give the same floats.
 std::vector<std::string> exportObj(const StrandSet& strands, std::ostream& out);
 
-// A StrandImporter's `read`. Elements of two points that continue each other, as programs write
-// that know only segments, are one strand. The comment that the file begins with is kept; what is
-// neither vertex nor line is skipped, faces with a warning.
+// A StrandImporter's `read`. Consecutive elements of two points that continue each other become
+// one strand, because some programs write only segments. The comment at the beginning of the file
+// is kept. Everything except vertices and lines is skipped, faces with a warning.
 StrandSet importObj(const StrandFile& file);
 
 }  // namespace hair::groom

@@ -26,7 +26,7 @@ struct AlembicTypeRow {
     std::size_t size;
 };
 
-// In the order of the enumerators, which are the numbers that files have.
+// In the order of the enumerators, which are the numbers in files.
 constexpr std::array kAlembicTypes{
     AlembicTypeRow{"bool", 1},   AlembicTypeRow{"uint8", 1},    AlembicTypeRow{"int8", 1},
     AlembicTypeRow{"uint16", 2}, AlembicTypeRow{"int16", 2},    AlembicTypeRow{"uint32", 4},
@@ -102,7 +102,7 @@ struct PropertyInfo {
     auto metadata() const { return static_cast<std::uint8_t>(word >> 20 & 0xff); }
 };
 
-// Samples that are stored: the first, and those from the first change to the last.
+// Counts the samples that are stored: the first, and those from the first change to the last.
 std::uint64_t storedSamples(
     AlembicCursor& cursor, const PropertyInfo& info, std::uint64_t number_size,
     std::uint32_t samples) {
@@ -151,7 +151,7 @@ std::string_view alembicValue(std::string_view metadata, std::string_view key) {
 void AlembicArchive::claim(std::uint64_t byte, const Claim& wanted, const std::string& path) {
     const auto after = claims_.lower_bound(byte);
     if (after != claims_.end() && after->first == byte) {
-        // Samples that are equal are often stored once.
+        // Equal samples are often stored once.
         if (after->second.is_group || wanted.is_group)
             failIn(byte, path, "a group that is part of two, or of itself");
         return;

@@ -9,12 +9,12 @@
 #include <string_view>
 #include <vector>
 
-// Archives of Alembic 1.5 and later (Ogawa): the objects, properties and samples that are in a
-// file, without what they mean. As Alembic's AbcCoreOgawa and Ogawa (Sony Pictures Imageworks,
-// Lucasfilm) write them, all little-endian:
+// Archives of Alembic 1.5 and later (Ogawa): the objects, properties and samples of a file, without
+// their meaning. The layout is that of Alembic's AbcCoreOgawa and Ogawa (Sony Pictures Imageworks,
+// Lucasfilm), all little-endian:
 //   file        "Ogawa", 0xff if it was written to its end, 0, 1, the offset of the root group
-//   group       uint64 count, then an offset for each child; the top bit says that it is data.
-//               Offset 0: nothing is in it
+//   group       uint64 count, then an offset for each child; the top bit marks data. Offset 0
+//               stands for an empty child
 //   data        uint64 size, then bytes
 //   root        int32 0, int32 version of the library, the top object, metadata, time samplings,
 //               metadata by number (a byte's length and a text each)
@@ -45,7 +45,7 @@ enum class AlembicType : std::uint8_t {
 std::string_view nameOf(AlembicType type);
 std::size_t sizeOf(AlembicType type);  // bytes of a number; 0: texts
 
-// An object's or property's "key=value;...": the value, empty where it has none.
+// Returns a key's value in an object's or property's "key=value;..."; empty where it has none.
 std::string_view alembicValue(std::string_view metadata, std::string_view key);
 
 enum class AlembicKind : std::uint8_t { compound, scalar, array };
@@ -79,30 +79,31 @@ struct AlembicContents {
     std::vector<AlembicObject> children;
 };
 
-// Elements of a sample, which the file has whole.
+// Elements of a sample, known to be complete in the file.
 struct AlembicElements {
     std::uint64_t start = 0;  // byte of the first
-    std::uint64_t count = 0;  // of elements; of texts: of their bytes
+    std::uint64_t count = 0;  // number of elements; for texts, of their bytes
 };
 
 // Throws engine::Error "byte N: path: reason", without the path where it is empty.
 [[noreturn]] void failIn(std::uint64_t byte, const std::string& path, const std::string& reason);
 
-// Reads what is asked for and refuses what is not as it should be: counts and offsets beyond the
-// file, groups that are part of two, or of themselves, chunks that overlap, more than 64 levels.
-// Its functions throw engine::Error "byte N: path: reason".
+// Reads the requested parts and refuses malformed ones: counts and offsets beyond the file, groups
+// that are part of two others or of themselves, chunks that overlap, more than 64 levels. Its
+// functions throw engine::Error "byte N: path: reason".
 class AlembicArchive {
 public:
     explicit AlembicArchive(std::span<const std::byte> bytes);
 
     const AlembicObject& top() const { return top_; }
 
-    // Each is called once for an object, compound or other property: what it reads is then taken.
-    // `path` is its own, for messages, such as "/hair/strands/.geom".
+    // Each function may be called once for an object, compound or other property, because it
+    // claims the parts that it reads. `path` is the path of its argument, for messages, such as
+    // "/hair/strands/.geom".
     AlembicContents contentsOf(const AlembicObject& object, const std::string& path);
     std::vector<AlembicProperty>
     propertiesOf(const AlembicProperty& compound, const std::string& path);
-    // The first sample of a scalar or array; absent where it has none.
+    // Returns the first sample of a scalar or array; absent where it has none.
     std::optional<AlembicElements>
     firstOf(const AlembicProperty& property, const std::string& path);
 

@@ -57,8 +57,8 @@ void writeVertices(const StrandSet& strands, std::ostream& out) {
 
 struct TypeRow {
     PlyType type;
-    std::string_view name;  // of the format's description
-    std::string_view other_name;  // that later programs write
+    std::string_view name;  // in the format's description
+    std::string_view other_name;  // written by later programs
     std::size_t size;
 };
 
@@ -106,7 +106,7 @@ PlyFormat formatNamed(std::string_view name) {
         "; expected ascii, binary_little_endian or binary_big_endian");
 }
 
-// Takes a line, without its end, which may be of Unix or of Windows.
+// Takes a line, without its end, of Unix or of Windows.
 std::string_view takeLine(std::string_view& rest) {
     const std::size_t end = rest.find('\n');
     if (end == std::string_view::npos) {
@@ -193,27 +193,27 @@ private:
 
 // ---- Values as text and as bytes ----------------------------------------------------------------
 
-// The values of a PLY file's elements one after the other, from text and from bytes. A value is a
-// double, which holds each of the format's types. A position is where the value that was taken last
-// begins; place() says it in words.
+// Sources of the values of a PLY file's elements one after the other, from text and from bytes. A
+// value is a double, which holds each of the format's types. A position is the beginning of the
+// value that was taken last; place() gives it in words.
 
 class PlyText {
 public:
     PlyText(std::string_view body, std::size_t lines_before) : rest_(body), line_(lines_before) {}
 
-    // Throws where the file is too short for the element's values, or for the list's.
+    // Throw where the file is too short for the element's values, or for the list's.
     void expect(const PlyElement& element) const;
     void expectList(double length, PlyType type) const;
 
     void beginElement();  // each is a line
     double take(PlyType type);
     void endElement();
-    void skip(const PlyElement& element);  // as many as there are
+    void skip(const PlyElement& element);  // all of the element
     void finish() const;
 
     std::size_t position() const { return line_; }
     std::size_t nextPosition() const { return line_ + 1; }
-    // How far positions are apart from one element without lists to the next.
+    // The distance of positions from one element without lists to the next.
     std::size_t stepOf(const PlyElement&) const { return 1; }
     static std::string place(std::size_t position) { return "line " + std::to_string(position); }
 
@@ -259,7 +259,7 @@ private:
     std::size_t position_;
 };
 
-// Takes a list's length, which the file is then known to be long enough for.
+// Takes a list's length. Throws where the file is too short for the list.
 template <class Source>
 std::size_t takeLength(Source& source, const PlyProperty& list) {
     const double length = source.take(*list.count_type);
@@ -273,7 +273,7 @@ void skipProperty(Source& source, const PlyProperty& property) {
     for (std::size_t i = 0; i < values; ++i) source.take(property.type);
 }
 
-// Throws where what was taken last is none of so many vertices.
+// Throws where the value that was taken last is not the index of a vertex.
 template <class Source>
 void checkVertex(const Source& source, double index, std::uint64_t vertices) {
     if (index >= 0.0 && index < static_cast<double>(vertices)) return;
@@ -301,7 +301,7 @@ void checkLength(const std::string& place, double length, std::size_t most) {
     }
 }
 
-// Floats are read as such: through double they could be rounded twice.
+// Floats are read as floats, because a detour through double could round them twice.
 std::optional<double> valueFrom(std::string_view word, PlyType type) {
     switch (type) {
     case PlyType::float32:
@@ -315,7 +315,8 @@ std::optional<double> valueFrom(std::string_view word, PlyType type) {
     }
 }
 
-// A line has a character for each value and one after it, which may be missing at the file's end.
+// A line has a character for each value and one after it; the last may be missing at the file's
+// end.
 void PlyText::expect(const PlyElement& element) const {
     if (element.count <= (rest_.size() + 1) / (2 * element.properties.size())) return;
     throw engine::Error(place(line_ + 1), truncated(element, rest_.size()));
@@ -424,7 +425,7 @@ enum Slot : std::size_t { x, y, z, width, transparency, red, green, blue, slot_c
 struct VertexRow {
     std::string_view property;
     Slot slot;
-    double unit = 1.0;  // what is a width, or a transparency, of 1
+    double unit = 1.0;  // value that is a width, or a transparency, of 1
     bool is_share = false;  // integers stand for 0 to 1
     std::string_view better = "";  // a property that is read instead
 };
@@ -442,9 +443,9 @@ constexpr std::array kVertexRows{
     VertexRow{"blue", blue, 1.0, true},
 };
 
-// What is done with a property's values: divided, and for opacity taken from 1.
+// How a property's values are converted: divided, and for opacity subtracted from 1.
 struct Column {
-    Slot slot = slot_count;  // then it is skipped
+    Slot slot = slot_count;  // slot_count: skipped
     double divisor = 1.0;
     bool is_opacity = false;
 };
@@ -498,8 +499,8 @@ void reserve(const Plan& plan, std::size_t count, StrandSet& set) {
     if (plan.known[red]) set.colors.values.reserve(count);
 }
 
-// The element `vertex`. Throws engine::Error "line N: reason" where it isn't there, has no
-// coordinates, or more of them than 32 bits can number.
+// Returns the element `vertex`. Throws engine::Error "line N: reason" where it isn't there, has no
+// coordinates, or more vertices than 32 bits can number.
 const PlyElement& plyVertices(const PlyHeader& header) {
     const std::string place = "line " + std::to_string(header.lines);
     const PlyElement* element = header.find("vertex");
@@ -516,8 +517,8 @@ const PlyElement& plyVertices(const PlyHeader& header) {
     return *element;
 }
 
-// Reads the element's points, widths, colours and transparencies as those of `set`, and warns of
-// what else it has. The source expects the element. Throws engine::Error "place: reason".
+// Reads the element's points, widths, colours and transparencies to `set`, and warns of its other
+// properties. The source must be at the element. Throws engine::Error "place: reason".
 template <class Source>
 void readPlyVertices(Source& source, const PlyElement& element, StrandSet& set) {
     const Plan plan = planOf(element, set.warnings);
@@ -583,7 +584,8 @@ bool isEdge(const PlyElement& element) {
         "follow one another, say how many (--points-per-strand, /groom/points_per_strand)");
 }
 
-// The element that says which vertices make a strand; null where so many after another do.
+// Returns the element that lists the vertices of strands; null where strands are runs of
+// consecutive vertices.
 const PlyElement* strandElement(const PlyHeader& header, std::uint32_t points_per_strand) {
     for (const std::string_view name : kListElements) {
         const PlyElement* element = header.find(name);
@@ -591,7 +593,7 @@ const PlyElement* strandElement(const PlyHeader& header, std::uint32_t points_pe
     }
     const PlyElement* edges = header.find("edge");
     if (edges && isEdge(*edges) && (edges->count > 0 || points_per_strand == 0)) return edges;
-    if (points_per_strand > 0) return nullptr;  // faces are of a mesh beside the hair
+    if (points_per_strand > 0) return nullptr;  // faces belong to a mesh beside the hair
     const PlyElement* faces = header.find(kFaces);
     if (faces && indexList(*faces)) return faces;
     failWithoutStrands(header);
@@ -620,7 +622,7 @@ public:
             }
         }
         source_.finish();
-        if (!edges_.empty()) {  // not before the file is known to hold the vertices
+        if (!edges_.empty()) {  // only once the file is known to hold
             lines_ = chainEdges(
                 edges_, vertex_count_, [this](std::size_t edge) { return placeOf(edge); });
         }
@@ -730,13 +732,13 @@ private:
 
     const PlyHeader& header_;
     std::uint32_t points_per_strand_;
-    const PlyElement* strands_;  // null: so many vertices after another make a strand
+    const PlyElement* strands_;  // null: strands are runs of consecutive vertices
     Source source_;
     std::uint64_t vertex_count_ = 0;
     std::vector<Edge> edges_;
     std::size_t edges_start_ = 0;  // position of the first edge
-    std::size_t edges_step_ = 0;  // from one to the next
-    std::vector<std::size_t> edge_positions_;  // [edge], where they are not equally far apart
+    std::size_t edges_step_ = 0;  // from one edge to the next
+    std::vector<std::size_t> edge_positions_;  // [edge], where distances differ
     std::uint64_t polygons_ = 0;
     Polylines lines_;
     StrandSet set_;
@@ -756,7 +758,7 @@ void checkCorners(Source& source, const PlyProperty& list, std::uint64_t vertice
     if (!isInteger(list.type)) refuse("a face's corners are no integers");
     for (std::size_t i = 0; i < size; ++i) {
         const double index = source.take(list.type);
-        if (is_strip && index == -1.0) continue;  // where another strip begins
+        if (is_strip && index == -1.0) continue;  // another strip begins
         checkVertex(source, index, vertices);
     }
 }
@@ -783,7 +785,7 @@ void checkFaces(const PlyHeader& header, Source source) {
     }
 }
 
-// Calls `use` with the values after the header.
+// Calls `use` with a source of the values after the header.
 template <class Use>
 auto withValues(const PlyHeader& header, std::span<const std::byte> file, const Use& use) {
     switch (header.format) {

@@ -13,14 +13,14 @@
 #include "hair/groom/groom.h"
 
 // Strands of a PLY file (Greg Turk, The PLY Polygon File Format, 1994), ascii or binary of either
-// byte order. The points are the element `vertex`: x, y, z, and as far as they are there width or
-// radius, red, green, blue, and transparency or alpha. The strands are the first of
+// byte order. The points are the element `vertex`: x, y, z and, where present, width or radius,
+// red, green, blue, and transparency or alpha. The strands are the first of these that are present:
 //   - the lists `vertex_indices` or `vertex_index` of an element `strand`, `polyline` or `line`,
 //     root first,
 //   - chains of the element `edge` (vertex1, vertex2), see polylines.h,
-//   - as many vertices after one another as StrandFile::points_per_strand says, which is what
-//     reconstructions of hair from pictures write,
-//   - the lists of two vertices of the element `face`, as which assimp writes lines: edges.
+//   - runs of StrandFile::points_per_strand consecutive vertices, as reconstructions of hair from
+//     pictures write,
+//   - the lists of two vertices of the element `face`, in which assimp writes lines: edges.
 // Everything else is skipped with a warning.
 namespace hair::groom {
 
@@ -31,8 +31,8 @@ std::vector<std::string> exportPly(const StrandSet& strands, std::ostream& out);
 StrandSet importPly(const StrandFile& file);
 
 // Throws engine::Error "place: reason" where a mesh's file names a vertex that isn't there, has a
-// face without corners, or is too short or no PLY: readers of meshes take the first for one that is
-// there.
+// face without corners, is too short, or is no PLY. Readers of meshes don't check the first of
+// these.
 void checkPlyFaces(std::span<const std::byte> file);
 
 enum class PlyFormat { ascii, little_endian, big_endian };
@@ -61,7 +61,7 @@ struct PlyElement {
 
     const PlyProperty* find(std::string_view property) const;
     bool hasLists() const;
-    // The bytes of one such element in a binary file; of its lists only their lengths.
+    // The least bytes of one element in a binary file; lists count with their lengths alone.
     std::size_t leastSize() const;
 };
 

@@ -32,7 +32,7 @@ constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
 
 std::string vertexName(std::uint32_t vertex) { return "vertex " + std::to_string(vertex); }
 
-// The vertices that edges join each one to.
+// The vertices that edges join to each vertex.
 class Neighbours {
 public:
     explicit Neighbours(std::size_t vertex_count) : of_(vertex_count, {kNone, kNone}) {}
@@ -47,13 +47,14 @@ public:
         return false;
     }
 
-    // The vertex that follows on `from`, seen from the one before that; kNone at an end.
+    // Returns the vertex after `from`, coming from `before`; kNone at an end.
     std::uint32_t next(std::uint32_t before, std::uint32_t from) const {
         const Edge& pair = of_[from];
         return pair[0] == before ? pair[1] : pair[0];
     }
 
-    // The last vertex of the chain that runs from `first` over `second`; kNone in a closed loop.
+    // Returns the last vertex of the chain that runs from `first` over `second`; kNone in a closed
+    // loop.
     std::uint32_t lastOf(std::uint32_t first, std::uint32_t second) const {
         std::uint32_t before = first;
         std::uint32_t at = second;

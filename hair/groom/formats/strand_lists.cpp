@@ -22,7 +22,7 @@ constexpr std::uint64_t kCountSize = sizeof(std::int32_t);
 constexpr std::uint64_t kDataPoint = 3 * sizeof(float);
 constexpr std::uint64_t kCt2HairPoint = 7 * sizeof(float);
 
-// A strand's points as they lie in the file.
+// The place of a strand's points in the file.
 struct ListedStrand {
     std::uint32_t number;
     std::uint64_t start;  // byte of the first point
@@ -40,7 +40,7 @@ countAt(std::span<const std::byte> bytes, std::uint64_t offset, const std::strin
     return static_cast<std::uint32_t>(count);
 }
 
-// The strands of the file, which is exactly as long as they are.
+// Lists the strands of the file, which must be exactly as long as they are.
 std::vector<ListedStrand> listStrands(std::span<const std::byte> bytes, std::uint64_t point_size) {
     const std::uint32_t count = countAt(bytes, 0, "the number of strands");
     if (count == 0) failAt(0, "0 strands, at least 1 is needed");
@@ -101,7 +101,7 @@ StrandSet importHairData(const StrandFile& file) {
     const std::vector<ListedStrand> listed = listStrands(file.bytes, kDataPoint);
     StrandSet set;
     set.ends.reserve(listed.size());
-    // What is no count is points, nothing is left out of them.
+    // All bytes except the counts are points, and none are left out.
     set.points.reserve((file.bytes.size() - kCountSize * (listed.size() + 1)) / kDataPoint);
     std::size_t empty = 0;
     for (const ListedStrand& strand : listed) {

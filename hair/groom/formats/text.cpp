@@ -40,7 +40,7 @@ constexpr std::size_t kQuotedLength = 40;
 
 bool isSpace(char c) { return c == ' ' || (c >= '\t' && c <= '\r'); }
 
-// std::from_chars takes no '+'; "+-1" stays wrong.
+// std::from_chars takes no '+'; "+-1" stays invalid.
 std::string_view withoutPlus(std::string_view word) {
     const bool plus = word.size() > 1 && word[0] == '+' && word[1] != '-';
     return plus ? word.substr(1) : word;
@@ -76,7 +76,7 @@ std::string commentLines(std::string_view comment, std::string_view keyword) {
     return lines + '\n';
 }
 
-// ---- What a format leaves out -------------------------------------------------------------------
+// ---- Parts that a format leaves out ------------------------------------------------------------
 
 std::vector<std::string> leftOut(const StrandSet& strands, std::initializer_list<Part> held) {
     std::vector<std::string> warnings;

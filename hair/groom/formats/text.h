@@ -10,15 +10,14 @@
 
 #include "hair/groom/groom.h"
 
-// What formats of text have in common: comments, words and numbers, and sentences on what they
-// leave out.
+// Common parts of text formats: comments, words and numbers, and sentences on left-out data.
 namespace hair::groom {
 
-// The comment as lines of a text file, each after `keyword`; nothing for an empty comment.
+// Returns the comment as lines of a text file, each after `keyword`; nothing for an empty comment.
 // Carriage returns, which belong to a line's end, are left out.
 std::string commentLines(std::string_view comment, std::string_view keyword);
 
-// What strands may have beside their points.
+// Data that strands may have beside their points.
 enum class Part {
     widths,
     transparencies,
@@ -31,17 +30,17 @@ enum class Part {
     comment
 };
 
-// A sentence for each part that the strands have and the format has no place for. To be opaque
-// everywhere is not to have transparencies.
+// Returns a sentence for each part that the strands have and the format does not hold. Strands
+// that are opaque everywhere have no transparencies.
 std::vector<std::string> leftOut(const StrandSet& strands, std::initializer_list<Part> held);
 
 // Warns where strands were left out: "3 strands with ... are left out".
 void warnOfStrands(std::size_t count, const std::string& which, StrandSet& set);
 
-// Lines of text files, word by word. Numbers are spelt in C's notation whatever the locale, a '+'
-// before them allowed.
+// Lines of text files, word by word. Numbers are in C's notation whatever the locale; a '+' before
+// them is allowed.
 
-// The lines of a text without their ends, which may be of Unix or of Windows.
+// The lines of a text without their ends, of Unix or of Windows.
 class TextLines {
 public:
     explicit TextLines(std::string_view text) : rest_(text) {}
@@ -56,39 +55,39 @@ private:
     std::size_t number_ = 0;
 };
 
-// Takes the next word, up to white space, off the beginning of `line`; empty at its end.
+// Takes the next word, up to white space, off the beginning of `line`; empty at the line's end.
 std::string_view takeWord(std::string_view& line);
 
-// The word for a message: in quotes, short, without characters that can't be printed.
+// Returns the word for a message: in quotes, short, without characters that can't be printed.
 std::string inQuotes(std::string_view word);
 
-// The number that the whole word is.
+// Returns the number that the whole word stands for.
 std::optional<std::int64_t> integerFrom(std::string_view word);
 std::optional<double> doubleFrom(std::string_view word);  // also "nan" and "inf"
 
-// The nearest float; 0 and infinity for what is too small and too large for one, as long as a
-// double holds it.
+// Returns the nearest float; 0 for a number too small for one, infinity for one too large, as long
+// as a double holds it.
 std::optional<float> floatFrom(std::string_view word);
 
-// The ends of strands of `size` points each.
+// Returns the ends of strands of `size` points each.
 std::vector<std::uint32_t> uniformEnds(std::uint32_t strands, std::uint32_t size);
 
-// How many points a format wants each strand to have.
+// The numbers of points of a strand that a format allows and prefers.
 struct NumberOfPoints {
     std::uint32_t least;
     std::uint32_t most;
-    std::uint32_t wanted;  // of strands that have other numbers
+    std::uint32_t wanted;  // for strands with other numbers
 };
 
-// The strands resampled to one number of points, which a warning says; absent where they all have
-// one, from `least` to `most`, already.
+// Returns the strands resampled to one number of points, with a warning; absent where all have the
+// same number already, from `least` to `most`.
 std::optional<StrandSet> makeUniform(
     const StrandSet& strands, const NumberOfPoints& number, std::vector<std::string>& warnings);
 
 // Whether text is UTF-8, without surrogates and needlessly long forms (RFC 3629).
 bool isUtf8(std::string_view text);
 
-// Latin-1 as UTF-8: what files with an 8-bit text of no stated encoding mostly mean.
+// Converts Latin-1 to UTF-8. It is the usual meaning of 8-bit text without a stated encoding.
 std::string utf8FromLatin1(std::string_view text);
 
 }  // namespace hair::groom

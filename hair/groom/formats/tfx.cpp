@@ -24,8 +24,8 @@ namespace {
 
 // ---- The header ---------------------------------------------------------------------------------
 
-// The beginning of a .tfx file as it lies there; tfx.h says what follows. Offsets are bytes
-// from the beginning of the file, 0 where there is no such array.
+// The beginning of a .tfx file, as it is in memory; tfx.h says what follows. Offsets are bytes
+// from the beginning of the file, 0 where there is no array.
 struct TfxHeader {
     static constexpr float kVersion = 4.0f;
 
@@ -41,7 +41,7 @@ struct TfxHeader {
 };
 static_assert(sizeof(TfxHeader) == 160 && offsetof(TfxHeader, vertex_colors) == 28);
 
-// Where a version's header has what TfxHeader has, and what else differs.
+// The offsets at which a version's header has the members of TfxHeader, and other differences.
 struct TfxForm {
     std::uint64_t header_size;
     std::uint64_t position_size;  // bytes of one, xyz first
@@ -67,7 +67,7 @@ constexpr std::uint64_t kTfx3GuideStrands = 160;
 
 // ---- Writing ------------------------------------------------------------------------------------
 
-// What AMD's loader takes, and powers of two only.
+// The range that AMD's loader takes, of powers of two only.
 constexpr std::uint32_t kLeastVertices = 4;
 constexpr std::uint32_t kMostVertices = 64;
 constexpr std::uint32_t kFixedVertices = 2;
@@ -128,7 +128,7 @@ std::vector<glm::vec4> colorsOf(const StrandSet& strands, std::vector<std::strin
     return colors;
 }
 
-// The place of an array of `bytes` at the end of the file; 0 where it is empty.
+// Returns the place of an array of `bytes` at the end of the file; 0 where it is empty.
 std::uint32_t place(std::uint64_t& end, std::uint64_t bytes) {
     if (bytes == 0) return 0;
     const std::uint64_t start = (end + 7) / 8 * 8;
@@ -150,7 +150,7 @@ void writeAt(
 
 // ---- Reading ------------------------------------------------------------------------------------
 
-// The form of the file's version.
+// Returns the form of the file's version.
 const TfxForm& formOf(std::span<const std::byte> bytes) {
     const bool has_version = bytes.size() >= sizeof(float);
     const float version = has_version ? valueAt<float>(bytes, 0) : TfxHeader::kVersion;
@@ -200,7 +200,8 @@ struct Array {
     std::uint64_t size;  // bytes
 };
 
-// The arrays that are there. They have at most 2^32 vertices of 16 bytes: ends fit in 64 bits.
+// Returns the arrays that the file has. They have at most 2^32 vertices of 16 bytes, so ends fit
+// in 64 bits.
 std::vector<Array> arraysOf(const TfxHeader& header, const TfxForm& form) {
     const std::uint64_t strands = header.strands;
     const std::uint64_t vertices = strands * header.vertices_per_strand;
@@ -239,11 +240,12 @@ void checkPlaces(std::vector<Array> arrays, std::uint64_t header_size, std::uint
     }
 }
 
-// The values, or one value where all are the same, as TressFX has no other way to say that.
+// Returns the values, or one value where all are the same, because TressFX has no other way to
+// store one.
 template <class Value>
 PointAttribute<Value> compact(std::vector<Value> values) {
     const Value first = values.front();
-    const auto is_first = [&](const Value& value) {  // to the bit: -0 is another
+    const auto is_first = [&](const Value& value) {  // to the bit: -0 differs from 0
         return std::memcmp(&value, &first, sizeof first) == 0;
     };
     if (std::ranges::all_of(values, is_first)) return {.everywhere = first};
@@ -282,7 +284,7 @@ void readPositions3(const TfxHeader& header, std::span<const std::byte> bytes, S
     requireFinite(strands.points, header.positions, "position");
 }
 
-// What TressFX itself does with strands of its versions 2 and 3.
+// Warns of features of TressFX's versions 2 and 3 that are left out.
 void warnOfFollowers(std::int64_t followers, bool both_ends_fixed, StrandSet& strands) {
     if (followers > 0) {
         const std::string count = std::to_string(followers);
@@ -309,8 +311,8 @@ void readColors(const TfxHeader& header, std::span<const std::byte> bytes, Stran
 
 // ---- The text of version 2 ----------------------------------------------------------------------
 
-// Lines of a keyword with its values, up to the number of strands; then each strand's line and its
-// points.
+// Reads lines of a keyword with its values, up to the number of strands, then each strand's line
+// and its points.
 class TfxText {
 public:
     explicit TfxText(std::string_view text) : lines_(text) {}
@@ -360,7 +362,7 @@ private:
         return *number;
     }
 
-    // How a file's transform is applied is stated nowhere; all known files have none.
+    // Nothing states how a file's transform is applied; all known files have none.
     void expectIdentity(std::string_view keyword, int count, float identity) {
         for (int i = 0; i < count; ++i) {
             if (takeFloat() == identity) continue;
@@ -447,7 +449,7 @@ private:
     }
 
     TextLines lines_;
-    std::string_view line_;  // what is left of the line
+    std::string_view line_;  // rest of the line
     std::int64_t strands_ = 0;
     std::int64_t most_vertices_ = std::numeric_limits<std::uint32_t>::max();
     std::int64_t followers_ = 0;
@@ -515,7 +517,7 @@ StrandSet importTfx(const StrandFile& file) {
         readPositions3(header, file.bytes, strands);
         warnOfFollowers(
             valueAt<std::uint32_t>(file.bytes, kTfx3Followers),
-            // AMD's exporter writes one byte, and whatever lies in the three after it.
+            // AMD's exporter writes one byte, and leaves the three after it undefined.
             valueAt<std::uint8_t>(file.bytes, kTfx3BothEndsFixed) != 0, strands);
         if (guides != 0)
             strands.warnings.emplace_back("the numbers of strands' guides are left out");

@@ -11,22 +11,22 @@ BASES = {
 
 
 def starts(sizes):
-    """Index of the first element of each of some groups that lie one after another."""
+    """Index of the first element of each group, for groups one after another."""
     return np.cumsum(sizes) - sizes
 
 
 class CubicCurves:
-    """Curves of one basis. Each becomes the ends of its segments and `between` points evenly in t
-    between two of them: at first the fewest that give no curve fewer points than it has control
+    """Curves of one basis. A curve becomes the ends of its segments and `between` points evenly in
+    t between two ends. At first these are the fewest that give no curve fewer points than control
     vertices, so that shapes are kept about as well as they were drawn."""
 
     def __init__(self, basis, wrap, sizes):
-        """`sizes`: control vertices of each curve. Raises ValueError for what is no curve."""
+        """`sizes`: control vertices of each curve. Raises ValueError for invalid curves."""
         if basis not in BASES:
             raise ValueError(f"the basis '{basis}' is not known: {', '.join(BASES)}")
         self.basis = BASES[basis]
         self.step = 3 if basis == "bezier" else 1
-        # A pinned Bézier curve is on its ends anyway; the others get a vertex before and after.
+        # A pinned Bézier curve ends at its vertices anyway; others get a vertex at both ends.
         self.pinned = wrap == "pinned" and basis != "bezier"
         self.sizes = np.asarray(sizes, np.int64)
         padded = self.sizes + 2 if self.pinned else self.sizes
@@ -62,7 +62,7 @@ class CubicCurves:
         return np.repeat(first, self.segments) + step * number
 
     def _with_phantoms(self, values):
-        """With 2 P0 - P1 before the first vertex of each curve, and its like after the last."""
+        """Adds 2 P0 - P1 before the first vertex of each curve, and its mirror after the last."""
         first = starts(self.sizes)
         last = first + self.sizes - 1
         padded_first = starts(self.sizes + 2)

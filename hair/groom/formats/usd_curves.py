@@ -1,10 +1,11 @@
 """Writes the curves of a stage of Universal Scene Description to stdout, as usd_import.h says.
 
-Every BasisCurves prim is read, in the stage's order, instances too, in world space, +Y up, in the
-stage's unit. What USD has no place for is read as Unreal Engine names it: primvars:groom_group_id,
-groom_guide, and where the curves have none themselves groom_width, groom_color, groom_root_uv. Linear curves are their points; cubic ones are sampled (usd_cubic.py). Animated ones
-are taken at the default time, or else at their points' first sample. What can't be read ends the
-program with one line on stderr.
+Every BasisCurves prim is read, in the stage's order, including instances, in world space, +Y up, in
+the stage's unit. Data without a place in USD is read under Unreal Engine's names:
+primvars:groom_group_id, groom_guide and, where the curves have none themselves, groom_width,
+groom_color, groom_root_uv. Linear curves are their points; cubic ones are sampled (usd_cubic.py).
+Animated curves are taken at the default time, or else at their points' first sample. A stage that
+can't be read ends the program with one line on stderr.
 """
 
 import argparse
@@ -28,7 +29,7 @@ class Xforms:
         self.caches = {}
 
     def at(self, time):
-        # What has no default value is then at its first sample.
+        # Transforms without a default value are then at their first sample.
         time = Usd.TimeCode.EarliestTime() if time.IsDefault() else time
         return self.caches.setdefault(time.GetValue(), UsdGeom.XformCache(time))
 
@@ -40,7 +41,7 @@ def metres_per_unit_of(stage):
         unit = stage.GetMetadata(UsdGeom.Tokens.metersPerUnit)
     if isinstance(unit, bool) or not isinstance(unit, (int, float)):
         raise Refused(f"metersPerUnit is no number: {unit!r}")
-    # Of a float the decimal that was meant: 0.01, not 0.009999999776.
+    # Restores the decimal that was meant by a float: 0.01, not 0.009999999776.
     return float(str(np.float32(unit)))
 
 
@@ -86,10 +87,10 @@ class Reader:
         return points
 
     def part(self, name):
-        """Of all prims together, or nothing unless all have it."""
+        """A part of all prims together, or nothing unless all have it."""
         parts = [prim.parts[name] for prim in self.prims]
         if name == "guides" and any(part is not None for part in parts):
-            # Guides are often curves of their own, and the others say nothing of it.
+            # Guides are often prims of their own, and the other prims don't have the primvar.
             return [
                 np.zeros(prim.sizes.size, np.uint8) if part is None else part
                 for part, prim in zip(parts, self.prims)
@@ -112,7 +113,7 @@ class Reader:
 
 
 def read(path):
-    """A Reader. Raises Refused for all that is wrong with the file."""
+    """Returns a Reader. Raises Refused for every fault of the file."""
     try:
         return Reader(path)
     except (Tf.ErrorException, UnicodeDecodeError) as error:
@@ -128,13 +129,13 @@ def words_of(error, path):
 
 
 def joined(arrays, dtype):
-    with np.errstate(over="ignore"):  # what is no float32 is infinite, and refused by the reader
+    with np.errstate(over="ignore"):  # overflow becomes infinite, which the reader refuses
         arrays = [np.ascontiguousarray(array, dtype) for array in arrays]
     return np.concatenate(arrays) if arrays else np.empty(0, dtype)
 
 
 def open_stream():
-    """What was stdout: whatever libraries print must not get into it."""
+    """Returns the former stdout; prints of libraries go to stderr instead."""
     stream = os.fdopen(os.dup(sys.stdout.fileno()), "wb")
     os.dup2(sys.stderr.fileno(), sys.stdout.fileno())
     return stream

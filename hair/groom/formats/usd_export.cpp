@@ -64,7 +64,7 @@ void stage(
     line(text, "    metersPerUnit", strands.metres_per_unit.value_or(1.0));
     text.text("    upAxis = \"Y\"\n");
     if (timing) {
-        // A frame time that is the float next to 1/60 s gives a rate of exactly 60.
+        // With the float next to 1/60 s as frame time, the rate is exactly 60.
         const double rate = 1.0 / timing->frame_time;
         const double whole = std::round(rate);
         const double rounded = std::abs(rate - whole) < 1e-6 * rate ? whole : rate;
@@ -91,8 +91,9 @@ opacities(const PointAttribute<float>& transparencies, std::vector<std::string>&
     return result;
 }
 
-// Writes the file up to the points of its one prim, with all else that the strands have. Returns
-// what is not written equal to the last bit. Throws engine::Error for more than USD counts.
+// Writes the file up to the points of its one prim, with all other data of the strands. Returns a
+// warning for all data that is not written equal to the last bit. Throws engine::Error for more
+// points than USD counts.
 std::vector<std::string>
 beginUsdaCurves(UsdaText& text, const StrandSet& strands, const std::optional<UsdaTiming>& timing) {
     if (strands.points.size() > std::numeric_limits<std::int32_t>::max())
@@ -136,7 +137,8 @@ void endUsdaCurves(UsdaText& text) {
     text.flush();
 }
 
-// The lowest and the highest corner of what the curves cover, as UsdGeomCurves computes it.
+// Returns the lowest and the highest corner of the space that the curves cover, as UsdGeomCurves
+// computes it.
 std::array<glm::vec3, 2> usdExtent(std::span<const glm::vec3> points, float greatest_width) {
     if (points.empty()) return {glm::vec3(0.0f), glm::vec3(0.0f)};
     std::array extent{points.front(), points.front()};
@@ -166,8 +168,8 @@ void UsdaText::value(std::uint32_t number) { decimal(number); }
 void UsdaText::value(std::int32_t number) { decimal(number); }
 
 void UsdaText::value(float number) {
-    // Decimals are read as doubles, which are then rounded to floats. Of all floats' shortest
-    // decimals (tried one by one) that rounds one wrong: 7.038531e-26.
+    // Decimals are read as doubles, which are then rounded to floats. Among the shortest decimals
+    // of all floats (tried one by one), this rounds one wrong: 7.038531e-26.
     constexpr float kRoundedWrong = 0x1.5c87fap-84f;
     if (std::abs(number) == kRoundedWrong) return decimal(double{number});
     decimal(number);

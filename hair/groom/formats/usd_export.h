@@ -16,12 +16,12 @@
 // Strands as text of Universal Scene Description (.usda), at rest or frame by frame.
 namespace hair::groom {
 
-// Text of Universal Scene Description: one linear BasisCurves, "/hair". It holds all that strands
-// may have, so that nothing is left out.
+// Writes text of Universal Scene Description: one linear BasisCurves, "/hair". It holds all data
+// that strands may have, so nothing is left out.
 std::vector<std::string> exportUsda(const StrandSet& strands, std::ostream& out);
 
-// Writes values as Universal Scene Description's text has them. Floats are the shortest decimals
-// that read back as the same floats. Nothing is for sure in the stream before flush().
+// Writes values in the text format of Universal Scene Description. Floats are the shortest
+// decimals that read back as the same floats. Data may not be in the stream before flush().
 class UsdaText {
 public:
     explicit UsdaText(std::ostream& out) : out_(&out) { buffer_.reserve(2 * kBlock); }
@@ -70,19 +70,19 @@ private:
     std::string buffer_;
 };
 
-// When the frames of an animation are: frame i at time code i.
+// The times of an animation's frames: frame i is at time code i.
 struct UsdaTiming {
     std::uint32_t frames = 1;
     double frame_time = 1.0 / 60.0;  // s
 };
 
-// Writes strands that move as time-sampled BasisCurves, a frame at a time: none is kept.
+// Writes moving strands as time-sampled BasisCurves, a frame at a time, without keeping them.
 class UsdaAnimation {
 public:
-    // In every frame all but the points is what `strands` has. Throws as exportUsda does.
+    // Every frame has the data of `strands`, except for the points. Throws as exportUsda does.
     UsdaAnimation(std::ostream& out, const StrandSet& strands, const UsdaTiming& timing);
 
-    // The points of the next frame, as many as the strands have.
+    // Writes the points of the next frame, as many as the strands have.
     void frame(std::span<const glm::vec3> points);
     // Ends the file, after the last frame.
     void end();

@@ -49,7 +49,7 @@ UsdStreamHeader readHeader(std::span<const std::byte> bytes) {
     std::uint64_t size = sizeof header;
     for (std::size_t i = 0; i < std::size(kSections); ++i) {
         const std::uint64_t count = header.*kSections[i].count;
-        // A count is below the size of the file, so that the sum doesn't overflow.
+        // The count is at most the size of the file, so that the sum doesn't overflow.
         if (count <= bytes.size()) size += count * kSections[i].size;
         if (count > bytes.size() || size > bytes.size()) {
             failAt(
@@ -62,7 +62,7 @@ UsdStreamHeader readHeader(std::span<const std::byte> bytes) {
     return header;
 }
 
-// Takes sections off in their order.
+// Takes sections in their order.
 class Sections {
 public:
     Sections(std::span<const std::byte> bytes, const UsdStreamHeader& header)
@@ -97,7 +97,7 @@ public:
         const auto bytes = take<char>();
         return {bytes.begin(), bytes.end()};
     }
-    std::uint64_t start() const { return start_; }  // of what was taken last
+    std::uint64_t start() const { return start_; }  // of the section that was taken last
 
 private:
     std::span<const std::byte> bytes_;
@@ -141,13 +141,13 @@ std::vector<std::string> linesOf(const std::string& text) {
 
 // ---- The tools ----------------------------------------------------------------------------------
 
-// What the script writes that is called so with these arguments, read by `parse`.
+// Runs a script with these arguments, and returns its output, read by `parse`.
 template <class Parse>
 auto readStage(
     const std::string& tool, const std::vector<std::string>& options,
     const std::filesystem::path& path, const Parse& parse) {
-    // -B -E: leaves no byte code beside the tool, and nobody's variables change what it does.
-    // An absolute path, which is no option whatever it begins with.
+    // -B writes no byte code beside the tool, -E ignores environment variables of Python.
+    // An absolute path can't be taken for an option.
     std::vector<std::string> command(1, engine::pythonInterpreter("python", "HAIRBENCH_PYTHON"));
     for (const char* option : {"-B", "-E"}) command.emplace_back(option);
     command.push_back(engine::programFile("hair/groom/formats/" + tool).string());

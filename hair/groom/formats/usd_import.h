@@ -15,26 +15,27 @@
 
 namespace hair::groom {
 
-// The curves of every UsdGeomBasisCurves in a stage of Universal Scene Description (.usd, .usda,
-// .usdc, .usdz), read by usd_curves.py, whose comments say how. Throws engine::Error: where the
-// project's Python environment is missing, for a file that has no path, with the tool's last words.
+// Reads the curves of every UsdGeomBasisCurves in a stage of Universal Scene Description (.usd,
+// .usda, .usdc, .usdz) by usd_curves.py; its comments have the details. Throws engine::Error where
+// the project's Python environment is missing, for a file without a path, and with the tool's last
+// words.
 StrandSet importUsd(const StrandFile& file);
 
-// The control meshes of every UsdGeomMesh of a stage that is to be rendered, read by usd_mesh.py,
-// whose comments say how, without textures; what the stage refers to is not checked. Its errors
-// don't name the file; as importUsd()'s.
+// Reads the control meshes of every UsdGeomMesh of a stage that is rendered, by usd_mesh.py; its
+// comments have the details. Textures are not read, and files that the stage refers to are not
+// checked. Errors don't name the file; otherwise they are those of importUsd().
 Mesh importUsdMesh(
     const std::filesystem::path& path, Textures textures, const NamedFileCheck& check);
 
-// Where the vertices of importUsdMesh() are over time: linear between.
+// The positions of importUsdMesh()'s vertices over time, linear between samples.
 struct UsdSamples {
     std::vector<double> times;  // [sample], s, ascending from 0; empty: nothing moves
     std::vector<glm::vec3> positions;  // [sample][vertex], m
 };
 UsdSamples readUsdSamples(const std::filesystem::path& path);
 
-// What usd_curves.py writes, little-endian: this header, then what it counts, in its order and with
-// nothing between.
+// The output of usd_curves.py, little-endian: this header, then the counted arrays in its order,
+// without padding.
 struct UsdStreamHeader {
     static constexpr std::array<char, 8> kMagic{'H', 'B', 'C', 'U', 'R', 'V', 'E', 'S'};
 
@@ -54,7 +55,7 @@ struct UsdStreamHeader {
 };
 static_assert(sizeof(UsdStreamHeader) == 104);
 
-// Refuses what is not exactly such a stream. Throws engine::Error "byte N: reason".
+// Refuses malformed streams. Throws engine::Error "byte N: reason".
 StrandSet readUsdStream(std::span<const std::byte> bytes);
 
 }  // namespace hair::groom

@@ -1,12 +1,12 @@
 """Writes the meshes of a stage of Universal Scene Description to stdout, as mesh_stream.h says.
 
-Every Mesh prim is read that is to be rendered (neither invisible nor of purpose proxy or guide), in
-the stage's order, instances too, in world space, +Y up, in metres: its control mesh, without
-subdivision. At rest points are at the default time, or else at their first sample. With --samples
+Every Mesh prim that is rendered (neither invisible nor of purpose proxy or guide) is read, in the
+stage's order, including instances, in world space, +Y up, in metres: its control mesh, without
+subdivision. At rest, points are at the default time, or else at their first sample. With --samples,
 the times at which anything moves are written instead, in seconds from the first, and the vertices'
-positions at each: of points that have samples (point caches), of transforms, and of skeletons and
-blend shapes, which UsdSkel bakes into points. What can't be read ends the program with one line on
-stderr.
+positions at each. Points with samples (point caches), transforms, and skeletons and blend shapes,
+which UsdSkel bakes into points, can move. A stage that can't be read ends the program with one line
+on stderr.
 """
 
 import argparse
@@ -32,8 +32,8 @@ def encoded(linear):
 
 
 class Mesh:
-    """One prim. Vertices are its points, more than one for a point where texture coordinates
-    differ: `points` [vertex], `triangles` [triangle][3] and `uvs` [vertex] or None."""
+    """One prim. Vertices are its points; a point has several where texture coordinates differ.
+    Has `points` [vertex], `triangles` [triangle][3] and `uvs` [vertex] or None."""
 
     def __init__(self, prim, xforms):
         self.prim = prim
@@ -90,7 +90,7 @@ class Mesh:
         return counts, corners
 
     def _uvs(self, corners):
-        """Of each corner of a face, v down; or None."""
+        """Texture coordinates of each corner of a face, v down; or None."""
         primvar = UsdGeom.PrimvarsAPI(self.mesh).FindPrimvarWithInheritance("st")
         values = primvar.ComputeFlattened(self.time) if primvar else None
         if values is None:
@@ -117,7 +117,7 @@ class Mesh:
         return (points @ world[:3, :3] + world[3, :3])[self.points]
 
     def normals(self):
-        """Sums of the triangles' normals round each point, weighted by area: seams don't show."""
+        """Area-weighted sums of the triangles' normals round each point, so seams don't show."""
         a, b, c = (self.positions[self.triangles[:, i]] for i in range(3))
         sums = np.zeros((self.count, 3))
         for i in range(3):
@@ -134,8 +134,8 @@ class Mesh:
         return times
 
     def materials(self):
-        """Names, and the number of the name for each triangle: GeomSubsets of faces, and the
-        material that is bound, or the mesh."""
+        """Names, and the number of the name for each triangle. The names are those of the bound
+        material, or else the mesh, and of GeomSubsets of faces."""
         bound = UsdShade.MaterialBindingAPI(self.prim).ComputeBoundMaterial()[0]
         names = [bound.GetPrim().GetName() if bound else self.prim.GetName()]
         face_count = len(self.mesh.GetFaceVertexCountsAttr().Get(self.time) or [])
@@ -158,7 +158,7 @@ class Mesh:
 
 
 class Reader:
-    """Reads a stage: its `meshes`, and what takes their positions to metres, +Y up."""
+    """Reads a stage: its `meshes`, and the unit and axis that take positions to metres, +Y up."""
 
     def __init__(self, path, samples):
         self.stage = Usd.Stage.Open(path)

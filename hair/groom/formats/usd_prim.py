@@ -7,11 +7,11 @@ from usd_cubic import CubicCurves
 
 
 class Refused(Exception):
-    """What the file has that can't be read."""
+    """The reason why a file can't be read."""
 
 
 class LinearCurves:
-    """Curves that are their vertices; has what CubicCurves has."""
+    """Curves that are their vertices, with the interface of CubicCurves."""
 
     def __init__(self, sizes):
         self.sizes = sizes
@@ -27,19 +27,19 @@ class LinearCurves:
 
 
 def rows(values, dtype, components):
-    """One row for each value. `components`: how many there are, if there is no value to tell."""
+    """One row for each value. `components`: columns of the result if there are no values."""
     values = np.atleast_1d(np.asarray(values, dtype))  # a constant may be no array
     return values.reshape(len(values), -1 if len(values) else components)
 
 
 class Prim:
-    """One prim's curves: `sizes` (points of each), `points`, and `parts` by name, each with one
-    row, or one for each point; root_uvs, groups, guides: for each curve; root_triangles: any
-    number."""
+    """One prim's curves: `sizes` (points of each), `points`, and `parts` by name. A part has one
+    row, or one for each point. Exceptions: root_uvs, groups and guides have one for each curve,
+    root_triangles any number."""
 
     def __init__(self, prim, xforms):
         self.path = prim.GetPath()
-        self.root_uv_name = None  # of the primvar that they are from
+        self.root_uv_name = None  # name of the primvar with the root UVs
         self.has_groom_width = False
         self.curves = UsdGeom.BasisCurves(prim)
         self.time = Usd.TimeCode.Default()
@@ -50,7 +50,7 @@ class Prim:
         self.sizes = self.topology.point_counts()
         world = np.array(xforms.at(self.time).GetLocalToWorldTransform(prim))
         self.points = self._points(world)
-        # A length's factor: of a scale that differs by direction, the geometric mean.
+        # The factor of lengths; for a scale that differs by direction, the geometric mean.
         scale = np.cbrt(abs(np.linalg.det(world[:3, :3])))
         self.parts = {
             "widths": self._widths(1.0 if abs(scale - 1) < 1e-9 else scale),
@@ -139,7 +139,7 @@ class Prim:
             self.has_groom_width = widths is not None
         if widths is None:
             return None
-        # Between control vertices a curve may be under the least of them.
+        # Between control vertices, a curve may be below all of them.
         if isinstance(self.topology, CubicCurves):
             widths = np.maximum(widths, 0)
         if (widths < 0).any():
@@ -166,7 +166,7 @@ class Prim:
         return None
 
     def _per_strand(self, name):
-        """Integers, one for each curve or one for all of the prim; a parent may have that."""
+        """Integers, one for each curve or one for the whole prim, which may come from a parent."""
         primvar = UsdGeom.PrimvarsAPI(self.curves).FindPrimvarWithInheritance(name)
         values = primvar.ComputeFlattened(self.time) if primvar else None
         if values is None:
@@ -197,7 +197,7 @@ class Prim:
         return values
 
     def left_out(self):
-        """Names of what the prim has beside."""
+        """Names of the prim's other data, which is left out."""
         known = {"displayColor", "displayOpacity", "widths", "groom_group_id", "groom_guide"}
         if self.parts["root_uvs"] is not None:
             known.add(self.root_uv_name)

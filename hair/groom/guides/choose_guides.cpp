@@ -76,7 +76,7 @@ std::vector<std::uint32_t> telling(const Groom& dense) {
 // and a look at all guides.
 class Traversal {
 public:
-    // Starts from the strand farthest from a random one, which is always at an end of the hair.
+    // Starts from the strand farthest from a random one: always at an end of the hair.
     Traversal(const Groom& dense, std::uint32_t random) {
         features_.reserve(dense.strand_count);
         for (std::uint32_t i = 0; i < dense.strand_count; ++i)
