@@ -42,7 +42,7 @@ struct WeightedMeans {
     double meanVariance() const { return weight > 0 ? variance / weight : 0; }
 };
 
-// ---- What shaders read --------------------------------------------------------------------------
+// ---- Buffers of shaders -------------------------------------------------------------------------
 
 // Returns the optics of the settings' fibre, without the address of the averages.
 gpu::HairOptics makeHairOptics(const ShadingSettings& shading) {
@@ -215,7 +215,7 @@ LocalScattering localScattering(const FiberAverages& averages) {
     return local;
 }
 
-// ---- What shaders read --------------------------------------------------------------------------
+// ---- Buffers of shaders -------------------------------------------------------------------------
 
 // Scalar layout aligns 64-bit members to 8, as C++ does.
 static_assert(offsetof(gpu::HairOptics, averages) == 80 && sizeof(gpu::HairOptics) == 88);

@@ -20,7 +20,7 @@ std::vector<gpu::Light> makeLights(const Settings& settings);
 // The face of a rectangle light.
 struct RectangleFace {
     glm::vec3 normal;  // unit length; the direction of its light
-    glm::vec3 half_width;  // m, from the middle of the face to that of a side
+    glm::vec3 half_width;  // m, from the middle of the face to the middle of a side
     glm::vec3 half_height;  // m
 };
 

@@ -236,7 +236,7 @@ void toDraw(engine::Commands& commands, const engine::Image& image, VkImageLayou
 
 }  // namespace
 
-// ---- Bounds of what lights see ------------------------------------------------------------------
+// ---- Bounds of shadow maps ---------------------------------------------------------------------
 
 Sphere strandBounds(const groom::Groom& groom, const StrandSettings& settings) {
     if (groom.strand_count == 0) return {};

@@ -278,7 +278,7 @@ private:
         const AlembicCompound geometry = values_.compoundOf(properties, ".geom", path);
         const auto points = values_.parameterOf(geometry, "P");
         const auto sizes = values_.parameterOf(geometry, "nVertices");
-        if (!points && !sizes) return;  // an object whose curves were removed
+        if (!points && !sizes) return;  // an object without its curves
         if (!points || !sizes)
             failIn(
                 (points ? points->property : sizes->property).header, geometry.path,

@@ -40,9 +40,9 @@ struct Roots {
 // mask leaves no place for the roots.
 Roots placeRoots(const Scalp& scalp, const NearestSurface& surface, const RootOptions& options);
 
-// Number of `guides` roots that lie on the hairline. The thesis's 86 guides with 136 root triangles
-// have 34 there (Euler: 2 * 86 - 2 - 34 = 136). The number is proportional to the square root of
-// `guides`, as an edge is to that of an area.
+// Number of `guides` roots that lie on the hairline. The thesis's 86 guides with 136 root
+// triangles have 34 there (Euler: 2 * 86 - 2 - 34 = 136). The number is proportional to the square
+// root of `guides`, as an edge's length is to the square root of an area.
 std::uint32_t boundaryRootCount(std::uint32_t guides);
 
 // Returns lengths along a hairline of `total` m at which `count` roots are evenly spaced, the first

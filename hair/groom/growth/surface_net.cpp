@@ -255,8 +255,8 @@ void SurfaceNet::makeDelaunay() {
 }
 
 // Flips one edge of the fan's vertex, so that an edge past the vertex joins its two neighbours
-// there. Of all such flips it takes that with the shortest new edge, measured in the plane that the
-// fan unrolls to, with the vertex at the origin. Returns false if there is none.
+// there. It takes the flip with the shortest new edge, measured in the plane that the fan unrolls
+// to, with the vertex at the origin. Returns false if there is none.
 bool SurfaceNet::flipAway(const TriangleNet::Fan& fan) {
     const auto count = fan.corners.size();
     const glm::dvec3 centre = position(fan.corners[0]);

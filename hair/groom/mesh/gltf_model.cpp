@@ -596,7 +596,7 @@ bool hasTriangles(const tinygltf::Primitive& primitive) {
            primitive.mode == TINYGLTF_MODE_TRIANGLE_FAN;
 }
 
-// glTF 2.0, section 3.6.2.3: a sparse accessor is zeros, or what its buffer view holds, with some
+// glTF 2.0, section 3.6.2.3: a sparse accessor is zeros, or its buffer view's elements, with some
 // elements replaced.
 GltfNumbers readNumbers(const tinygltf::Model& model, int index, GltfIntegers integers) {
     constexpr std::size_t kMost = std::size_t{1} << 24;  // elements that take no byte of the file

@@ -26,8 +26,8 @@
 
 namespace hair::groom {
 
-// Decodes base 64 text (RFC 4648, section 4), padded to whole groups of 4 characters; absent where
-// it is no such text.
+// Decodes base 64 text (RFC 4648, section 4), padded to whole groups of 4 characters; absent for
+// other text.
 std::optional<std::string> decodeBase64(std::string_view text);
 
 // The chunks of a binary glTF file (glTF 2.0, section 4.4).
