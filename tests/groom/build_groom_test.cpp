@@ -27,7 +27,7 @@ using testing::StartsWith;
 
 Groom grown(std::uint32_t guides) { return grow(makeCap(), {}, "", guides, 1); }
 
-// A file of guides of which nothing is known but points and widths.
+// A file of guides that holds only points and widths.
 GroomSettings fileOf(const TemporaryFolder& folder, const Groom& groom) {
     StrandSet strands = strandsOf(groom);
     strands.root_triangles.clear();
@@ -83,7 +83,7 @@ TEST(BuildGroom, ChoosesGuidesFromGrownStrands) {
         errorText([&] { buildGroom(settings, &cap, "scenes", 7); }), HasSubstr("20 strands"));
 }
 
-// What is drawn of grown strands is what styling made of them, not the mean of their guides.
+// The renderer draws the styled shapes of grown strands, not the mean of their guides.
 TEST(BuildGroom, KeepsThePointsOfGrownStrands) {
     const Mesh cap = makeCap();
     GroomSettings settings;
@@ -161,8 +161,8 @@ TEST(BuildGroom, TakesEveryStrandOfAFileForAGuide) {
     }
 }
 
-// Brushes move each strand of a file by itself, at the points that it has. Which of them are guides
-// is as without brushes.
+// Brushes move each strand of a file by itself, at its own points. They don't change the choice of
+// guides.
 TEST(BuildGroom, BrushesEveryStrandOfAFile) {
     const TemporaryFolder folder;
     const Groom dense = grown(200);

@@ -88,8 +88,9 @@ TEST(CompareStrands, TellsRootFromTipUnlessItMayNot) {
     EXPECT_EQ(compared(up, down, settings).scores[0].f1, 1.0);
 }
 
-// A strand of 2 mm at 25 degrees through the middle of one of 100 mm, of whose samples at 1, 3 ...
-// 99 mm four are within 3 and 4 mm: 3 mm from the middle it is 2.1 mm, 5 mm from it 4.1 mm.
+// A strand of 2 mm crosses the middle of one of 100 mm at 25 degrees. The long one has samples at
+// 1, 3 ... 99 mm; four of them are within 3 and 4 mm: a sample 3 mm from the middle is 2.1 mm
+// away, one 5 mm from the middle 4.1 mm.
 TEST(CompareStrands, HoldsDirectionsAgainstTheAngle) {
     const double turn = 25.0 * std::numbers::pi / 180.0;
     const glm::vec3 half(0.001 * std::sin(turn), 0.001 * std::cos(turn), 0.0);
@@ -119,7 +120,7 @@ TEST(CompareStrands, CountsHowMuchOfAStrandIsInOne) {
     }
     for (const MatchScores& each : compared(parts, whole, settings).scores)
         EXPECT_EQ(each.strand_consistency, 1.0);
-    // Of the 50 samples the 6th, 16th, 26th, 36th and 46th: at 11, 31, 51, 71 and 91 mm.
+    // The 6th, 16th, 26th, 36th and 46th of the 50 samples: at 11, 31, 51, 71 and 91 mm.
     settings.consistency_samples = 5;
     EXPECT_DOUBLE_EQ(compared(whole, parts, settings).scores[0].strand_consistency, 0.6);
 }
@@ -133,7 +134,8 @@ TEST(CompareStrands, CountsEveryStrandOnceInConsistency) {
     EXPECT_NEAR(found.first_to_second.maximum, 1.0, 1e-6);  // far beyond all thresholds
 }
 
-// Of 100 mm the first 50.25: then 25 samples at 0.75, 2.75 ... 48.75 mm from its end.
+// The second strand is the first 50.25 of 100 mm: 25 samples are 0.75, 2.75 ... 48.75 mm from its
+// end.
 TEST(CompareStrands, TellsBothWaysApart) {
     const auto found = compared(strandsOf({upright(0, 0.1f)}), strandsOf({upright(0, 0.05025f)}));
     EXPECT_NEAR(found.first_to_second.mean, 12.375e-3, kDistanceRounding);
@@ -149,7 +151,7 @@ TEST(CompareStrands, TellsBothWaysApart) {
     }
 }
 
-// Where a groom has its vertices is no matter.
+// The result doesn't depend on the places of a groom's vertices.
 TEST(CompareStrands, DoesNotDependOnVertices) {
     std::vector<glm::vec3> dense;
     for (int k = 0; k <= 64; ++k)

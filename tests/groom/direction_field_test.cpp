@@ -12,7 +12,7 @@
 namespace hair::groom {
 namespace {
 
-// What is added to the unit normal, of a direction with that normal and a part along the surface.
+// The vector along the surface that, added to the unit normal, gives this direction.
 glm::dvec3 added(const glm::dvec3& direction, const glm::dvec3& normal) {
     return direction / glm::dot(direction, normal) - normal;
 }

@@ -203,7 +203,7 @@ TEST(FixStrands, LeavesOutWhatShowsNothing) {
                                    glm::vec3(2, 1, 0), glm::vec3(2, 2, 0)));
     EXPECT_EQ(edited.strands.widths.values, (std::vector<float>{2, 3, 6, 8, 10}));
     EXPECT_THAT(edited.strands.root_triangles, ElementsAre(std::array<std::uint32_t, 3>{0, 1, 1}));
-    // What is mended isn't found again.
+    // A second inspection finds none of the mended faults.
     const StrandFindings found = inspect(edited.strands, nullptr, {});
     EXPECT_EQ(found.single_point_strands, 0u);
     EXPECT_EQ(found.zero_length_strands, 0u);

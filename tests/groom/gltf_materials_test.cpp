@@ -70,7 +70,7 @@ TEST_F(GltfMaterials, HaveTheirFactors) {
     EXPECT_FALSE(read.cutoff);
 }
 
-// glTF 2.0, section 3.9: what a material leaves out.
+// glTF 2.0, section 3.9: the defaults of a material.
 TEST_F(GltfMaterials, HaveTheSpecificationsDefaults) {
     const Material read = material({});
     EXPECT_EQ(read.base_color, glm::vec3(1));

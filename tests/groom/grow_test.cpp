@@ -308,7 +308,7 @@ TEST(Grow, DroopsByItsDifferentialEquation) {
     }
 }
 
-// A sheet whose picture, 4 by 1 pixels over its x, is 0, 1/5, 3/5 and 1 of the brightness.
+// A sheet with a picture of 4 by 1 pixels over its x: 0, 1/5, 3/5 and 1 of the brightness.
 class GrowWithPictures : public testing::Test {
 protected:
     GrowWithPictures() {

@@ -124,7 +124,7 @@ TEST(FallingQueue, GivesTheGreatestWeightOfNow) {
 
 using Triangles = std::vector<std::array<std::uint32_t, 3>>;
 
-// Round vertex 0, whose neighbours are 1 to 5.
+// A star round vertex 0, with the neighbours 1 to 5.
 TriangleNet star() {
     return TriangleNet(Triangles{{0, 1, 2}, {0, 2, 3}, {0, 3, 4}, {0, 4, 5}, {0, 5, 1}});
 }

@@ -340,8 +340,8 @@ TEST(ImportAssimp, RefusesWhatItsReaderDiesOf) {
     }
 }
 
-// Of a face that names the vertex after the last assimp makes a triangle with what lies behind the
-// vertices in memory.
+// If a face names the vertex after the last, assimp makes a triangle with the memory behind the
+// vertices.
 TEST(ImportAssimp, RefusesCornersOfAPlyThatAreNoVertices) {
     const TemporaryFolder folder;
     const std::string vertices = "0 0 0\n0 0 1\n1 0 0\n1 0 1\n";
@@ -356,7 +356,7 @@ TEST(ImportAssimp, RefusesCornersOfAPlyThatAreNoVertices) {
         const auto path = text(row);
         EXPECT_EQ(errorText([&] { importMesh(path); }), path.string() + ": " + reason);
     }
-    // What its list is called otherwise, and of a type that numbers nothing.
+    // The list under its other name, with a type that can't number vertices.
     const auto path_of_floats = folder.write(
         "floats.ply",
         "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\n"
@@ -384,7 +384,7 @@ TEST(ImportAssimp, RefusesCornersOfAPlyThatAreNoVertices) {
             testing::EndsWith(": vertex 4 is named, there are 4")));
 }
 
-// What a program writes that a file has taken over.
+// The stream of a program that a file has taken over.
 TEST(MeshStream, IsRefusedWhateverIsChanged) {
     ReadMesh read;
     read.mesh.positions = {{0, 0, 0}, {0, 0, 1}, {1, 0, 0}};
@@ -414,7 +414,7 @@ TEST(MeshStream, IsRefusedWhateverIsChanged) {
     for (std::size_t size = 0; size < whole.size(); ++size)
         EXPECT_THAT(errorText([&] { parsed(whole.substr(0, size)); }), StartsWith("byte ")) << size;
     EXPECT_EQ(errorText([&] { parsed(whole + "x"); }).substr(0, 5), "byte ");
-    // Any byte: an error, or a mesh whose arrays fit each other.
+    // Any damaged byte gives an error, or a mesh with arrays that fit each other.
     for (std::size_t at = 0; at < whole.size(); ++at) {
         std::string damaged = whole;
         damaged[at] = static_cast<char>(damaged[at] ^ 0xff);

@@ -114,7 +114,7 @@ TEST(PlaceRoots, FollowsTheMask) {
     }
 }
 
-// Sixteen columns of which 6 to 9 are black: nothing from x = 6.5 to 9.5.
+// Columns 6 to 9 of sixteen are black: no roots from x = 6.5 to 9.5.
 TEST(PlaceRoots, LeavesBlackBare) {
     std::vector<float> stripe(16, 1.0f);
     for (std::size_t i = 6; i < 10; ++i) stripe[i] = 0.0f;
@@ -139,7 +139,7 @@ TEST(PlaceRoots, KeepsADistanceUnderAMask) {
     const Roots roots = rootsOf(texturedGrid(8), {.guides = 300, .seed = 1, .mask = &mask});
     // Spread over all of the area were at least as many as are kept.
     EXPECT_EQ(roots.points.size(), 300u);
-    const double mean = 0.625;  // of the mask, whose maximum is 1
+    const double mean = 0.625;  // of the mask; its maximum is 1
     EXPECT_GT(smallestDistance(roots), 0.5 * 1.07 * std::sqrt(64.0 * mean / 300.0));
 }
 

@@ -121,8 +121,8 @@ TEST(Hairline, RefusesASecondPiece) {
         "the scalp is not a disc: it has 2 pieces and the Euler characteristic 3");
 }
 
-// Of n uniform points a part p of the area gets n p, with the standard deviation sqrt(n p (1 - p));
-// five allowed.
+// A part p of the area gets n p of n uniform points, with the standard deviation sqrt(n p (1 -
+// p)); the test allows five.
 TEST(SampleSurface, IsUniformInArea) {
     const Scalp scalp = extractScalp(makeGrid(4, 2, kNoHole));
     constexpr std::uint32_t count = 20000;

@@ -33,9 +33,9 @@ std::vector<double> nearestDistances(const std::vector<glm::vec3>& points) {
     return nearest;
 }
 
-// Hexagonal packing, the best there is, has 2 r_max = sqrt(2 / (sqrt(3) n)) = 1.07 / sqrt(n)
-// between neighbours (a little more where the square's edge is free); Yuksel reports 0.7 of it and
-// more for eliminated samples. Of uniform points the closest pair is at 0.66 / n: 0.04 of it here.
+// Hexagonal packing is the best: 2 r_max = sqrt(2 / (sqrt(3) n)) = 1.07 / sqrt(n) between
+// neighbours (a little more, since the square's edge is free). Yuksel reports 0.7 of it and more
+// for eliminated samples. The closest pair of uniform points is at 0.66 / n: 0.04 of it here.
 TEST(Spread, KeepsPointsApart) {
     constexpr std::uint32_t count = 300;
     for (std::uint32_t seed = 0; seed < 5; ++seed) {

@@ -9,7 +9,7 @@
 
 #include "hair/groom/mesh/mesh.h"
 
-// Meshes with known surfaces, and what a triangulation is as a surface.
+// Meshes with known surfaces, and the topology of triangulations.
 namespace hair::groom {
 
 // A quadrilateral mesh of `columns` by `rows`, closed both ways, all of it scalp: `at(u, v)` is the
@@ -89,7 +89,7 @@ inline Mesh makeSphere(double radius, std::uint32_t columns, std::uint32_t rows)
     return mesh;
 }
 
-// What a set of triangles is as a surface.
+// The topology of the surface that a set of triangles makes.
 struct Topology {
     std::size_t vertices = 0;  // that a triangle has
     std::size_t pieces = 0;

@@ -97,8 +97,9 @@ TEST(SurfaceTriangles, HaveTheAreaOfASphere) {
     EXPECT_GT(area, 4.0 * std::numbers::pi * (1.0 - 2.0 * 3.02 / count));
 }
 
-// In the plane: no root lies in the circle through another triangle's roots, but for what is
-// dropped on the boundary. Circles by the determinant of the paraboloid lift.
+// In the plane the triangles are Delaunay, without those dropped at the boundary: no root lies in
+// the circle through another triangle's roots. The determinant of the paraboloid lift tests the
+// circles.
 TEST(SurfaceTriangles, AreDelaunayInThePlane) {
     const Scalp scalp = extractScalp(makeGrid(4, 3, [](auto, auto) { return false; }));
     const std::vector<SurfacePoint> roots = randomRoots(scalp, 300, 4);

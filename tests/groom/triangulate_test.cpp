@@ -90,8 +90,8 @@ void expectTriangulates(const Triangles& triangles, const Points& points, std::s
     EXPECT_EQ(open, boundary);
 }
 
-// Brute force: across no inner edge does the other triangle's corner lie in the circle. By
-// Delaunay's lemma that makes the triangulation the constrained Delaunay one.
+// Brute force: no circle through a triangle holds the opposite corner of a neighbour across an
+// inner edge. By Delaunay's lemma that makes the triangulation the constrained Delaunay one.
 void expectLocallyDelaunay(const Triangles& triangles, const Points& points) {
     std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> opposite;
     for (const auto& [a, b, c] : triangles) {
@@ -147,7 +147,7 @@ TEST(Triangulate, TurnsAClockwisePolygonRound) {
     expectTriangulates(triangulate(points, 4), points, 4);
 }
 
-// Of a quadrilateral's two diagonals only one is Delaunay: the short one of this rhombus.
+// Only one of a quadrilateral's two diagonals is Delaunay: the short one of this rhombus.
 TEST(Triangulate, TakesTheShortDiagonalOfARhombus) {
     const Points points{{-2, 0}, {0, -1}, {2, 0}, {0, 1}};
     for (const auto& triangle : triangulate(points, 4)) {
@@ -236,8 +236,8 @@ TEST(Triangulate, DoesNotDependOnPlaceAndScale) {
     EXPECT_EQ(triangulate(points, 20), triangles);
 }
 
-// Of eight times as many points within the same boundary N log N makes 10 times the work, N^1.5 23
-// times, and N^2 64 times.
+// For eight times as many points within the same boundary, N log N makes 10 times the work, N^1.5
+// 23 times, and N^2 64 times.
 TEST(Triangulate, TakesLittleMoreThanInProportionToItsPoints) {
     constexpr std::uint32_t boundary = 50;
     const auto timed = [](std::uint32_t count) {

@@ -13,7 +13,7 @@
 namespace hair::groom {
 namespace {
 
-// 20 x 20 m in the plane y = 0, of which the 10 x 10 m in the middle are scalp.
+// 20 x 20 m in the plane y = 0; the 10 x 10 m in the middle are scalp.
 Mesh squareScalp() {
     Mesh mesh = makeGrid(20, 20, kNoHole);
     mesh.materials = {{.name = "skin"}, {.name = "scalp"}};
@@ -49,8 +49,8 @@ TEST(Vellus, IsNoneWithoutAShare) {
     EXPECT_EQ(growVellus(squareScalp(), settings, 1).strandCount(), 0u);
 }
 
-// Of 1 - smoothstep(0, 1, x) the part below 1/2 is 13/16; four standard deviations of so many
-// hairs. Corners, of a band each, weigh a hundredth of the edge.
+// The part of 1 - smoothstep(0, 1, x) below 1/2 is 13/16; the tolerance is four standard
+// deviations for this number of hairs. Corners, of a band each, weigh a hundredth of the edge.
 TEST(Vellus, ThinsOutOnEitherSideOfTheEdge) {
     static constexpr std::uint32_t kHairs = 4000;
     const StrandSet hairs = growVellus(squareScalp(), settingsOf(kHairs), 3);

@@ -717,7 +717,7 @@ TEST(AlembicExport, HasTheHashesOfAlembicsLibrary) {
     expectSame(textIn(strands.root_uvs));
 }
 
-// What Alembic's own library reads of an archive of ours, to the last bit.
+// Alembic's own library reads our archives to the last bit.
 TEST(AlembicExport, IsReadByAlembicsLibrary) {
     const std::string python = HAIRBENCH_SOURCE_DIR "/.deps/alembic/bin/python";
     if (!std::filesystem::exists(python))

@@ -23,8 +23,8 @@ bool isRight(const PointAttribute<Value>& attribute, std::size_t points) {
     return attribute.values.empty() || attribute.values.size() == points;
 }
 
-// Which of what groom.h says of every set does not hold for this one; empty: all of it does.
-// Without a test library, for the fuzzers.
+// The first promise of groom.h that this set breaks; empty if it keeps all of them. The function
+// uses no test library, so that the fuzzers can use it.
 inline std::string brokenPromise(const StrandSet& set) {
     std::uint32_t end = 0;
     for (const std::uint32_t next : set.ends) {

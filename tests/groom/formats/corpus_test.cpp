@@ -57,7 +57,7 @@ const std::map<std::string, std::uint32_t> kStrands{
     {"xml/linear.xml", 3},
 };
 
-// Files in the folders of formats, relative to `folder`; not what lies in it itself.
+// Files in the folders of formats, relative to `folder`, without those directly in `folder`.
 std::vector<std::string> filesIn(const fs::path& folder) {
     std::vector<std::string> files;
     for (const auto& entry : fs::recursive_directory_iterator(folder)) {

@@ -7,8 +7,9 @@
 #include "tests/groom/formats/broken_promise.h"
 #include "tests/groom/formats/strand_files.h"
 
-// Damage of every byte: an error in one line or strands that hold what StrandSet says, never a
-// crash. The sanitized build of this test is what finds reads outside the file.
+// The tests damage every byte of files. Each damaged file must give an error in one line or
+// strands that keep the promises of StrandSet, never a crash. The sanitized build of this test
+// finds reads outside the file.
 namespace hair::groom {
 namespace {
 
@@ -16,7 +17,7 @@ struct Format {
     const char* name;
     ReadStrands read;
     WriteStrands write;
-    bool counts;  // its length follows from what it says
+    bool counts;  // the file's contents give its length
 };
 
 void PrintTo(const Format& format, std::ostream* out) { *out << format.name; }

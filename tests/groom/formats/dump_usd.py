@@ -46,7 +46,7 @@ for name in ("displayColor", "displayOpacity", "st", "groom_group_id", "groom_gu
 dump(prim.GetAttribute("hairbench:rootTriangles"))
 dump(curves.GetPointsAttr())
 dump(curves.GetExtentAttr())
-# What usd-core makes of the points and the widths.
+# usd-core's values of the points and the widths.
 for time in curves.GetPointsAttr().GetTimeSamples() or [Usd.TimeCode.Default()]:
     extent = UsdGeom.Boundable.ComputeExtentFromPlugins(curves, Usd.TimeCode(time))
     assert bits(extent) == bits(curves.GetExtentAttr().Get(time)), extent

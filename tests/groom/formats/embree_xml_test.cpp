@@ -47,7 +47,7 @@ TEST(EmbreeXml, ReadsLinearCurves) {
     }
 }
 
-// Two curves whose vertices follow one another are one, but for their numbers.
+// Two curves with consecutive vertices become one if their numbers don't part them.
 TEST(EmbreeXml, TellsCurvesApartByTheirNumbers) {
     const std::string joined = replaced(kLinear, "0 1 3", "0 1 2 3");
     EXPECT_THAT(readXml(joined).ends, ElementsAre(5));
@@ -111,7 +111,7 @@ TEST(EmbreeXml, SamplesHermiteCurves) {
         errorOfXml(replaced(text, "0 1</indices>", "2</indices>")),
         HasSubstr("a segment of vertices 7 to 10, there are 9"));
     EXPECT_THAT(errorOfXml(replaced(text, "12 1 0 0", "")), HasSubstr("2 tangents, there are 3"));
-    // Where it moves, the first of its shapes.
+    // For moving curves the first shape counts.
     std::string moving = replaced(text, "<tangents>", "<animated_tangents><tangents>");
     moving = replaced(
         moving, "</tangents>", "</tangents><tangents>0 0 0 0</tangents></animated_tangents>");

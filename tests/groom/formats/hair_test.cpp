@@ -15,8 +15,8 @@ using testing::StartsWith;
 
 constexpr std::uint32_t kSegments = 1, kPoints = 2, kThickness = 4, kTransparency = 8, kColors = 16;
 
-// Two strands, of 3 and 2 points. What the header says of absent arrays differs from them, and
-// nothing in it is a default of ours.
+// Two strands, of 3 and 2 points. The header's values for absent arrays differ from those of the
+// arrays, and no value is a default of ours.
 std::string fileWith(std::uint32_t arrays) {
     Bytes bytes;
     bytes.text("HAIR").u32(2).u32(arrays & kSegments ? 5 : 6).u32(arrays);
@@ -128,7 +128,7 @@ TEST(ImportHair, RefusesWrongHeaders) {
         EXPECT_THAT(errorOfHair(patched(bytes, 12, wrong)), StartsWith("byte ")) << wrong;
     EXPECT_EQ(
         errorOfHair(patched(bytes, 12, 63)), "byte 12: arrays 63: only the bits 0 to 4 are known");
-    // Of use only without segments.
+    // The header's default counts only without an array of segments.
     EXPECT_EQ(errorOfHair(patched(bytes, 16, -1)), "no error");
     EXPECT_EQ(
         errorOfHair(patched(fileWith(kPoints), 16, -1)),

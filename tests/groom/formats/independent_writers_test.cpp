@@ -18,7 +18,7 @@ namespace {
 using testing::ElementsAre;
 using testing::HasSubstr;
 
-// What was given to the programs of the corpus.
+// The points that the programs of the corpus were given.
 const std::vector<glm::vec3> kWritten{{0, 0, 0},        {0, 0.25f, 0},     {0, 0.5f, 0.125f},
                                       {0, 0.75f, 0.5f}, {1, 0, 0},         {1, 0.5f, 0.25f},
                                       {-1, 0, 0},       {-1.5f, 0.25f, 0}, {-2, 0.25f, -0.0625f}};
@@ -124,7 +124,7 @@ TEST(IndependentWriters, AlembicLibraryWithCubicCurves) {
     EXPECT_EQ(strands.points[9], glm::vec3(0, 1, 0));
 }
 
-// Blender writes what has z up and was moved by (1, 2, 3) with y up: by (1, 3, -2).
+// Blender writes curves with z up, moved by (1, 2, 3), with y up: moved by (1, 3, -2).
 TEST(IndependentWriters, BlenderAlembic) {
     for (const char* name : {"abc/blender_catmull_rom.abc", "abc/blender_poly.abc"}) {
         SCOPED_TRACE(name);

@@ -11,7 +11,7 @@ from alembic3d import Abc, AbcGeom
 
 
 def words(values):
-    """Of floats and vectors of them, the bits; other values as they are."""
+    """Returns floats and vectors of them as their bits, and other values as they are."""
     for value in values:
         if isinstance(value, int):
             yield str(value)

@@ -85,7 +85,7 @@ def z_up():
 
 def cubic(stage, path, basis, wrap, sizes, interpolation):
     prim = curves(stage, path, "cubic", sizes, points(sum(sizes)), basis, wrap)
-    # Of pinned curves ComputeVaryingDataSize gives two less than the documentation's table.
+    # For pinned curves ComputeVaryingDataSize gives two less than the documentation's table.
     ends = sum(prim.ComputeSegmentCounts(Usd.TimeCode.Default())) + len(sizes)
     count = ends if interpolation == "varying" else sum(sizes)
     widths(prim, interpolation, [k + 1.0 for k in range(count)])
@@ -115,7 +115,7 @@ def animated():
 
 
 def mixed():
-    """Widths of the one are a primvar with indices, the other has none; a kind of curve unread."""
+    """One has a primvar of widths with indices, one has none, one is an unread kind of curve."""
     stage = new_stage("mixed.usdc")
     first = curves(stage, "/first", "linear", [2], points(2))
     first.CreateDisplayColorPrimvar("constant").Set([(1, 0, 0)])
@@ -137,7 +137,7 @@ def primvar(prim, name, kind, interpolation, values):
 
 
 def groom():
-    """What Unreal Engine names: guides as curves of their own, a group that a parent has."""
+    """Unreal Engine's names: guides as curves of their own, a group that a parent has."""
     stage = new_stage("groom.usda")
     primvar(UsdGeom.Xform.Define(stage, "/groom"), "groom_group_id", "IntArray", "constant", [7])
     strands = curves(stage, "/groom/strands", "linear", [2, 3], points(5))

@@ -1,5 +1,5 @@
-// Damaged meshes and pictures, each read by a process of its own: none ends by a signal, takes over
-// 10 s of the processor or over 1 GB, what reads for it among that.
+// A process of its own reads each damaged mesh or picture. No process, including the ones it
+// starts to read, may end by a signal, take over 10 s of processor time or over 1 GB.
 #include <cstdlib>
 #include <iostream>
 #include <map>
@@ -95,7 +95,7 @@ struct Reading {
 Reading readApart(const fs::path& path) {
     const pid_t child = fork();
     if (child == 0) {
-        alarm(100);  // for what waits
+        alarm(100);  // in case the process waits
         try {
             read(path);
         } catch (const engine::Error&) {
@@ -107,7 +107,7 @@ Reading readApart(const fs::path& path) {
     }
     Reading reading{};
     rusage use{};
-    wait4(child, &reading.status, 0, &use);  // its own and that of what it waited for
+    wait4(child, &reading.status, 0, &use);  // its own use and that of its children
     reading.seconds = static_cast<double>(use.ru_utime.tv_sec + use.ru_stime.tv_sec) +
                       1e-6 * static_cast<double>(use.ru_utime.tv_usec + use.ru_stime.tv_usec);
     reading.kilobytes = use.ru_maxrss;

@@ -6,8 +6,8 @@
 #include "tests/groom/formats/mutations.h"
 #include "tests/groom/formats/strand_files.h"
 
-// What scripts/test --fuzz does with coverage and time, in a second and always the same: damaged
-// files of the corpus make an engine::Error or a set as it ought to be, nothing else.
+// A short, repeatable form of scripts/test --fuzz, which has coverage and more time: a damaged
+// file of the corpus must give an engine::Error or a valid set.
 namespace hair::groom {
 namespace {
 

@@ -41,7 +41,7 @@ std::string fourPoints() {
 constexpr const char* kDictionary =
     "{'descr': '<f4', 'fortran_order': False, 'shape': (2, 2, 3), }\n";
 
-// What NumPy itself wrote.
+// Files that NumPy itself wrote.
 class NumpyFiles : public testing::Test {
 protected:
     void SetUp() override {

@@ -157,7 +157,8 @@ TEST(ImportPly, RefusesWrongHeaders) {
         HasSubstr("'vertex' is there twice"));
 }
 
-// Nothing is allocated for what the file can't hold: these would be 48 GB and more.
+// The reader allocates nothing for counts that the file can't hold: these would take 48 GB and
+// more.
 TEST(ImportPly, RefusesCountsThatTheFileCantHold) {
     for (const char* format : {"ascii", "binary_little_endian", "binary_big_endian"}) {
         const std::string begin = std::string("ply\nformat ") + format + " 1.0\nelement vertex ";
@@ -267,7 +268,7 @@ std::string errorOfPlyOf(std::uint32_t points_per_strand, const std::string& tex
     return errorText([&] { readPlyOf(points_per_strand, text); });
 }
 
-// What reconstructions from pictures write: points alone, strand after strand.
+// Reconstructions from pictures write points alone, strand after strand.
 TEST(ImportPly, MakesStrandsOfSoManyPointsEach) {
     const std::string points_alone = ascii(vertexElement(), kVertexRows);
     const StrandSet strand = readPlyOf(5, points_alone);
@@ -289,7 +290,7 @@ TEST(ImportPly, MakesStrandsOfSoManyPointsEach) {
         HasSubstr("no whole number"));
 }
 
-// The file's own strands come first, and what is a mesh beside the points is none.
+// The file's own strands come first; a mesh beside the points gives no strands.
 TEST(ImportPly, TakesTheNumberOfPointsWhereTheFileHasNoStrandsAlone) {
     expectTheStrands(
         readPlyOf(5, ascii(vertexElement() + kEdges, kVertexRows + "1 2\n0 1\n3 4\n")));

@@ -146,7 +146,7 @@ TEST(Ct2Hair, RefusesWhatHasNoStrandLeft) {
     EXPECT_THAT(readError(importCt2Hair, bytes.str()), HasSubstr("fewer than 5 points"));
 }
 
-// Bytes of one format are not those of the other: 12 and 28 bytes a point.
+// The two formats have different sizes: 12 and 28 bytes a point.
 TEST(StrandLists, AreRefusedWhereverTheyEnd) {
     for (const auto& [read, whole] :
          {std::pair{&importHairData, dataFile()}, std::pair{&importCt2Hair, ct2File()}}) {

@@ -3,7 +3,8 @@
 #include "tests/groom/formats/bytes.h"
 #include "tests/groom/formats/strand_files.h"
 
-// importStrands and exportStrands: which row takes a file, and what they say when none can.
+// importStrands and exportStrands: the choice of a row for a file, and the errors if there is
+// none.
 namespace hair::groom {
 namespace {
 

@@ -12,7 +12,7 @@ using testing::HasSubstr;
 using testing::IsEmpty;
 using testing::StartsWith;
 
-// Where a file of three strands of four vertices has its arrays: in the header's order, each
+// Offsets of the arrays in a file of three strands of four vertices: in the header's order, each
 // directly after the one before it, as a plain writer puts them.
 constexpr std::uint32_t kPositions = 160;
 constexpr std::uint32_t kStrandUvs = kPositions + 12 * 16;
@@ -289,7 +289,7 @@ TEST(ImportTfx2, ReadsText) {
     expectTheStrands(strands);
     EXPECT_THAT(strands.root_uvs, ElementsAre(glm::vec2(0, 0), glm::vec2(0.5f, 0.25f)));
     EXPECT_THAT(strands.warnings, ElementsAre(HasSubstr("--followers 4")));
-    // Of Windows, and with the lines that may be left out.
+    // With Windows line ends, and without the optional lines.
     std::string windows = "version 2.0\r\nnumStrands 1\r\nstrand 0 numVerts 1\r\n1 2 3\r\n\r\n";
     EXPECT_THAT(readTfx(windows).points, ElementsAre(glm::vec3(1, 2, 3)));
 }

@@ -43,7 +43,8 @@ glm::dvec3 bspline(const std::array<glm::dvec3, 4>& p, double t) {
     return q[3];
 }
 
-// A cubic Hermite curve whose tangents are half the chord of the neighbours (Catmull, Rom 1974).
+// A cubic Hermite curve with tangents of half the chord between the neighbours (Catmull, Rom
+// 1974).
 glm::dvec3 catmullRom(const std::array<glm::dvec3, 4>& p, double t) {
     const glm::dvec3 from = 0.5 * (p[2] - p[0]);
     const glm::dvec3 to = 0.5 * (p[3] - p[1]);

@@ -1,4 +1,4 @@
-// What exportUsda and UsdaAnimation write, as usd-core finds it.
+// usd-core reads the files of exportUsda and UsdaAnimation.
 #include <bit>
 #include <cstdint>
 #include <fstream>
@@ -32,7 +32,7 @@ std::string bits(const std::vector<Element>& elements) {
     return text + '\n';
 }
 
-// A float of any size: all bit patterns but those of infinities and what is no number.
+// A float of any size: all bit patterns but infinities and NaNs.
 float anyFloat(std::uint32_t index) {
     std::uint32_t word = pcg(index);
     if ((word & 0x7f800000u) == 0x7f800000u) word &= ~0x40000000u;
@@ -51,7 +51,8 @@ StrandSet everything() {
         set.colors.values.emplace_back(0.1f, 1.0f / static_cast<float>(k + 1), 0.5f);
         set.transparencies.values.push_back(static_cast<float>(k) / 256.0f);
     }
-    // What decimals are likely to get wrong: -0, the least float, one that a double rounds wrong.
+    // Numbers that decimals are likely to get wrong: -0, the least float, one that a double rounds
+    // wrongly.
     set.points[0] = {-0.0f, 0x1p-149f, 7.038531e-26f};
     set.points[1] = {16777216.0f, -1e20f, 0.1f};
     set.root_uvs = {{0.1f, 0.2f}, {0.3f, 0.4f}, {1.0f, 0.0f}};

@@ -37,7 +37,7 @@ constexpr UsdStreamHeader kHeader{
     .comment = 4,
     .warnings = 7};
 
-// Where the arrays begin.
+// The offsets of the arrays.
 constexpr std::size_t kSizes = 104;
 constexpr std::size_t kPointStream = kSizes + 8;
 constexpr std::size_t kWidths = kPointStream + 36;

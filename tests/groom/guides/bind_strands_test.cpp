@@ -73,8 +73,8 @@ TEST(BindStrands, GivesWeightsOfAMeanAndKeepsRoots) {
     }
 }
 
-// Where a strand's points depend on its root affinely, the barycentric mean of the guides round it
-// is the strand itself. All roots are inside the lattice.
+// If a strand's points are an affine function of its root, the barycentric mean of the guides
+// round it is the strand itself. All roots are inside the lattice.
 TEST(BindStrands, IsExactForAffineGrooms) {
     const Patch patch{8, 500, 0.2};
     const glm::dmat3 shear{{2.0, 0.5, 0.0}, {0.0, 1.0, 0.0}, {-0.5, 1.0, 1.5}};
@@ -110,10 +110,10 @@ TEST(BindStrands, ErrsWithTheSquareOfTheSpacing) {
     EXPECT_NEAR(coarse / fine, 4.0, 1.0);
 }
 
-// Hair that falls to both sides of a parting: what is between the two is like neither. With a
-// weight w, guides of the other side, s away in shape, bring a root up to w h nearer that is d <= h
-// beyond the last guide; the sum of squares (d - w h)^2 + (w s)^2 is least at w = d h / (h^2 +
-// s^2).
+// Hair that falls to both sides of a parting: a strand between the two is like neither. Guides of
+// the other side differ by s in shape. With a weight w they bring a root up to w h nearer that is
+// d <= h beyond the last guide. The sum of squares (d - w h)^2 + (w s)^2 is least at w = d h /
+// (h^2 + s^2).
 TEST(BindStrands, HardlyMixesTheSidesOfAParting) {
     const Patch patch{10, 800, 0.1};
     const auto side = [&](std::uint32_t strand) {
@@ -204,8 +204,8 @@ TEST(ReconstructionError, MeasuresVertexAgainstVertex) {
     EXPECT_DOUBLE_EQ(error.relative, 0.5 / 3.0);
 }
 
-// Against trying all weights in steps: none is better than what the search gave by more than the
-// weight it gives to nearness.
+// The test tries all weights in steps: none is better than the search's result by more than the
+// weight of nearness.
 TEST(NearestMean, IsTheNearestOfAll) {
     for (std::uint32_t seed = 0; seed < 200; ++seed) {
         std::array<glm::dvec3, 5> points;

@@ -34,7 +34,7 @@ TEST(ChooseGuides, GivesIndicesInOrderAndOnce) {
     EXPECT_EQ(chooseGuides(lattice(), 200, 5), chosen);
 }
 
-// The farthest-point traversal covers within twice of what is best (Gonzalez 1985), and a lattice
+// The farthest-point traversal covers within twice the best radius (Gonzalez 1985), and a lattice
 // of 8 x 8 cells covers the square within half of a cell's diagonal.
 TEST(ChooseGuides, CoversRoots) {
     const Groom dense = lattice();
@@ -47,8 +47,8 @@ TEST(ChooseGuides, CoversRoots) {
     }
 }
 
-// What is farthest from whatever lies in a square is one of its corners, and of what is farthest
-// from some of its corners another is.
+// The point of a square farthest from any point in it is a corner, and the point farthest from
+// some corners is another corner.
 TEST(ChooseGuides, TakesTheCorners) {
     for (std::uint32_t seed = 0; seed < 5; ++seed)
         EXPECT_THAT(
@@ -75,8 +75,8 @@ TEST(ChooseGuides, TellsStrandsWithTheSameRootApart) {
         EXPECT_THAT(chooseGuides(dense, 2, seed), testing::Contains(42));
 }
 
-// As a metre between roots, a metre between shapes counts. Beside a strand far off, the one is
-// taken that is off the line from it furthest: by 0.3 m in shape, or in its root by less or more.
+// A metre between shapes counts like a metre between roots. The first choice is a distant strand.
+// The second is the one farthest off the rest: by 0.3 m in shape, or by less or more at its root.
 TEST(ChooseGuides, WeighsShapesAsRoots) {
     const auto chosen = [](double away) {
         const Groom dense = sampleGroom(4, 5, [away](std::uint32_t strand, double t) {

@@ -19,7 +19,8 @@ glm::dvec3 randomPoint(std::uint32_t seed, std::uint32_t index, double size) {
                    0.5);
 }
 
-// Against going through all triangles. The coordinates are below 1, so what both round is 1e-15.
+// Compares with a search through all triangles. The coordinates are below 1, so both round by
+// 1e-15.
 void expectNearest(const Mesh& mesh, double size, std::uint32_t count) {
     const NearestSurface surface(mesh.positions, mesh.triangles);
     for (std::uint32_t i = 0; i < count; ++i) {
@@ -80,7 +81,8 @@ TEST(NearestSurface, TakesTrianglesWithoutArea) {
     }
 }
 
-// Weights tell what the nearest point lies on, so they have to be exactly 0 or 1 there.
+// Weights tell whether the nearest point lies on a face, an edge or a corner, so they have to be
+// exactly 0 or 1 there.
 TEST(NearestSurface, TellsFacesEdgesAndCorners) {
     const std::vector<glm::vec3> positions{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
     const std::vector<std::array<std::uint32_t, 3>> triangles{{0, 1, 2}};

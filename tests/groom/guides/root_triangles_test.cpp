@@ -73,8 +73,8 @@ std::map<std::pair<std::uint32_t, std::uint32_t>, int> edgesOf(const TriangleLis
     return edges;
 }
 
-// Of points on a sphere the Delaunay triangles are the faces of the convex hull (Brown 1979): all
-// points are on the inner side of each. Floats are rounded at 0.1.
+// The Delaunay triangles of points on a sphere are the faces of the convex hull (Brown 1979): all
+// points are on the inner side of each face. Floats are rounded at 0.1.
 void expectDelaunayOnSphere(const Groom& groom, const TriangleList& triangles) {
     for (const Triangle& triangle : triangles) {
         const glm::dvec3 outward = glm::normalize(areaVector(groom, triangle));
@@ -163,7 +163,7 @@ TEST(TriangulateRoots, DoesNotDependOnPlaceAndDirection) {
     EXPECT_EQ(asSet(triangulateRoots(rooted(roots), nullptr)), here);
 }
 
-// A cap with a face: nothing reaches over it, and what is left is as before.
+// A cap with a face: no triangle reaches over the face, and the others are as before.
 TEST(TriangulateRoots, LeavesAFaceFree) {
     std::vector<glm::dvec3> roots = onSphere(1000, -0.2);
     const auto isFace = [](const glm::dvec3& p) { return p.z > 0.03 && p.y < 0.06; };
@@ -253,7 +253,7 @@ TEST(TriangulateRoots, TurnsToTheSideOfTheNormals) {
 }
 
 // The cap's normals are exact at its vertices. Between them they turn by at most 4.3 degrees along
-// a ring's triangle, and what linear interpolation misses of an arc is an eighth of its square.
+// a ring's triangle. The error of linear interpolation is an eighth of the arc's square.
 TEST(RootNormals, AreThoseOfTheSphere) {
     const Mesh cap = makeCap();
     const Groom groom = rooted(onSphere(500, 0.0));

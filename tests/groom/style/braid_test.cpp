@@ -45,8 +45,8 @@ TEST(BraidStyle, WithoutAPitchChangesNothing) {
     EXPECT_EQ(braid(before, {}, 1, nullptr).points, before.points);
 }
 
-// Points are laid along a line of 1/32 of a pitch a step, whose chords a strand's 1.5 mm follow:
-// each segment may cut a corner of the line, by less than a hundredth of it.
+// The style lays points along a line with steps of 1/32 of a pitch, and a strand's segments of 1.5
+// mm follow its chords. Each segment may cut a corner of the line, by less than a hundredth of it.
 TEST(BraidStyle, KeepsRootsAndLengths) {
     const Groom before = standing();
     const Mesh ball = makeSphere(kBallRadius, 96, 48);
@@ -73,8 +73,8 @@ TEST(BraidStyle, LeadsOverTheHead) {
     EXPECT_GT(heights.least(), -4.4e-4);
 }
 
-// A pitch below the tie every strand keeps to the section of one of three parts, whose middles are
-// where style.h says, and every part has a third of the strands.
+// A pitch below the tie every strand stays in the section of one of three parts. The parts'
+// middles are where style.h says, and every part has a third of the strands.
 TEST(BraidStyle, StrandsKeepToThreeParts) {
     const Groom after = braid(standing(), plait(), 1, nullptr);
     const double reach = 0.03 / 2.84;

@@ -54,8 +54,8 @@ TEST(Clearance, LeadsStrandsRoundTheMesh) {
             EXPECT_EQ(after.strand(s)[i], before.strand(s)[i]) << "it is clear of the ball";
 }
 
-// Two balls side by side, and a strand that hangs into the cleft between them: no turn of a single
-// segment takes it out, for what is clear of one ball is inside the other.
+// Two balls side by side, and a strand that hangs into the cleft between them. No turn of a single
+// segment takes it out: a place clear of one ball is inside the other.
 TEST(Clearance, TakesStrandsOutOfAClosingCleft) {
     Mesh balls = makeSphere(kRadius, 96, 48);
     Mesh other = balls;

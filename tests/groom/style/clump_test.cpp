@@ -83,7 +83,7 @@ TEST(Clump, GrowsFromItsStart) {
             << i;
 }
 
-// Strand 0 keeps all of it, the other a part of at least 1 - variation: whichever is no centre.
+// The centre stays. Each other strand is drawn with at least 1 - variation of the strength.
 TEST(Clump, DrawsSomeStrandsLess) {
     ClumpSettings settings{.strength = 1.0f, .spacing = 10.0f, .start = 0.0f};
     settings.variation = 0.75f;

@@ -75,7 +75,7 @@ TEST(Frizz, TakesStrandsLongerThanItsNoiseCanCount) {
     EXPECT_TRUE(allFinite(frizz(groom, {.amplitude = 1.0f, .frequency = 10000.0f}, 1)));
 }
 
-// Of 2000 strands a tenth goes its own way, within reach, and not before its start.
+// A tenth of 2000 strands goes its own way, within `reach`, and not before `start`.
 TEST(Flyaways, AreAShareOfTheStrands) {
     const FlyawaySettings settings{.share = 0.1f, .reach = 0.02f, .start = 0.5f};
     const Groom before = verticalStrands(2000, 9, 0.2, 0.0001);

@@ -6,7 +6,7 @@
 
 #include "hair/groom/groom.h"
 
-// Grooms whose strands are known curves.
+// Grooms of known curves.
 namespace hair::groom {
 
 // `point(strand, t)` gives the curve at t, 0 at the root to 1 at the tip.
@@ -37,7 +37,7 @@ inline Groom withNormals(Groom groom, const glm::vec3& normal) {
 // All coordinates are at most 1 in size: a float's rounding, half of 2^-24 of it, in each of three.
 inline constexpr double kRounding = 1e-7;
 
-// Two vertices, none of length, one of whose vertices coincide.
+// Strands with coincident vertices, and a plain one.
 inline Groom awkwardStrands() {
     Groom groom{.strand_count = 4, .vertices_per_strand = 3};
     groom.points = {{0, 0, 0},    {0, 0, 0},       {0, 0, 0},  // no length

@@ -119,7 +119,8 @@ TEST(Strokes, TakeStrandsAsFilesHaveThem) {
 
 // ---- Order --------------------------------------------------------------------------------------
 
-// What is saved after some strokes and brushed on is what all of them make, on all processors.
+// Strands saved after some strokes and brushed on are equal to strands with all strokes, with any
+// number of threads.
 TEST(Strokes, ReplayOneAfterTheOther) {
     const Groom before = helices(1000);
     std::vector<StrokeSettings> strokes;
@@ -132,7 +133,8 @@ TEST(Strokes, ReplayOneAfterTheOther) {
     EXPECT_EQ(one.points, all.points);
 }
 
-// 0.2 m cut at 0.1 m and then half as long again are 0.15 m; the other way about it is 0.1 m.
+// 0.2 m cut at 0.1 m and then made half as long again are 0.15 m; in the other order they are 0.1
+// m.
 TEST(Strokes, GoInTheirOrder) {
     const Groom before = verticalStrands(1, 9, 0.2, 0.0);
     const StrokeSettings cuts = stroke(BrushTool::cut, 0.01f, 1.0f, {{0.0f, 0.1f, 0.0f}});
@@ -192,8 +194,8 @@ TEST(Strokes, CutIsExactOnCurves) {
     double left = 0.0;
     for (std::size_t i = 0; i < 12; ++i) left += segmentsOf(before, 0)[i];
     EXPECT_NEAR(lengthOf(after, 0), left, 24 * kRounding);
-    // The new vertices are in equal parts of the old curve. Where they cut its corners, by 2 pi /
-    // 12 each, they are put farther out: by less than 2 % of the length in all.
+    // The new vertices divide the old curve into equal parts. They cut its corners, by 2 pi / 12
+    // each, so they lie farther out: by less than 2 % of the length in all.
     EXPECT_LT(differenceOf(after.strand(0)[23], place), 0.02 * left);
     EXPECT_NEAR(after.widths[23], before.widths[12], 1e-9);
     EXPECT_EQ(after.widths[0], before.widths[0]);
@@ -280,8 +282,8 @@ TEST(Strokes, PushGoesAwayFromTheMesh) {
     const glm::dvec3 root(before.points[0]), old(before.points[1]);
     const glm::dvec3 tip = old + 0.05 * glm::normalize(old);
     const glm::dvec3 expected = root + glm::distance(root, old) * glm::normalize(tip - root);
-    // The ball's triangles are 3.75 degrees wide, of which the direction away from it may be half
-    // off: 0.05 m by 0.033 rad.
+    // The ball's triangles are 3.75 degrees wide, and the direction away from it may be off by
+    // half of that: 0.05 m by 0.033 rad.
     EXPECT_LT(differenceOf(after.points[1], expected), 0.05 * 0.033);
 }
 

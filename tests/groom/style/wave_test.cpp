@@ -78,8 +78,8 @@ TEST(Wave, SharesPhasesWithinAClump) {
     EXPECT_GE(swings(), 4u);
 }
 
-// Where the phase has wandered by up to a quarter of a wave, zero may be anywhere up to an eighth
-// of a strand of two waves on; the swing stays within the amplitude.
+// The phase drifts by up to a quarter of a wave, so zero may be up to an eighth of a strand of two
+// waves farther on; the swing stays within the amplitude.
 TEST(Wave, DriftsAlongTheStrand) {
     WaveSettings settings{.amplitude = 0.005f, .frequency = 20.0f, .start = 0.0f};
     const Groom before = withNormals(verticalStrands(50, 65, 0.2, 0.01), {0.0f, 0.0f, 1.0f});
