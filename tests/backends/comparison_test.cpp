@@ -90,7 +90,7 @@ TEST_F(BackendComparisonTest, HasErrorsToTessellation) {
     const double software = error(hair::Backend::software);
     EXPECT_GT(software, 0.0);
     EXPECT_LE(software, 0.02);
-    // Lines are the strands' caricature.
+    // Lines are only a caricature of the strands.
     EXPECT_GT(error(hair::Backend::lines), 2.0 * software);
 }
 
@@ -146,7 +146,7 @@ TEST_F(BackendComparisonTest, HasTimesAndLimits) {
         EXPECT_DOUBLE_EQ(sum->samples[i], points->samples[i] + strands->samples[i]);
 }
 
-// Whatever hair's colour and light are: by pixels that differ from a picture without hair.
+// With any colour and light of the hair, the pixels that differ from a picture without hair count.
 TEST_F(BackendComparisonTest, CountsPixelsThatShowHair) {
     hair::Settings settings = smallCase(hair::Backend::tessellation, 1);
     settings.shading.model = hair::ShadingModel::marschner;
@@ -169,7 +169,7 @@ TEST_F(BackendComparisonTest, CountsPixelsThatShowHair) {
     for (std::size_t i = 0; i < with.size(); i += 4)
         differ += !std::equal(&with[i], &with[i] + 3, &without[i]);
     EXPECT_EQ(count(result, "covered_samples"), count(result, "covered_pixels"));
-    // Hair may look as what it hides in some pixel.
+    // Hair may look like the surface that it hides in some pixels.
     EXPECT_GE(count(result, "covered_pixels"), differ);
     EXPECT_LE(
         static_cast<double>(count(result, "covered_pixels")), 1.02 * static_cast<double>(differ));

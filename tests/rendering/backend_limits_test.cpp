@@ -10,7 +10,7 @@
 #include "hair/rendering/backend_choice.h"
 #include "tests/gpu_fixture.h"
 
-// What back ends don't draw.
+// The limits of back ends.
 namespace hair::rendering {
 namespace {
 
@@ -103,7 +103,7 @@ TEST(BackendOrder, IsThatOfTheDocumentation) {
         (std::set{orderRow("processors", "cpu"), orderRow("graphics processors", "discrete")}));
 }
 
-// Whatever draws a case draws the same strands, so that none is left out but `lines`.
+// Every device's order has all back ends that draw the same strands: all but `lines`.
 TEST(BackendOrder, HasEveryBackEndOfTheSamePicture) {
     for (const char* type : {"cpu", "discrete", "integrated", "virtual", "other"})
         EXPECT_THAT(

@@ -15,11 +15,11 @@
 #include "tests/rendering/pictures.h"
 
 // Every back end and every way to split its draws gives the same picture: they draw the same lines
-// in the same order with the same functions. On processors it is so bit for bit, but for `pulling`:
-// a rasteriser that is given triangles in another way rounds what it interpolates otherwise. What
-// `precise` doesn't reach (dot products, roots, the logarithm of levels by distance) a GPU's
-// compiler may round otherwise in another stage, which moves an edge over a sample here and there:
-// of a thousand pixels one may differ.
+// in the same order with the same functions. On processors the pictures are equal bit for bit,
+// except with `pulling`: a rasteriser rounds interpolated values differently if it gets the
+// triangles in another way. `precise` doesn't reach dot products, roots and the logarithm of
+// levels by distance. A GPU's compiler may round these differently in another stage, which moves
+// an edge over a sample here and there: one of a thousand pixels may differ.
 namespace hair::rendering {
 namespace {
 
@@ -66,8 +66,8 @@ protected:
     }
 };
 
-// Unsplit it would be one draw of 304,640 vertices, 4.6 times what lavapipe's tessellator can
-// index.
+// Without a split it would be one draw of 304,640 vertices, 4.6 times as many as lavapipe's
+// tessellator can index.
 TEST_F(BackendPictureTest, AreEqualAtTheThesissCase) {
     const benchmarks::measure::Case thesis(
         device(), thesisAtRest(), HAIRBENCH_SOURCE_DIR "/scenes");
@@ -207,7 +207,7 @@ TEST(StrandShaders, ProjectAllVerticesAlike) {
 
 // ---- Lines --------------------------------------------------------------------------------------
 
-// A straight strand across the view, of which only `lines` makes a line a pixel wide.
+// A straight strand across the view. Only `lines` draws it as a line a pixel wide.
 class LinesPicture : public GpuTest {
 protected:
     static constexpr double kLength = 400.0;  // px
@@ -261,7 +261,7 @@ TEST_F(LinesPicture, AreOnePixelWideWhereStrandsAreWider) {
     }
 }
 
-// What the pipeline counts of a split density is what the plan says.
+// The pipeline's counts for a split density are equal to the plan's.
 TEST_F(BackendPictureTest, CountsAreThoseOfThePlan) {
     if (!device().hasPipelineStatistics()) GTEST_SKIP() << "no pipeline statistics";
     Settings settings = small();

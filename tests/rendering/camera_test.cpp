@@ -57,8 +57,8 @@ TEST(Camera, DepthRunsFromNearToFar) {
     EXPECT_NEAR(depth(1.0f), 0.2f, kRounding);  // 0.25 / 3.75 * 3
 }
 
-// A strand's width and less, from right before the camera to beyond what `hairbench lod` looks
-// from: 32-bit depth resolves it at the default planes of 0.01 and 100 m.
+// 32-bit depth resolves less than a strand's width with the default planes of 0.01 and 100 m, from
+// right before the camera to beyond the distances of `hairbench lod`.
 TEST(Camera, DepthTellsTenthsOfAMillimetreApartUpTo40M) {
     const CameraSettings camera{.position = glm::vec3(0.0f), .target = {0.0f, 0.0f, -1.0f}};
     const glm::mat4 matrix = viewProjection(camera, 1.0f);

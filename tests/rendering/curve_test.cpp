@@ -172,7 +172,7 @@ TEST_F(CurveTest, WidthFallsAlongTheWholeStrand) {
     }
 }
 
-// 28 pieces, 7 of which have the root's width; then it falls over 21.
+// The first 7 of 28 pieces have the root's width; then it falls over 21.
 TEST_F(CurveTest, WidthFallsFromWhereTheTaperStarts) {
     const StrandPoints points = evaluate(
         tangledGroom(8), {.density = 1,

@@ -21,8 +21,8 @@ inline constexpr double kTurn = 2.0 * std::numbers::pi;
 
 inline constexpr float kUlp = 0x1p-24f;  // rounding of a float, relative
 
-// Contacts as a simulation could mark them, [guide][vertex]: two guides of three touch a body, each
-// somewhere else, and what is below is marked too.
+// Contacts as a simulation could mark them, [guide][vertex]. Two guides of three touch a body,
+// each at another vertex; the vertices below it are marked, too.
 inline std::vector<bool> madeUpContacts(const groom::Groom& groom) {
     std::vector<bool> contacts;
     for (std::uint32_t guide = 0; guide < groom.strand_count; ++guide) {
@@ -101,7 +101,7 @@ private:
     engine::Buffer bodies_;
 };
 
-// A groom of one root triangle whose guides have these points.
+// A groom of one root triangle; its guides have these points.
 inline groom::Groom oneTriangle(const std::array<std::vector<glm::vec3>, 3>& guides) {
     groom::Groom groom{
         .strand_count = 3,

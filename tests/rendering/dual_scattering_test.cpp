@@ -27,9 +27,9 @@ TEST(FiberAverages, AreAllOfTheLightOfAWhiteFiber) {
     }
 }
 
-// Fibres in a row, light that goes forward i times, back, and so on: the paper's double sums term
-// by term, but light first meets a Poisson number of fibres whose mean is i. It is the third power
-// of 1 - a_f^2 under a_b^3 in the paper, not the second.
+// Fibres in a row: light goes forward i times, back, and so on. These are the paper's double sums
+// term by term, but light first meets a Poisson number of fibres with mean i. In the paper the
+// third power of 1 - a_f^2 is under a_b^3, not the second.
 TEST(LocalScattering, IsTheSumOverItsPaths) {
     const FiberAverages averages{
         .forward = {0.8, 0.5, 0.3},
@@ -71,9 +71,9 @@ TEST(LocalScattering, IsTheSumOverItsPaths) {
     EXPECT_NEAR(local.variance, variances / weights, 1e-7);
 }
 
-// What a stack of layers reflects has a closed form: R = b + f^2 R / (1 - b R). Of light of which
-// the next layer gets p instead of f, S = b + p f S / (1 - b R). The sum of one and three
-// scatterings backward is less, and misses what is of fifth order in b.
+// The reflection of a stack of layers has a closed form: R = b + f^2 R / (1 - b R). If the next
+// layer gets p instead of f of the light, S = b + p f S / (1 - b R). The sum of one and three
+// scatterings backward is less; it misses the terms of fifth order in b.
 TEST(LocalScattering, ReflectsNoMoreThanAllLayersDo) {
     for (const float n : kRoughnesses) {
         for (const float eumelanin : {0.0f, 0.1f, 1.0f}) {
@@ -90,12 +90,12 @@ TEST(LocalScattering, ReflectsNoMoreThanAllLayersDo) {
                     // b R^2 - (1 + b^2 - f^2) R + b = 0
                     const double p = 1 + b * b - f * f;
                     const double stack = 2 * b / (p + std::sqrt(std::max(p * p - 4 * b * b, 0.0)));
-                    EXPECT_LE(stack, 1 + 1e-6);  // a root of what is 0 for a white fibre
+                    EXPECT_LE(stack, 1 + 1e-6);  // a root of a number that is 0 for a white fibre
                     const double q = f * std::exp(f - 1);
                     const double all = b / (1 - q / (1 - b * stack));
                     const double some = b + local.albedo[c];
                     EXPECT_LE(some, all + 1e-9) << n << ' ' << eumelanin << ' ' << eta;
-                    // What is of fifth order in the series of S, from R = r_1 b + r_3 b^3.
+                    // The term of fifth order in the series of S, from R = r_1 b + r_3 b^3.
                     const double rest = 1 - f * f;
                     const double r_1 = 1 / rest;
                     const double r_3 = f * f / std::pow(rest, 3);
@@ -118,7 +118,7 @@ TEST(DualScattering, IsTheFibersOwnWhereNothingElseIs) {
     EXPECT_EQ(
         reference::dualScattering(fiber, 0, wo, wi, 0.3, {}),
         reference::scattering(fiber, wo, wi, 0.3));
-    // Without density only what meets no strand is left.
+    // Without density only the light that meets no strand is left.
     EXPECT_NEAR(
         reference::dualScattering(fiber, 0, wo, wi, 0.3, {.strands = 2}).g,
         std::exp(-2.0) * reference::scattering(fiber, wo, wi, 0.3).g, 1e-12);

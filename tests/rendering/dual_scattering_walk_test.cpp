@@ -151,9 +151,9 @@ TEST(GlobalScattering, SpreadsAsARandomWalk) {
     EXPECT_NEAR((square / weight - shift * shift) / (kFibers * averages.forward_variance), 1, 0.15);
 }
 
-// The mean over the fibre and over its azimuths of what it scatters from light that comes through
-// others, against light followed through them. It is what is left without the light that meets
-// none, where nothing is behind the fibre.
+// The fibre's scattering of the light that comes through others, as a mean over the fibre and its
+// azimuths. The test compares it with random walks of the light through them. It is the whole
+// scattering without the light that meets no strand; nothing is behind the fibre.
 TEST(DualScattering, ScattersWhatComesThroughOthersAsARandomWalk) {
     constexpr std::uint32_t kWalks = 30000;
     constexpr int kAround = 96;

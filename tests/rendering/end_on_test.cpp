@@ -36,8 +36,8 @@ Settings litSettings(ShadingModel model) {
 
 using EndOn = GpuTest;
 
-// Points whose tangent is the way to the eye or away from it, and others that are off it by an
-// angle that floats hardly hold.
+// Points with tangents towards the eye or away from it, and others that are off by an angle that
+// floats hardly resolve.
 TEST_F(EndOn, EveryModelShadesPointsWithFiniteLight) {
     std::vector<gpu::StrandProbe> probes;
     const glm::vec3 directions[]{{1, 0, 0},       {0, 1, 0},        {0, 0, -1},
@@ -88,7 +88,7 @@ Settings bentSettings(ShadingModel model) {
     return settings;
 }
 
-// What is drawn, before it is resolved: half floats, [row][column] RGBA.
+// The picture before it is resolved: half floats, [row][column] RGBA.
 std::vector<std::uint16_t> drawRendered(const engine::Device& device, const Settings& settings) {
     const DeviceHair hair(device, bentStrand(), settings);
     Renderer renderer(device, settings, hair.view(), {});
@@ -111,8 +111,8 @@ std::vector<std::uint16_t> drawRendered(const engine::Device& device, const Sett
 bool isFiniteHalf(std::uint16_t half) { return (half & 0x7c00u) != 0x7c00u; }
 bool isAboveZero(std::uint16_t half) { return half != 0 && half < 0x8000u; }
 
-// Every sample is finite, and the strand is as wide where it is seen end-on as elsewhere: 0.2 m at
-// the middle vertex are 10 px, whose column is the edge of two quads and is theirs.
+// Every sample is finite, and the strand has its full width where the eye sees it end-on: 0.2 m at
+// the middle vertex are 10 px. Their column is the edge of two quads and belongs to them.
 void expectSound(const std::vector<std::uint16_t>& halves, const std::string& what) {
     ASSERT_EQ(halves.size(), 4u * 33 * 33);
     EXPECT_TRUE(std::ranges::all_of(halves, isFiniteHalf)) << what;
@@ -150,8 +150,8 @@ TEST_F(EndOn, SoDoBackEndsCoverageAndShadows) {
         }
 }
 
-// Tangents that are kept to 0.1 degrees have a side even where the strand is seen end-on, but not
-// the same to the last bit: what lies on the very edge of it may not be theirs.
+// Tangents stored to 0.1 degrees have a side even where the eye sees the strand end-on, but it
+// differs in the last bits: pixels on the very edge may be lost.
 TEST_F(EndOn, BackEndsFromPointsDrawFiniteLight) {
     for (const Backend backend : {Backend::expanded, Backend::software})
         for (const ShadingModel model : kModels) {

@@ -1,4 +1,4 @@
-// The environment on the device: what shaders read of it, and the background.
+// The environment on the device: the values that shaders read, and the background.
 #include <cmath>
 #include <numbers>
 #include <vector>
@@ -75,7 +75,7 @@ protected:
         double at(std::uint32_t column, std::uint32_t row) const {
             return double{light[3 * (row * size + column) + 1]};
         }
-        // Of the light over 1, in pixels from the upper left.
+        // The middle of the light over 1, in pixels from the upper left.
         glm::dvec2 middleOfLight() const {
             glm::dvec3 sum(0);
             for (std::uint32_t row = 0; row < size; ++row)
@@ -137,8 +137,8 @@ TEST_F(EnvironmentTest, LightIsAColourOfTheDisplayWithoutAToneMap) {
         ASSERT_EQ(picture.display[i], 137);  // 0.5371 of 255
 }
 
-// A picture whose texels are all different: each texel's middle gives the texel, also at both sides
-// of where the ends meet and at the poles, and half-way between two gives their mean.
+// A picture with different texels. Each texel's middle gives the texel, also at both sides of the
+// seam and at the poles. A place half-way between two texels gives their mean.
 TEST_F(EnvironmentTest, IsBilinearBetweenTexelsAndRoundTheHorizon) {
     engine::FloatPixels picture{4, 2, {}};
     for (int i = 0; i < 8; ++i) picture.rgb.insert(picture.rgb.end(), 3, static_cast<float>(i));

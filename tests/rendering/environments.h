@@ -19,8 +19,8 @@ inline glm::dvec3 turned(const glm::dvec3& d, double turn) {
         d.z * std::cos(turn) - d.x * std::sin(turn)};
 }
 
-// Where a place in the picture, (0, 0) at its upper left and (1, 1) at its lower right, looks:
-// Mitsuba's envmap, whose u is atan2(x, -z) / 2 pi and whose v is acos(y) / pi.
+// The direction of a place in the picture, with (0, 0) at its upper left and (1, 1) at its lower
+// right. As in Mitsuba's envmap, u is atan2(x, -z) / 2 pi and v is acos(y) / pi.
 inline glm::dvec3 directionOf(double u, double v) {
     const double azimuth = 2 * std::numbers::pi * u;
     const double polar = std::numbers::pi * v;

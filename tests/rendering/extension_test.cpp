@@ -68,7 +68,7 @@ protected:
         return colors;
     }
 
-    // Of the settings' background, 0.25, 0.15, 0.18: of 8 bits, rounded to nearest.
+    // The settings' background, 0.25, 0.15, 0.18, as 8 bits, rounded to nearest.
     static constexpr Color kBackground{64, 38, 46};
 
     TemporaryFolder folder_;
@@ -105,8 +105,8 @@ TEST_F(ShadingExtensions, AConstantColourIsWhatHairShowsInEveryBackEnd) {
     EXPECT_GT(covered, 200u);
 }
 
-// The thesis's equations (5) and (6) by a file: what is added up in another order is rounded
-// otherwise, by less than half of a step of 255 and so by one step at most.
+// The thesis's equations (5) and (6) by a file. A sum in another order rounds differently, by less
+// than half of a step of 255 and so by one step at most.
 TEST_F(ShadingExtensions, PhongByAFileIsPhong) {
     Settings settings = shadedBy(R"(
 vec3 shadeHair(HairPoint point) {
@@ -238,8 +238,9 @@ TEST_F(OffsetExtensions, AreCutToTheirReach) {
         EXPECT_EQ(unmoved.records[i].position, straight.records[i].position);
 }
 
-// An offset of 0.015 m times the place turns strands by that over their length: of the 15 segments,
-// 0.001 m each. Of differences of 1/1024 of a length, rounded by 2^-24 of 0.015 m, 1e-6 is left.
+// An offset of 0.015 m times the place turns strands by that over their length: 0.001 m in each of
+// the 15 segments. Differences of 1/1024 of a length, rounded by 2^-24 of 0.015 m, leave an error
+// of 1e-6.
 TEST_F(OffsetExtensions, TurnStrandsByTheirSlope) {
     const auto straight = evaluate("");
     const auto moved = evaluate(

@@ -1,4 +1,4 @@
-// Fibres thinner than a pixel, and what pixels see of wider ones, against means over the width.
+// Fibres thinner than a pixel, and pixels on wider ones, compared with means over the width.
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -81,8 +81,8 @@ FarError errorOf(
     return {largest / greatest, off / expected, found / expected};
 }
 
-// Eight parts of the width, over each of which attenuation is that of its middle and Phi(p) linear:
-// what that costs grows as lobes get narrower. Midpoints of 1000 steps are exact beside it.
+// The shader uses eight parts of the width; in each it takes the middle's attenuation and a linear
+// Phi(p). The error grows as lobes get narrower. Midpoints of 1000 steps are exact in comparison.
 TEST_F(FarField, IsTheMeanOverTheWidthOfThinFibers) {
     struct Row {
         float roughness;
@@ -102,7 +102,7 @@ TEST_F(FarField, IsTheMeanOverTheWidthOfThinFibers) {
         }
 }
 
-// h - 0.4 to h + 0.4, and at the edge what is left of that.
+// h - 0.4 to h + 0.4, and at the edge the part of it that is left.
 TEST_F(FarField, IsTheMeanOverThePartThatAPixelSees) {
     for (const float roughness : {0.3f, 0.5f}) {
         const FarError middle = errorOf(device(), roughness, 0.2f, 0.4 * kProbeWidth, -0.2, 0.6);

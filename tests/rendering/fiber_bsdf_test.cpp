@@ -30,7 +30,7 @@ TEST(FiberFresnel, IsWhatIsWorkedOutByHand) {
     EXPECT_NEAR(fresnel(0, 1.55), 1, 1e-12);
     // 60 degrees into 1.5: cos theta_t = sqrt(2 / 3), amplitudes -0.4202041 and -0.0424492.
     EXPECT_NEAR(fresnel(0.5, 1.5), 0.0891867, 1e-7);
-    // Brewster's angle: nothing of one polarisation, ((1 - eta^2) / (1 + eta^2))^2 of the other.
+    // Brewster's angle reflects one polarisation alone, by ((1 - eta^2) / (1 + eta^2))^2.
     EXPECT_NEAR(fresnel(1 / std::sqrt(3.25), 1.5), 0.5 * std::pow(1.25 / 3.25, 2), 1e-12);
 }
 
@@ -44,7 +44,7 @@ TEST(LongitudinalScattering, IntegratesToOne) {
                 sum += reference::longitudinal(theta, theta_o, variance) * std::cos(theta) * pi /
                        kSteps;
             }
-            // The midpoint rule is wrong by step^2 / 24 times what f' changes by from pole to pole.
+            // The midpoint rule is wrong by step^2 / 24 times the change of f' from pole to pole.
             const double step = pi / kSteps;
             EXPECT_NEAR(sum, 1, 1.1 * step * step / 24 * (1 + 1 / variance) + 1e-9)
                 << variance << ' ' << theta_o;
@@ -161,8 +161,8 @@ TEST(FiberAttenuation, IsAllOfTheLightThatIsNotAbsorbed) {
     EXPECT_NEAR(path.attenuations[1].r, std::pow(1 - 0.0465206, 2) * std::exp(-1.0), 1e-7);
 }
 
-// Scales' outer faces look towards the root, -x, by the tilt: R's half angle is -tilt, and in
-// Marschner et al. 2003 TT and TRT go the other way.
+// The scales' outer faces tilt towards the root, -x: R's half angle is -tilt. In Marschner et al.
+// 2003 TT and TRT go the other way.
 TEST(FiberTilt, MovesLobes) {
     ShadingSettings shading;
     shading.cuticle_tilt = 3.0f;

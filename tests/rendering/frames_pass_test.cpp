@@ -11,7 +11,7 @@
 #include "tests/gpu_fixture.h"
 #include "tests/rendering/device_hair.h"
 
-// Frames that don't turn about the guides, against what is known of them.
+// Frames that don't turn about the guides, compared with their known properties.
 namespace hair::rendering {
 namespace {
 
@@ -122,8 +122,8 @@ TEST_F(FramesPassTest, MoveWithTheHead) {
     for (glm::vec3& point : moved.points) point = glm::vec3(head * glm::vec4(point, 1.0f));
     const std::vector<glm::dvec3> before = normals(groom);
     const std::vector<glm::dvec3> after = normals(groom, moved, head);
-    // Points of up to 1 m round to 6e-8, in steps of 0.02 m and more: 3e-6 in a direction, some of
-    // which add up over 8 vertices.
+    // Points of up to 1 m round to 6e-8, in steps of 0.02 m and more: 3e-6 in a direction. Some of
+    // these errors add up over 8 vertices.
     for (std::size_t i = 0; i < before.size(); ++i)
         ASSERT_LT(glm::distance(glm::dmat3(glm::mat3(head)) * before[i], after[i]), 3e-5) << i;
 }

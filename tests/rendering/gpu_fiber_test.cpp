@@ -21,7 +21,7 @@ namespace {
 
 using std::numbers::pi;
 
-// What shaders make of probes.
+// The shaders' answers to probes.
 class GpuFiberTest : public GpuTest {
 protected:
     static std::vector<gpu::FiberProbe>
@@ -146,8 +146,8 @@ TEST_F(GpuFiberTest, AgreesWithTheReferenceOfDualScattering) {
     }
 }
 
-// As AgreesWithTheReference, from the papers' equations and not from what made the device's
-// parameters; their sums are right to 1e-6 of a value at least.
+// Like AgreesWithTheReference, but from the papers' equations and not from the source of the
+// device's parameters. Their sums are right to 1e-6 of a value at least.
 TEST_F(GpuFiberTest, AgreesWithThePublishedEquations) {
     for (const float m : kRoughnesses) {
         for (const float n : {0.1f, 0.3f, 0.9f}) {

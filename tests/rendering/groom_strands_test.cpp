@@ -51,7 +51,7 @@ std::vector<groom::StrandBinding> inOrder(const groom::Groom& groom, std::uint32
     return bindings;
 }
 
-// A groom of the one strand, as the guides that it is bound to give it.
+// A groom of this strand alone, as its guides give it.
 groom::Groom
 alone(const groom::Groom& groom, const groom::StrandBinding& binding, const glm::dmat3& head) {
     std::vector<glm::vec3> strand;

@@ -7,7 +7,7 @@
 #include "tests/gpu_fixture.h"
 #include "tests/rendering/shadow_probe.h"
 
-// Deep opacity maps of strands whose mean number before a point is known.
+// Deep opacity maps of strands with a known mean number before a point.
 namespace hair::rendering {
 namespace {
 
@@ -71,8 +71,8 @@ std::vector<glm::vec3> plane(float depth, float reach = 0.5f * kReach) {
     return points;
 }
 
-// Texels of the map of such a fan: 128 a side for a sphere about the roots' middle that is as wide
-// as the fan and as high as the strands are long, hypot(0.1, 0.2) or 0.1 + 0.2 m at the most.
+// Texels of a fan's map: 128 a side for a sphere about the roots' middle. The sphere is as wide as
+// the fan and as high as the strands are long: hypot(0.1, 0.2) or 0.1 + 0.2 m at the most.
 constexpr float kTexel = 2.0f * (kReach + 2.0f * kReach) / 128.0f;
 
 // In fans of coverage c each, a point behind k of them has met k c strands. Layers of 0.01, 0.02,
@@ -96,9 +96,9 @@ TEST_F(HairShadowTest, CountsTheFansBeforeAPoint) {
             double fans;  // before it
             double tolerance;
         };
-        // 3.1 pitches are a texel, so that a column of texels is hit by one strand more or less;
-        // these are averaged over 21 columns. 2 % of the fans that have a part in it is what is
-        // asked of coverage.
+        // A texel is 3.1 pitches, so the number of strands in a column of texels varies by one;
+        // the test averages 21 columns. The tolerance is that of coverage: 2 % of each fan
+        // involved.
         constexpr std::array kRows{
             Row{-0.01f, 0.0, 0.0},   Row{0.0101f, 1.0, 0.02}, Row{0.0301f, 2.0, 0.04},
             Row{0.0701f, 3.0, 0.06}, Row{0.15f, 4.0, 0.08},   Row{0.16f, 4.0, 0.08},
@@ -117,7 +117,7 @@ TEST_F(HairShadowTest, CountsTheFansBeforeAPoint) {
     }
 }
 
-// Whatever the strands' width in texels: width / pitch.
+// The coverage is width / pitch for any width of the strands in texels.
 TEST_F(HairShadowTest, ThinStrandsCoverTheirArea) {
     constexpr float kFine = 0.25f * kTexel;  // in maps of 512
     // A pitch of 5.7 texels and an angle, so that strands are at all places in texels. Points are
@@ -216,7 +216,7 @@ TEST_F(HairShadowTest, LightsDoNotDisturbEachOther) {
     }
 }
 
-// A light among the hair throws the shadows of what is before it, and none behind it.
+// A light among the hair throws the shadows of the hair before it, and none behind it.
 TEST_F(HairShadowTest, LightMayBeAmongTheHair) {
     const groom::Groom groom = fansOfStrands({.depths = {-0.1f, 0.0f, 0.1f}, .pitch = 0.0011f});
     Settings settings = litFromAbove(0.00044f);
@@ -266,8 +266,8 @@ double meanOf(std::span<const FoundPath> paths, float FoundPath::* value) {
     return sum / static_cast<double>(paths.size());
 }
 
-// Fans that lie on each other, of coverage c: a ray meets a strand of each of them or none, however
-// many there are. That is what light does; deep opacity maps have c of each on every ray.
+// Fans of coverage c lie on each other: a ray meets a strand of each of them or none. Light does
+// the same; deep opacity maps have c of each fan on every ray.
 TEST_F(HairShadowTest, RaysMeetWholeStrands) {
     const Fans fans{.depths = {0.0f, 0.02f, 0.05f, 0.11f}, .pitch = 0.0015f, .angle = 0.3f};
     constexpr float kWidth = 0.0004f;
@@ -287,16 +287,16 @@ TEST_F(HairShadowTest, RaysMeetWholeStrands) {
             if (path.direct < 0.99f) {
                 ASSERT_NEAR(path.met, 4.0f, 1e-3f) << resolution;
             }
-            // Of light that `stopped` halves four times.
+            // `stopped` halves the light four times.
             ASSERT_NEAR(path.visibility, path.direct + (1 - path.direct) / 16, 1e-4f);
         }
     }
 }
 
-// Of light that `stopped` halves, by a_f exp(a_f - 1) as LocalScattering has it.
+// The part of halved light that goes there and back: a_f exp(a_f - 1), as in LocalScattering.
 const float kThereAndBack = 0.5f * std::exp(-0.5f);
 
-// Points of strands that lie one behind the other, on rays that meet all of them.
+// Points of strands one behind another, on rays that meet all of them.
 TEST_F(HairShadowTest, RaysCountStrandsBeforeAndBehind) {
     constexpr float kWidth = 0.0008f;
     const Fans fans{.depths = {0.0f, 0.02f, 0.05f, 0.11f}, .pitch = 0.006f};
@@ -329,8 +329,8 @@ TEST_F(HairShadowTest, RaysCountStrandsBeforeAndBehind) {
     }
 }
 
-// Of light that comes in at a cosine mu to a closed surface of strands, as much more than once
-// scattered light is kept as H(mu) H(0.7) - 1 says, over that at 0.8; H(mu) = 1 + 2 mu.
+// Light comes in at a cosine mu to a closed surface of strands. The part of the light scattered
+// more than once that is kept is H(mu) H(0.7) - 1 over its value at 0.8; H(mu) = 1 + 2 mu.
 TEST_F(HairShadowTest, KeepsLessOfGrazingLight) {
     constexpr float kWidth = 0.0008f;
     const Fans fans{.pitch = 0.0005f};
@@ -377,7 +377,8 @@ TEST_F(HairShadowTest, NoStrandIsInItsOwnShadow) {
                          .width = 0.0004f});
                 }
             }
-            // Texels of 64 are wider than half of what is between strands: the next one is met.
+            // Texels of maps of 64 are wider than half of the gap between strands, so rays meet
+            // the next one.
             if (resolution == 64 && slope > 0.0f) continue;
             for (const FoundPath& path : findPaths(device(), settings, hair.view(), {}, probes)) {
                 ASSERT_NEAR(path.direct, 1.0f, 1e-5f) << resolution << ' ' << slope;

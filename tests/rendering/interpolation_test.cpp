@@ -49,7 +49,7 @@ TEST_F(InterpolationTest, AgreesWithTheReference) {
     }
 }
 
-// On guides of one segment too, both ends of which are in every window of four control points.
+// Includes guides of one segment: every window of four control points holds both of their ends.
 TEST_F(InterpolationTest, CollisionRuleAgreesWithTheReference) {
     for (const Interpolation interpolation : {Interpolation::multi, Interpolation::mixed}) {
         for (const auto& [curve, vertices] :
@@ -90,9 +90,9 @@ TEST_F(InterpolationTest, RootsAreTheSame) {
     }
 }
 
-// Guide i of each triangle goes along axis i, so that a strand shows the one that it follows. A
-// third of n strands follow each: a binomial number with variance n 2 / 9, within 4 deviations; the
-// random numbers are the same on every run.
+// Guide i of each triangle goes along axis i, so a strand's direction shows the guide that it
+// follows. A third of n strands follow each guide: a binomial number with variance n 2 / 9, within
+// 4 deviations. The random numbers are the same on every run.
 TEST_F(InterpolationTest, GuidesHaveEqualTerritories) {
     constexpr std::uint32_t kDensity = 1000;
     const glm::vec3 x(1, 0, 0), y(0, 1, 0), z(0, 0, 1);
@@ -107,7 +107,7 @@ TEST_F(InterpolationTest, GuidesHaveEqualTerritories) {
         const auto& tip = points.at(i / kDensity, i % kDensity, 0, 1);
         const glm::dvec3 along = tip.position - root.position;
         followers += along;
-        // The nearest corner is the one that weighs most: the triangle is equilateral.
+        // The nearest corner has the greatest weight, as the triangle is equilateral.
         for (int axis = 0; axis < 3; ++axis) {
             ASSERT_GE(
                 glm::dot(along, glm::dvec3(root.position)), root.position[axis] - kNearReference);

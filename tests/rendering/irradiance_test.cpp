@@ -45,8 +45,8 @@ double irradianceAt(const std::array<glm::dvec3, 9>& c, const glm::dvec3& n) {
 
 double legendre2(double x) { return (3 * x * x - 1) / 2; }
 
-// The middle of a texel stands for all of it: of a picture 128 px high that is an error of
-// (pi / 128)^2 / 24 of what bends by 1 per radian^2, times 6 for l = 2.
+// The sum takes a texel's middle for all of it. In a picture 128 px high that is an error of (pi /
+// 128)^2 / 24 for a function that bends by 1 per radian^2, times 6 for l = 2.
 constexpr double kQuadrature = 2e-4;
 
 TEST(Irradiance, OfEvenLightIsThatLight) {
@@ -75,8 +75,8 @@ TEST(Irradiance, OfSmoothLightIsExact) {
 }
 
 // Light of max(cos, 0) has the series 1/4 + 1/2 P1 + 5/16 P2 - 3/32 P4 ..., and a surface that
-// faces it gets 2/3: nine terms give 1/4 + 1/3 + 5/64 = 0.6615, which is 0.8 % less. What they
-// leave out is -1/24 * -3/32 = 0.4 % in the other directions.
+// faces it gets 2/3. Nine terms give 1/4 + 1/3 + 5/64 = 0.6615, which is 0.8 % less. In other
+// directions the missing terms are -1/24 * -3/32 = 0.4 %.
 TEST(Irradiance, OfACosineLobeIsWithinAPerCent) {
     const auto harmonics = irradianceHarmonics(
         environmentOf([](const glm::dvec3& d) { return std::max(glm::dot(d, kTilted), 0.0); }), 0);
@@ -113,9 +113,9 @@ TEST(EnvironmentLights, HaveAllLightOfThePicture) {
     }
 }
 
-// Twelve are the corners of an icosahedron, with equal parts of an even light up to the texels at
-// the parts' edges: 250 of 2,700 texels a part, of which half are on either side but for their
-// root.
+// Twelve directions are the corners of an icosahedron, with equal parts of an even light, except
+// for the texels at the parts' edges: 250 of a part's 2,700. Half of these are on either side, but
+// for their root.
 TEST(EnvironmentLights, OfEvenLightAreEqualAndWiderThanTheirPart) {
     const auto lights =
         environmentLights(environmentOf([](auto) { return 0.7; }), {.tone_map = ToneMap::srgb}, 12);
@@ -141,13 +141,13 @@ TEST(EnvironmentLights, ComeFromWhereThePictureIsBright) {
             {.tone_map = ToneMap::srgb, .environment_turn = static_cast<float>(degrees)}, 48);
         const auto brightest = std::ranges::max_element(lights, {}, irradianceOf);
         const glm::dvec3 axis = turned(kTilted, degrees * std::numbers::pi / 180);
-        // Of 48 directions one is within 20 degrees.
+        // One of 48 directions is within 20 degrees.
         EXPECT_GT(glm::dot(-glm::dvec3(brightest->direction), axis), 0.94) << degrees;
     }
 }
 
-// In even light from all around a white fibre looks as bright as what is round it: the white
-// furnace. Twelve lights of 48 degrees stand for all directions, whose lobes are widened as much.
+// In even light from all around, a white fibre looks as bright as its surroundings: the white
+// furnace. Twelve lights of 48 degrees stand for all directions; they widen the lobes accordingly.
 TEST(EnvironmentLights, AreAFurnaceForAWhiteFiber) {
     const auto lights =
         environmentLights(environmentOf([](auto) { return 1.0; }), {.tone_map = ToneMap::srgb}, 12);

@@ -20,7 +20,7 @@ using LightSizeShadow = GpuTest;
 // ---- A straight edge ----------------------------------------------------------------------------
 
 constexpr float kSide = 0.1f;  // m: half of the occluder's
-constexpr float kReceiver = 0.02f;  // m: what is lit is so far behind it
+constexpr float kReceiver = 0.02f;  // m: distance of the lit surface behind it
 constexpr float kLamp = 0.4f;  // m: lights are so far before it
 
 // In the plane z = 0, its edges along x and y.
@@ -34,8 +34,8 @@ groom::Mesh occluder() {
         .materials = {{.name = "square"}}};
 }
 
-// Over the middle of the edge x = kSide. Half of a penumbra is half of the light times kReceiver /
-// kLamp, 5 mm at most: the other edges don't reach it.
+// The lamp is over the middle of the edge x = kSide. Half of a penumbra is half of the light times
+// kReceiver / kLamp, 5 mm at most, so the other edges don't reach it.
 LightSettings lampOf(LightType type) {
     return {
         .type = type,
@@ -166,7 +166,7 @@ std::vector<glm::vec3> acrossTheEdge() {
     return points;
 }
 
-// The mean of what 256 points of the light let through, each a light of its own, in strata.
+// The mean visibility of 256 points of the light, each a light of its own, in strata.
 std::vector<double> manyPoints(
     const engine::Device& device, Settings settings, const LightSettings& lamp,
     const groom::Groom& groom) {
@@ -207,7 +207,7 @@ std::vector<double> manyPoints(
     return sum;
 }
 
-// As for the penumbra of an edge, of what hair lets through.
+// Like the penumbra of an edge, for light through hair.
 TEST_F(LightSizeShadow, OfHairIsTheMeanOverThePointsOfTheLight) {
     const groom::Groom groom = hairWithAnEdge();
     for (const HairShadows shadows : {HairShadows::deep_opacity, HairShadows::deep_shadow})

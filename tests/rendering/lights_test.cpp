@@ -109,15 +109,15 @@ TEST_F(Lights, SpheresLightMattSurfacesAsTheirWholeFaceDoes) {
             const gpu::ModelProbe found = probe(light, at({0, 0, 0}, normal));
             // Vulkan's arc sine: 4096 units in the last place.
             EXPECT_NEAR(found.angular_radius, angular, 4096 * 0x1p-23 * angular);
-            // What mattResponse() says of itself; the integral's own error is below 1e-3.
+            // The error that mattResponse() documents; the integral's own error is below 1e-3.
             EXPECT_NEAR(found.matt, meanCosine(angular, tilt), 0.04 * std::sin(angular) + 1e-3)
                 << angular << " " << tilt;
         }
     }
 }
 
-// The mean of a lobe about the directions of a disc: a lobe exp(-n a^2 / 2) of one angle, of which
-// the disc's spread is r^2 / 4, keeps its integral.
+// The mean of a lobe over the directions of a disc. A lobe exp(-n a^2 / 2) of one angle keeps its
+// integral; the disc's spread of that angle is r^2 / 4.
 TEST_F(Lights, SizeWidensHighlights) {
     const double angular = 0.2, n = 100.0;
     const LightSettings light{

@@ -33,7 +33,7 @@ TEST(LodBound, KnowsTheTaperAndTheGroomsWidths) {
     const auto bound = [&](const StrandSettings& strands) {
         return greatestWidthScale(groom, strands) - 1.0f;
     };
-    // Half of the strand 3 mm wide, the other half 2 mm in the mean: 2.5 mm instead of 2.
+    // The first half of the strand is 3 mm wide, the second 2 mm on average: 2.5 mm instead of 2.
     const float plain = bound({.root_width = 0.003f, .tip_width = 0.001f});
     const float late = bound({.root_width = 0.003f, .tip_width = 0.001f, .taper_start = 0.5f});
     EXPECT_NEAR(plain / late, 2.5f / 2.0f, 1e-4f);

@@ -48,7 +48,7 @@ TEST_F(LodPictureTest, FarHairIsThatOfTheMaximumLevel) {
     EXPECT_EQ(differingPixels(draw(settings), forced), 0u);
 }
 
-// Where strand_plan.h keeps strands from getting wider, distance alone draws no coarser ones.
+// From the width at which strand_plan.h stops strands, distance alone draws no coarser ones.
 TEST_F(LodPictureTest, StrandsStopAtTheirGreatestWidth) {
     Settings settings = small();
     settings.strands.tessellation = 1;
@@ -85,15 +85,15 @@ TEST_F(LodPictureTest, KeepsCoverageFromOneToTwentyMetres) {
     }
 }
 
-// Half as many strands of twice the width have the same total area, and thrown at random the same
-// chance to cover a pixel. What differs:
-//  - the outline moves out by half of what a strand grows. A strand is 1.25 mm wide on average,
+// Half as many strands of twice the width have the same total area and, at random places, the same
+// chance to cover a pixel. There are three differences:
+//  - the outline moves out by half of a strand's growth. A strand is 1.25 mm wide on average,
 //    2.5 mm at level 1 and 5 mm at level 2; round a disc of radius 0.15 m an outline 0.6 or 1.9 mm
 //    farther out adds 0.8 or 2.5 % of area;
 //  - strands are chords of their curves, 2 and 1 a segment instead of 4: below 1 % at these bends;
-//  - chance: the 544 strands of level 2 cover each about 1/544 of the area, in sum they vary by
+//  - chance: the 544 strands of level 2 cover each about 1/544 of the area; their sum varies by
 //    1 / sqrt(544) = 4 %.
-// Together below 10 %. Strands that did not widen would lose far more than that.
+// Together they are below 10 %. Strands that did not widen would lose far more than that.
 TEST_F(LodPictureTest, CoveredAreaIsKept) {
     Settings settings = thesisAtRest();
     settings.render.width = 480;

@@ -72,10 +72,10 @@ protected:
     }
 };
 
-// A thousandth of a level is 0.07 % of a count. Of 30 strands that is 0.02 of one's width; of the
-// pieces it moves ends by 0.1 % of what the line bends, some 0.1 m. Counts that are rounded, to
-// whole numbers or at halves between them, would lose a whole strand there, a change of 1, and
-// pieces that are dropped where they are would move by a tenth of that bend.
+// A thousandth of a level is 0.07 % of a count. With 30 strands that is 0.02 of one strand's
+// width. It moves the ends of pieces by 0.1 % of the line's bend, some 0.1 m. Counts rounded to
+// whole numbers or at halves would lose a whole strand there, a change of 1. Pieces dropped in
+// place would move by a tenth of that bend.
 TEST_F(LodStrandsTest, NothingJumpsWhereCountsFall) {
     constexpr float kStep = 1e-3f;
     constexpr float kBound = 0.03f;
@@ -155,15 +155,15 @@ glm::dvec3 slopeOfCubic(const std::array<glm::dvec3, 7>& points, std::uint32_t i
     return slope;
 }
 
-// As above for tangents: those of ends that stay are the curve's slopes, and on the way to the line
-// a tangent goes to what is between those of the line's ends.
+// As above for tangents. The tangents of ends that stay are the curve's slopes. On the way to the
+// line a tangent goes to a mean of those of the line's ends.
 TEST_F(LodStrandsTest, TangentsMoveWithTheirEnds) {
     const StrandSettings strands{.density = 4, .tessellation = 6};
     const StrandPoints fine = evaluateAt(strands, 0.0f);
     std::array<glm::dvec3, 7> curve;
     for (std::uint32_t i = 0; i <= 6; ++i) curve[i] = fine.at(2, 0, 4, i).position;
-    // Points of up to 0.75 m with some 20 roundings, of which slopeOfCubic() takes up to
-    // (11 + 18 + 9 + 2) / (6 / 3) = 20 times each.
+    // Points of up to 0.75 m have some 20 roundings. slopeOfCubic() multiplies each by up to (11 +
+    // 18 + 9 + 2) / (6 / 3) = 20.
     constexpr double kTolerance = 20 * 20 * 0x1p-24 * 0.75;
     struct Row {
         float wanted;
@@ -285,7 +285,7 @@ TEST_F(LodStrandsTest, StrandsLeaveInOneOrder) {
     EXPECT_LT(before, 40u);
 }
 
-// What the host says of a path is what the device draws.
+// The host's counts for a path are equal to the device's.
 TEST_F(LodStrandsTest, HostCountsWhatTheDeviceDraws) {
     const groom::Groom groom = tangledGroom(3);
     Settings settings{

@@ -46,7 +46,7 @@ protected:
             .color = glm::vec3(1.0f), .ambient = 1.0f, .diffuse = 0.0f, .specular = 0.0f};
     }
 
-    // Of a picture's red.
+    // The sum of a picture's red.
     static double sum(const std::vector<float>& light) {
         double total = 0.0;
         for (std::size_t i = 0; i < light.size(); i += 3) total += double{light[i]};
@@ -54,9 +54,9 @@ protected:
     }
 };
 
-// Width times length of sixteen hairs. Where hairs end spreads a strip's area by 1.2 %, what is cut
-// from those at its edges by some 3 %: the mean of 12 strips by 1 %, of which three are allowed.
-// They lie aslant, for upright hairs of 1.8 px would meet the same columns of pixels all along.
+// Width times length of sixteen hairs. The hairs' ends spread a strip's area by 1.2 %, the cuts at
+// its edges by some 3 %. The mean of 12 strips has a spread of 1 %; the test allows three. The
+// hairs lie aslant, for upright hairs of 1.8 px would meet the same columns of pixels all along.
 TEST_F(MergedHairsTest, CoverTheAreaOfAllHairs) {
     for (const Backend backend : {Backend::tessellation, Backend::software, Backend::expanded}) {
         Settings settings = strip(backend, 256);
@@ -83,8 +83,8 @@ TEST_F(MergedHairsTest, CoverTheSameAnalytically) {
     }
 }
 
-// Across the middle of the strip fifteen whole hairs, and at its edges what is left of two. A wider
-// strand of old shows one.
+// The middle of the strip has fifteen whole hairs across, and the rest of two at its edges. A
+// wider strand without merged hairs would show one.
 TEST_F(MergedHairsTest, AreSeenOneByOne) {
     Settings settings = strip(Backend::tessellation, 512);
     makeWhite(settings);
@@ -153,7 +153,7 @@ TEST_F(MergedHairsTest, AreTheSameInAllBackends) {
     }
 }
 
-// What a level begins with is the strand itself.
+// At the start of a level the strand is still itself.
 TEST_F(MergedHairsTest, GrowOutOfTheStrand) {
     Settings settings = strip(Backend::tessellation, 256);
     makeWhite(settings);

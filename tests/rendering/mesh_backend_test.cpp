@@ -18,8 +18,8 @@
 #include "tests/gpu_fixture.h"
 #include "tests/rendering/pictures.h"
 
-// The back end `mesh`: how it is cut into workgroups, its pictures against those of `tessellation`,
-// and what it leaves out.
+// The back end `mesh`: its division into workgroups, its pictures compared with those of
+// `tessellation`, and its limits.
 namespace hair::rendering {
 namespace {
 
@@ -100,10 +100,10 @@ StrandPlan planOf(
 }
 
 TEST(MeshBackend, FillsBlocksWithWholeStrands) {
-    // 7 x 4 + 1 = 29 points a strand, four of which fit 128.
+    // 7 x 4 + 1 = 29 points a strand; four strands fit 128.
     EXPECT_EQ(countBlocks(planOf(136, 7, 64, 4), {}, 128), 136u * 16);
     EXPECT_EQ(countBlocks(planOf(136, 7, 65, 4), {}, 128), 136u * 17);
-    // 7 x 5 = 35 points where segments share none, three of which fit.
+    // 7 x 5 = 35 points where segments share none; three strands fit.
     EXPECT_EQ(countBlocks(planOf(136, 7, 64, 4), {.taper = Taper::segment}, 128), 136u * 22);
     // 127 + 1 points and 64 x 2 fill one block; a point more takes a second one.
     EXPECT_EQ(countBlocks(planOf(1, 127, 1, 1), {}, 128), 1u);
@@ -115,7 +115,7 @@ TEST(MeshBackend, FillsBlocksWithWholeStrands) {
 TEST(MeshBackend, CutsLongStrandsBetweenSegments) {
     // 15 segments of 8 pieces have 121 points, 16 have 129: 64 segments are five blocks.
     EXPECT_EQ(countBlocks(planOf(2, 64, 3, 8), {}, 128), 2u * 3 * 5);
-    // 65 points a segment, of which two share one.
+    // 65 points a segment; two segments share one.
     EXPECT_EQ(countBlocks(planOf(1, 255, 1, 64), {}, 128), 255u);
     EXPECT_EQ(countBlocks(planOf(0, 7, 64, 4), {}, 128), 0u);
     EXPECT_NE(
@@ -183,7 +183,7 @@ TEST_F(MeshBackendPicture, IsThatOfTessellationOfStrandsInAnyNumber) {
     expectSamePictures(single, 625);
 }
 
-// 32 segments of 16 pieces: each strand takes five blocks, joints of which are closed.
+// 32 segments of 16 pieces: each strand takes five blocks, and the joints between them are closed.
 TEST_F(MeshBackendPicture, IsThatOfTessellationOfLongStrands) {
     Settings settings = small();
     settings.groom.guides = 30;
@@ -214,7 +214,7 @@ TEST_F(MeshBackendPicture, IsThatOfTessellationAtEveryLevelOfDetail) {
     expectSamePictures(settings, 625);
 }
 
-// Curves, tapers, offsets and what follows a single guide.
+// Curves, tapers, offsets and strands that follow a single guide.
 TEST_F(MeshBackendPicture, IsThatOfTessellationOfEveryKindOfStrand) {
     const std::initializer_list<void (*)(StrandSettings&)> kinds{
         [](StrandSettings& s) {

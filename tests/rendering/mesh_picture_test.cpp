@@ -25,7 +25,7 @@ engine::Pixels picture(std::uint32_t width, const std::vector<Rgb>& colors, int 
     return pixels;
 }
 
-// A texture whose pixels are seen as squares.
+// A texture with pixels that show as squares.
 groom::MaterialTexture sharp(std::uint32_t index = 0) {
     return {.picture = index, .is_smooth = false};
 }

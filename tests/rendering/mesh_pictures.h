@@ -30,7 +30,8 @@ inline groom::Mesh quad(const groom::Material& material = {}) {
         .materials = {material}};
 }
 
-// The square fills the picture, of `side` pixels. What is white and matt shows its ambient light.
+// The square fills the picture, `side` pixels wide. A white, matt surface shows the ambient light
+// alone.
 inline Settings quadSettings(std::uint32_t side) {
     Settings settings;
     settings.render.width = settings.render.height = side;
@@ -42,7 +43,8 @@ inline Settings quadSettings(std::uint32_t side) {
     return settings;
 }
 
-// The same by way of linear light: the light is behind the square, what is ambient is white.
+// The same settings with linear light: the light is behind the square, and the ambient light is
+// white.
 inline Settings linearSettings(std::uint32_t side) {
     Settings settings = quadSettings(side);
     settings.render.tone_map = ToneMap::srgb;
@@ -50,7 +52,7 @@ inline Settings linearSettings(std::uint32_t side) {
     return settings;
 }
 
-// A light that goes the other way, and nothing but it.
+// Only one light, which shines opposite to this direction.
 inline void lightFrom(Settings& settings, const glm::vec3& to_light) {
     settings.shading.ambient = 0.0f;
     settings.shading.diffuse = 1.0f;

@@ -36,7 +36,7 @@ TEST(MeshPlacement, ScalesTurnsAboutXThenYThenZAndMoves) {
 
 class MeshPlacementTest : public GpuTest {};
 
-// Where the head is moved, the others stay.
+// The other meshes stay when the head moves.
 TEST_F(MeshPlacementTest, OnlyTheHeadMoves) {
     Settings settings = quadSettings(20);
     // Seen from 0.5 m, half a metre is the picture's half: each square is an eighth of its side.

@@ -14,7 +14,7 @@ using MeshShadowTest = GpuTest;
 
 constexpr float kHalf = 0.05f;  // m, of the square's side
 
-// Of the filter's weights, up to 49 of them, each of three roundings of 2^-24.
+// The rounding of the filter's weights: up to 49 of them, each with three roundings of 2^-24.
 constexpr float kMapRounding = 1e-5f;
 
 // Round the origin, with this normal.
@@ -75,7 +75,7 @@ void expectGeometry(
     for (std::size_t i = 0; i < points.size(); ++i) {
         const glm::vec3 to_light =
             light.type == LightType::directional ? -light.direction : light.position - points[i];
-        // Where the way to the light meets the square's plane.
+        // The way to the light meets the square's plane here.
         const glm::vec3 at = points[i] - points[i].z / to_light.z * to_light;
         const float outside = std::max(std::abs(at.x), std::abs(at.y)) - kHalf;
         // Softness and half a texel of rasterisation; a light's map is up to twice as coarse in
@@ -116,9 +116,9 @@ TEST_F(MeshShadowTest, WhatIsBeforeTheSquareIsLit) {
         ASSERT_NEAR(path.meshes, 1.0f, kMapRounding);
 }
 
-// Flat surfaces don't shade themselves, however they are turned, up to 6 degrees to the light. A
-// surface behind another is shaded from half a texel along the light on, and what a surface turned
-// by 5 degrees more rises in the filter.
+// Flat surfaces at any angle down to 6 degrees to the light don't shade themselves. The shadow of
+// a surface begins half a texel along the light behind it. A surface turned by 5 degrees more also
+// needs the distance that it rises within the filter.
 TEST_F(MeshShadowTest, SurfacesShadeNotThemselvesButWhatIsCloseBehind) {
     const glm::vec3 down(0.0f, 0.0f, -1.0f);
     for (const float degrees : {0.0f, 20.0f, 45.0f, 70.0f, 83.0f}) {

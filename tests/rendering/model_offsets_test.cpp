@@ -47,12 +47,11 @@ StrandOffsets make(const groom::StrandSet& model, double length) {
     return makeStrandOffsets({.offsets = "model"}, straight(length), &model, 1);
 }
 
-// On hair half as long a curl is half as wide, and goes round as often. In the middle half a cubic
-// through the root is off the axis by
-//  - what it takes of a wave of 32 periods: at most sum (2n + 1) |P_n| 2 / (2 pi 32), n = 0 to 3,
-//  P_n
-//    Legendre's polynomials, 8 % of the amplitude;
-//  - that the root is off the axis: sum (2n + 1) P_n(-1) P_n / 16, 12 % of its distance.
+// On hair half as long a curl is half as wide, and goes round as often. A cubic through the root
+// is off the axis in the middle half for two reasons:
+//  - it takes up a part of a wave of 32 periods: at most sum (2n + 1) |P_n| 2 / (2 pi 32), n = 0
+//    to 3, with Legendre's polynomials P_n: 8 % of the amplitude;
+//  - the root is off the axis: sum (2n + 1) P_n(-1) P_n / 16, 12 % of its distance.
 TEST(ModelOffsets, AreAModelsCurlsInProportion) {
     const StrandOffsets offsets = make(strandSet({helix(2000)}), 0.5 * kAxis);
     EXPECT_EQ(offsets.profiles, 64u);  // all the same
@@ -82,8 +81,8 @@ TEST(ModelOffsets, AreTheSameOfAModelThatIsMovedAndEnlarged) {
     const StrandOffsets b = make(strandSet({moved}), kAxis);
     ASSERT_EQ(a.samples, b.samples);
     for (std::size_t i = 0; i < a.samples; ++i) {
-        // Where the frames start may be the choice of the rounding, so radius and tangent are
-        // compared. Floats round 40 by 2e-6, a 20th of that to 0.2 m, and there are three.
+        // Rounding may choose where the frames start, so the test compares radius and tangent.
+        // Floats round 40 by 2e-6, a 20th of that to 0.2 m, and there are three.
         const glm::vec3& p = a.profile(0)[i];
         const glm::vec3& q = b.profile(0)[i];
         ASSERT_NEAR(std::hypot(p.x, p.y), std::hypot(q.x, q.y), 1e-6) << i;

@@ -13,7 +13,7 @@
 
 namespace hair::rendering {
 
-// What the device's functions of lights and models say at points, of the lights of settings.
+// The answers of the device's functions of lights and models at points, for these lights.
 inline std::vector<gpu::ModelProbe> probeModels(
     const engine::Device& device, const std::vector<LightSettings>& lights,
     std::vector<gpu::ModelProbe> probes) {

@@ -20,7 +20,7 @@ protected:
         return evaluateStrandPoints(device(), settings, hair.view());
     }
 
-    // The same strands without what moves them off their shape.
+    // The same strands without the offsets from their smooth shape.
     static StrandPoints evaluateSmooth(const groom::Groom& groom, Settings settings) {
         settings.strands.curl.radius = 0.0f;
         settings.strands.variation.amplitude = 0.0f;
@@ -32,8 +32,8 @@ protected:
 constexpr StrandCurlSettings kCurl{
     .radius = 0.004f, .frequency = 40.0f, .frequency_variation = 0.0f, .start = 0.2f};
 
-// Of the tangled guides too, in all that an offset is made of. Points within 0.5 m as in
-// strand_points_test.cpp; the frame of a guide is good to 1e-4 rad (frames_pass_test.cpp) of an
+// Includes the tangled guides and every part of an offset. Points are within 0.5 m as in
+// strand_points_test.cpp. The frame of a guide is good to 1e-4 rad (frames_pass_test.cpp) for an
 // offset of 0.01 m, and the place in the table to 2^-24 of a slope of 2 pi 5 turns 0.01 m.
 TEST_F(OffsetStrandsTest, AgreeWithTheReference) {
     constexpr double kTolerance = 20 * 0x1p-24 * 1.5 * 2.0 + 1e-6;

@@ -109,10 +109,10 @@ TEST_F(PictureTest, HairThroughAMeshIsCutByIt) {
     EXPECT_GT(right, 50u);
 }
 
-// Crosses of strands that face a camera 20 m away, [cross][pixel]: one upright and one level, one
-// of them 1 mm nearer than the other. Strands have the colours of their tangents, (0, 1, 0) and (1,
-// 0, 0): all of green or all of red. A step of depth that grows from the near plane would be 2.4 mm
-// there, and of two strands at one depth the first drawn would be seen.
+// Crosses of strands that face a camera 20 m away, [cross][pixel]: one strand is upright and one
+// level, and one is 1 mm nearer. Strands have the colours of their tangents, (0, 1, 0) and (1, 0,
+// 0): all green or all red. A step of depth that grows from the near plane would be 2.4 mm there,
+// and the first drawn of two strands at one depth would be seen.
 TEST_F(PictureTest, StrandsAMillimetreApartAt20MAreInOrder) {
     constexpr int kCrosses = 16;
     constexpr std::uint32_t kPitch = 16;  // px

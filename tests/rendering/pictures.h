@@ -17,7 +17,8 @@ namespace hair::rendering {
 
 using Pixels = std::vector<std::uint8_t>;  // [row][column] RGBA, top row first
 
-// Of two pictures of one size: pixels of which a color is more than so many steps off.
+// The number of pixels that differ between two pictures of one size by more than this many steps
+// in a channel.
 inline std::size_t differingPixels(const Pixels& a, const Pixels& b, int steps = 0) {
     if (a.size() != b.size() || a.empty())
         throw std::invalid_argument(

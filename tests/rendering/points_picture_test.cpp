@@ -23,16 +23,16 @@ namespace fs = std::filesystem;
 struct Way {
     const char* name;
     Backend backend;
-    // Mean FLIP error of what is seen as the same. Points keep tangents to 0.1 degrees and widths
-    // to 0.4 %; edges of strands fall on other sides of samples where quads are rounded
-    // differently; and `software` shades each of several samples a pixel by itself.
+    // Greatest mean FLIP error of pictures that look the same. Points keep tangents to 0.1 degrees
+    // and widths to 0.4 %. Quads that are rounded differently put edges on other sides of samples.
+    // And `software` shades each of a pixel's samples separately.
     double most_different;
 };
 
 constexpr std::array kWays{
     Way{"expanded", Backend::expanded, 0.005}, Way{"software", Backend::software, 0.02}};
 
-// Of two pictures, in steps of a channel.
+// The differences of two pictures, in steps of a channel.
 std::vector<int> channelDifferences(const Pixels& a, const Pixels& b) {
     if (a.size() != b.size() || a.empty()) throw std::invalid_argument("pictures of other sizes");
     std::vector<int> differences;
@@ -155,8 +155,8 @@ TEST_F(PointsPicture, IsThatOfTessellationWithinTheHair) {
     }
 }
 
-// A strand along the view from before the near plane to far beyond it: what is cut off is what
-// hardware cuts off.
+// A strand along the view from before the near plane to far beyond it: the back ends cut off the
+// same part as the hardware.
 TEST_F(PointsPicture, CutsStrandsAtTheNearPlane) {
     Settings settings;
     settings.strands.density = 1;
@@ -223,8 +223,8 @@ TEST_F(PointsPicture, ShowsNothingOfNoStrands) {
             << way.name;
 }
 
-// A pixel of 1.2 m, in which a strand is 0.002 px wide. Phong's terms are not negative: what the
-// ambient one says is the least.
+// A pixel of 1.2 m; a strand in it is 0.002 px wide. Phong's terms are not negative, so the
+// ambient term is the least.
 TEST_F(PointsPicture, HasOnePixel) {
     Settings settings = with(thesisAtRest(), Backend::software);
     settings.camera.position = {0.0f, 0.05f, 0.5f};
@@ -238,8 +238,8 @@ TEST_F(PointsPicture, HasOnePixel) {
             std::floor(255.0f * settings.shading.ambient * settings.shading.color[i]));
 }
 
-// A picture wider than many a target, whose hair is seen under 63 to 77 degrees from its middle and
-// stretched to some 700 px.
+// A picture wider than many a target. Its hair is 63 to 77 degrees from its middle and stretched
+// to some 700 px.
 TEST_F(PointsPicture, IsThatOfTessellationInAWidePicture) {
     if (pythonInterpreter().empty()) return skipWithout(Need::python, kNoPython);
     Settings settings = thesisAtRest();
@@ -281,8 +281,8 @@ TEST_F(PointsPicture, ShadesAWideStrandAsTessellationDoes) {
         for (const Way& way : kWays) {
             const Pixels drawn = drawGroom(device(), with(settings, way.backend), groom, nullptr);
             const std::vector<int> differences = channelDifferences(expected, drawn);
-            // Two edges of some 70 px, of which rounding to 1/256 px moves few; three channels
-            // each.
+            // Two edges of some 70 px; rounding to 1/256 px moves few of them. Each pixel has
+            // three channels.
             EXPECT_LT(std::ranges::count_if(differences, [](int d) { return d > 6; }), 60)
                 << way.name << " " << static_cast<int>(model);
         }
@@ -301,8 +301,8 @@ TEST_F(PointsPicture, IsTheSameEveryTime) {
     }
 }
 
-// What `expanded` draws in other ways than shaded and opaque, and levels of detail whose pieces are
-// fewer than the finest.
+// Other kinds of drawing than shaded and opaque with `expanded`, and levels of detail with fewer
+// pieces than the finest.
 TEST_F(PointsPicture, IsThatOfTessellationHoweverItIsShown) {
     if (pythonInterpreter().empty()) return skipWithout(Need::python, kNoPython);
     Settings plain = thesisAtRest();

@@ -13,10 +13,10 @@
 
 #include "hair/shading_settings.h"
 
-// What the papers define, from the settings on and by brute force: integrals are sums over points,
-// paths are traced through the fibre's cross-section, series are summed term by term. Nothing is
-// shared with the program, which makes the device's parameters and tables from its own reference:
-// an error in those would be in both. Directions, h and the lobes as in fiber.h.
+// The papers' definitions, from the settings on and by brute force: sums over points for
+// integrals, paths traced through the fibre's cross-section, series term by term. The code shares
+// nothing with the program. The program makes the device's parameters and tables from its own
+// reference, so an error there would be in both. Directions, h and the lobes are as in fiber.h.
 namespace hair::rendering::published {
 
 inline constexpr double kPi = std::numbers::pi;
@@ -96,8 +96,8 @@ struct Path {
     std::array<double, 3> azimuths;  // phi_i - phi_o of a smooth fibre
 };
 
-// Traces the ray from the eye, at azimuth 0, through a circle of radius 1; Marschner et al. 2003,
-// section 4: what is seen of it in the cross-section has Bravais's index of refraction.
+// Traces the ray from the eye, at azimuth 0, through a circle of radius 1. In the cross-section
+// the ray's projection has Bravais's index of refraction (Marschner et al. 2003, section 4).
 inline Path trace(const Fiber& fiber, double theta_o, double h) {
     const double index =
         std::sqrt(std::pow(fiber.eta, 2.0) - std::pow(std::sin(theta_o), 2.0)) / std::cos(theta_o);
@@ -164,15 +164,17 @@ inline glm::dvec3 scattering(const Fiber& fiber, const View& view, double h) {
         fiber, view, h, 0.0, 0.0, [&](double angle) { return azimuthal(fiber, angle); });
 }
 
-// Of what a fibre scatters into a half turn: the part, and mean and variance of theta_i + theta_o.
+// The part of the light that a fibre scatters into a half turn, and the mean and variance of
+// theta_i + theta_o.
 struct Half {
     glm::dvec3 part{0.0};
     double shift = 0.0;
     double variance = 0.0;
 };
 
-// Zinke et al. 2008, (6) and (12): averages over the fibre's width and the half turn round `middle`
-// from the light's azimuth; the means are of the lobes', by what they carry.
+// Zinke et al. 2008, (6) and (12): averages over the fibre's width and the half turn round
+// `middle` from the light's azimuth. The means are those of the lobes, weighted by the light that
+// they carry.
 inline Half halfOf(const Fiber& fiber, double theta, double middle) {
     constexpr int kPlaces = 96;
     constexpr int kAngles = 384;
@@ -205,7 +207,7 @@ inline Half halfOf(const Fiber& fiber, double theta, double middle) {
     return half;
 }
 
-// What light brings along that has gone several ways: their sum, and means over all of them.
+// Light that has gone several ways: the sum, and means over all of them.
 struct Ways {
     glm::dvec3 part{0.0};
     double shift = 0.0;
@@ -224,9 +226,9 @@ struct Ways {
 };
 
 // Zinke et al. 2008, (13) to (15): light that goes forward through i fibres, back, and through i
-// again; and all the ways of going back three times. But the first i that it meets are such in the
-// mean, by Poisson's distribution: exp(-i (1 - f)) of it gets there, having met i f. Of three times
-// back, m of the ways pass m fibres in and out and n more twice within.
+// again; and all the ways of going back three times. Here the first i fibres are a mean of
+// Poisson's distribution: exp(-i (1 - f)) of the light gets there, and meets i f fibres. Of three
+// times back, m of the ways pass m fibres in and out and n more twice within.
 inline Ways backThroughNeighbours(const Half& forward, const Half& backward) {
     Ways ways;
     for (int channel = 0; channel < 3; ++channel) {
@@ -250,7 +252,7 @@ inline Ways backThroughNeighbours(const Half& forward, const Half& backward) {
     return ways;
 }
 
-// Forward through fibres whose number has Poisson's distribution, one at least.
+// Forward through a number of fibres with Poisson's distribution, at least one.
 inline Ways forwardThrough(const Half& forward, double strands) {
     Ways ways;
     const double mean = (forward.part.r + forward.part.g + forward.part.b) / 3.0;
@@ -264,11 +266,11 @@ inline Ways forwardThrough(const Half& forward, double strands) {
     return ways;
 }
 
-// Zinke et al. 2008, (5) to (11): the fibre's own and what its neighbours send back, of the light
-// that nothing stops and of that which others have scattered evenly over a half turn; `density` is
-// the part of what each scatters that meets others. What comes back is round the light's azimuth as
-// (1 + cos phi) / (2 pi). Of light behind the fibre `ended` goes out of the hair, and `returned`
-// comes back from what is there.
+// Zinke et al. 2008, (5) to (11): the fibre's own light and the light that its neighbours send
+// back. It counts the light that nothing stops and the light that others have scattered evenly
+// over a half turn. `density` is the part of each fibre's scattered light that meets others. Light
+// from the neighbours comes back round the light's azimuth as (1 + cos phi) / (2 pi). Of the light
+// behind the fibre, `ended` leaves the hair, and `returned` comes back from there.
 inline glm::dvec3 dualScattering(
     const Fiber& fiber, double density, const View& view, double h, double strands, double ended,
     double returned) {

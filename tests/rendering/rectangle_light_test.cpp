@@ -32,7 +32,7 @@ struct Rectangle {
     glm::dvec3 half_height;
 };
 
-// The integral over the solid angle of what is worth `value(direction)` at the origin: midpoints.
+// The integral of `value(direction)` over the solid angle from the origin, by midpoints.
 template <class Value>
 auto overRectangle(const Rectangle& of, int steps, const Value& value) {
     decltype(value(glm::dvec3())) sum{};
@@ -58,7 +58,8 @@ double beforeCorner(double x, double y) {
     return (x / by_x * std::atan(y / by_x) + y / by_y * std::atan(x / by_y)) / (2 * pi);
 }
 
-// Of an element at (x, y, 0) before a rectangle of these half sides round (0, 0, distance).
+// The form factor of an element at (x, y, 0) before a rectangle of these half sides round (0, 0,
+// distance).
 double parallelFormFactor(double x, double y, double half_x, double half_y, double distance) {
     const double left = (-half_x - x) / distance;
     const double right = (half_x - x) / distance;
@@ -68,7 +69,8 @@ double parallelFormFactor(double x, double y, double half_x, double half_y, doub
            beforeCorner(left, low);
 }
 
-// Of 0.4 by 0.2 m at 0.5 m over the plane z = 0, shining down, its height along y.
+// A softbox of 0.4 by 0.2 m at 0.5 m over the plane z = 0. It shines down, and its height is along
+// y.
 LightSettings softbox() {
     return {
         .type = LightType::rectangle,
@@ -301,7 +303,7 @@ TEST_F(GlossyRectangle, MirrorsItsRadiance) {
     const Rectangle wide = facing({0, 0, 1}, 10, 10, 0);
     const Rectangle below = facing(glm::normalize(glm::dvec3(0.3, 0, -1)), 0.1, 0.1, 0);
     const auto found = asked({probeOf(wide, 1.0f, 0.1f, 0.9), probeOf(below, 1.0f, 0.1f, 0.9)});
-    // Of F0 = 0.8 Schlick's F is 0.800002 at 26 degrees; shadowing takes less than 1e-4 of it.
+    // For F0 = 0.8 Schlick's F is 0.800002 at 26 degrees; shadowing takes less than 1e-4 of it.
     EXPECT_NEAR(found[0].glossy.x, 0.8, 2e-3);
     EXPECT_EQ(found[1].glossy.x + found[1].diffuse.x, 0.0f);
 }
@@ -310,8 +312,8 @@ TEST_F(GlossyRectangle, MirrorsItsRadiance) {
 
 class RectangleOnFiber : public GpuTest {
 protected:
-    // Of a fibre with these roughnesses under a rectangle of these half sides at 1 m, the second
-    // along the fibre.
+    // The difference for a fibre with these roughnesses under a rectangle of these half sides at 1
+    // m; the second side is along the fibre.
     static Difference differenceOf(float roughness, const glm::vec2& half) {
         Settings settings;
         settings.render.tone_map = ToneMap::srgb;
@@ -360,9 +362,9 @@ protected:
     }
 };
 
-// What is left is that a part of a rectangle is a box and not a bell: up to 1.5 standard deviations
-// of the narrowest lobe to each side, where four parts a side are enough (half a side of 0.87 m at
-// a roughness of 0.3; at 0.2 of 0.4 m).
+// The remaining error comes from the shape of a rectangle's part: a box, not a bell. A part
+// reaches up to 1.5 standard deviations of the narrowest lobe to each side, as long as four parts
+// a side are enough (half a side of 0.87 m at a roughness of 0.3; of 0.4 m at 0.2).
 TEST_F(RectangleOnFiber, ScattersAsTheSumOverItsPoints) {
     struct Row {
         float roughness;

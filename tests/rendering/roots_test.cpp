@@ -9,7 +9,7 @@
 #include "tests/largest_difference.h"
 #include "tests/rendering/device_hair.h"
 
-// Where strands grow in their root triangles: thesis 2.3.2.
+// The places of strands in their root triangles: thesis 2.3.2.
 namespace hair::rendering {
 namespace {
 
@@ -63,7 +63,7 @@ TEST_F(RootsTest, FillTheTriangleEvenly) {
     }
 }
 
-// The seed of this strand gives u = 8299944 / 2^24 and v = 8477273 / 2^24 (found by search), whose
+// The seed of this strand gives u = 8299944 / 2^24 and v = 8477273 / 2^24 (found by search). Their
 // sum 1 + 2^-24 rounds to 1. Unfolded, its third weight would be negative.
 TEST_F(RootsTest, FoldsWhatIsBeyondTheEdgeByOneBit) {
     const glm::vec3 weights = roots(unitTriangles(1), 24, 130704).back();

@@ -95,9 +95,10 @@ TEST_F(ShadingModelPictures, KajiyaKayIsFlatAcrossTheStrand) {
     for (const double value : across(settings)) EXPECT_NEAR(value, 0.75, 1e-3);
 }
 
-// What black fibres scatter is the surface's mirror image of the light, where the normal is halfway
-// between eye and light: at sin(azimuth / 2), on the light's side. A lobe is 0.03 rad wide (s of
-// beta_n = 0.1: 0.0240), two of which are 4 px here, and Fresnel's factor grows towards the edge.
+// Black fibres scatter only the surface's mirror image of the light. It is where the normal is
+// halfway between eye and light: at sin(azimuth / 2), on the light's side. A lobe is 0.03 rad wide
+// (s of beta_n = 0.1: 0.0240); two of them are 4 px here, and Fresnel's factor grows towards the
+// edge.
 TEST_F(ShadingModelPictures, FibresMirrorTheLightOnItsSide) {
     for (const ShadingModel model : {ShadingModel::marschner, ShadingModel::dual_scattering}) {
         for (const double azimuth : {60.0, -40.0}) {

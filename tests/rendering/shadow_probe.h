@@ -18,7 +18,7 @@
 
 namespace hair::rendering {
 
-// What is between a light and a point, as shading finds it.
+// The obstacles between a light and a point, as shading finds them.
 struct FoundPath {
     float meshes;
     float strands;
@@ -115,7 +115,7 @@ inline std::vector<FoundPath> findPaths(
     return paths;
 }
 
-// Of points of strands that are as thin as can be, so that no ray meets them.
+// The paths of points on strands of the least width, so that no ray meets them.
 inline std::vector<FoundPath> findPaths(
     const engine::Device& device, const Settings& settings, const StrandView& view,
     const RenderAssets& assets, std::span<const glm::vec3> points, std::uint32_t light = 0) {

@@ -111,9 +111,10 @@ int countOf(const std::uint8_t* pixel) {
     return agrees ? count : -1;
 }
 
-// As many fragments as the strands' quads are large: 12 of 5 mm by 0.2 m, where 512 px are
-// 2 * 0.5 m * tan 20 degrees. Where edges lie on the grid of pixels is chance: 0.29 px of a width
-// of 7 px for one strand, by the root of 12 less in the mean of all: 1.2 %; three times that.
+// The fragments have the area of the strands' quads: 12 of 5 mm by 0.2 m, where 512 px are 2 * 0.5
+// m * tan 20 degrees. The edges' places on the grid of pixels are random: an error of 0.29 px in a
+// width of 7 px for one strand, and less by the root of 12 in the mean of all: 1.2 %. The
+// tolerance is three times that.
 TEST_F(ShowPictureTest, DensityCountsAllStrands) {
     Settings shown = settings(Show::density);
     shown.render.width = shown.render.height = 512;
@@ -127,7 +128,7 @@ TEST_F(ShowPictureTest, DensityCountsAllStrands) {
         ASSERT_GE(count, 0) << "pixel " << i / 4;
         sum += count;
         most = std::max(most, count);
-        // Of those one at least is drawn, and none that is not there.
+        // At least one of these is drawn, and no others.
         const int passed = countOf(&drawn[i]);
         ASSERT_GE(passed, count > 0 ? 1 : 0) << "pixel " << i / 4;
         ASSERT_LE(passed, count) << "pixel " << i / 4;
@@ -155,8 +156,8 @@ TEST_F(ShowPictureTest, ShadowIsThePartOfTheLights) {
     EXPECT_LT((*found.begin())[0], 200);
 }
 
-// Hair of the color (1/2, 1/4, 1/8), lit from everywhere alike: what absorbs a times as much is
-// (2^-a, 2^-2a, 2^-3a).
+// Hair of the colour (1/2, 1/4, 1/8), with even light from everywhere: a times the absorption
+// gives (2^-a, 2^-2a, 2^-3a).
 class OwnColorTest : public ShowPictureTest {
 protected:
     static Settings lit() {
@@ -215,8 +216,8 @@ TEST_F(OwnColorTest, StrandsDiffer) {
     }
 }
 
-// A sphere of 0.05 m behind the strands: nothing is drawn farther than that from its middle, and
-// of what is drawn the hair hides nothing.
+// A sphere of 0.05 m behind the strands: no line is farther than that from its middle, and the
+// hair hides none of the lines.
 TEST_F(ShowPictureTest, BodiesAreSeenThroughHair) {
     Settings shown = settings(Show::shading);
     const Pixels without = draw(shown);

@@ -5,7 +5,7 @@
 #include "tests/error_text.h"
 #include "tests/temporary_folder.h"
 
-// What a scene's strands need and its files don't have, before anything runs.
+// Data that a scene's strands need and its files lack: errors before anything runs.
 namespace benchmarks {
 namespace {
 

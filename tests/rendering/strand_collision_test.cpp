@@ -19,8 +19,9 @@ namespace {
 constexpr std::uint32_t kVertices = 6;
 constexpr std::uint32_t kPieces = 4;
 
-// Of a point of about 0.5 m, moved and turned in a dozen roundings; the exponential's is 3 ulp and
-// what it is of: Vulkan specification, Precision and Operation of SPIR-V Instructions.
+// The rounding of a point of about 0.5 m, moved and turned with a dozen roundings. The
+// exponential's error is 3 ulp and that of its argument (Vulkan specification, Precision and
+// Operation of SPIR-V Instructions).
 constexpr double kRounded = 40 * 0x1p-24;  // m
 
 struct Nearest {
@@ -91,7 +92,7 @@ TEST_F(StrandCollisionTest, PointsAreAsFarOutsideAsIsSaid) {
         }
         ++(nearest.gap < 0.0 ? inside : nearest.gap < margin ? within : outside);
     }
-    // There are such of all kinds.
+    // There are points of all kinds.
     EXPECT_GT(inside, 100);
     EXPECT_GT(within, 100);
     EXPECT_GT(outside, 100);
@@ -115,8 +116,8 @@ TEST_F(StrandCollisionTest, JointsAreEqualToTheLastBit) {
         }
 }
 
-// A distance field of half space, y >= 0, which a grid of any size has exactly, in the world's
-// frame. What is drawn is a smooth curve there, of which the tangents are, by finite differences.
+// A distance field of the half space y >= 0 in the world's frame; a grid of any size holds it
+// exactly. The drawn line is a smooth curve there, and finite differences give its tangents.
 TEST_F(StrandCollisionTest, FieldsPushAndTurnTangents) {
     constexpr float kHalf = 2.0f;  // m
     const simulation::DistanceField field(

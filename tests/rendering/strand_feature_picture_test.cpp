@@ -16,7 +16,7 @@
 #include "tests/required.h"
 #include "tests/temporary_folder.h"
 
-// What strands may have beside the thesis's: every back end draws it alike, and counts it right.
+// Features of strands beyond the thesis: every back end draws them alike and counts them right.
 namespace hair::rendering {
 namespace {
 
@@ -157,10 +157,10 @@ TEST_F(StrandFeaturePictureTest, BackEndsDrawTheSameAtAnyLevelOfDetail) {
     }
 }
 
-// Those that make triangles in another way: within what their pictures of plain strands differ by
-// (tests/rendering/points_picture_test.cpp; mean FLIP errors), or a twentieth of what the feature
-// changes, where half of a small picture's pixels are edges of strands. `pulling` rounds a pixel
-// otherwise here and there.
+// Back ends that make triangles in another way. Their pictures differ by as much as those of plain
+// strands (tests/rendering/points_picture_test.cpp; mean FLIP errors), or by a twentieth of the
+// feature's change: half of a small picture's pixels are edges of strands. `pulling` rounds a few
+// pixels differently.
 TEST_F(StrandFeaturePictureTest, OtherBackEndsDrawThemToo) {
     if (pythonInterpreter().empty()) return skipWithout(Need::python, kNoPython);
     struct Other {

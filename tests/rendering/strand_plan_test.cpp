@@ -9,7 +9,7 @@
 namespace hair::rendering {
 namespace {
 
-constexpr std::uint32_t kIsolines = 64;       // what every device has
+constexpr std::uint32_t kIsolines = 64;       // the limit of every device
 constexpr std::uint32_t kLavapipe = 65536;    // vertices of a draw
 constexpr std::uint32_t kUnlimited = std::numeric_limits<std::uint32_t>::max();
 

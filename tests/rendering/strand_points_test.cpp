@@ -109,7 +109,7 @@ TEST_F(StrandPointsTest, LevelFollowsTheLogarithmOfTheDistance) {
         const Row& row = kRows[triangle];
         for (std::uint32_t strand = 0; strand < 64; ++strand) {
             for (std::uint32_t point = 0; point <= 8; ++point) {
-                // Of the last strand the fraction's part.
+                // The last strand has the fraction's part.
                 const float share = std::min(row.density - static_cast<float>(strand), 1.0f);
                 const bool drawn = share > 0.0f && point <= row.tessellation;
                 const float width = drawn ? 0.01f * share * 64.0f / row.density : -1.0f;
@@ -127,9 +127,9 @@ TEST_F(StrandPointsTest, NoTrianglesHaveNoPoints) {
     EXPECT_TRUE(evaluate(groom, {}).records.empty());
 }
 
-// 4 triangles x 5 strands x 7 segments x 4 points: several whole parts and a rest, none of which is
-// of whole strands; all at once is what the other tests hold against the reference. Offsets are
-// there too, for their frames are made once.
+// 4 triangles x 5 strands x 7 segments x 4 points: several whole parts and a rest, none of whole
+// strands. The other tests compare the points of a single part with the reference. Offsets are on,
+// too, for the device makes their frames once.
 TEST_F(StrandPointsTest, AreTheSameInParts) {
     const groom::Groom groom = tangledGroom(8);
     const Settings settings{

@@ -15,8 +15,8 @@
 
 namespace hair::rendering {
 
-// What the device's shading says of points of strands at the origin, 0.1 mm wide and without
-// shadows. Where there is a far field pixels are this wide, m.
+// The device's shading of points of strands at the origin, 0.1 mm wide and without shadows. With a
+// far field, pixels are this wide, m.
 inline std::vector<gpu::StrandProbe> shadeStrands(
     const engine::Device& device, const Settings& settings,
     const std::vector<gpu::StrandProbe>& probes, float pixel = 0.0f) {

@@ -22,11 +22,11 @@
 #include "tests/rendering/pictures.h"
 #include "tests/temporary_folder.h"
 
-// The strands of a file are what is drawn, whatever the guides are.
+// The strands of a file are drawn as they are, for any guides.
 namespace hair::rendering {
 namespace {
 
-// What is promised of strands at rest, and of a rigid motion, m.
+// The promised errors of strands at rest, and of a rigid motion, m.
 constexpr double kAtRest = 0.05e-3;
 constexpr double kRigid = 1e-5;
 
@@ -173,8 +173,7 @@ double toSegment(const glm::dvec3& point, const glm::dvec3& a, const glm::dvec3&
     return apart(point, a + t * along);
 }
 
-// The greatest distance of a point of the file from the drawn line, met in the order of the file: a
-// place that is met lies behind the one before, but for half a millimetre of loops.
+// The greatest distance of a point of the file from the drawn line.
 double farthestFrom(std::span<const glm::vec3> strand, const std::vector<glm::dvec3>& line) {
     double greatest = 0.0;
     for (const glm::vec3& point : strand) {
@@ -233,8 +232,8 @@ TEST_F(StrandResidualsTest, StrandsOfAnyNumberOfPointsGoThroughThem) {
     }
 }
 
-// Between points the strand is the file's as well, where these show what it is: the cubic's slopes
-// are off by h^2 / 6 of the third derivative, the curve by h^3 / 24 of it at most.
+// Between points the strand is that of the file, too, as far as the points define it: the cubic's
+// slopes are off by h^2 / 6 of the third derivative, the curve by h^3 / 24 of it at most.
 TEST_F(StrandResidualsTest, StrandsAreSmoothBetweenThePoints) {
     constexpr std::uint32_t kPoints = 121;
     const groom::StrandSet file = wisps(100, std::array{kPoints});
@@ -251,8 +250,8 @@ TEST_F(StrandResidualsTest, StrandsAreSmoothBetweenThePoints) {
                 greatest,
                 apart(polyline[i], wisp.at(static_cast<double>(i) / (polyline.size() - 1.0))));
     }
-    // h = 2.5 mm of 35 turns a metre round 8 mm: 8 mm (0.55)^3 / 24 = 55 um, at the kink in the
-    // radius at a tenth of the length h / 8 of what the slope changes by, 8 mm / 30 mm.
+    // h = 2.5 mm with 35 turns a metre round 8 mm: 8 mm (0.55)^3 / 24 = 55 um. At the kink in the
+    // radius at a tenth of the length it is h / 8 of the slope's change, 8 mm / 30 mm.
     EXPECT_LT(greatest, 0.1e-3);
 }
 
@@ -286,7 +285,7 @@ TEST_F(StrandResidualsTest, StyledStrandsAreThoseThatStylingMade) {
     groom::StrandSet styled{.points = all.points};
     for (std::uint32_t i = 1; i <= 100; ++i) styled.ends.push_back(16 * i);
     EXPECT_LT(farthest(groom, styled, ownStrands(3), 3), kAtRest);
-    // Where styling does nothing the file's points are kept, all 31.
+    // If styling does nothing, all 31 points of the file stay.
     style.frizz.amplitude = 0.0f;
     EXPECT_EQ(groomOf(file, 10, 16, style).bound_points.size(), 3100u);
 }
@@ -304,7 +303,7 @@ TEST_F(StrandResidualsTest, StrandsOfNoLengthStayWhereTheyAre) {
         const StrandPoints points = evaluate(other, ownStrands(64));
         const std::vector<std::uint32_t> order = drawnOrder(other, 1);
         for (std::uint32_t drawn = 0; drawn < order.size(); ++drawn) {
-            // Of two guide vertices 64 pieces: a sagitta of 0.3 mm of what turns on 2 mm.
+            // 64 pieces between two guide vertices: a sagitta of 0.3 mm on a radius of 2 mm.
             EXPECT_LT(
                 farthestFrom(file.strand(order[drawn]), line(points, drawn)),
                 vertices == 2 ? 1.5e-3 : kAtRest)
@@ -478,8 +477,8 @@ TEST_F(StrandResidualsTest, SwingWithoutAJump) {
     EXPECT_LT(greatest, (0.07 + 4.0 * 0.0085) * 3.0 / kSteps + kRigid);
 }
 
-// Guides folded back on themselves, straight ones and such of no length: whatever it is, it is a
-// place, and no farther from the mean than the residual reaches.
+// Guides folded back on themselves, straight ones and ones of no length: the point is finite, and
+// no farther from the mean than the residual reaches.
 TEST_F(StrandResidualsTest, AreFiniteWhereFramesDegenerate) {
     constexpr std::uint32_t kVertices = 9;
     const groom::Groom groom = straightGuides(kVertices);

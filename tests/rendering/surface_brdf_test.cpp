@@ -134,10 +134,10 @@ TEST_F(SurfaceFurnaceTest, IsKnownForTheRoughestMetal) {
     EXPECT_NEAR(albedo(1.0f, 1.0f, 1.0), 1.0 - std::numbers::ln2, 1e-3);
 }
 
-// Half a percent is for what the sum is off by. Of dielectrics this is so for an eye up to 45
-// degrees off the normal, no further: glTF scatters 1 - F of the facet that reflects, and near the
-// horizon that and what is reflected are more than 1 (in double precision 1.069 with roughness 0.5
-// at cos 0.2), which is the model's.
+// The sum may be off by half a percent. For dielectrics this holds only for an eye up to 45
+// degrees off the normal. glTF scatters 1 - F of the reflecting facet. Near the horizon that and
+// the reflected light are more than 1 (in double precision 1.069 with roughness 0.5 at cos 0.2),
+// which is the model's fault.
 TEST_F(SurfaceFurnaceTest, IsNotMoreThanAllLight) {
     for (const float roughness : {0.5f, 0.7f, 1.0f}) {
         for (const double eye : {1.0, 0.7, 0.2}) {

@@ -1,5 +1,5 @@
-// Linear light to display colours: post/develop.glsl, by what comes out of a target whose pixels
-// were given.
+// Linear light to display colours: tests post/develop.glsl by the pictures of targets with given
+// pixels.
 #include <array>
 #include <cmath>
 #include <limits>
@@ -16,7 +16,7 @@ namespace {
 
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
 
-// What half precision makes of a number: 11 bits.
+// Half precision keeps 11 bits of a number.
 constexpr double kHalf = 1.0 / 2048.0;
 // A display colour of 8 bits is off by half a step; half-precision light moves it by less than
 // another half.
@@ -29,7 +29,7 @@ protected:
         std::vector<glm::dvec3> light;
     };
 
-    // A picture of one row whose rendered pixels have these colours, row by row of its SSAA.
+    // A picture of one row; its rendered pixels have these colours, row by row of its SSAA.
     static Developed develop(const RenderSettings& render, const std::vector<glm::vec3>& rendered) {
         const engine::TargetDescription description = targetDescription(render);
         const engine::Target target(device(), description);

@@ -4,14 +4,14 @@
 
 #include "tests/rendering/transparency/straight_strands.h"
 
-// What strands cover, summed over the picture, is their length times their width.
+// The sum of the strands' coverage over the picture is their length times their width.
 namespace hair::rendering {
 namespace {
 
 class FanTest : public TransparencyTest {
 protected:
-    // The ends are sampled along the strand: a length of 27.3 px is wrong by up to a pixel, at
-    // random, which leaves 0.3 % of 25 strands. 2 % is what the coverage must be right to.
+    // Samples lie along the strand, so a length of 27.3 px is wrong by up to a pixel at random.
+    // For 25 strands 0.3 % of that is left. The coverage must be right to 2 %.
     static constexpr double kTolerance = 0.02;
 
     static void expectArea(const Settings& settings, double width) {
@@ -34,8 +34,8 @@ TEST_F(FanTest, AnalyticCoverageIsTheAreaWithFourSamples) {
         Settings settings = whiteStrands(width);
         settings.render.msaa = 4;
         expectArea(withAnalyticCoverage(settings, Transparency::weighted_blended), width);
-        // Where two quads of a strand share a pixel, "over" takes their product off. Of the 11
-        // joints of 27.3 px that are 1/4 of a pixel at the most.
+        // If two quads of a strand share a pixel, "over" takes their product off. For the 11
+        // joints of 27.3 px that is 1/4 of a pixel at the most.
         settings = withAnalyticCoverage(settings, Transparency::fragment_list);
         const double found = covered(draw(settings, fan())) / area(fan(), width);
         EXPECT_LT(found, 1.0 + kTolerance) << width;
@@ -98,9 +98,9 @@ TEST_F(FanTest, RandomSamplesCoverTheAreaInTheMean) {
     }
 }
 
-// What is seen of a strand thinner than a pixel is the mean over its width. Of a cylinder lit from
-// the side, whose normal has the share h of its width in that direction, that is the mean of
-// max(h, 0) over [-1, 1]: 1/4, times the cosine of how far the strand is turned from the vertical.
+// The light of a strand thinner than a pixel is the mean over its width. On a cylinder lit from
+// the side, the normal at the share h of its width has the component h in that direction. The mean
+// of max(h, 0) over [-1, 1] is 1/4, times the cosine of the strand's angle to the vertical.
 TEST_F(FanTest, ThinStrandsShowTheMeanOverTheirWidth) {
     std::vector<Line> lines;
     double expected = 0.0;

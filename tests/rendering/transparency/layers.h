@@ -4,8 +4,8 @@
 
 #include "tests/rendering/transparency/straight_strands.h"
 
-// Broad upright strands behind one another, each of another grey: what a pixel in their middle must
-// be is worked out here from McGuire and Bavoil's equations and from "over", in double precision.
+// Broad upright strands behind one another, each of another grey. The expected value of a pixel in
+// their middle comes from McGuire and Bavoil's equations and from "over", in double precision.
 namespace hair::rendering {
 
 struct Layer {
@@ -39,8 +39,8 @@ inline std::vector<Line> layerLines(const std::vector<double>& depths) {
     return lines;
 }
 
-// Where the ray through the picture's centre, a corner of four pixels, meets the layers, the normal
-// points to the eye.
+// At the ray through the picture's centre, a corner of four pixels, the layers' normals point to
+// the eye.
 inline std::vector<Layer> layersInTheMiddle(const std::vector<double>& depths) {
     std::vector<Layer> layers;
     for (const double depth : depths) {
@@ -76,7 +76,7 @@ inline double weighted(
     return sum / weights * (1 - revealed) + background * revealed;
 }
 
-// Mean of the four pixels round the centre: what differs from side to side cancels out.
+// The mean of the four pixels round the centre: differences from side to side cancel out.
 inline double middle(const Pixels& pixels) {
     double sum = 0.0;
     for (const std::uint32_t y : {kSide / 2 - 1, kSide / 2}) {

@@ -8,8 +8,8 @@ namespace {
 
 class LayersTest : public TransparencyTest {
 protected:
-    // Half a step of 8-bit colours, and colours in half floats, of which each layer has 2^-11; and
-    // as much again for the grey, which is not quite linear from side to side.
+    // Half a step of 8-bit colours, and colours in half floats with an error of 2^-11 for each
+    // layer. The grey takes as much again: it is not quite linear from side to side.
     static constexpr double kTolerance = 1.0 / 255;
 
     static void expectInOrder(const std::vector<double>& depths, float opacity) {
@@ -56,9 +56,9 @@ TEST_F(LayersTest, WeightedLayersAreThePublishedMean) {
     }
 }
 
-// Of three layers, each of which covers random samples, (1 - opacity)^3 of the background is left:
-// in the mean over many pixels, for layers must not choose the same samples. A sample's variance is
-// at most 1/4, and 40 x 100 pixels have 4 each: 4 standard deviations are 0.016.
+// Three layers that each cover random samples leave (1 - opacity)^3 of the background, as a mean
+// over many pixels: layers must not choose the same samples. A sample's variance is at most 1/4,
+// and 40 x 100 pixels have 4 each: 4 standard deviations are 0.016.
 TEST_F(LayersTest, RandomSamplesOfSeveralLayersAreIndependent) {
     if (!device().supportsSamples(4)) GTEST_SKIP() << "no 4-sample images";
     Settings settings = whiteStrands(1.0);
@@ -73,7 +73,7 @@ TEST_F(LayersTest, RandomSamplesOfSeveralLayersAreIndependent) {
     EXPECT_NEAR(sum / 4000, 1 - 0.7 * 0.7 * 0.7, 0.016);
 }
 
-// A wall in the middle: what is behind it is not seen, what is before it is.
+// A wall in the middle hides the layers behind it, and not those before it.
 TEST_F(LayersTest, MeshesHideWhatIsBehindThem) {
     const groom::Mesh wall{
         .positions = {{-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0}},

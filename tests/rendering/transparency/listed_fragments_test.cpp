@@ -19,14 +19,14 @@ protected:
     }
 };
 
-// Layers of 60 x 160 px cover 0.26 of the picture: six of them are more than the one fragment a
-// pixel that there is room for, and one is not.
+// Layers of 60 x 160 px cover 0.26 of the picture. The lists have room for one fragment a pixel:
+// six layers need more, one does not.
 TEST_F(ListedFragmentsTest, AreCountedThoughThereIsNoRoom) {
     Settings settings = layered(0.5f);
     settings.render.list_length = 1;
     const ListedFragments one = listed(settings, {0.0});
     EXPECT_EQ(one.capacity, kSide * kSide);
-    // 1 % for the perimeter of 440 px, half of which may be rounded either way.
+    // The tolerance is for the perimeter of 440 px: half of it may be rounded either way.
     EXPECT_NEAR(static_cast<double>(one.wanted), 60.0 * 160, 220);
     EXPECT_EQ(one.dropped(), 0u);
 

@@ -53,9 +53,9 @@ TEST_F(TransparentPictureTest, OpacityIsNothingWithoutTransparency) {
     EXPECT_EQ(differingPixels(opaque, drawCase(device(), settings)), 0u);
 }
 
-// Of opaque fragments the nearest is seen, as without a list; colours in half floats are right to a
-// step of 8-bit ones. Of two at the same depth one is seen or the other: a step of 32-bit depth is
-// 0.05 um there.
+// The nearest of opaque fragments is seen, as without a list. Colours in half floats are right to
+// a step of 8-bit ones. Of two fragments at the same depth either may be seen: a step of 32-bit
+// depth is 0.05 um there.
 TEST_F(TransparentPictureTest, OpaqueListsAreTheOpaquePicture) {
     Settings settings = small();
     const Pixels opaque = drawCase(device(), settings);
@@ -65,8 +65,8 @@ TEST_F(TransparentPictureTest, OpaqueListsAreTheOpaquePicture) {
     for (std::size_t i = 0; i < opaque.size(); ++i) ASSERT_NEAR(listed[i], opaque[i], 1) << i;
 }
 
-// Frames follow one another without waiting; what they share must be done with. The fixture fails
-// on a message of synchronisation validation.
+// Frames follow one another without waiting, so a frame must be done with the resources that they
+// share. The fixture fails on a message of synchronisation validation.
 TEST_F(TransparentPictureTest, FramesInFlightAreAllTheSame) {
     for (const Settings& settings : allKinds()) {
         benchmarks::measure::Case picture(device(), settings, HAIRBENCH_SOURCE_DIR "/scenes");
