@@ -21,7 +21,7 @@ TEST(CoveredBy, CountsSharesOfPixels) {
     std::vector<std::uint8_t> white(4 * 4, 0);
     std::vector<std::uint8_t> black(4 * 4, 0);
     white[0] = 255;  // all of the first pixel's four samples
-    black[4] = 64;  // beside hair the same is seen: a quarter of 255 in both
+    black[4] = 64;  // the part without hair, in both: a quarter of 255
     white[4] = 64 + 191;  // three quarters
     white[8] = black[8] = 200;  // none
     white[12] = 64;  // one
@@ -82,7 +82,7 @@ TEST_F(BackendComparisonTest, HasErrorsToTessellation) {
             EXPECT_THAT(warning, testing::Not(testing::HasSubstr("compare_backends")));
         return only(result, report::ofImage(Measured::flip_tessellation));
     };
-    // Its own picture again, of the same state.
+    // The same picture again, of the same state.
     EXPECT_EQ(error(hair::Backend::tessellation), 0.0);
     const double expanded = error(hair::Backend::expanded);
     EXPECT_GT(expanded, 0.0);
@@ -130,7 +130,7 @@ TEST_F(BackendComparisonTest, HasTimesAndLimits) {
             EXPECT_NEAR(share->samples[i] * time->samples[i], limit, 1e-9);
         }
     }
-    // Quads of both cover the same but for rounding.
+    // The quads of both cover the same samples, except for rounding.
     EXPECT_NEAR(
         static_cast<double>(count(software, "covered_samples")) /
             static_cast<double>(count(tessellation, "covered_samples")),

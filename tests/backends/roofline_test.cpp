@@ -25,7 +25,7 @@ StrandCounts fewStrands() {
         .color_bytes = 4};
 }
 
-// By the table of docs/measuring.md: 81 + 84 a point, 22 an end, 34 a corner; 75 and 60 a light a
+// The table of docs/measuring.md: 81 + 84 a point, 22 an end, 34 a corner; 75 and 60 a light a
 // pixel; 16 bytes a guide's vertex, 12 a triangle, 12 a sample.
 TEST(StrandWork, IsThatOfTheTable) {
     EXPECT_EQ(fewStrands().points(), 290u);

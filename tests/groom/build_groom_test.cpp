@@ -97,7 +97,7 @@ TEST(BuildGroom, KeepsThePointsOfGrownStrands) {
     EXPECT_EQ(groom.bound_ends.back(), dense.points.size());
 }
 
-// After the strands that guides move come vellus hairs and those of the file, which follow the head
+// Vellus hairs and those of the file come after the strands that guides move. They follow the head
 // alone: no weights, their root as offset, their own width.
 TEST(BuildGroom, AddsStrandsThatFollowTheHead) {
     const TemporaryFolder folder;

@@ -125,7 +125,7 @@ TEST(CompareStrands, CountsHowMuchOfAStrandIsInOne) {
     EXPECT_DOUBLE_EQ(compared(whole, parts, settings).scores[0].strand_consistency, 0.6);
 }
 
-// Mean over strands, each counting once however long it is: one is found, one is not.
+// The mean over strands counts each once, long or short: one is found, one is not.
 TEST(CompareStrands, CountsEveryStrandOnceInConsistency) {
     const auto found = compared(
         strandsOf({upright(0, 0.1f), upright(0, 0.01f, 1.0f)}), strandsOf({upright(0, 0.1f)}));
@@ -191,8 +191,9 @@ TEST(CompareStrands, MeasuresTheCurvatureOfACircle) {
     EXPECT_DOUBLE_EQ(found.curvatures.histogram_distance, 2.0);
 }
 
-// From the centre of a ball of 100 mm straight out to 200 mm: samples at 1, 3 ... 97 mm are deeper
-// than 1 mm, by 51 mm in the mean. The sphere of triangles lies up to 0.2 mm inside the ball.
+// A strand from the centre of a ball of 100 mm straight out to 200 mm: samples at 1, 3 ... 97 mm
+// are deeper than 1 mm, by 51 mm on average. The sphere of triangles lies up to 0.2 mm inside the
+// ball.
 TEST(CompareStrands, SaysHowMuchIsInsideAMesh) {
     const StrandSet out = strandsOf({upright(0, 0.2f, 0.0f)});
     const StrandSet beside = strandsOf({upright(0, 0.2f, 0.3f)});

@@ -17,7 +17,7 @@ glm::dvec3 added(const glm::dvec3& direction, const glm::dvec3& normal) {
     return direction / glm::dot(direction, normal) - normal;
 }
 
-// On the plane y = 0 from (0, 0) to (8, 8), facing up.
+// A scalp on the plane y = 0 from (0, 0) to (8, 8), facing up.
 class DirectionFieldTest : public testing::Test {
 protected:
     SurfacePoint at(double x, double z) const {
@@ -83,7 +83,7 @@ TEST_F(DirectionFieldTest, CombsAwayFromThePartingOnBothSides) {
     }
 }
 
-// Straight on from the end there is no side; beside that the way from the end is aslant.
+// Straight beyond the end there is no side; elsewhere the direction from the end is aslant.
 TEST_F(DirectionFieldTest, FadesBeyondThePartingsEnds) {
     GrowSettings settings;
     settings.parting = {
@@ -116,7 +116,8 @@ TEST_F(DirectionFieldTest, LiftsDirectionsOutOfTheSurface) {
     expectNear(combed(at(4.0, 4.0)), glm::normalize(glm::dvec3(3.0, -1.0, 0.0)));
 }
 
-// On a sphere: along its surface everywhere, and round the axis through the whorl's centre.
+// On a sphere the directions are along its surface everywhere, and round the axis through the
+// whorl's centre.
 TEST(DirectionField, FollowsACurvedSurface) {
     const Scalp scalp = extractScalp(makeSphere(0.1, 64, 32));
     const NearestSurface surface(scalp.positions, scalp.triangles);

@@ -38,7 +38,7 @@ std::vector<std::uint64_t> countsOf(const EditedStrands& edited) {
 
 // ---- Filter -------------------------------------------------------------------------------------
 
-// In centimetres: 1, 2, 3 and 4 long, of 2, 3, 2 and 2 points.
+// Strands in centimetres: 1, 2, 3 and 4 long, with 2, 3, 2 and 2 points.
 StrandSet fourLengths() {
     StrandSet set = strandSet(
         {{{0, 0, 0}, {0, 1, 0}},
@@ -143,8 +143,8 @@ TEST(SmoothStrands, DampsWavesByTheirLength) {
             steepest = std::max(steepest, std::abs(along.y / along.x));
         }
         const double wanted = kSlope / (1.0 + std::pow(wave_number * length, 2));
-        // Finite volumes: (k h)^2 / 12 with 50 points a wave is 0.13 %; floats round slopes by 1e-6
-        // over a segment of 0.01 m at x = 5, of 4e-3.
+        // The error of finite volumes is (k h)^2 / 12, which is 0.13 % with 50 points a wave.
+        // Floats round slopes by 1e-6 over a segment of 0.01 m at x = 5: of 4e-3.
         EXPECT_NEAR(steepest / wanted, 1.0, 0.01) << points_per_wave;
     }
 }

@@ -217,8 +217,8 @@ TEST(Grow, MakesSegmentsEquallyLong) {
     }
 }
 
-// On a sphere the mesh's normals are the roots' directions but for the facets' flatness (see
-// scalp_test).
+// On a sphere the mesh's normals are the roots' directions, except for the flatness of the facets
+// (see scalp_test).
 TEST(Grow, FollowsTheNormalWithoutCombAndDroop) {
     const Groom groom = grow(makeCap(), {}, 86, 1);
     for (std::uint32_t i = 0; i < 86; ++i) {

@@ -37,8 +37,9 @@ Parted part(
     return {std::move(scalp), std::move(surface), std::move(line), spacing, std::move(roots)};
 }
 
-// On a sphere the line lies in the plane through the middle with this normal, and on a mesh of it
-// within a fifth of a millimetre, less than the least gap; it has all z from z_from to z_to.
+// On a sphere the line lies in the plane through the middle with this normal. On its mesh it is
+// within a fifth of a millimetre of the plane, less than the least gap. It covers all z from
+// z_from to z_to.
 void expectNothingCrosses(const Parted& parted, const glm::vec3& normal, float z_from, float z_to) {
     for (const auto& triangle : parted.roots.triangles) {
         int left = 0;
@@ -60,7 +61,7 @@ constexpr float kInsideTo = 0.0379f;
 const PartingSettings kInside{
     .from = {0.02f, 0.12f, 0.05f}, .to = {0.02f, 0.12f, -0.03f}, .strength = 1.0f};
 
-// A disc with a slit is a ring, however it was triangulated.
+// A disc with a slit is a ring in any triangulation.
 TEST(Parting, IsASlitWithinADisc) {
     for (const std::uint32_t guides : {86u, 344u, 1376u}) {
         for (std::uint32_t seed = 0; seed < 2; ++seed) {
@@ -78,7 +79,7 @@ TEST(Parting, IsASlitWithinADisc) {
     }
 }
 
-// From the hairline it leaves a disc, and across the whole scalp two.
+// A parting from the hairline leaves one disc, and one across the whole scalp leaves two.
 TEST(Parting, ReachesTheHairline) {
     const PartingSettings half{
         .from = {0.0f, 0.0f, 0.15f}, .to = {0.0f, 0.12f, -0.02f}, .strength = 1.0f};

@@ -193,9 +193,9 @@ TEST(HairlineLengths, AreEvenWithoutCuts) {
 }
 
 TEST(HairlineLengths, HaveARootOnBothSidesOfACut) {
-    // From 3.5 to 12.5 in three steps.
+    // Three steps from 3.5 to 12.5.
     EXPECT_THAT(hairlineLengths(10.0, 4, {3.0}, 0.5), ElementsAre(3.5, 6.5, 9.5, 12.5));
-    // From 1.5 to 3.5 and from 4.5 to 10.5: of 8 in all 6 roots, a quarter and the rest.
+    // From 1.5 to 3.5 and from 4.5 to 10.5: 6 roots on a length of 8, a quarter and the rest.
     EXPECT_THAT(
         hairlineLengths(10.0, 6, {4.0, 1.0}, 0.5), ElementsAre(1.5, 3.5, 4.5, 6.5, 8.5, 10.5));
     EXPECT_THAT(hairlineLengths(10.0, 4, {4.0, 1.0}, 0.5), ElementsAre(1.5, 3.5, 4.5, 10.5));

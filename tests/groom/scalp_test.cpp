@@ -152,8 +152,8 @@ TEST(SampleSurface, TakesTheLimitsOfItsNumbers) {
     }
 }
 
-// On a sphere the normal at a point is its direction. Between vertices 0.13 rad apart the blended
-// normals of a facet stay within a few times the square of that of it.
+// On a sphere the normal at a point is its direction. A facet's blended normals between vertices
+// 0.13 rad apart differ from it by a few times the square of that.
 TEST(SampleSurface, InterpolatesNormals) {
     const Scalp scalp = extractScalp(makeCap());
     for (std::uint32_t i = 0; i < 1000; ++i) {
@@ -186,8 +186,8 @@ TEST(Hairline, IsMeasuredByArcLength) {
     EXPECT_EQ(hairlinePoint(scalp, hairline, 10.5).position, points[1].position);
 }
 
-// Fewer points than edges, and not a divisor of them: on a circle the chords are still equal, but
-// for the sagitta of the mesh's own 48 edges.
+// There are fewer points than edges, and not a divisor of them. On a circle the chords are still
+// equal, except for the sagitta of the mesh's own 48 edges.
 TEST(Hairline, IsEvenOnACircle) {
     const Scalp scalp = extractScalp(makeCap());
     const std::vector<SurfacePoint> points = evenly(scalp, 7);

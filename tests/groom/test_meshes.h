@@ -60,8 +60,8 @@ inline Mesh makeCap(const CapOptions& options = {}) {
     return mesh;
 }
 
-// A flat grid of `columns` by `rows` unit squares in the plane y = 0, facing +y, all of it scalp
-// but for the squares where `hole` is true.
+// A flat grid of `columns` by `rows` unit squares in the plane y = 0, facing +y. All squares are
+// scalp except those with a true `hole`.
 template <class Hole>
 Mesh makeGrid(std::uint32_t columns, std::uint32_t rows, Hole&& hole) {
     Mesh mesh;

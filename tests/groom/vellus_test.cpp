@@ -35,7 +35,7 @@ GrowSettings settingsOf(std::uint32_t hairs) {
     return settings;
 }
 
-// From the square's edge, m; positive inside.
+// The distance from the square's edge, m; positive inside.
 double insideBy(const glm::vec3& point) {
     const double x = 5.0 - std::abs(point.x - 10.0);
     const double z = 5.0 - std::abs(point.z - 10.0);
@@ -87,7 +87,7 @@ TEST(Vellus, LiesDownTheWayHairIsCombed) {
     EXPECT_GE(heights.least(), 0.0);
     EXPECT_LT(heights.greatest(), 0.15 * 0.06 * 1.0001);
     EXPECT_LT(std::max(turns.greatest(), -turns.least()), 25.0 * 3.14159266 / 180.0 + 1e-4);
-    // A millionth of 10 m, where a float is, beside a hair of 0.01 m.
+    // A float at 10 m is off by a millionth of it, against a hair of 0.01 m.
     EXPECT_GT(lengths.least(), 1.0 / 3.0 - 1e-3);
     EXPECT_LT(lengths.greatest(), 1.0 + 1e-3);
 }

@@ -239,7 +239,7 @@ protected:
     }
 };
 
-// Pixels are covered at random, each with the same chance: as many as the strand's area has. At 45
+// Strands cover pixels at random, each with the same chance: as many as their area has. At 45
 // degrees a line a pixel wide may have one diagonal of pixels or two throughout.
 TEST_F(LinesPicture, CoverTheAreaOfThinStrands) {
     for (const double width : {0.1, 0.3, 0.6}) {

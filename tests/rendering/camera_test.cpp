@@ -10,8 +10,8 @@
 namespace hair::rendering {
 namespace {
 
-// A float matrix product of numbers of size 1: some ten roundings of 6e-8, and as much again where
-// the division by w takes it up.
+// A float matrix product of numbers of size 1 has some ten roundings of 6e-8, and the division by
+// w adds as much again.
 constexpr float kRounding = 2e-6f;
 
 glm::vec3 onScreen(const glm::mat4& matrix, const glm::vec3& point) {

@@ -24,9 +24,9 @@ protected:
     }
 };
 
-// A guide that shows the weights of the control points of its segment 2, vertices 1 to 4: one is 48
-// in x, the next in y, the next in z. Then 48 times the weights at t are the position, 48 times the
-// slopes the tangent. With three equal guides the barycentric weights do not matter.
+// A guide that shows the weights of the control points of its segment 2, vertices 1 to 4: one is
+// 48 in x, the next in y, the next in z. Then the position is 48 times the weights at t, and the
+// tangent 48 times the slopes. With three equal guides the barycentric weights do not matter.
 std::vector<glm::vec3> unitPulses(std::size_t first) {
     std::vector<glm::vec3> guide(6, glm::vec3(0.0f));
     for (std::size_t axis = 0; axis < 3; ++axis)
@@ -133,7 +133,7 @@ TEST_F(CurveTest, CatmullRomGoesThroughEveryVertex) {
         expectNear(points.at(0, 1, vertex, 0).position, kBent[vertex], kBentTolerance);
         expectNear(points.at(0, 1, vertex, 3).position, kBent[vertex + 1], kBentTolerance);
     }
-    // Half of the way between the neighbours; beside the ends is the end's reflection.
+    // Half of the way between the neighbours. Beyond an end there is the end's reflection.
     expectNear(points.at(0, 1, 1, 0).tangent, 0.5f * (kBent[2] - kBent[0]), kBentTolerance);
     expectNear(points.at(0, 1, 0, 0).tangent, kBent[1] - kBent[0], kBentTolerance);
     expectNear(points.at(0, 1, 2, 3).tangent, kBent[3] - kBent[2], kBentTolerance);

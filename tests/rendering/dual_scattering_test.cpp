@@ -46,7 +46,8 @@ TEST(LocalScattering, IsTheSumOverItsPaths) {
         const double f = averages.forward[c];
         const double b = averages.backward[c];
         double sum = 0;
-        // The first of the fibres by chance, `in` in the mean, and then so many.
+        // First a random number of fibres with mean `in`, then `forward` forward and `backward`
+        // back.
         const auto add = [&](int in, int forward, int backward) {
             double probability = std::exp(-in);
             for (int met = 0; met < 3 * in + 40; ++met) {

@@ -21,7 +21,7 @@ constexpr ShadingModel kModels[]{
     ShadingModel::phong, ShadingModel::kajiya_kay, ShadingModel::marschner,
     ShadingModel::dual_scattering};
 
-// Light from the eye, from beside the strands and from all along them.
+// Light from the eye, from the side of the strands and from all along them.
 Settings litSettings(ShadingModel model) {
     Settings settings = linearPicture(33, 33);
     settings.shading.model = model;
@@ -66,9 +66,9 @@ TEST_F(EndOn, EveryModelShadesPointsWithFiniteLight) {
 
 // ---- Pictures -----------------------------------------------------------------------------------
 
-// A strand that comes towards the eye's axis, touches it along the axis, and leaves it to the same
-// side again: at its middle vertex, in the middle of the picture, it is seen end-on. At z = 0 the
-// picture is 0.66 m wide, 2 cm a pixel.
+// A strand that comes towards the eye's axis, touches it along the axis, and leaves it on the same
+// side again. The eye sees it end-on at its middle vertex, in the middle of the picture. At z = 0
+// the picture is 0.66 m wide, 2 cm a pixel.
 groom::Groom bentStrand() {
     return oneTriangle(
         {{0.3f, 0, -0.2f}, {0.1f, 0, -0.1f}, {0, 0, 0}, {0.1f, 0, 0.1f}, {0.3f, 0, 0.2f}});

@@ -214,7 +214,7 @@ TEST_F(OffsetExtensions, ShiftStrandsByWhatTheyReturn) {
     for (std::size_t i = 0; i < moved.records.size(); ++i) {
         const glm::dvec3 by =
             glm::dvec3(moved.records[i].position) - glm::dvec3(straight.records[i].position);
-        // The tangent is +y; normal and binormal are across it, of 0.003 and 0.004 m.
+        // The tangent is +y; normal and binormal are across it, with 0.003 and 0.004 m.
         EXPECT_NEAR(by.y, 0.001, kRounded);
         EXPECT_NEAR(glm::length(glm::dvec2(by.x, by.z)), 0.005, kRounded);
         EXPECT_LT(
@@ -306,9 +306,10 @@ TEST_F(ForceExtensions, AConstantAccelerationIsGravity) {
     }
 }
 
-// With nothing else a free vertex has the velocity of all accelerations before, times the step:
-// here the times 0, dt, ... (n - 1) dt, so n (n - 1) / 2 dt^2; and the brake of the second force,
-// 1 / dt times the velocity, ends the motion of the step before.
+// A free vertex without other forces has the velocity of all accelerations before, times the step.
+// The accelerations are the times 0, dt, ... (n - 1) dt, so the velocity is n (n - 1) / 2 dt^2.
+// The second force brakes with 1 / dt times the velocity and so ends the motion of the step
+// before.
 TEST_F(ForceExtensions, KnowTimeAndVelocity) {
     const groom::Groom groom = simulation::straightGroom(1, 3);
     const SimulationSettings free = simulation::nothingActs();

@@ -171,7 +171,7 @@ TEST(FiberTilt, MovesLobes) {
     for (std::size_t p = 0; p < kFiberLobes; ++p)
         EXPECT_NEAR(glm::degrees(fiber.shifts[p]), expected[p], 1e-6) << p;
 
-    // Only R and nothing else goes back from a black fibre.
+    // Only R goes back from a black fibre.
     shading.color = glm::vec3(0.0f);
     shading.longitudinal_roughness = 0.1f;
     Fiber black = makeFiber(shading);

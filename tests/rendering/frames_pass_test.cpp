@@ -17,7 +17,7 @@ namespace {
 
 class FramesPassTest : public GpuTest {
 protected:
-    // [guide][vertex], of guides that moved from rest to `now`.
+    // The normals [guide][vertex] of guides that moved from rest to `now`.
     static std::vector<glm::dvec3> normals(
         const groom::Groom& rest, const groom::Groom& now,
         const glm::mat4& head = glm::mat4(1.0f)) {
@@ -57,9 +57,9 @@ TEST_F(FramesPassTest, KeepTheirPartAcrossAPlane) {
     for (int v = 1; v < 20; ++v) EXPECT_NEAR(glm::dot(n[v], z), glm::dot(n[0], z), 20 * 3e-7);
 }
 
-// Against the Frenet frame of a helix the frame turns by minus torsion times length. The tangents
-// are those of chords over two steps of h = 0.1 rad, which are flatter than the curve's by h^2 / 6
-// = 0.17 %, and so is the turning.
+// The frame turns by minus torsion times length against the Frenet frame of a helix. The tangents
+// are those of chords over two steps of h = 0.1 rad. They are flatter than the curve's by h^2 / 6
+// = 0.17 %, and the turning is less by as much.
 TEST_F(FramesPassTest, TurnByMinusTheTorsionOfAHelix) {
     constexpr int kVertices = 200;
     constexpr double kStep = 0.1;  // rad
@@ -128,8 +128,8 @@ TEST_F(FramesPassTest, MoveWithTheHead) {
         ASSERT_LT(glm::distance(glm::dmat3(glm::mat3(head)) * before[i], after[i]), 3e-5) << i;
 }
 
-// A guide that swings round its root from straight up to nearly straight down: its frame turns by
-// just as much, step by step.
+// A guide swings round its root from straight up to nearly straight down; its frame turns by the
+// same angle, step by step.
 TEST_F(FramesPassTest, SwingWithoutAJump) {
     const auto swung = [](double degrees) {
         const double angle = degrees * std::numbers::pi / 180.0;

@@ -41,7 +41,7 @@ groom::Groom fansOfStrands(const Fans& fans) {
     return groom;
 }
 
-// One light, that of the fans from +z.
+// One light, which shines on the fans from +z.
 Settings litFromAbove(float width) {
     Settings settings;
     settings.strands.backend = Backend::tessellation;
@@ -75,10 +75,10 @@ std::vector<glm::vec3> plane(float depth, float reach = 0.5f * kReach) {
 // the fan and as high as the strands are long: hypot(0.1, 0.2) or 0.1 + 0.2 m at the most.
 constexpr float kTexel = 2.0f * (kReach + 2.0f * kReach) / 128.0f;
 
-// In fans of coverage c each, a point behind k of them has met k c strands. Layers of 0.01, 0.02,
-// 0.04 and 0.08 m have one fan each, so their ends are behind one fan more; between, the number is
-// linear in depth (Yuksel and Keyser 2008, section 3), wherever in the layer its fan is: off by c
-// times the layer's part before or behind it.
+// A point behind k fans of coverage c has met k c strands. Layers of 0.01, 0.02, 0.04 and 0.08 m
+// have one fan each, so their ends are behind one fan more. Between, the number is linear in depth
+// (Yuksel and Keyser 2008, section 3), with the fan anywhere in the layer. It is off by c times
+// the layer's part before or behind the fan.
 TEST_F(HairShadowTest, CountsTheFansBeforeAPoint) {
     const Fans fans{.depths = {0.0f, 0.02f, 0.05f, 0.11f}, .pitch = 0.0015f};
     constexpr float kWidth = 0.0004f;

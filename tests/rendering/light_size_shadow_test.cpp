@@ -66,7 +66,7 @@ double halfPenumbra(LightType type) {
     return radius * kReceiver / kLamp;
 }
 
-// From x = -1 to 1 in the penumbra, and a quarter of it beyond.
+// Places from x = -1 to 1 in the penumbra, and a quarter of it beyond.
 std::vector<float> penumbraPlaces() {
     std::vector<float> places;
     for (int i = -50; i <= 50; ++i) places.push_back(0.025f * static_cast<float>(i));

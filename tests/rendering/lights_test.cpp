@@ -77,9 +77,9 @@ TEST_F(Lights, DirectionalOnesAreInfinitelyFar) {
     }
 }
 
-// Irradiance of a surface under a sphere of radiance 1 that it sees `angular` large and `tilt` off
-// its normal, over that of one that faces it: the mean over directions within the cone, evenly
-// spread by a grid over the disc of sines.
+// Irradiance of a surface under a sphere of radiance 1, over that of a surface that faces it. The
+// sphere has the angular radius `angular` and is `tilt` off the normal. It is the mean over
+// directions within the cone, evenly spread by a grid over the disc of sines.
 double meanCosine(double angular, double tilt) {
     const double largest = std::sin(angular);
     constexpr int kSteps = 400;

@@ -8,8 +8,8 @@
 namespace hair::rendering {
 namespace {
 
-// Guides from the origin to points on a sphere have half of their points on it: the root of the
-// mean square distance is its radius over sqrt(2), but for the mean, which is the centre.
+// Guides from the origin to points on a sphere have half of their points on it. The root of the
+// mean square distance from the mean, the centre, is the sphere's radius over sqrt(2).
 groom::Groom hedgehog(float radius, std::uint32_t guides) {
     groom::Groom groom{.strand_count = guides, .vertices_per_strand = 2};
     for (std::uint32_t i = 0; i < guides; ++i) {

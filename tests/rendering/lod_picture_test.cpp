@@ -61,9 +61,9 @@ TEST_F(LodPictureTest, StrandsStopAtTheirGreatestWidth) {
     EXPECT_GT(differingPixels(draw(settings), four), 0u);
 }
 
-// From 1 m to 20 m, the hair as large in the picture at all of them and 16 samples a pixel. Level 0
-// covers some 160,000 samples, which chance spreads by 0.1 %; strand_plan.h lets the outline grow
-// by 3 %.
+// The camera is 1 m to 20 m away. The hair is equally large in all pictures, with 16 samples a
+// pixel. Level 0 covers some 160,000 samples, which chance spreads by 0.1 %; strand_plan.h lets
+// the outline grow by 3 %.
 TEST_F(LodPictureTest, KeepsCoverageFromOneToTwentyMetres) {
     Settings settings = thesisAtRest();
     settings.render = {.width = 128, .height = 128, .ssaa = 4, .background = glm::vec3(0.0f)};

@@ -23,7 +23,7 @@ struct Place {
     float width;
 };
 
-// At t of the drawn line of a segment, whatever it is tessellated to.
+// The place at t of the drawn line of a segment, for any tessellation.
 std::optional<Place> placeOnLine(
     const StrandPoints& points, std::uint32_t triangle, std::uint32_t strand, std::uint32_t segment,
     float t) {
@@ -203,7 +203,7 @@ TEST_F(LodStrandsTest, TangentsMoveWithTheirEnds) {
     }
 }
 
-// Joints of the guide segments stay closed to the last bit, and are those of level 0.
+// Joints of the guide segments stay closed to the last bit, and are equal to those of level 0.
 TEST_F(LodStrandsTest, JointsHaveNoGaps) {
     const StrandSettings strands{
         .density = 5, .tessellation = 4, .variation = {.amplitude = 0.01f}};
@@ -219,9 +219,9 @@ TEST_F(LodStrandsTest, JointsHaveNoGaps) {
     }
 }
 
-// The sum over strands of width times length is that of level 0 but for the shorter polylines: none
-// is longer than that of level 0 or shorter than the chords of the guide segments. The widths of
-// all strands add up to the same everywhere; sums of 50 floats are off by some 1e-6.
+// The sum over strands of width times length is equal to that of level 0, except for the shorter
+// polylines: none is longer than at level 0 or shorter than the chords of the guide segments. The
+// widths of all strands add up to the same everywhere; sums of 50 floats are off by some 1e-6.
 TEST_F(LodStrandsTest, AreaIsKept) {
     groom::Groom groom = tangledGroom(8);
     groom.root_triangles = {{0, 0, 0}};  // all strands of a length
@@ -261,7 +261,7 @@ TEST_F(LodStrandsTest, AreaIsKept) {
     EXPECT_NEAR(area(pointsAt(5.6f)) / chords, 1.0, 1e-5);
 }
 
-// A strand that is drawn at a level is drawn at every lower one, wherever the camera goes.
+// A strand drawn at a level is drawn at every lower one, for any motion of the camera.
 TEST_F(LodStrandsTest, StrandsLeaveInOneOrder) {
     Settings settings{
         .strands = {.density = 40, .tessellation = 2},

@@ -68,7 +68,7 @@ TEST_F(MergedHairsTest, CoverTheAreaOfAllHairs) {
     }
 }
 
-// As alpha: of hairs 2 px wide one by one, and of hairs an eighth of a pixel wide together.
+// Coverage as alpha: hairs 2 px wide separately, and hairs an eighth of a pixel wide together.
 TEST_F(MergedHairsTest, CoverTheSameAnalytically) {
     for (const std::uint32_t pixels : {256u, 16u}) {
         Settings settings = strip(Backend::tessellation, pixels);

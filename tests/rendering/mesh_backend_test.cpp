@@ -138,9 +138,9 @@ protected:
             return skipWithout(Need::mesh, "the device has no task and mesh stages");
     }
 
-    // It makes the quads that `tessellation` makes, by the same functions: on processors the same
-    // picture. A GPU's compiler may round otherwise in another stage, which moves an edge over a
-    // sample here and there.
+    // The back end makes the quads of `tessellation` by the same functions: on processors the
+    // pictures are equal. A GPU's compiler may round differently in another stage, which moves an
+    // edge over a sample here and there.
     static void expectSamePictures(const Settings& settings, std::size_t hair) {
         const Pixels expected = drawCase(device(), with(settings, Backend::tessellation));
         EXPECT_GT(differingPixels(expected, drawBald(device(), settings)), hair);
@@ -459,7 +459,8 @@ TEST_F(MeshBackendCounts, AreFewerOfWhatAPictureCannotShow) {
     EXPECT_EQ(count(away).mesh, 0u);
 }
 
-// At a piece a segment a strand has eight points, 16 strands a block; level 3 draws 8 of 64.
+// With one piece a segment a strand has eight points, so 16 strands fit a block; level 3 draws 8
+// of 64.
 TEST_F(MeshBackendCounts, AreFewerOfCoarseLevels) {
     Settings far = small();
     far.lod = {

@@ -94,7 +94,7 @@ TEST_F(MeshPictureTest, LeavesPicturesWithoutCoordinates) {
     EXPECT_EQ(at(drawQuad(device(), quadSettings(16), mesh), 16, 4, 4), (Rgb{255, 255, 255}));
 }
 
-// From far a board of black and white is grey: half of white's light is 188 of 255.
+// A distant board of black and white is grey: half of white's light is 188 of 255.
 TEST_F(MeshPictureTest, AveragesPicturesFromFar) {
     constexpr std::uint32_t kSide = 64;
     std::vector<Rgb> board;

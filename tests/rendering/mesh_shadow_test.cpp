@@ -17,7 +17,7 @@ constexpr float kHalf = 0.05f;  // m, of the square's side
 // The rounding of the filter's weights: up to 49 of them, each with three roundings of 2^-24.
 constexpr float kMapRounding = 1e-5f;
 
-// Round the origin, with this normal.
+// A square round the origin, with this normal.
 groom::Mesh square(const glm::vec3& normal) {
     const glm::vec3 a = glm::normalize(glm::cross(normal, glm::vec3(0.3f, 1.0f, 0.2f)));
     const glm::vec3 b = glm::cross(normal, a);
@@ -29,7 +29,7 @@ groom::Mesh square(const glm::vec3& normal) {
         .materials = {{.name = "square"}}};
 }
 
-// One across z, its sides along x and y.
+// A square across z; its sides are along x and y.
 groom::Mesh squareAcrossZ() {
     groom::Mesh mesh = square({0.0f, 0.0f, 1.0f});
     mesh.positions = {

@@ -19,7 +19,7 @@ constexpr double kTurns = 32.0;
 constexpr double kRadius = 0.004;
 constexpr double kAxis = 0.2;  // m
 
-// Round the y axis, from its end on.
+// A helix round the y axis, which starts at the axis's end.
 std::vector<glm::vec3> helix(std::size_t points) {
     std::vector<glm::vec3> strand;
     for (std::size_t i = 0; i < points; ++i) {
@@ -111,7 +111,7 @@ TEST(ModelOffsets, TakeStrandsFromAllOverTheFile) {
     }
 }
 
-// Or strands that share a guide's frame would wave in step.
+// Without the turns, strands that share a guide's frame would wave in step.
 TEST(ModelOffsets, AreTurnedAtRandom) {
     const StrandOffsets offsets = make(strandSet({helix(500)}), kAxis);
     glm::dvec2 mean(0.0);

@@ -61,8 +61,8 @@ TEST_F(OffsetStrandsTest, AgreeWithTheReference) {
     }
 }
 
-// Between 16 samples a turn, Catmull and Rom's curve is within 1 - (9 cos d - cos 3d) / 8 = 0.06 %
-// of the circle, d = 2 pi / 32; floats round coordinates of 0.3 m by 2e-8, twice, which is 1e-5 rad
+// With 16 samples a turn, Catmull and Rom's curve is within 1 - (9 cos d - cos 3d) / 8 = 0.06 % of
+// the circle, d = 2 pi / 32. Floats round coordinates of 0.3 m by 2e-8, twice, which is 1e-5 rad,
 // too.
 TEST_F(OffsetStrandsTest, CurlsHaveTheirRadiusAndTurns) {
     const Settings settings{.strands = {.density = 8, .tessellation = 16, .curl = kCurl}};
@@ -87,11 +87,10 @@ TEST_F(OffsetStrandsTest, CurlsHaveTheirRadiusAndTurns) {
     }
 }
 
-// Tangents are those of the curve that is drawn. The helix is as steep as 2 pi 0.004 * 40 = 1: 45
-// degrees. Catmull and Rom's curvature jumps at the samples, and so does how fast the curve is gone
-// along, by 0.76 a radian at 16 samples a turn: a chord over two steps of 2 pi 12 / 960 rad differs
-// by 1.5 % of the slope from the tangent in its middle, 0.75 % in length and direction at 45
-// degrees.
+// Tangents are those of the drawn curve. The helix is as steep as 2 pi 0.004 * 40 = 1: 45 degrees.
+// Catmull and Rom's curvature jumps at the samples. The curve's speed jumps, too, by 0.76 a radian
+// at 16 samples a turn. So a chord over two steps of 2 pi 12 / 960 rad differs by 1.5 % of the
+// slope from the tangent in its middle, 0.75 % in length and direction at 45 degrees.
 TEST_F(OffsetStrandsTest, TangentsAreThoseOfTheCurls) {
     const StrandPoints points =
         evaluate(uprightGroom(), {.strands = {.density = 8, .tessellation = 64, .curl = kCurl}});

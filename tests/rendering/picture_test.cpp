@@ -71,7 +71,7 @@ TEST_F(PictureTest, HairIsHiddenBehindAMeshAndSeenBeforeIt) {
 
     EXPECT_EQ(differingPixels(drawGroom(device(), settings, tuft(-0.1f), &mesh), wall_alone), 0u);
 
-    // Before the wall, hair covers the same pixels with the same colours as without one.
+    // Hair before the wall covers the same pixels with the same colours as hair without a wall.
     const Pixels hair = drawGroom(device(), settings, tuft(0.1f), nullptr);
     const Pixels both = drawGroom(device(), settings, tuft(0.1f), &mesh);
     std::size_t covered = 0;

@@ -54,7 +54,7 @@ protected:
             loop_.finish();
         }
 
-        // Its last frame, drawn otherwise.
+        // The case's last frame, drawn with these settings.
         Pixels drawn(const Settings& settings) {
             case_.setDrawing(settings);
             loop_.frame([&](engine::Passes& passes) { case_.draw(passes); });

@@ -82,7 +82,7 @@ inline double azimuthal(const Fiber& fiber, double angle) {
     return logistic(nearest, fiber.scale) / fiber.inside;
 }
 
-// Fresnel's equations as he wrote them, of the angles on both sides.
+// Fresnel's equations as he wrote them, with the angles on both sides.
 inline double fresnel(double angle, double eta) {
     if (angle < 1e-6) return std::pow((eta - 1.0) / (eta + 1.0), 2.0);
     const double refracted = std::asin(std::sin(angle) / eta);

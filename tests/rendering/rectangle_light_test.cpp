@@ -155,7 +155,7 @@ TEST_F(RectangleLight, LightsTurnedSurfacesAsItsPointsDo) {
             radiance / pi * overRectangle(rectangle, 150, [&](const glm::dvec3& direction) {
                 return std::max(glm::dot(direction, normal), 0.0);
             });
-        // The sum's own error, of a horizon that goes through 150 of 22500 cells.
+        // The sum's own error: a horizon goes through 150 of 22500 cells.
         EXPECT_NEAR(found[i], expected, 6e-4 * (1 + expected)) << i;
         double least = 1, most = -1;
         for (const double x : {-0.2, 0.2})
@@ -220,7 +220,7 @@ gpu::RectangleProbe probeOf(const Rectangle& of, float metallic, float roughness
     return probe;
 }
 
-// Facing the origin from a direction, of these half sides at a distance of 1 m.
+// A rectangle of these half sides that faces the origin from a direction, at a distance of 1 m.
 Rectangle facing(const glm::dvec3& from, double half_width, double half_height, double turn) {
     const glm::dvec3 side = glm::normalize(glm::cross(from, glm::dvec3(0.1, 0.9, 0.3)));
     const glm::dvec3 up = glm::cross(side, from);
@@ -273,10 +273,10 @@ double reflectedSum(const gpu::RectangleProbe& probe, const Rectangle& rectangle
     });
 }
 
-// The distribution of facets is exact but for the curvature of a side's half vectors; Fresnel's
-// reflectance and shadowing are those of one facet. They change the more the wider light and lobe
-// are: the largest and the mean difference that is allowed grow with the rectangle, which is 11, 44
-// and 90 degrees long. Sums' own errors are below 1e-3.
+// The distribution of facets is exact, except for the curvature of a side's half vectors.
+// Fresnel's reflectance and shadowing are those of one facet; their error grows with the width of
+// light and lobe. So the tolerances of the largest and the mean difference grow with the
+// rectangle, which is 11, 44 and 90 degrees long. The sums' own errors are below 1e-3.
 TEST_F(GlossyRectangle, ReflectsAsTheSumOverItsPoints) {
     struct Row {
         double size;
@@ -297,8 +297,8 @@ TEST_F(GlossyRectangle, ReflectsAsTheSumOverItsPoints) {
         }
 }
 
-// Under light that fills most of the sky a smooth surface mirrors its radiance; from below there is
-// nothing, and nothing is not a number.
+// A smooth surface mirrors the radiance of a light that fills most of the sky. A light from below
+// gives 0, and no NaN.
 TEST_F(GlossyRectangle, MirrorsItsRadiance) {
     const Rectangle wide = facing({0, 0, 1}, 10, 10, 0);
     const Rectangle below = facing(glm::normalize(glm::dvec3(0.3, 0, -1)), 0.1, 0.1, 0);

@@ -9,7 +9,7 @@
 namespace hair::rendering {
 namespace {
 
-// Some ten roundings, of powers up to 50 times as many.
+// Some ten roundings; powers multiply them by up to 50.
 constexpr double kModelRounding = 1e-4;
 
 glm::vec3 atDegrees(double from_z, double turn = 0.0) {
@@ -20,7 +20,7 @@ glm::vec3 atDegrees(double from_z, double turn = 0.0) {
 
 class ShadingModels : public GpuTest {
 protected:
-    // A light that goes against `to_light`, of a normal or a tangent along +z.
+    // A light from `to_light` on a normal or a tangent along +z.
     static gpu::ModelProbe
     probe(const glm::vec3& to_light, const glm::vec3& to_eye, float exponent) {
         return probeModels(
@@ -47,8 +47,8 @@ TEST_F(ShadingModels, PhongIsThesisEquations5And6) {
     EXPECT_EQ(behind.phong_specular, 0.0f);
 }
 
-// Angles are from the strand's direction. With light from 30 degrees of it, the cone of mirrored
-// light is 150 degrees from it.
+// Angles are from the strand's direction. Light 30 degrees from it is mirrored in a cone 150
+// degrees from it.
 TEST_F(ShadingModels, KajiyaKayIsTheirEquations) {
     for (const double turn : {0.0, 77.0, 180.0}) {  // the eye is anywhere on the cone
         const gpu::ModelProbe mirrored = probe(atDegrees(30), atDegrees(150, turn), 20.0f);

@@ -81,9 +81,9 @@ TEST_F(ShowPictureTest, LevelsGoFromBlueToRed) {
     EXPECT_GT((*most.begin())[0], (*most.begin())[2] + 100);
 }
 
-// As many colours as strands, one for each, whatever the back end and the level. With this seed the
-// strands, 3 px wide, are 7 px apart or more: they are in one plane, and which of two is seen there
-// is chance.
+// Each strand has one colour of its own, in all back ends and levels. With this seed the strands,
+// 3 px wide, are 7 px apart or more: they are in one plane, so chance decides which of two is
+// seen.
 TEST_F(ShowPictureTest, StrandsKeepColorsOfTheirOwn) {
     Settings shown = settings(Show::strands);
     shown.seed = 230;
@@ -176,8 +176,8 @@ protected:
         std::vector<double> found;
         for (const auto& color : colors(pixels)) {
             const double a = -std::log2(color[0] / 255.0);
-            // Half a step of 255 and rounding of the color itself, to half floats in some back
-            // ends.
+            // Half a step of 255, and the rounding of the colour itself, to half floats in some
+            // back ends.
             EXPECT_NEAR(color[1], 255.0 * std::exp2(-2.0 * a), 1.6) << a;
             EXPECT_NEAR(color[2], 255.0 * std::exp2(-3.0 * a), 1.6) << a;
             found.push_back(a);
@@ -196,7 +196,8 @@ TEST_F(OwnColorTest, TipsAbsorbLess) {
     EXPECT_NEAR(found.back(), 1.0, 0.02);
 }
 
-// As many colors as strands, of the bound and on either side of the hair's; alike in all back ends.
+// As many colours as strands, within the bound and on either side of the hair's colour, and equal
+// in all back ends.
 TEST_F(OwnColorTest, StrandsDiffer) {
     Settings lit = OwnColorTest::lit();
     lit.shading.strand_variation = 0.4f;

@@ -93,8 +93,8 @@ TEST(StrandOffsets, CurlsDifferInPhaseAndFrequency) {
             std::atan2(samples[1].y, samples[1].x) - kTurn * turns / (offsets.samples - 1);
         mean_phase += glm::dvec2(std::cos(phase), std::sin(phase)) / 64.0;
     }
-    // 20 turns within a quarter; of 64 uniform numbers the least and the greatest are within a
-    // tenth of the ends but for 2 * 0.9^64 = 0.2 %.
+    // 20 turns within a quarter. The least and the greatest of 64 uniform numbers are within a
+    // tenth of the ends, except for a chance of 2 * 0.9^64 = 0.2 %.
     EXPECT_GE(all_turns.least(), 15.0 - 1e-4);
     EXPECT_LE(all_turns.greatest(), 25.0 + 1e-4);
     EXPECT_LT(all_turns.least(), 16.0);

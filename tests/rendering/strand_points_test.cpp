@@ -46,7 +46,7 @@ TEST_F(StrandPointsTest, AgreeOnGuidesOfOneSegmentAndFlatRoots) {
     expectReference(groom, {.strands = {.density = 7, .tessellation = 1}});
 }
 
-// 2^k pieces a segment, so that t of the coarse points is exactly that of fine ones.
+// 2^k pieces a segment, so that the coarse points' t are exactly those of fine points.
 TEST_F(StrandPointsTest, LowerLevelKeepsTheFirstStrandsAndWidensThem) {
     const groom::Groom groom = tangledGroom(8);
     const StrandSettings strands{.density = 100, .tessellation = 4};

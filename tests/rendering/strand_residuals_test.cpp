@@ -145,8 +145,8 @@ protected:
         return line;
     }
 
-    // The greatest distance from a point of the file to the drawn point at the same place, where
-    // the drawn points are so many times as dense.
+    // The greatest distance from a point of the file to the drawn point at the same place; the
+    // drawn points are `times` times as dense.
     static double farthest(
         const groom::Groom& groom, const groom::StrandSet& file, const Settings& settings,
         std::uint32_t times) {
@@ -211,8 +211,8 @@ TEST_F(StrandResidualsTest, StrandsGoThroughTheFilesPointsHoweverGuidesAreMixed)
     }
 }
 
-// Points that are spaced evenly to 2 % by the curves' making: at 900 pieces those of the file are
-// next to drawn ones, and the rest is the arc between them.
+// The curves space the points evenly to 2 %. At 900 pieces the points of the file are next to
+// drawn ones, and the rest is the arc between them.
 TEST_F(StrandResidualsTest, StrandsOfAnyNumberOfPointsGoThroughThem) {
     for (const double bunching : {1.0, 2.5}) {
         const groom::StrandSet file = wisps(200, std::array{2u, 3u, 16u, 21u, 46u, 100u}, bunching);
@@ -410,8 +410,8 @@ groom::Groom straightGuides(std::uint32_t vertices) {
     return groom;
 }
 
-// From vertex 6 on the guides are turned as a whole, by less than half a turn. The smallest
-// rotation from their direction at rest is that turn where it is about an axis across them.
+// From vertex 6 on the guides are turned as a whole, by less than half a turn. If the turn is
+// about an axis across them, it is the smallest rotation from their direction at rest.
 TEST_F(StrandResidualsTest, GuidesThatBendTurnResidualsWithThem) {
     constexpr std::uint32_t kVertices = 20;
     constexpr std::uint32_t kBend = 6;
@@ -540,7 +540,7 @@ TEST(StrandResiduals, AreSearchedWhereTheyAreUneven) {
     EXPECT_EQ(halvings(2.5, 12), 6u);
 }
 
-// Half of a 32,767th of the greatest residual in each of three directions.
+// Rounding is half of a 32,767th of the greatest residual in each of three directions.
 TEST(StrandResiduals, LeaveWhatRoundingLeaves) {
     const groom::StrandSet file = wisps(300, std::array{32u});
     for (const std::uint32_t guides : {3u, 30u}) {

@@ -62,8 +62,8 @@ protected:
     }
 };
 
-// Eye and light straight above: F = F0, D = 1 / (pi alpha^2), G = 1. With roughness 1 that is
-// f = (1 - 0.04) c / pi + 0.04 / (4 pi) of a dielectric and c / (4 pi) of a metal.
+// Eye and light straight above: F = F0, D = 1 / (pi alpha^2), G = 1. With roughness 1 that is f =
+// (1 - 0.04) c / pi + 0.04 / (4 pi) for a dielectric and c / (4 pi) for a metal.
 TEST_F(SurfaceBrdfTest, HasItsValuesStraightAbove) {
     const auto probes = asked(
         {probeOf(0.5f, 0.0f, 1.0f, kUp, kUp), probeOf(0.5f, 1.0f, 1.0f, kUp, kUp),
@@ -126,11 +126,11 @@ protected:
     }
 };
 
-// With alpha = 1, D = 1 / pi, and seen from straight above f = 1 / (2 pi (1 + cos)), so that the
-// whole is the integral of cos / (1 + cos) over cos in [0, 1]: 1 - ln 2. The rest is light that
-// several facets reflect, which the model leaves out.
+// With alpha = 1, D = 1 / pi. Seen from straight above, f = 1 / (2 pi (1 + cos)), so the whole is
+// the integral of cos / (1 + cos) over cos in [0, 1]: 1 - ln 2. Several facets reflect the rest of
+// the light, which the model leaves out.
 TEST_F(SurfaceFurnaceTest, IsKnownForTheRoughestMetal) {
-    // The integrand in cos^2 is smooth but at 0, where a stratum is 1/128 wide.
+    // The integrand in cos^2 is smooth except at 0, where a stratum is 1/128 wide.
     EXPECT_NEAR(albedo(1.0f, 1.0f, 1.0), 1.0 - std::numbers::ln2, 1e-3);
 }
 

@@ -182,7 +182,7 @@ TEST_F(ToneMapTest, AStopOfExposureIsTwiceTheLight) {
     }
 }
 
-// Not a number, below zero, infinite and over the largest half-precision number.
+// NaN, below zero, infinite and over the largest half-precision number.
 TEST_F(ToneMapTest, WhatLightCannotBeIsBlackOrBrightest) {
     const float nan = std::nanf("");
     for (const ToneMap map : kMaps) {

@@ -81,7 +81,7 @@ TEST(Alembic, ReadsUnrealsParameters) {
     EXPECT_THAT(set.guides, ElementsAre(0, 1));
     EXPECT_THAT(set.root_uvs, ElementsAre(glm::vec2(0.25f, 0.5f), glm::vec2(0.75f, 1)));
     EXPECT_EQ(set.widths.everywhere, 3.0f);
-    // One for each curve: that of its two, then of its three points.
+    // One colour for each curve, at its two and at its three points.
     EXPECT_THAT(
         set.colors.values, ElementsAre(
                                glm::vec3(1, 0, 0), glm::vec3(1, 0, 0), glm::vec3(0, 1, 0),
@@ -289,7 +289,8 @@ TEST(AlembicCubic, CatmullRomCurvesRunThroughTheirVertices) {
         EXPECT_EQ(set.points[i], glm::vec3(points[3 * i], points[3 * i + 1], points[3 * i + 2]));
 }
 
-// With two vertices at each end the curve of the others is drawn: five vertices less two segments.
+// With double vertices at each end the whole curve of the others is drawn: five vertices less two
+// segments.
 TEST(AlembicCubic, CatmullRomCurvesWithDoubledEndsAreDrawnBetweenThem) {
     const StrandSet set = readCubic(3, {0, 0, 0, 0, 0, 0, 2, 0, 0, 2, 2, 0, 2, 2, 0}, {5});
     ASSERT_THAT(set.ends, ElementsAre(5));

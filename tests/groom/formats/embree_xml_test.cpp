@@ -68,7 +68,7 @@ TEST(EmbreeXml, SamplesBezierCurves) {
     EXPECT_NEAR(set.widths.at(1), 2.0 * 26 / 27, 1e-6);
     EXPECT_EQ(set.points[3], glm::vec3(27, 0, 0));
     EXPECT_EQ(set.widths.at(3), 0.0f);
-    // Hair has the curve's number beside each index; the second segment shares a vertex.
+    // Hair has the curve's number next to each index; the second segment shares a vertex.
     const std::string pairs =
         "<scene><BezierHair><positions>0 0 0 1 1 0 0 1 2 0 0 1 3 0 0 1 4 0 0 1 5 0 0 1 6 0 0 1"
         "</positions><indices>0 5 3 5</indices></BezierHair></scene>";
@@ -165,7 +165,7 @@ TEST(EmbreeXml, FollowsReferences) {
     ASSERT_THAT(set.ends, ElementsAre(3, 5, 8, 10));
     EXPECT_EQ(set.points[0], glm::vec3(9, 0, 0));
     EXPECT_EQ(set.points[5], glm::vec3(0));
-    // By an element's own id, which is drawn where it stands, too.
+    // A reference to an element's own id; the element itself is drawn, too.
     std::string own = replaced(kLinear, "<Curves", "<Curves id=\"own\"");
     own = replaced(own, "</scene>", "<ref id=\"own\"/></scene>");
     EXPECT_THAT(readXml(own).ends, ElementsAre(3, 5, 8, 10));

@@ -123,9 +123,9 @@ TEST_F(NumpyFiles, ThatDoNotFitTogetherAreRefused) {
     EXPECT_EQ(read("zeros_deflated.npz").points, read("zeros.npz").points);
 }
 
-// Every byte of an archive is held by a length, a signature or a checksum, but for dates,
-// attributes and versions. Names may change where the directory and the member agree, which one
-// byte can't make them do.
+// A length, a signature or a checksum covers every byte of an archive, except dates, attributes
+// and versions. Names may change if the directory and the member agree; a change of one byte can't
+// do that.
 TEST_F(NumpyFiles, AreRefusedOrReadWithAnyByteChangedAndWhereverTheyEnd) {
     for (const char* name : {"difflocks.npz", "difflocks_deflated.npz"}) {
         SCOPED_TRACE(name);

@@ -4,8 +4,8 @@
 #include "tests/python.h"
 #include "tests/required.h"
 
-// From format to format through files: strands, their order, points and widths come back to the
-// last bit wherever the formats on the way hold them.
+// Strands go from format to format through files. The strands, their order, points and widths come
+// back to the last bit if the formats on the way hold them.
 namespace hair::groom {
 namespace {
 

@@ -87,10 +87,11 @@ TEST(BindStrands, IsExactForAffineGrooms) {
     EXPECT_GE(error.maximum, error.percentile95);
 }
 
-// Tips that go sideways by c |root|^2: linear interpolation in a triangle is off by c (R^2 - d^2),
-// d from the centre of its circle of radius R, at most c h^2 / 2 in a lattice of spacing h. It is
-// linear along the strand. So the error falls with the square of the spacing. Binding looks for the
-// least sum of squares and lets 1e-6 of the squares of the distances go for a smaller triangle.
+// Tips go sideways by c |root|^2. Linear interpolation in a triangle is off by c (R^2 - d^2), d
+// from the centre of its circle of radius R, at most c h^2 / 2 in a lattice of spacing h. The
+// offset is linear along the strand. So the error falls with the square of the spacing. Binding
+// looks for the least sum of squares and gives up 1e-6 of the squares of the distances for a
+// smaller triangle.
 TEST(BindStrands, ErrsWithTheSquareOfTheSpacing) {
     constexpr double curvature = 2.0;  // 1 / m
     const auto errorAt = [](std::uint32_t side) {

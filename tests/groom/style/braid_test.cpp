@@ -61,8 +61,8 @@ TEST(BraidStyle, KeepsRootsAndLengths) {
     EXPECT_LT(lengths.greatest(), 1.0 + 1e-6);
 }
 
-// No way over the head leads into it: the ball has flat sides that lie up to 2.2e-4 m inside the
-// sphere, and chords between points 1.5 mm apart as much again.
+// No way over the head leads into it. The ball's flat sides lie up to 2.2e-4 m inside the sphere,
+// and chords between points 1.5 mm apart as much again.
 TEST(BraidStyle, LeadsOverTheHead) {
     const Mesh ball = makeSphere(kBallRadius, 96, 48);
     const Groom after = braid(standing(), plait(), 1, &ball);

@@ -12,7 +12,7 @@ namespace {
 constexpr double kRadius = 0.1;
 constexpr double kClearance = 0.004;
 
-// From the top of the ball: through it, along it, away from it, and without length.
+// Strands from the top of the ball: through it, along it, away from it, and one without length.
 Groom onBall() {
     Groom groom{.strand_count = 4, .vertices_per_strand = 17};
     for (const glm::dvec3& direction :

@@ -39,7 +39,7 @@ TEST(Curl, GrowsOverItsStart) {
         EXPECT_NEAR(after.points[i].x, 0.01 * growth[i], kRounding) << i;
 }
 
-// Round a bent strand, too, every point is at the radius from where it was, across the strand.
+// On a bent strand, too, every point is at the radius from its old place, across the strand.
 TEST(Curl, KeepsItsRadiusRoundABentStrand) {
     const Groom before = sampleGroom(1, 200, [](std::uint32_t, double t) {
         return glm::dvec3(0.3 * std::sin(3.0 * t), 0.3 * t, 0.2 * t * t);

@@ -32,7 +32,8 @@ TEST(Followers, ComeAfterTheirStrandWithAllThatItHas) {
     EXPECT_EQ(after.root_triangles.front(), (std::array<std::uint32_t, 3>{0, 3, 6}));
 }
 
-// By a factor from 1 at the root to 3 at the tip, in a disc across the first segment.
+// The followers spread by a factor from 1 at the root to 3 at the tip, in a disc across the first
+// segment.
 TEST(Followers, KeepToTheDiscAndSpreadTowardsTheTip) {
     StrandSet strand;
     strand.ends = {3};

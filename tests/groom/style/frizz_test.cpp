@@ -23,7 +23,7 @@ TEST(Frizz, MovesNoPointFurtherThanItsAmplitudeAndNoRoot) {
     for (std::uint32_t i = 0; i < 1000; ++i) EXPECT_EQ(after.strand(i)[0], before.strand(i)[0]);
 }
 
-// Between two random vectors of the ball 1/60 m apart the noise moves at most by the ball's
+// Between two random vectors of the ball, 1/60 m apart, the noise moves at most by the ball's
 // diameter, with smoothstep's greatest slope, 3/2.
 TEST(Frizz, IsSmoothAlongTheStrand) {
     constexpr std::uint32_t kVertices = 4001;

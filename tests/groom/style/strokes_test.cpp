@@ -184,7 +184,8 @@ TEST(Strokes, CutLeavesWhatIsBelowThePath) {
     EXPECT_TRUE(std::ranges::equal(all.strand(2), before.strand(2)));  // 5 cm beyond the path
 }
 
-// At vertex 12 of a helix of equal segments: half of its 23 and a bit are left, each shorter.
+// A cut at vertex 12 of a helix of equal segments: a bit more than half of its 23 is left, each
+// shorter.
 TEST(Strokes, CutIsExactOnCurves) {
     Groom before = helices(1);
     before.widths.resize(24);
@@ -271,7 +272,7 @@ TEST(Strokes, LeadNoVertexIntoTheMesh) {
     }
 }
 
-// Away from a plane-like side of a large ball, wherever the roots are.
+// The push goes away from a nearly flat side of a large ball, for roots anywhere.
 TEST(Strokes, PushGoesAwayFromTheMesh) {
     const Mesh ball = makeSphere(0.1, 96, 48);
     // Along the ball's top.

@@ -32,8 +32,8 @@ protected:
     }
 };
 
-// On processors to the bit. A GPU's compiler rounds otherwise in another stage
-// (backend_picture_test), which may take a sum of weights to the next step.
+// On processors the back ends agree to the bit. A GPU's compiler rounds differently in another
+// stage (backend_picture_test), which may take a sum of weights to the next step.
 TEST_F(TransparentPictureTest, BackEndsAgree) {
     const bool is_processor = device().info().type == "cpu";
     for (Settings settings : allKinds()) {
