@@ -100,7 +100,7 @@ TEST_F(BackendComparisonTest, HasTimesAndLimits) {
     for (const auto& result : {tessellation, software})
         for (const std::string& warning : result.trust.warnings)
             EXPECT_THAT(warning, testing::Not(testing::HasSubstr("compare_backends")));
-    // Several samples, each shaded by itself, are nearer to many of them.
+    // A picture with several separately shaded samples is nearer to one with many.
     const auto to_many = report::ofImage(Measured::flip_many_samples);
     EXPECT_LT(only(software, to_many), only(tessellation, to_many));
     EXPECT_GT(only(software, to_many), 0.0);

@@ -58,8 +58,8 @@ TEST(BuildGroom, GrowsWhereNoFileIsNamed) {
     EXPECT_TRUE(groom.bindings.empty());
 }
 
-// Guides are strands of the dense groom, which each is bound to alone; roots are as many, and on
-// the cap, as were asked for.
+// The guides are strands of the dense groom and bound to themselves alone. There are as many roots
+// as settings ask for, all on the cap.
 TEST(BuildGroom, ChoosesGuidesFromGrownStrands) {
     const Mesh cap = makeCap();
     GroomSettings settings;

@@ -168,7 +168,7 @@ TEST(CompareStrands, MovesLengthsOntoEachOther) {
     const StrandSet longer =
         strandsOf({upright(0, 0.02f), upright(0, 0.03f, 1), upright(0, 0.04f, 2)});
     EXPECT_NEAR(compared(three, longer).lengths.earth_movers_distance, 0.01, kDistanceRounding);
-    // A half and two thirds are 30 mm long, the others 10 mm.
+    // Half of the first strands and two thirds of the second are 30 mm long, the others 10 mm.
     const auto found = compared(
         strandsOf({upright(0, 0.01f), upright(0, 0.03f, 1)}),
         strandsOf({upright(0, 0.01f), upright(0, 0.03f, 1), upright(0, 0.03f, 2)}));

@@ -42,7 +42,7 @@ void expectNear(const glm::dvec3& a, const glm::dvec3& b) {
     EXPECT_LT(glm::distance(a, b), kRounding) << "(" << a.x << ", " << a.y << ", " << a.z << ")";
 }
 
-// Seen from above with +x to the right, +z points down: counter-clockwise is from +x to -z.
+// In a view from above with +x to the right, +z points down: counter-clockwise is from +x to -z.
 TEST_F(DirectionFieldTest, TurnsCounterClockwiseAtTheWhorl) {
     GrowSettings settings;
     settings.whorl = {.position = {4.0f, 0.3f, 4.0f}, .strength = 0.5f, .radius = 1.5f};

@@ -123,8 +123,8 @@ TEST(SmoothStrands, SolvesTheDiffusionOfTwoDirections) {
     EXPECT_NEAR(smooth.points[2].y, 3.0 / root, 2e-7);
 }
 
-// A wave of small slope along x, ten periods: slopes in the middle become smaller by
-// 1 / (1 + k^2 length^2), whatever the points' distance.
+// A wave of small slope along x, ten periods: smoothing multiplies slopes in the middle by 1 / (1
+// + k^2 length^2), at any distance of the points.
 TEST(SmoothStrands, DampsWavesByTheirLength) {
     for (const int points_per_wave : {50, 100}) {
         constexpr double kSlope = 1e-2;
@@ -156,8 +156,7 @@ TEST(SmoothStrands, KeepsCirclesAwayFromTheirEnds) {
         circle.emplace_back(std::cos(turn), std::sin(turn), 0.0);
     }
     const StrandSet smooth = smoothStrands(strandSet({circle}), 0.2);
-    // Twenty lengths from either end nothing of them is left: exp(-20). The chord turns by a
-    // degree.
+    // The ends have no effect twenty lengths away: exp(-20). The chord turns by a degree.
     for (std::size_t k = 230; k < 490; ++k) {
         const glm::dvec3 a = smooth.points[k - 1];
         const glm::dvec3 b = smooth.points[k];

@@ -24,8 +24,9 @@ void expectKeepsOrientation(const Scalp& scalp) {
     }
 }
 
-// Seen from its centre every facet of a sphere is square on; the depths tried are 1/255 of the root
-// of the area (0.24 m) apart. Stereographic: a polar angle t maps to the radius tan(t / 2).
+// From the centre of a sphere every facet faces the eye; the depths tried are 1/255 of the root of
+// the area (0.24 m) apart. The map is stereographic: a polar angle t maps to the radius tan(t /
+// 2).
 TEST(Flatten, ProjectsASphereFromItsCentre) {
     const glm::vec3 centre{0.3f, -0.2f, 0.1f};
     const Scalp scalp = extractScalp(makeCap({.centre = centre, .sectors = 64}));
@@ -53,8 +54,8 @@ TEST(Flatten, PullsTheCentreOutOfAFlatScalp) {
 }
 
 TEST(Flatten, RefusesAScalpThatFolds) {
-    // A sheet of three squares in a row, folded flat along both lines: from anywhere one is seen
-    // from outside.
+    // A sheet of three squares in a row, folded flat along both lines: every place sees one from
+    // outside.
     Mesh mesh = makeGrid(3, 1, kNoHole);
     for (glm::vec3& position : mesh.positions) {
         if (position.x == 2.0f) position = {0.2f, 0.3f, position.z};

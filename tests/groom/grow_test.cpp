@@ -117,7 +117,7 @@ TEST(Grow, GivesEulersCountForAnyNumberOfGuides) {
     EXPECT_EQ(grow(head, {}, 1376, 1).root_triangles.size(), 2614u);
 }
 
-// Roots along the hairline are then further apart than the two sides of the scalp.
+// Roots along the hairline are then farther apart than the two sides of the scalp.
 TEST(Grow, TakesALongNarrowScalp) {
     const Mesh strip = makeGrid(40, 1, [](std::uint32_t, std::uint32_t) { return false; });
     for (const std::uint32_t guides : {16u, 20u, 86u, 344u}) {
@@ -149,9 +149,9 @@ TEST(Grow, TurnsRootTrianglesOutward) {
     }
 }
 
-// Perfect spacing has the ratio 1 of smallest to mean distance between neighbours. For n uniform
-// points the mean is 0.5 sqrt(A / n) and the smallest 0.66 sqrt(A) / n, a ratio of 1.3 / sqrt(n):
-// 0.14 for 86. Half is far from both.
+// With perfect spacing the ratio of smallest to mean distance between neighbours is 1. For n
+// uniform points the mean is 0.5 sqrt(A / n) and the smallest 0.66 sqrt(A) / n, a ratio of 1.3 /
+// sqrt(n): 0.14 for 86. A half is far from both.
 TEST(Grow, SpreadsRootsWell) {
     for (const Mesh& mesh : {makeCap(), headMesh()}) {
         for (const std::uint32_t guides : {86u, 344u}) {
@@ -173,8 +173,8 @@ TEST(Grow, SpreadsRootsWell) {
     }
 }
 
-// The triangles of the roots lie inside a convex cap, so they have less than its area, and little
-// less: the sagitta of edges of about 0.03 on a sphere of radius 0.1 costs some per cent.
+// The triangles of the roots lie inside a convex cap, so their area is a little smaller: the
+// sagitta of edges of about 0.03 on a sphere of radius 0.1 costs some per cent.
 TEST(Grow, CoversTheScalpWithRootTriangles) {
     const Mesh cap = makeCap();
     const double area = extractScalp(cap).area();

@@ -297,9 +297,9 @@ std::string plyOf(const std::string& vertices, const std::string& faces, const s
            "\nproperty list uchar int vertex_indices\nend_header\n" + rows;
 }
 
-// Each ended or held up the whole program where assimp was a part of it, or took gigabytes: a
-// corner that is no vertex writes past the heap, a face without corners aborts, text among numbers
-// loops.
+// Each of these ended or held up the whole program, or took gigabytes, when assimp was a part of
+// it: a corner that is no vertex writes past the heap, a face without corners aborts, text among
+// numbers loops.
 TEST(ImportAssimp, RefusesWhatItsReaderDiesOf) {
     const TemporaryFolder folder;
     const std::string three = "0 0 0\n0 0 1\n1 0 0\n";

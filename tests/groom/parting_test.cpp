@@ -132,8 +132,8 @@ TEST(Parting, CutsTheHead) {
     }
 }
 
-// Two roots every `spacing` or less, 4 % of it or half a millimetre from the line; the others are
-// further than half of it.
+// Two roots every `spacing` or less are 4 % of it or half a millimetre from the line; the others
+// are farther than half of it.
 TEST(Parting, HasTwoRows) {
     for (const std::uint32_t guides : {86u, 1376u}) {
         const Parted parted = part(makeCap(), kInside, guides);

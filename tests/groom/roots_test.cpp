@@ -70,7 +70,7 @@ TEST(PlaceRoots, IsUniformInAreaAtRandom) {
     EXPECT_LT(high, 2);
 }
 
-// See spread_test: 1.07 sqrt(A / n) is the most, independent ones come to 0.66 sqrt(A) / n.
+// See spread_test: 1.07 sqrt(A / n) is the most; independent points have 0.66 sqrt(A) / n.
 TEST(PlaceRoots, KeepsADistanceOnAnySurface) {
     for (const Mesh& mesh : {makeSphere(0.1, 48, 24), makeTorus(0.1, 0.04, 48, 24)}) {
         const double area = extractScalp(mesh).area();
@@ -81,7 +81,7 @@ TEST(PlaceRoots, KeepsADistanceOnAnySurface) {
     }
 }
 
-// Random roots on a disc are no rows.
+// Random roots on a disc don't lie in rows.
 TEST(PlaceRoots, HasAHairlineForSpreadRootsOfADiscAlone) {
     EXPECT_EQ(rootsOf(makeCap(), {.guides = 86}).boundary_count, 34u);
     EXPECT_EQ(
@@ -92,9 +92,9 @@ TEST(PlaceRoots, HasAHairlineForSpreadRootsOfADiscAlone) {
     EXPECT_EQ(rootsOf(makeGrid(3, 3, ring), {.guides = 86}).boundary_count, 0u);
 }
 
-// Between the middles of pixels the brightness is linear, so a quarter of the width has the mean of
-// its two halves: with columns 0, 0.5, 1, 1 (and the edges' going on) 1/16, 1/2, 15/16 and 1. A
-// count of n p has the standard deviation sqrt(n p (1 - p)) or less; four are allowed.
+// The brightness is linear between the middles of pixels, so a quarter of the width has the mean
+// of its two halves. With columns 0, 0.5, 1, 1 (continued at the edges) that is 1/16, 1/2, 15/16
+// and 1. A count of n p has the standard deviation sqrt(n p (1 - p)) or less; four are allowed.
 TEST(PlaceRoots, FollowsTheMask) {
     const Texture mask = columns({0.0f, 0.5f, 1.0f, 1.0f});
     const std::array<double, 4> means{1.0 / 16, 0.5, 0.9375, 1.0};
@@ -137,13 +137,14 @@ TEST(PlaceRoots, LeavesBlackBare) {
 TEST(PlaceRoots, KeepsADistanceUnderAMask) {
     const Texture mask = columns({0.3f, 0.5f, 0.7f, 1.0f});
     const Roots roots = rootsOf(texturedGrid(8), {.guides = 300, .seed = 1, .mask = &mask});
-    // Spread over all of the area were at least as many as are kept.
+    // The roots come from at least as many candidates, spread over all of the area.
     EXPECT_EQ(roots.points.size(), 300u);
     const double mean = 0.625;  // of the mask; its maximum is 1
     EXPECT_GT(smallestDistance(roots), 0.5 * 1.07 * std::sqrt(64.0 * mean / 300.0));
 }
 
-// One pixel in 4,096 is white and the others nearly black: still as many as were asked for.
+// One pixel in 4,096 is white and the others nearly black: there are still as many roots as asked
+// for.
 TEST(PlaceRoots, TakesAVeryUnevenMask) {
     std::vector<float> pixels(64 * 64, 0.02f);
     pixels[32 * 64 + 32] = 1.0f;

@@ -125,8 +125,8 @@ inline Topology topologyOf(const std::vector<std::array<std::uint32_t, 3>>& tria
     }
     for (const auto& [vertex, link] : links) {
         topology.pieces += root(vertex) == vertex ? 1 : 0;
-        // One cycle has as many starts as ends and comes back after all of them; one path doesn't
-        // come back, but then its vertex is on the boundary once.
+        // One cycle has as many starts as ends and comes back after all of them. One path doesn't
+        // come back, but its vertex is on the boundary only once.
         std::map<std::uint32_t, std::uint32_t> next(link.begin(), link.end());
         std::set<std::uint32_t> ends;
         for (const auto& [from, to] : next) ends.insert(to);

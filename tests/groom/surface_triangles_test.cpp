@@ -13,7 +13,7 @@ namespace {
 
 using Triangles = std::vector<std::array<std::uint32_t, 3>>;
 
-// Independent, so that some are very close.
+// The roots are independent, so some are very close.
 std::vector<SurfacePoint> randomRoots(const Scalp& scalp, std::uint32_t count, std::uint32_t seed) {
     std::vector<SurfacePoint> roots;
     for (std::uint32_t i = 0; i < count; ++i) roots.push_back(rootSample(scalp, seed, i));

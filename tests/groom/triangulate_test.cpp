@@ -60,7 +60,7 @@ depthInCircle(const glm::dvec2& a, const glm::dvec2& b, const glm::dvec2& c, con
     return (radius - glm::distance(centre, d)) / radius;
 }
 
-// Everything that makes a triangulation one of this polygon with these points.
+// All conditions for a triangulation of this polygon with these points.
 void expectTriangulates(const Triangles& triangles, const Points& points, std::size_t boundary) {
     ASSERT_EQ(triangles.size(), 2 * points.size() - 2 - boundary);  // Euler
     std::map<std::pair<std::uint32_t, std::uint32_t>, int> edges;

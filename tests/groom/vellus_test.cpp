@@ -69,7 +69,8 @@ TEST(Vellus, ThinsOutOnEitherSideOfTheEdge) {
     EXPECT_LT(apart.greatest(), 0.1 + 1e-6);
 }
 
-// The comb leads along +z; hairs turn off it by 25 degrees at most, and on the scalp are longer.
+// The comb leads along +z; hairs turn away from it by 25 degrees at most, and are longer on the
+// scalp.
 TEST(Vellus, LiesDownTheWayHairIsCombed) {
     const StrandSet hairs = growVellus(squareScalp(), settingsOf(2000), 3);
     EXPECT_EQ(hairs.widths.at(0), 0.00003f);

@@ -112,8 +112,8 @@ TEST_F(BackendPictureTest, TwoRunsAreEqual) {
 
 // ---- What their equality rests on ---------------------------------------------------------------
 
-// Sums of a product that a compiler may fuse into one operation with one rounding: those that are
-// not decorated with NoContraction. SPIR-V 1.6, 3.49.13 and 3.20.
+// The number of sums of a product that a compiler may fuse into one operation with one rounding:
+// those without the decoration NoContraction. SPIR-V 1.6, 3.49.13 and 3.20.
 std::size_t fusibleSums(std::span<const std::uint32_t> code) {
     constexpr std::uint32_t kDecorate = 71, kNoContraction = 42, kFunction = 54, kCall = 57,
                             kLoad = 61, kStore = 62, kNegate = 127, kAdd = 129, kSubtract = 131,
@@ -193,7 +193,7 @@ TEST(StrandShaders, PlaceStrandsWithoutSumsThatCompilersMayFuse) {
           "strands/watched/tessellation.tese", "strands/pulling_geometry.vert",
           "strands/evaluate.comp"})
         EXPECT_EQ(fusibleSums(engine::shaderCode(path)), 0u) << path;
-    // It can tell: colours may be fused.
+    // The test can tell the difference: sums of colours may be fused.
     EXPECT_GT(fusibleSums(engine::shaderCode("strands/strand.frag")), 0u);
 }
 
@@ -254,7 +254,7 @@ TEST_F(LinesPicture, CoverTheAreaOfThinStrands) {
 // Thesis 2.2: a line has one width, whatever the strand's.
 TEST_F(LinesPicture, AreOnePixelWideWhereStrandsAreWider) {
     for (const double degrees : {0.0, 20.0, 45.0}) {
-        // From a pixel for each column to all pixels that a rectangle a pixel wide touches.
+        // The bounds: one pixel a column, and all pixels that a rectangle a pixel wide touches.
         const double columns = kLength * std::cos(glm::radians(degrees));
         EXPECT_GE(covered(5.0, degrees), columns - 2.0) << degrees;
         EXPECT_LE(covered(5.0, degrees), kLength + 2.0) << degrees;

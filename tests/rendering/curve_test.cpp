@@ -139,7 +139,8 @@ TEST_F(CurveTest, CatmullRomGoesThroughEveryVertex) {
     expectNear(points.at(0, 1, 2, 3).tangent, kBent[3] - kBent[2], kBentTolerance);
 }
 
-// Two patches meet in the same point, with the same tangent and width: there is no seam to see.
+// Two patches meet in the same point, with the same tangent and width, so there is no visible
+// seam.
 TEST_F(CurveTest, JointsAreEqualToTheLastBit) {
     const groom::Groom groom = tangledGroom(8);
     for (const Curve curve : {Curve::bspline, Curve::bspline_unpinned, Curve::catmull_rom}) {

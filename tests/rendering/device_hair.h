@@ -141,8 +141,7 @@ inline groom::Groom unitTriangles(std::uint32_t triangles) {
     return groom;
 }
 
-// Curved guides with bulging roots, in no order: nothing about them is special. Sizes of about 0.5
-// m.
+// Curved guides with bulging roots, in no special arrangement, of about 0.5 m.
 inline groom::Groom tangledGroom(std::uint32_t vertices) {
     constexpr std::uint32_t kGuides = 6;
     groom::Groom groom{

@@ -9,7 +9,7 @@
 
 #include "tests/rendering/fiber_rig.h"
 
-// Dual scattering against light that is followed from fibre to fibre.
+// Dual scattering compared with light followed from fibre to fibre.
 namespace hair::rendering {
 namespace {
 
@@ -80,8 +80,7 @@ TEST(FiberAverages, AreTheMeansOfSampledDirections) {
 }
 
 // Light through a random number of fibres, followed direction by direction, as long as it goes
-// forward. Dual scattering takes a_f at the inclination with which light comes, and lobes as
-// narrow.
+// forward. Dual scattering takes a_f at the incoming light's inclination, and narrow lobes.
 TEST(GlobalScattering, IsThatOfARandomWalk) {
     constexpr std::uint32_t kWalks = 20000;
     for (const float roughness : {0.1f, 0.3f}) {

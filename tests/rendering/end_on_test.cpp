@@ -1,4 +1,4 @@
-// Strands seen end-on: E x T, across which quads and fibres' frames lie, is 0 there.
+// Strands seen end-on: there E x T, the direction across quads and fibres' frames, is 0.
 #include <algorithm>
 #include <cmath>
 #include <cstring>

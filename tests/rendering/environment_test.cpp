@@ -167,9 +167,9 @@ TEST_F(EnvironmentTest, LeavesOutWhatLightCannotBe) {
     for (const glm::vec3& light : probed.light) EXPECT_NEAR(light.g, 1.0f, 0.01f);
 }
 
-// A bright spot of 3 degrees at (u, v) of the picture, and where a camera of 90 degrees at the
-// origin sees it. Looking along +z with +y up, +x is at the left: a spot at u = 0.4 is 36 degrees
-// left of the middle, tan 36 of the half width away.
+// A bright spot of 3 degrees at (u, v) of the picture, and its place for a camera of 90 degrees at
+// the origin. The camera looks along +z with +y up, so +x is at the left: a spot at u = 0.4 is 36
+// degrees left of the middle, tan 36 of the half width away.
 struct Spot {
     double u, v;
     float turn;
@@ -200,7 +200,7 @@ TEST_F(EnvironmentTest, IsSeenWhereItIs) {
                      return glm::dot(d, middle) > std::cos(glm::radians(3.0)) ? 4.0 : 0.0;
                  }));
         const glm::dvec2 seen = picture.middleOfLight() / 45.0 - 1.0;
-        // A pixel, and the texels of 1.4 degrees that the spot is made of, wider off the middle.
+        // A pixel, and the spot's texels of 1.4 degrees, which are wider off the middle.
         EXPECT_NEAR(seen.x, spot.seen.x, 0.035) << spot.u << ' ' << spot.v << ' ' << spot.turn;
         EXPECT_NEAR(seen.y, spot.seen.y, 0.035) << spot.u << ' ' << spot.v << ' ' << spot.turn;
     }

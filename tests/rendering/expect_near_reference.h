@@ -7,9 +7,9 @@
 
 namespace hair::rendering {
 
-// All points against the reference: guides within 0.5 m have control points within 1.5 m, the sums
-// of weights and of slopes are at most 2 (of Catmull and Rom's slopes 3), and a point takes about
-// 20 roundings of 2^-24 of that.
+// Compares all points with the reference. Guides within 0.5 m have control points within 1.5 m.
+// The sums of weights and of slopes are at most 2 (of Catmull and Rom's slopes 3), and a point
+// takes about 20 roundings of 2^-24 of that.
 inline void expectNearReference(
     const StrandPoints& points, const groom::Groom& groom, const Settings& settings,
     const std::vector<bool>& contacts = {}) {

@@ -167,7 +167,7 @@ TEST_F(ShadingExtensions, ReadsItsParameters) {
     EXPECT_EQ(colorsOf(draw(settings)), (std::set<Color>{kBackground, {0, 255, 51}}));
 }
 
-// In one process: pipelines are told apart by the text, not by the name.
+// All in one process: the text, not the name, tells pipelines apart.
 TEST_F(ShadingExtensions, TwoTextsOfOneNameGiveTwoPictures) {
     const std::string body = "vec3 shadeHair(HairPoint point) { return ";
     EXPECT_EQ(
@@ -288,8 +288,8 @@ protected:
     }
 };
 
-// Solvers add gravity and accelerations up: with one of them 0 the sum is the same to the bit, and
-// so is all that comes of it.
+// Solvers add gravity and accelerations up. If one of them is 0, the sum is the same to the bit,
+// and so are all results.
 TEST_F(ForceExtensions, AConstantAccelerationIsGravity) {
     const groom::Groom groom = simulation::straightGroom(3, 8);
     for (const Solver solver : simulation::kSolvers) {

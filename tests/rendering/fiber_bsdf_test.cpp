@@ -67,8 +67,8 @@ TEST(AzimuthalScattering, IntegratesToOneAndToItsCdf) {
     }
 }
 
-// Light that is not absorbed comes out again, whatever the widths of the lobes: the integral of f
-// |cos theta_i| over all directions is 1 in the mean over the fibre.
+// Light that is not absorbed comes out again for any widths of the lobes: the integral of f |cos
+// theta_i| over all directions is 1 as a mean over the fibre.
 TEST(WhiteFurnace, HoldsWithUniformSamples) {
     for (const float m : kRoughnesses) {
         for (const float n : kRoughnesses) {
@@ -107,8 +107,8 @@ TEST(WhiteFurnace, HoldsWithImportanceSampling) {
     }
 }
 
-// The mean of something over f's directions is the same with both ways of sampling, so directions
-// come as often as their density says. Absorption and tilt make lobes differ.
+// The mean of a function over f's directions is the same with both ways of sampling, so directions
+// are as frequent as their density. Absorption and tilt make lobes differ.
 TEST(FiberSampling, ComesAsOftenAsItsDensitySays) {
     constexpr std::uint32_t kSamples = 20000;
     for (const float m : {0.3f, 0.7f}) {

@@ -89,8 +89,8 @@ TEST_F(FramesPassTest, TurnByMinusTheTorsionOfAHelix) {
     EXPECT_LT(turned, -10.0);
 }
 
-// The same method in double, by who styles grooms: the angle between two frames that don't turn is
-// the same all along the strand, whatever they start with.
+// Compares with the same method in double, from the styling of grooms. The angle between two
+// frames that don't turn is the same all along the strand, for any frames at the start.
 TEST_F(FramesPassTest, AgreeWithThoseOfStyling) {
     const groom::Groom groom = tangledGroom(16);
     const std::vector<glm::dvec3> n = normals(groom);
@@ -106,8 +106,8 @@ TEST_F(FramesPassTest, AgreeWithThoseOfStyling) {
             const glm::dvec3& normal = n[guide * 16 + v];
             ASSERT_NEAR(glm::length(normal), 1.0, 4 * kUlp);
             // Points of up to 0.5 m round to 3e-8, in steps of 0.02 m and more: 1.5e-6 in a
-            // direction, that the points are given in alike; the frames add some twenty roundings
-            // of 6e-8 a vertex.
+            // direction. Both methods get the same rounded points; the frames add some twenty
+            // roundings of 6e-8 a vertex.
             ASSERT_NEAR(glm::dot(normal, frames[v].tangent), 0.0, 1e-5);
             ASSERT_NEAR(std::remainder(angle(v) - angle(0), 2.0 * std::numbers::pi), 0.0, 1e-4);
         }

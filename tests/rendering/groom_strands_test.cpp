@@ -40,7 +40,7 @@ groom::Groom boundGroom(std::uint32_t vertices, std::uint32_t strands) {
     return groom;
 }
 
-// The bindings in the order in which they are drawn.
+// The bindings in the drawn order.
 std::vector<groom::StrandBinding> inOrder(const groom::Groom& groom, std::uint32_t seed) {
     std::vector<std::pair<std::uint32_t, std::size_t>> order;
     for (std::size_t i = 0; i < groom.bindings.size(); ++i)

@@ -168,7 +168,7 @@ TEST_F(HairShadowTest, OpacityCountsWhereItIsDrawn) {
     EXPECT_NEAR(strands(), 0.25 * opaque, 1e-5);  // a quarter is exact; sums of 20 are rounded
 }
 
-// Hair, points and light turned and moved together: nothing changes but by rounding.
+// Hair, points and light turn and move together: the result changes only by rounding.
 TEST_F(HairShadowTest, FollowsTheHead) {
     glm::mat4 head = glm::translate(glm::mat4(1.0f), {0.4f, -0.2f, 0.3f});
     head = glm::rotate(head, 2.0f, glm::normalize(glm::vec3(1.0f, -2.0f, 3.0f)));
@@ -189,7 +189,7 @@ TEST_F(HairShadowTest, FollowsTheHead) {
     EXPECT_NEAR(meanStrands(findPaths(device(), settings, view, {}, points)), 0.4, 0.02 * 0.4);
 }
 
-// Each light has its part of the atlas, and those without shadows none.
+// Each light has its part of the atlas; lights without shadows have none.
 TEST_F(HairShadowTest, LightsDoNotDisturbEachOther) {
     const groom::Groom groom = fansOfStrands({.depths = {0.0f, 0.03f}, .pitch = 0.0015f});
     Settings settings = litFromAbove(0.0006f);
@@ -230,7 +230,7 @@ TEST_F(HairShadowTest, LightMayBeAmongTheHair) {
         for (glm::vec3& point : points) point.y -= 0.07f;
         return meanStrands(findPaths(device(), settings, hair.view(), {}, points));
     };
-    // 2 %, and 2 % for a pitch that is seen under up to 17 degrees, 4 % narrower at the edge.
+    // 2 %, and 2 % for a pitch seen at up to 17 degrees: 4 % narrower at the edge.
     EXPECT_NEAR(at(0.05f), 0.4, 0.04 * 0.4);
     EXPECT_EQ(at(-0.2f), 0.0);
 }
@@ -352,7 +352,7 @@ TEST_F(HairShadowTest, KeepsLessOfGrazingLight) {
     }
 }
 
-// However it lies to the light and whatever the map's texels are: strands that stand alone are lit,
+// At any angle to the light and any size of the map's texels, strands that stand alone are lit,
 // and nothing is behind them.
 TEST_F(HairShadowTest, NoStrandIsInItsOwnShadow) {
     const Fans fans{.pitch = 0.02f, .angle = 0.3f};

@@ -54,8 +54,8 @@ TEST(Irradiance, OfEvenLightIsThatLight) {
     for (const glm::dvec3& n : someDirections()) EXPECT_NEAR(irradianceAt(harmonics, n), 0.7, 2e-4);
 }
 
-// A clamped cosine has factors of pi, 2 pi / 3 and pi / 4 on l = 0, 1 and 2 (their eq. 8), so of
-// light of those alone nothing is lost.
+// A clamped cosine has factors of pi, 2 pi / 3 and pi / 4 on l = 0, 1 and 2 (their eq. 8), so
+// light of those alone loses nothing.
 TEST(Irradiance, OfSmoothLightIsExact) {
     for (const double turn : {0.0, 0.5, -2.0}) {
         const auto harmonics = irradianceHarmonics(

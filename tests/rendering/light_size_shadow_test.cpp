@@ -102,9 +102,9 @@ double largestError(LightType type, const std::vector<double>& lit) {
     return std::ranges::all_of(lit, [](double part) { return std::isfinite(part); }) ? largest : 1;
 }
 
-// The part of N points of a disc that is beyond a line is off by N^-3/4, the order that no N points
-// can do without (Beck and Chen 1987, Irregularities of distribution). The points of a rectangle
-// are in equal steps along its width. The map adds up to half a texel, 0.14 mm of at least 8 mm.
+// The part of a disc's N points beyond a line is off by N^-3/4; no N points can have a better
+// order (Beck and Chen 1987, Irregularities of distribution). The points of a rectangle are in
+// equal steps along its width. The map adds up to half a texel, 0.14 mm of at least 8 mm.
 TEST_F(LightSizeShadow, PenumbraOfAnEdgeHasItsWidthAndProfile) {
     for (const LightType type : {LightType::rectangle, LightType::directional, LightType::sphere})
         for (const std::uint32_t samples : {4u, 16u, 64u}) {

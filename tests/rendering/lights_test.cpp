@@ -1,4 +1,4 @@
-// Lights on the device against optics.
+// Lights on the device compared with the laws of optics.
 #include <cmath>
 #include <numbers>
 #include <random>
@@ -63,7 +63,8 @@ TEST_F(Lights, AreFiniteWhereTheyAre) {
     }
 }
 
-// Points of a metre see a point light 1 km off under angles that differ by 1e-3, and 2e-3 of light.
+// Points within a metre see a point light 1 km off at angles that differ by 1e-3, and its light by
+// 2e-3.
 TEST_F(Lights, DirectionalOnesAreInfinitelyFar) {
     const glm::vec3 to_light = glm::normalize(glm::vec3(0.3f, 0.5f, 0.8f));
     const LightSettings near_by{.type = LightType::directional, .direction = -0.5f * to_light};

@@ -5,7 +5,7 @@
 #include "tests/gpu_fixture.h"
 #include "tests/rendering/pictures.h"
 
-// Level of detail as it is seen: thesis 2.3.8.1.
+// Level of detail in pictures: thesis 2.3.8.1.
 namespace hair::rendering {
 namespace {
 

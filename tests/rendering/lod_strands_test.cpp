@@ -16,7 +16,7 @@
 namespace hair::rendering {
 namespace {
 
-// A strand's polyline: in each segment, at `t`. Absent where it is not drawn.
+// A place on a strand's polyline: in each segment, at `t`. Absent if it is not drawn.
 struct Place {
     glm::vec3 position;
     glm::vec3 tangent;
@@ -101,7 +101,7 @@ TEST_F(LodStrandsTest, BigStepsAreSeen) {  // or the test above would see nothin
     EXPECT_GT(greatestChange(evaluateAt(strands, 0.5f), evaluateAt(strands, 0.6f)), 0.1);
 }
 
-// Between the nested sets, ends that stay are on the curve and the others on the way from it to
+// Between the nested sets, ends that stay are on the curve. The others are on the way from it to
 // the line: 6 -> 3 -> 1.
 TEST_F(LodStrandsTest, EndsMoveFromTheCurveToTheLine) {
     const StrandSettings strands{.density = 4, .tessellation = 6};

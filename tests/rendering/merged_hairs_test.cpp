@@ -40,7 +40,7 @@ protected:
         return drawLinear(device(), settings, oneTriangle(std::vector{-tip, glm::vec3(0.0f), tip}));
     }
 
-    // White on black, whatever the light.
+    // White on black in any light.
     static void makeWhite(Settings& settings) {
         settings.shading = {
             .color = glm::vec3(1.0f), .ambient = 1.0f, .diffuse = 0.0f, .specular = 0.0f};
@@ -104,11 +104,11 @@ TEST_F(MergedHairsTest, AreSeenOneByOne) {
     EXPECT_EQ(runs(), 1);
 }
 
-// Each hair has its own place across, so that the mean over a hair is the mean over the wide strip,
-// whatever the model. Kajiya and Kay's diffuse term changes by half of the tilts' variance, below
-// 0.1 %. Transmitted light, the narrowest lobe, is 0.15 wide along the fibre and turns by twice the
-// tilt, 0.04 r.m.s.: (0.04 / 0.15)² / 2 = 3.6 % less at its peak. Hairs that the strip's edges cut
-// leave one of their sides: of 16 strips' light that spreads the mean by less than 1 %.
+// Each hair has its own place across, so the mean over a hair is the mean over the wide strip for
+// any model. Kajiya and Kay's diffuse term changes by half of the tilts' variance, below 0.1 %.
+// Transmitted light, the narrowest lobe, is 0.15 wide along the fibre and turns by twice the tilt,
+// 0.04 r.m.s.: (0.04 / 0.15)² / 2 = 3.6 % less at its peak. Hairs cut by the strip's edges keep
+// only one of their sides, which spreads the mean of 16 strips' light by less than 1 %.
 TEST_F(MergedHairsTest, HaveTheLightOfTheStrip) {
     const auto brightness = [&](Settings settings) {
         double light = 0.0;

@@ -25,7 +25,7 @@ namespace {
 
 // ---- Workgroups ---------------------------------------------------------------------------------
 
-// The least that the Vulkan specification lets a device with mesh shaders have (table "Required
+// The least limits of a device with mesh shaders in the Vulkan specification (table "Required
 // Limits"), and preferences as that device's own.
 VkPhysicalDeviceMeshShaderPropertiesEXT leastLimits() {
     VkPhysicalDeviceMeshShaderPropertiesEXT limits{};

@@ -61,7 +61,7 @@ TEST_F(MeshPictureTest, ShowsPicturesWithTheFirstRowUp) {
     expectQuarters(drawQuad(device(), quadSettings(16), painted()));
 }
 
-// Ambient light that is white leaves colours as they are, by way of linear light and back.
+// White ambient light leaves colours as they are, by way of linear light and back.
 TEST_F(MeshPictureTest, ShowsPicturesInLinearLight) {
     const Pixels pixels = drawQuad(device(), linearSettings(16), painted());
     const Rgb shown = at(pixels, 16, 11, 11);

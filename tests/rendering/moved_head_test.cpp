@@ -15,8 +15,8 @@ namespace {
 
 using MovedHeadTest = GpuTest;
 
-// The guides come moved; the root normals, which lift strands onto the scalp, come as they were
-// made and turn with the head.
+// The guides are already moved. The root normals, which lift strands onto the scalp, are as made
+// and turn with the head.
 TEST_F(MovedHeadTest, StrandsMoveWithTheHead) {
     glm::mat4 head = glm::translate(glm::mat4(1.0f), {0.1f, -0.2f, 0.3f});
     head = glm::rotate(head, 2.0f, glm::normalize(glm::vec3(1.0f, -2.0f, 3.0f)));
@@ -57,7 +57,7 @@ Settings small() {
     return settings;
 }
 
-// Head, hair, camera and light together: the picture can't tell.
+// Head, hair, camera and light move together, so the picture is the same.
 TEST_F(MovedHeadTest, PictureIsTheSameWhereEverythingMoves) {
     Settings settings = small();
     const Pixels still = drawCase(device(), settings);
@@ -102,8 +102,8 @@ TEST_F(MovedHeadTest, FrozenHairFollowsInEveryFrame) {
     loop.finish();
     const Pixels end = picture.picture();
     settings.simulation.motion.keyframes = {{.rotation = {0.0f, 60.0f, 0.0f}}};
-    // The hair that was carried there is rounded on the device, the hair that starts there on the
-    // host: as above.
+    // The device rounds the hair that moved there, the host rounds the hair that starts there: as
+    // above.
     EXPECT_LT(differingPixels(end, drawCase(device(), settings)), 100u);
 }
 

@@ -39,8 +39,8 @@ offsetAt(const rendering::StrandOffsets& offsets, std::uint32_t profile, double 
     return offset;
 }
 
-// The frame of the guide that counts most, at rest: its normals as a B-spline, made square to the
-// strand.
+// The frame of the guide with the greatest weight, at rest: its normals as a B-spline, made square
+// to the strand.
 inline glm::dmat3 frameAt(
     const groom::Groom& groom, std::uint32_t guide, std::uint32_t segment, double t,
     const glm::dvec3& tangent) {

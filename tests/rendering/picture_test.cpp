@@ -86,8 +86,7 @@ TEST_F(PictureTest, HairIsHiddenBehindAMeshAndSeenBeforeIt) {
     EXPECT_GT(covered, 70u);
 }
 
-// Depth is decided pixel by pixel: of hair that passes through the wall, the half before it is
-// seen.
+// Each pixel has its own depth: the half before the wall of hair that passes through it is seen.
 TEST_F(PictureTest, HairThroughAMeshIsCutByIt) {
     groom::Groom groom = tuft(0.0f);
     for (glm::vec3& point : groom.points) point.z = point.x;  // half before, half behind the wall
@@ -138,7 +137,7 @@ TEST_F(PictureTest, StrandsAMillimetreApartAt20MAreInOrder) {
     };
     const auto upright_is_nearer = [](int cross) { return cross / 2 % 2 == 0; };
     for (int i = 0; i < kCrosses; ++i) {
-        // Distances that are all parts of a coarse step from one of its multiples.
+        // The distances are at different parts of a coarse step.
         const glm::vec3 nearer(
             (static_cast<float>(i) + 0.5f - 0.5f * kCrosses) * kPitch * pixel, 0.0f,
             -0.0004f * static_cast<float>(i));

@@ -13,8 +13,8 @@
 #include "tests/rendering/pictures.h"
 #include "tests/required.h"
 
-// Pictures by back ends that draw from points in memory, against those by `tessellation`, which
-// draws the same quads by other means.
+// Pictures by back ends that draw from points in memory, compared with those of `tessellation`,
+// which draws the same quads in another way.
 namespace hair::rendering {
 namespace {
 

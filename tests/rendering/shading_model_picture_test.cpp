@@ -52,7 +52,7 @@ protected:
     }
 };
 
-// Whichever way it goes: where it is level or upright its quads' ends are along rows of samples.
+// The strand may go any way: if it is level or upright, its quads' ends are along rows of samples.
 TEST_F(ShadingModelPictures, NoneHasAHoleInAStrandThatFillsThePicture) {
     Settings settings = wideStrand(ShadingModel::phong, 0.0);
     settings.strands.root_width = settings.strands.tip_width = 0.3f;
@@ -113,8 +113,8 @@ TEST_F(ShadingModelPictures, FibresMirrorTheLightOnItsSide) {
     }
 }
 
-// Through a clear fibre light from behind bends as through a lens: seen from the front, light from
-// behind on the right comes out on the left.
+// A clear fibre bends light from behind like a lens: seen from the front, light from behind on the
+// right comes out on the left.
 TEST_F(ShadingModelPictures, FibresLetLightThroughOnTheOtherSide) {
     Settings settings = wideStrand(ShadingModel::marschner, 150.0);
     settings.shading.color = glm::vec3(1.0f);

@@ -100,8 +100,8 @@ TEST_F(ShowPictureTest, StrandsKeepColorsOfTheirOwn) {
     EXPECT_EQ(differingPixels(draw(shown), all), 0u);
 }
 
-// The number of fragments that a pixel has in a picture that counts them; -1 where its three colors
-// are of no number.
+// The number of fragments of a pixel in a picture that counts them; -1 if its three colors match
+// no number.
 int countOf(const std::uint8_t* pixel) {
     // Green is full at 32, in steps of 8 of 255.
     const int count = static_cast<int>(std::lround(pixel[1] * 32.0 / 255.0));
@@ -171,7 +171,7 @@ protected:
         return lit;
     }
 
-    // a of each color that is seen, in ascending order.
+    // The a of each color in the picture, in ascending order.
     static std::vector<double> absorptions(const Pixels& pixels) {
         std::vector<double> found;
         for (const auto& color : colors(pixels)) {

@@ -8,7 +8,7 @@
 #include "tests/gpu_fixture.h"
 #include "tests/probe_shaders.h"
 
-// The back end `software` has samples where multisampled images have them.
+// The back end `software` has its samples at the places of multisampled images.
 namespace hair::rendering {
 namespace {
 

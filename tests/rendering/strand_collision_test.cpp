@@ -12,7 +12,7 @@
 #include "tests/gpu_fixture.h"
 #include "tests/rendering/device_hair.h"
 
-// Strands out of bodies where they are drawn: shaders/strands/collision.glsl.
+// The push of drawn strands out of bodies: shaders/strands/collision.glsl.
 namespace hair::rendering {
 namespace {
 
@@ -36,8 +36,9 @@ Nearest nearestOf(const gpu::Capsule& capsule, const glm::dvec3& position) {
     return {glm::length(away) - double{capsule.radius}, glm::normalize(away)};
 }
 
-// How far outside a point is that was `gap` outside: from the margin on as it was; below, by the
-// exponential that meets that smoothly and stays above a quarter of the margin. docs/grooms.md
+// The distance outside after the push for a point that was `gap` outside. From the margin on it is
+// unchanged. Below, it is the exponential that meets that smoothly and stays above a quarter of
+// the margin. docs/grooms.md
 double pressedGap(double gap, double margin) {
     if (gap >= margin) return gap;
     const double least = 0.25 * margin;

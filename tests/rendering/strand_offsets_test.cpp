@@ -32,7 +32,7 @@ double fractionOf(const StrandOffsets& offsets, std::size_t sample) {
 
 double radiusOf(const glm::vec3& offset) { return std::hypot(offset.x, offset.y); }
 
-// How often the samples from `first` on go round, positive from the normal to the binormal.
+// The number of turns of the samples from `first` on, positive from the normal to the binormal.
 double turnsOf(std::span<const glm::vec3> samples, std::size_t first) {
     double angle = 0.0;
     for (std::size_t i = first + 1; i < samples.size(); ++i) {

@@ -30,7 +30,7 @@ namespace {
 constexpr double kAtRest = 0.05e-3;
 constexpr double kRigid = 1e-5;
 
-// The distance of two places; a NaN or an infinity is no distance but an error.
+// The distance of two places; throws on a NaN or an infinity.
 double apart(const glm::dvec3& a, const glm::dvec3& b) {
     const double distance = glm::distance(a, b);
     if (!std::isfinite(distance)) throw std::runtime_error("a point is not finite");
@@ -97,7 +97,7 @@ groom::Groom groomOf(
         folder.path(), 1);
 }
 
-// The strands in the order in which they are drawn.
+// The strands in the drawn order.
 std::vector<std::uint32_t> drawnOrder(const groom::Groom& groom, std::uint32_t seed) {
     std::vector<std::pair<std::uint32_t, std::uint32_t>> keys;
     for (std::uint32_t i = 0; i < groom.bindings.size(); ++i)
@@ -195,7 +195,7 @@ TEST_F(StrandResidualsTest, StrandsGoThroughTheFilesPoints) {
         ASSERT_EQ(groom.bindings.size(), 600u);
         for (const Curve curve : {Curve::bspline, Curve::bspline_unpinned, Curve::catmull_rom})
             EXPECT_LT(farthest(groom, file, ownStrands(3, curve), 3), kAtRest) << guides;
-        // There is something to be kept: without it curls are several millimetres off.
+        // The residuals matter: without them curls are several millimetres off.
         EXPECT_GT(farthest(withoutResiduals(groom), file, ownStrands(3), 3), 2e-3) << guides;
     }
 }
@@ -340,7 +340,7 @@ TEST_F(StrandResidualsTest, ARigidMotionOfTheHeadCarriesStrandsRigidly) {
     }
 }
 
-// A strand without weights goes where the head goes, whatever guides do, and is as wide as it says:
+// A strand without weights follows the head for any motion of the guides and has its own width:
 // its own points, turned and moved.
 TEST_F(StrandResidualsTest, AStrandWithoutWeightsFollowsTheHeadAlone) {
     groom::Groom groom = groomOf(wisps(40, std::array{20u}), 12);

@@ -3,7 +3,7 @@
 #include "tests/gpu_fixture.h"
 #include "tests/rendering/mesh_pictures.h"
 
-// One wide strand from the picture's lower edge to the upper one, which shows its colour alone.
+// One wide strand from the picture's lower edge to the upper one; it shows its colour alone.
 namespace hair::rendering {
 namespace {
 
@@ -30,8 +30,8 @@ protected:
             device(), settings, {.strand_texture = texture}, glm::mat4(1.0f), oneTriangle(guide));
     }
 
-    // Two columns, four rows: red grows along the strand, green is on the right of one that hangs
-    // down and so on the left of this one.
+    // Two columns, four rows: red grows along the strand. Green is on the right of a strand that
+    // hangs down, so on the left of this one.
     static engine::Pixels bands(std::uint8_t left_opacity = 255) {
         engine::Pixels pixels{2, 4, {}};
         for (int row = 0; row < 4; ++row) {

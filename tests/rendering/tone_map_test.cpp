@@ -197,8 +197,8 @@ TEST_F(ToneMapTest, WhatLightCannotBeIsBlackOrBrightest) {
     }
 }
 
-// Light is averaged before it is mapped: of a pixel half in light of 1 and half in the dark the
-// display shows 0.7354, not a half. Two pixels side by side, SSAA 4, each sample another light.
+// The average comes before the tone map: a pixel half in light of 1 and half in the dark shows as
+// 0.7354, not a half. Two pixels side by side, SSAA 4, each sample with another light.
 TEST_F(ToneMapTest, SupersamplesAreAveragedAsLight) {
     RenderSettings render;
     render.width = 2;

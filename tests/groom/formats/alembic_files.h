@@ -9,7 +9,7 @@
 #include "tests/groom/formats/bytes.h"
 
 // Alembic archives byte by byte, as hair/groom/formats/ogawa.h describes them and independent of
-// hairbench's writer: numbers of headers have 4 bytes and metadata follow them, where hairbench
+// hairbench's writer. Here numbers of headers have 4 bytes and metadata follow them; hairbench
 // writes 1 byte and numbered metadata.
 
 enum AlembicCode : std::uint32_t {  // Alembic's PlainOldDataType

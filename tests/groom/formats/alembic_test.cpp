@@ -184,7 +184,8 @@ TEST(Alembic, JoinsObjectsAndWhatAllOfThemHave) {
         set.warnings, ElementsAre("groom_group_id: left out, since some of the curves have none"));
 }
 
-// A quarter turn about z takes x to y; of scale, turn and translation the last is done first.
+// A quarter turn about z takes x to y. The order is scale, turn, translation; the last in the list
+// comes first.
 TEST(Alembic, PlacesCurvesByTheTransformsAboveThem) {
     const std::string operations = "\x10\x60\x01";  // translation, turn about z, scale
     const StrandSet set = readMade({madeTransform(
@@ -556,7 +557,7 @@ TEST(Ogawa, RefusesCountsThatTheFileDoesNotBearOut) {
         HasSubstr("a scalar of 5"));
 }
 
-// Objects that are equal may have their samples once, but not so that a small file makes millions.
+// Equal objects may share their samples, but a small file may not make millions of objects.
 TEST(Ogawa, ReadsSharedSamplesWithinBounds) {
     const auto shared = [](std::uint32_t objects, std::uint32_t points) {
         MadeArchive archive;
@@ -616,7 +617,7 @@ std::vector<std::string> wholeArchives() {
         textOf(corpus("abc/alembic_groom.abc")), textOf(corpus("abc/blender_catmull_rom.abc"))};
 }
 
-// The root group is the last of an archive, so that none of it can be missing.
+// The root group is the last of an archive, so a cut archive lacks a part of it.
 TEST(AlembicDamage, IsRefusedWhereverItEnds) {
     for (const std::string& whole : wholeArchives())
         for (std::size_t size = 0; size < whole.size(); ++size)

@@ -8,8 +8,8 @@
 #include <string>
 #include <string_view>
 
-// Writes little-endian files as format descriptions have them, value after value, whatever this
-// machine's order of bytes.
+// Writes little-endian files as format descriptions have them, value after value, on machines of
+// any byte order.
 class Bytes {
 public:
     Bytes& text(std::string_view text) {

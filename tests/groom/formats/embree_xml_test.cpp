@@ -78,8 +78,8 @@ TEST(EmbreeXml, SamplesBezierCurves) {
     EXPECT_THAT(readXml(replaced(pairs, "0 5 3 5", "0 5 3 6")).ends, ElementsAre(4, 8));
 }
 
-// Both bases have linear precision: evenly spaced on a line, from the second vertex to the last but
-// one. Catmull and Rom's passes through them in any case.
+// Both bases have linear precision: the points are evenly spaced on a line, from the second vertex
+// to the last but one. Catmull and Rom's curve passes through them in any case.
 TEST(EmbreeXml, SamplesSplines) {
     const std::string even = "0 0 0 1 2 0 0 1 4 0 0 1 6 0 0 1 8 0 0 1";
     for (const char* basis : {"bspline", "catmull_rom"}) {
@@ -153,7 +153,7 @@ TEST(EmbreeXml, FollowsShortTransforms) {
         EXPECT_THAT(errorOfXml(placed(wrong)), StartsWith("line 3: ")) << wrong;
 }
 
-// Nodes of an `assign` are for later, as often as they are referred to.
+// The nodes of an `assign` appear only where the file refers to them, each time.
 TEST(EmbreeXml, FollowsReferences) {
     std::string text = replaced(kLinear, "<scene>", "<scene><assign type=\"scene\" id=\"hair\">");
     text = replaced(text, "</scene>", "</assign><Group><ref id=\"hair\"/></Group></scene>");
@@ -176,7 +176,7 @@ TEST(EmbreeXml, FollowsReferences) {
         errorOfXml(replaced(text, "<ref id=\"hair\"/>", "")), "line 3: the scene has no curves");
 }
 
-// A few lines that mean 2^40 groups, and one that is within itself.
+// A few lines that make 2^40 groups, and a group within itself.
 TEST(EmbreeXml, RefusesEndlessReferences) {
     std::string text = "<scene><assign id=\"0\"><Group/></assign>";
     for (int i = 0; i < 40; ++i) {
@@ -191,7 +191,7 @@ TEST(EmbreeXml, RefusesEndlessReferences) {
         HasSubstr("one to itself?"));
 }
 
-// Embree's own hair0.xml ends curves so.
+// Embree's own hair0.xml ends curves like this.
 TEST(EmbreeXml, LeavesOutStrandsWithNan) {
     const StrandSet set = readXml(replaced(kLinear, "4 1 0", "4 nan 0"));
     EXPECT_THAT(set.ends, ElementsAre(3));

@@ -179,7 +179,7 @@ TEST(ExportHair, WritesTheDescribedBytes) {
         const std::string bytes = fileWith(arrays);
         const auto [written, warnings] = writeText(exportHair, readHair(bytes));
         std::string expected = bytes;
-        // Defaults of arrays that are there are ours: unknown, opaque, white.
+        // The writer puts our own defaults in for present arrays: unknown, opaque, white.
         if (arrays & kSegments) expected = patched(expected, 16, 0);
         if (arrays & kThickness) expected = patched(expected, 20, 0.0f);
         if (arrays & kTransparency) expected = patched(expected, 24, 0.0f);

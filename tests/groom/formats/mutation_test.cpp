@@ -26,7 +26,7 @@ std::vector<std::string> seedsOf(const StrandImporter& importer) {
     return seeds;
 }
 
-// Empty where it is refused as it should be or read.
+// Empty if the reader refuses the file properly or reads it.
 std::string whatHappensTo(const StrandImporter& importer, const std::string& bytes) {
     try {
         return brokenPromise(readText(importer.read, bytes));

@@ -12,7 +12,7 @@
 // Damage to files, the same in every run.
 namespace hair::groom {
 
-// A stream of hashes: its n-th is the same on every machine.
+// A stream of hashes, the same on every machine.
 class Dice {
 public:
     explicit Dice(std::uint32_t seed) : seed_(seed) {}

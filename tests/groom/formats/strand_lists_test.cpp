@@ -77,7 +77,7 @@ TEST(HairData, LeavesOutStrandsWithoutPoints) {
         readError(importHairData, Bytes().u32(1).u32(0).str()), "byte 0: no strand has a point");
 }
 
-// Each count stands for more or fewer bytes than there are, and says so with its place.
+// Each wrong count stands for more or fewer bytes than the file has; the error names its place.
 TEST(HairData, RefusesCountsThatTheFileDoesNotBearOut) {
     for (const std::uint32_t wrong : kWrongCounts) {
         for (const std::size_t at : {0u, 4u, 44u}) {

@@ -245,7 +245,7 @@ TEST(ImportTfx3, ReadsEveryArray) {
     EXPECT_THAT(strands.warnings, IsEmpty());
 }
 
-// AMD's exporter writes a flag of one byte, and the three after it are whatever they are.
+// AMD's exporter writes a flag of one byte and three undefined bytes after it.
 TEST(ImportTfx3, WarnsOfFollowersFixedEndsAndGuides) {
     std::string bytes = patched(patched(tfx3File(), 12, 4u), 16, 0xcccccc01u);
     bytes = patched(bytes, 160, static_cast<std::uint32_t>(bytes.size())) + std::string(8, '\0');
@@ -275,7 +275,7 @@ TEST(ImportTfx3, RefusesWrongCountsAndOffsetsAndTruncation) {
 
 // ---- Version 2 ----------------------------------------------------------------------------------
 
-// The lines of files that TressFX 2 came with.
+// The lines of the files that came with TressFX 2.
 const std::string kTfx2Header =
     "version 2.0\nscale 1.0\nrotation 0 0 0\ntranslation 0 0 0\nbothEndsImmovable 0\n"
     "maxNumVerticesInStrand 16\nnumFollowHairsPerGuideHair 4\nmaxRadiusAroundGuideHair 0.5\n"

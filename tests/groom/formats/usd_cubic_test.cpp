@@ -53,8 +53,8 @@ glm::dvec3 catmullRom(const std::array<glm::dvec3, 4>& p, double t) {
            t * t * s * to;
 }
 
-// The prims of cubics.usda. They have as many points as control vertices at the least: of 4 and 6
-// in one the 4 of a B-spline, which are one segment, set it.
+// The prims of cubics.usda. Each curve gets at least as many points as control vertices. In
+// "bspline" the curve of 4 vertices has one segment, so it sets `between`.
 const Cubic kCubics[] = {
     {"bezier", {4, 7}, 3, 2, false, false, bezier},
     {"bspline", {4, 6}, 1, 2, false, true, bspline},
@@ -62,7 +62,7 @@ const Cubic kCubics[] = {
     {"catmull_rom", {5, 6}, 1, 1, false, false, catmullRom},
     {"catmull_rom_pinned", {3, 4}, 1, 0, true, true, catmullRom}};
 
-// With 2 P0 - P1 before the first and its like after the last.
+// Adds 2 P0 - P1 before the first and its counterpart after the last.
 void pin(std::vector<glm::dvec3>& values) {
     values.insert(values.begin(), 2.0 * values[0] - values[1]);
     values.push_back(2.0 * values.back() - values.rbegin()[1]);

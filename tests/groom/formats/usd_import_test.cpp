@@ -47,8 +47,8 @@ TEST_P(UsdImportFormatTest, ReadsAllThatStrandsHaveToTheLastBit) {
 
 INSTANTIATE_TEST_SUITE_P(, UsdImportFormatTest, testing::Values("usda", "usdc", "usd", "usdz"));
 
-// p * scale 2, turned by 90 degrees about z, moved by (1, 2, 3); then z up becomes y up. cos(90)
-// is 6e-17 in double, so that sums round to the whole numbers that they should be.
+// p scaled by 2, turned by 90 degrees about z, moved by (1, 2, 3); then z up becomes y up. cos(90)
+// is 6e-17 in double, so sums round to the expected whole numbers.
 TEST_F(UsdImportTest, AppliesTransformsOfParentsAndInstances) {
     const StrandSet set = read("transforms.usda");
     const auto expected = [](glm::vec3 p) {
@@ -102,7 +102,7 @@ TEST_F(UsdImportTest, SaysWhatItLeavesOut) {
                           "colors: left out, since some of the curves have none"));
 }
 
-// All in one process, for one takes half a second to begin.
+// All files in one process, for a process takes half a second to begin.
 TEST_F(UsdImportTest, RefusesNamingThePrim) {
     const std::string refusals =
         runPython("tests/groom/formats/usd_refusals.py", "'" + folder().string() + "'").output;
@@ -163,7 +163,8 @@ TEST(UsdImport, SaysWhatItNeeds) {
     before ? setenv("HAIRBENCH_PYTHON", saved.c_str(), 1) : unsetenv("HAIRBENCH_PYTHON");
 }
 
-// Constants, arrays or not, of the curves or of their parent; the colours are of points, or curves.
+// The curves or their parent have the constants, as arrays or not; points or curves have the
+// colours.
 TEST_F(UsdImportTest, ReadsWhatUnrealEngineNames) {
     const StrandSet set = read("groom.usda");
     EXPECT_THAT(set.ends, ElementsAre(2u, 5u, 7u));

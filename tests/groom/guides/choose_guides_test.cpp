@@ -100,7 +100,7 @@ TEST(ChooseGuides, TakesRepeatedStrandsLast) {
     EXPECT_EQ(chooseGuides(dense, 23, 2).size(), 23u);
 }
 
-// The mean of each half is the same for all: only vertex for vertex are they unlike.
+// The mean of each half is the same for all; only the vertices differ.
 TEST(ChooseGuides, TakesWhatOnlyItsVerticesTellApart) {
     const Groom dense = sampleGroom(8, 9, [](std::uint32_t strand, double t) {
         const int vertex = static_cast<int>(8.0 * t);

@@ -130,7 +130,7 @@ TEST(Inspect, BelievesAStatedUnit) {
     EXPECT_EQ(inspect(strands, nullptr, {}).metres_per_unit, 0.5);
 }
 
-// In a box from 0 to 1 m: how far points are from its sides is known.
+// In a box from 0 to 1 m the points' distances from the sides are known.
 TEST(Inspect, MeasuresAgainstAClosedMesh) {
     StrandSet strands;
     strands.points = {{50, 100, 50},     {50, 150, 50},  // on the top, and up
@@ -151,7 +151,7 @@ TEST(Inspect, MeasuresAgainstAClosedMesh) {
     EXPECT_EQ(found.points_inside, 3u);  // the one at 0.5 mm counts as on the surface
     EXPECT_NEAR(found.deepest.value(), 0.25, 1e-7);
     EXPECT_TRUE(found.not_closed.empty());
-    // Ten times as large, the others are outside too.
+    // At ten times the size the others are outside, too.
     EXPECT_EQ(inspect(strands, &box, 0.1).mesh->points_inside, 0u);
 }
 

@@ -52,7 +52,7 @@ TEST(NearestSurface, FindsItAmongTrianglesInDisorder) {
     expectNearest(mesh, 1.0, 500);
 }
 
-// Needles, triangles that are a line or a point, and many at one place.
+// Needles, triangles that are a line or a point, and many triangles at one place.
 TEST(NearestSurface, TakesTrianglesWithoutArea) {
     Mesh mesh;
     const auto add = [&mesh](glm::vec3 a, glm::vec3 b, glm::vec3 c) {

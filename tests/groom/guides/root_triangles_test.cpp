@@ -132,8 +132,8 @@ TEST(TriangulateRoots, LeavesOutRootsAtATakenPlace) {
     for (const Triangle& triangle : triangles) EXPECT_LT(std::ranges::max(triangle), 25u);
 }
 
-// A cap of half angle 100 degrees. Its hairline is as even as its inside, so that nothing is
-// dropped: 2 n - 2 - h triangles of n roots, h of them on the hairline, one piece (Euler).
+// A cap of half angle 100 degrees. Its hairline is as even as its inside, so the function drops
+// nothing: 2 n - 2 - h triangles of n roots, h of them on the hairline, one piece (Euler).
 TEST(TriangulateRoots, CoversACap) {
     const Groom groom = rooted(onSphere(800, std::cos(1.75)));
     const TriangleList triangles = triangulateRoots(groom, nullptr);
@@ -210,7 +210,7 @@ TEST(TriangulateRoots, GoesAllRoundASphere) {
     for (const auto& [edge, count] : edgesOf(triangles)) EXPECT_EQ(count, 2);
 }
 
-// A moustache, or any roots about a curve in space, is no sphere and no line.
+// Roots about a curve in space, like a moustache, are no sphere and no line.
 TEST(TriangulateRoots, TakesANarrowStrip) {
     std::vector<glm::dvec3> roots;
     for (int i = 0; i < 90; ++i) {

@@ -20,7 +20,7 @@ Groom lawn(std::uint32_t strands) {
     });
 }
 
-// Strands that haven't moved; others have, their tips being elsewhere.
+// Strands that haven't moved: the tips of the others are elsewhere.
 std::vector<std::uint32_t> unmoved(const Groom& after, const Groom& before) {
     std::vector<std::uint32_t> strands;
     for (std::uint32_t i = 0; i < after.strand_count; ++i)
@@ -105,7 +105,7 @@ TEST(Clump, DrawsSomeStrandsLess) {
     EXPECT_NEAR(mean, 0.375, 0.02);
 }
 
-// Two levels are the finer clumps, and these drawn together.
+// With two levels the style makes the finer clumps and draws these together.
 TEST(Clump, HasClumpsWithinClumps) {
     ClumpSettings settings{.strength = 0.5f, .spacing = 0.1f, .start = 0.1f};
     const Groom before = lawn(2000);

@@ -34,7 +34,7 @@ TEST(Cut, KeepsToTheOldLine) {
 }
 
 // The plane goes through (0, 0.1, 0) at 45 degrees; a strand at x ends at y = 0.1 - x. The length
-// of the normal counts for nothing.
+// of the normal has no effect.
 TEST(Cut, EndsAtThePlane) {
     const CutSettings settings{.point = {0.0f, 0.1f, 0.0f}, .normal = {0.5f, 0.5f, 0.0f}};
     const Groom after = cut(verticalStrands(4, 8, 0.3, 0.02), settings);

@@ -4,7 +4,7 @@
 
 namespace hair::groom {
 
-// Three strands of two, three and one points that have something of everything.
+// Three strands of two, three and one points, with some data of every kind.
 inline StrandSet sampleStrandSet() {
     StrandSet strands;
     strands.ends = {2, 5, 6};

@@ -156,9 +156,10 @@ TEST(Strokes, CombTakesATipAlong) {
     EXPECT_LT(differenceOf(after.strand(0)[1], 0.1 * glm::normalize(tip)), kRounding);
 }
 
-// However finely its path is told. The weight is that at a step's start: over an eighth of the
-// radius it changes by a fifth at most (the slope of (1 - x^2)^2 is 1.54), by a tenth in a step's
-// mean, up on the way in and down on the way out: half of that is left room for.
+// The result doesn't depend on the number of points on the path. The weight is that at a step's
+// start. Over an eighth of the radius it changes by a fifth at most (the slope of (1 - x^2)^2 is
+// 1.54), by a tenth in a step's mean, up on the way in and down on the way out. The tolerance is
+// half of that.
 TEST(Strokes, CombDoesNotDependOnPlacesOfItsPath) {
     const Groom before = helices(12);
     const glm::vec3 from{-0.05f, 0.12f, 0.0f}, to{0.15f, 0.08f, 0.02f};

@@ -60,8 +60,8 @@ TEST(Wave, MovesNeighboursAlikeUnlessPhasesVary) {
     EXPECT_FALSE(std::ranges::equal(unlike.strand(0), unlike.strand(1)));
 }
 
-// Roots 1 mm apart, clumps of 8 mm and more: swings are alike within one and few in all, which
-// without it are as many as strands.
+// Roots 1 mm apart, clumps of 8 mm and more: swings are alike within a clump and few in all.
+// Without clumps each strand has its own.
 TEST(Wave, SharesPhasesWithinAClump) {
     WaveSettings settings{.amplitude = 0.005f, .frequency = 20.0f, .phase_variation = 1.0f};
     const Groom before = withNormals(verticalStrands(64, 17, 0.2, 0.001), {0.0f, 0.0f, 1.0f});

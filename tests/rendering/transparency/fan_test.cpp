@@ -71,8 +71,8 @@ TEST_F(FanTest, ThinStrandsHaveNoGaps) {
             const glm::dvec2 at = root + part * (tip - root) + 0.5 * kSide;
             const std::size_t i =
                 4 * (static_cast<std::size_t>(at.y) * kSide + static_cast<std::size_t>(at.x));
-            // A pixel that the strand only nicks has less than a step of 8-bit colours, so one
-            // through which it passes within half a pixel of the centre is asked for.
+            // A pixel that the strand only nicks has less than a step of 8-bit colours, so the
+            // test asks for a pixel with the strand within half a pixel of its centre.
             const glm::dvec2 direction = glm::normalize(tip - root);
             const glm::dvec2 offset = glm::floor(at) + 0.5 - at;
             if (std::abs(direction.x * offset.y - direction.y * offset.x) > 0.5) continue;
