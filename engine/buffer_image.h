@@ -13,8 +13,7 @@
 
 struct VmaAllocation_T;
 
-// Device buffers, images and samplers, and copies of whole buffers and images between host and
-// device.
+// Device buffers, images and samplers.
 namespace engine {
 
 enum class Usage {
@@ -143,36 +142,5 @@ public:
 private:
     Handle<VkSampler, &vkDestroySampler> sampler_;
 };
-
-// Fills `destination` from its start and waits until the device has the data. For set-up, not for
-// frames.
-void upload(const Device& device, std::span<const std::byte> bytes, const Buffer& destination);
-
-// Returns a copy of the buffer's bytes, after all work submitted so far.
-std::vector<std::byte> download(const Device& device, const Buffer& source);
-
-// Returns the tightly packed pixels of an image in TRANSFER_SRC_OPTIMAL in a readback buffer, after
-// all work submitted so far.
-Buffer readImage(const Device& device, const Image& image, std::size_t bytes_per_pixel);
-
-// Returns a device-local buffer that holds `values`. Allocates at least one element, so that the
-// buffer always has an address.
-template <class Value>
-Buffer makeBuffer(const Device& device, std::span<const Value> values, const std::string& name) {
-    Buffer buffer(
-        device, {.size = std::max(values.size_bytes(), sizeof(Value)),
-                 .usage = Usage::storage,
-                 .name = name});
-    if (!values.empty()) upload(device, std::as_bytes(values), buffer);
-    return buffer;
-}
-
-template <class Value>
-std::vector<Value> downloadAs(const Device& device, const Buffer& source) {
-    const std::vector<std::byte> bytes = download(device, source);
-    std::vector<Value> values(bytes.size() / sizeof(Value));
-    std::memcpy(values.data(), bytes.data(), values.size() * sizeof(Value));
-    return values;
-}
 
 }  // namespace engine

@@ -17,11 +17,8 @@
 #include <unistd.h>
 #include <zlib.h>
 
-#include "engine/commands.h"
 #include "engine/files.h"
 #include "engine/memory.h"
-#include "engine/pipeline.h"
-#include "engine/process.h"
 #include "engine/shaders.h"
 
 namespace engine {
@@ -231,6 +228,22 @@ PipelineCache::~PipelineCache() {
     trimCaches(file_.parent_path());
 }
 
+// ---- The store of pipelines
+// ----------------------------------------------------------------------
+
+PipelineStore::Objects
+PipelineStore::get(const std::string& key, const std::function<PipelineObjects()>& make) {
+    const std::lock_guard lock(mutex_);
+    const auto found =
+        std::ranges::find(newest_first_, key, &decltype(newest_first_)::value_type::first);
+    if (found != newest_first_.end())
+        newest_first_.splice(newest_first_.begin(), newest_first_, found);
+    else
+        newest_first_.emplace_front(key, std::make_shared<const PipelineObjects>(make()));
+    if (newest_first_.size() > kMost) newest_first_.pop_back();
+    return newest_first_.front().second;
+}
+
 // ---- The logical device -------------------------------------------------------------------------
 
 Device::Device(const DeviceOptions& options)
@@ -366,7 +379,7 @@ void Device::setName(VkObjectType type, std::uint64_t handle, const std::string&
     vkSetDebugUtilsObjectNameEXT(get(), &info);
 }
 
-void Device::runOnce(const std::function<void(Commands&)>& record) const {
+void Device::submitOnce(const std::function<void(VkCommandBuffer)>& record) const {
     const VkCommandBufferAllocateInfo allocate{
         .sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_ALLOCATE_INFO,
         .pNext = nullptr,
@@ -379,11 +392,7 @@ void Device::runOnce(const std::function<void(Commands&)>& record) const {
         if (!isGivenUp(get())) vkFreeCommandBuffers(get(), pool_.get(), 1, &each);
     };
     const std::unique_ptr<VkCommandBuffer_T, decltype(free)> owned(buffer, free);
-    DescriptorSets sets(*this);
-    Commands commands(buffer, sets, hazards());
-    commands.begin();
-    record(commands);
-    commands.end();
+    record(buffer);
 
     const VkCommandBufferSubmitInfo submitted{
         .sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_SUBMIT_INFO,

@@ -4,14 +4,15 @@
 #include <cstdint>
 #include <filesystem>
 #include <functional>
+#include <list>
 #include <map>
 #include <memory>
+#include <mutex>
 #include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
-#include "engine/error.h"
 #include "engine/hazards.h"
 #include "engine/instance.h"
 #include "engine/process.h"
@@ -19,31 +20,10 @@
 struct VmaAllocation_T;
 struct VmaAllocator_T;
 
-// A logical device with its queues and allocator, its memory ledger and its pipeline cache.
+// A logical device with its queues and allocator, its memory ledger and its pipelines.
 namespace engine {
 
-class Commands;
-class PipelineStore;
 class ShaderLibrary;
-
-// The device was lost (VK_ERROR_DEVICE_LOST), and with it everything made from it.
-class DeviceLost : public Error {
-public:
-    using Error::Error;
-};
-
-// The window's surface was lost (VK_ERROR_SURFACE_LOST_KHR); the window itself may still exist.
-class SurfaceLost : public Error {
-public:
-    using Error::Error;
-};
-
-// The device did not respond for longer than DeviceOptions::patience and was given up (giveUp()).
-// Its objects are not destroyed.
-class DeviceSilent : public DeviceLost {
-public:
-    using DeviceLost::DeviceLost;
-};
 
 // Bytes of device memory per memory heap and per name of the buffer or image. Live allocations
 // only.
@@ -112,6 +92,29 @@ private:
     std::filesystem::path file_;  // empty: no home folder for it
     std::vector<char> loaded_;
     VkPipelineCache cache_{};
+};
+
+struct PipelineObjects {
+    Handle<VkDescriptorSetLayout, &vkDestroyDescriptorSetLayout> images;
+    Handle<VkPipelineLayout, &vkDestroyPipelineLayout> layout;
+    Handle<VkPipeline, &vkDestroyPipeline> pipeline;
+    VkShaderStageFlags push_stages = 0;  // stages that have the push constants
+};
+
+// LRU cache of the device's pipelines. Its key is everything that a pipeline is made of: stage
+// code, constants and state. Equal pipelines are made once, because a driver would compile each of
+// them again, sometimes only at its first draw. Thread-safe.
+class PipelineStore {
+public:
+    using Objects = std::shared_ptr<const PipelineObjects>;
+
+    Objects get(const std::string& key, const std::function<PipelineObjects()>& make);
+
+private:
+    static constexpr std::size_t kMost = 256;
+
+    std::mutex mutex_;
+    std::list<std::pair<std::string, Objects>> newest_first_;
 };
 
 struct DeviceOptions {
@@ -185,8 +188,8 @@ public:
     // Names an object for debuggers and validation messages.
     void setName(VkObjectType type, std::uint64_t handle, const std::string& name) const;
 
-    // Records with `record`, submits, and waits until the work is done. For set-up and read-back.
-    void runOnce(const std::function<void(Commands&)>& record) const;
+    // Hands `record` a new command buffer, submits it, and waits until the work is done. runOnce()
+    void submitOnce(const std::function<void(VkCommandBuffer)>& record) const;
 
     // Waits for the device. `wait` gets the longest time to wait (ns) and returns the result of the
     // Vulkan function that waits. A wait that fails for lack of memory is retried. Throws

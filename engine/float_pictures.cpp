@@ -346,14 +346,6 @@ FloatPixels decodeHdr(std::string_view file) {
 
 }  // namespace
 
-void checkPictureSize(std::int64_t width, std::int64_t height) {
-    constexpr std::int64_t kMostPixels = std::int64_t{1} << 26;
-    if (width > 0 && height > 0 && width <= kMostPixels / height) return;
-    throw Error(
-        std::to_string(width) + " by " + std::to_string(height) +
-        " pixels are outside [1, 2^26] in all");
-}
-
 void writeExr(
     const std::filesystem::path& path, std::uint32_t width, std::uint32_t height,
     std::span<const float> rgb) {

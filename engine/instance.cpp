@@ -13,8 +13,6 @@
 
 #include <vulkan/vulkan_beta.h>
 
-#include "engine/device.h"
-
 namespace engine {
 namespace {
 

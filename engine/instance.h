@@ -20,7 +20,27 @@ namespace engine {
 // Returns the specification's name of a result, such as "VK_ERROR_DEVICE_LOST".
 std::string resultName(VkResult result);
 
-// Throws Error "<what>: <result name>" unless the call succeeded.
+// The device was lost (VK_ERROR_DEVICE_LOST), and with it everything made from it.
+class DeviceLost : public Error {
+public:
+    using Error::Error;
+};
+
+// The window's surface was lost (VK_ERROR_SURFACE_LOST_KHR); the window itself may still exist.
+class SurfaceLost : public Error {
+public:
+    using Error::Error;
+};
+
+// The device did not respond for longer than DeviceOptions::patience and was given up (giveUp()).
+// Its objects are not destroyed.
+class DeviceSilent : public DeviceLost {
+public:
+    using DeviceLost::DeviceLost;
+};
+
+// Throws Error "<what>: <result name>" unless the call succeeded; DeviceLost or SurfaceLost for
+// their results.
 void check(VkResult result, const char* what);
 
 // Whether giveUp() was called for the device.

@@ -10,7 +10,6 @@
 
 #include "engine/error.h"
 #include "engine/files.h"
-#include "engine/float_pictures.h"
 #include "engine/png_text.h"
 
 #define STB_IMAGE_WRITE_IMPLEMENTATION
@@ -118,6 +117,14 @@ void checkJpegTables(std::string_view file) {
 }
 
 }  // namespace
+
+void checkPictureSize(std::int64_t width, std::int64_t height) {
+    constexpr std::int64_t kMostPixels = std::int64_t{1} << 26;
+    if (width > 0 && height > 0 && width <= kMostPixels / height) return;
+    throw Error(
+        std::to_string(width) + " by " + std::to_string(height) +
+        " pixels are outside [1, 2^26] in all");
+}
 
 std::string
 encodePng(std::uint32_t width, std::uint32_t height, std::span<const std::uint8_t> rgba) {

@@ -4,7 +4,6 @@
 #include <array>
 #include <cassert>
 #include <cstddef>
-#include <map>
 #include <string_view>
 #include <type_traits>
 #include <utility>
@@ -384,19 +383,6 @@ std::string keyOf(const Device& device, const GraphicsDescription& description) 
 
 }  // namespace
 
-PipelineStore::Objects
-PipelineStore::get(const std::string& key, const std::function<PipelineObjects()>& make) {
-    const std::lock_guard lock(mutex_);
-    const auto found =
-        std::ranges::find(newest_first_, key, &decltype(newest_first_)::value_type::first);
-    if (found != newest_first_.end())
-        newest_first_.splice(newest_first_.begin(), newest_first_, found);
-    else
-        newest_first_.emplace_front(key, std::make_shared<const PipelineObjects>(make()));
-    if (newest_first_.size() > kMost) newest_first_.pop_back();
-    return newest_first_.front().second;
-}
-
 ComputePipeline::ComputePipeline(const Device& device, const ComputeDescription& description)
     : objects_(device.pipelines().get(
           keyOf(device, description), [&] { return makePipeline(device, description); })) {
@@ -408,27 +394,6 @@ GraphicsPipeline::GraphicsPipeline(const Device& device, const GraphicsDescripti
     objects_ = device.pipelines().get(
         keyOf(device, description), [&] { return makePipeline(device, description); });
     checkInterrupted();
-}
-
-std::set<ShaderBinding> shaderBindings(std::span<const std::uint32_t> code) {
-    // Decorations: SPIR-V specification, 3.20.
-    constexpr std::uint32_t kBinding = 33;
-    constexpr std::uint32_t kDescriptorSet = 34;
-    std::map<std::uint32_t, ShaderBinding> found;  // by variable
-    std::set<std::uint32_t> bound;
-    forEachDeclaration(code, [&](SpirvInstruction instruction) {
-        if (instruction.operation != spirv::kDecorate || instruction.operands.size() < 3) return;
-        const std::uint32_t variable = instruction.operands[0];
-        if (instruction.operands[1] == kDescriptorSet)
-            found[variable].set = instruction.operands[2];
-        if (instruction.operands[1] == kBinding) {
-            found[variable].binding = instruction.operands[2];
-            bound.insert(variable);
-        }
-    });
-    std::set<ShaderBinding> bindings;
-    for (const std::uint32_t variable : bound) bindings.insert(found[variable]);
-    return bindings;
 }
 
 }  // namespace engine

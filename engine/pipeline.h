@@ -1,22 +1,14 @@
 #pragma once
 
 #include <bit>
-#include <compare>
-#include <cstddef>
 #include <cstdint>
-#include <functional>
-#include <list>
 #include <memory>
-#include <mutex>
-#include <set>
-#include <span>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "engine/device.h"
 
-// Compute and graphics pipelines from descriptions, and inspection of SPIR-V.
+// Compute and graphics pipelines from descriptions.
 namespace engine {
 
 // A specialization constant: its id in shaders and the 32 bits of its value. A value of any other
@@ -49,29 +41,6 @@ struct ComputeDescription {
     std::uint32_t sampled_images = 0;
     std::uint32_t storage_images = 0;
     std::uint32_t texel_buffers = 0;  // after the images
-};
-
-struct PipelineObjects {
-    Handle<VkDescriptorSetLayout, &vkDestroyDescriptorSetLayout> images;
-    Handle<VkPipelineLayout, &vkDestroyPipelineLayout> layout;
-    Handle<VkPipeline, &vkDestroyPipeline> pipeline;
-    VkShaderStageFlags push_stages = 0;  // stages that have the push constants
-};
-
-// LRU cache of the device's pipelines. Its key is everything that a pipeline is made of: stage
-// code, constants and state. Equal pipelines are made once, because a driver would compile each of
-// them again, sometimes only at its first draw. Thread-safe.
-class PipelineStore {
-public:
-    using Objects = std::shared_ptr<const PipelineObjects>;
-
-    Objects get(const std::string& key, const std::function<PipelineObjects()>& make);
-
-private:
-    static constexpr std::size_t kMost = 256;
-
-    std::mutex mutex_;
-    std::list<std::pair<std::string, Objects>> newest_first_;
 };
 
 class ComputePipeline {
@@ -145,44 +114,5 @@ public:
 private:
     PipelineStore::Objects objects_;
 };
-
-// A descriptor binding that SPIR-V declares.
-struct ShaderBinding {
-    std::uint32_t set = 0;
-    std::uint32_t binding = 0;
-
-    auto operator<=>(const ShaderBinding&) const = default;
-};
-
-// Returns all descriptor bindings that a shader's code declares.
-std::set<ShaderBinding> shaderBindings(std::span<const std::uint32_t> code);
-
-// Operation codes: SPIR-V specification, 3.42.
-namespace spirv {
-constexpr std::uint32_t kSourceContinued = 2;
-constexpr std::uint32_t kSource = 3;
-constexpr std::uint32_t kString = 7;
-constexpr std::uint32_t kFunction = 54;
-constexpr std::uint32_t kDecorate = 71;
-}  // namespace spirv
-
-struct SpirvInstruction {
-    std::uint32_t operation = 0;
-    std::span<const std::uint32_t> operands;  // words
-};
-
-// Calls `use` for every instruction before the first function. Ends early if the code is not
-// SPIR-V.
-template <class Use>
-void forEachDeclaration(std::span<const std::uint32_t> code, Use&& use) {
-    constexpr std::size_t kHeaderWords = 5;
-    for (std::size_t at = kHeaderWords; at < code.size();) {
-        const std::size_t count = code[at] >> 16;
-        const std::uint32_t operation = code[at] & 0xffff;
-        if (operation == spirv::kFunction || count == 0 || count > code.size() - at) return;
-        use(SpirvInstruction{operation, code.subspan(at + 1, count - 1)});
-        at += count;
-    }
-}
 
 }  // namespace engine

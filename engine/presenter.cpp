@@ -8,6 +8,7 @@
 #include "engine/buffer_image.h"
 #include "engine/process.h"
 #include "engine/target.h"
+#include "engine/transfer.h"
 
 namespace engine {
 namespace {

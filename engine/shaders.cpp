@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cstring>
+#include <map>
 #include <memory>
 #include <regex>
 #include <set>
@@ -13,7 +14,6 @@
 #include <glslang/SPIRV/GlslangToSpv.h>
 
 #include "engine/error.h"
-#include "engine/pipeline.h"
 #include "engine/run_tool.h"
 
 namespace engine {
@@ -345,6 +345,27 @@ ShaderSources shaderSources(std::span<const std::uint32_t> code) {
         }
     });
     return sources;
+}
+
+std::set<ShaderBinding> shaderBindings(std::span<const std::uint32_t> code) {
+    // Decorations: SPIR-V specification, 3.20.
+    constexpr std::uint32_t kBinding = 33;
+    constexpr std::uint32_t kDescriptorSet = 34;
+    std::map<std::uint32_t, ShaderBinding> found;  // by variable
+    std::set<std::uint32_t> bound;
+    forEachDeclaration(code, [&](SpirvInstruction instruction) {
+        if (instruction.operation != spirv::kDecorate || instruction.operands.size() < 3) return;
+        const std::uint32_t variable = instruction.operands[0];
+        if (instruction.operands[1] == kDescriptorSet)
+            found[variable].set = instruction.operands[2];
+        if (instruction.operands[1] == kBinding) {
+            found[variable].binding = instruction.operands[2];
+            bound.insert(variable);
+        }
+    });
+    std::set<ShaderBinding> bindings;
+    for (const std::uint32_t variable : bound) bindings.insert(found[variable]);
+    return bindings;
 }
 
 }  // namespace engine

@@ -1,11 +1,14 @@
 #pragma once
 
+#include <compare>
+#include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <map>
 #include <memory>
 #include <mutex>
 #include <optional>
+#include <set>
 #include <span>
 #include <string>
 #include <string_view>
@@ -13,7 +16,7 @@
 #include <vector>
 
 // Shaders: the SPIR-V compiled into the program, its replacement at run time, the compiler, and the
-// sources embedded in SPIR-V.
+// inspection of SPIR-V: its bindings and the sources embedded in it.
 namespace engine {
 
 using ShaderCode = std::vector<std::uint32_t>;  // SPIR-V
@@ -109,5 +112,44 @@ using ShaderSources = std::map<std::string, std::string, std::less<>>;
 // Returns the files that SPIR-V was compiled from: glslang's -g leaves them in the code (OpSource).
 // They are ASCII; glslang 12 garbles other characters.
 ShaderSources shaderSources(std::span<const std::uint32_t> code);
+
+// A descriptor binding that SPIR-V declares.
+struct ShaderBinding {
+    std::uint32_t set = 0;
+    std::uint32_t binding = 0;
+
+    auto operator<=>(const ShaderBinding&) const = default;
+};
+
+// Returns all descriptor bindings that a shader's code declares.
+std::set<ShaderBinding> shaderBindings(std::span<const std::uint32_t> code);
+
+// Operation codes: SPIR-V specification, 3.42.
+namespace spirv {
+constexpr std::uint32_t kSourceContinued = 2;
+constexpr std::uint32_t kSource = 3;
+constexpr std::uint32_t kString = 7;
+constexpr std::uint32_t kFunction = 54;
+constexpr std::uint32_t kDecorate = 71;
+}  // namespace spirv
+
+struct SpirvInstruction {
+    std::uint32_t operation = 0;
+    std::span<const std::uint32_t> operands;  // words
+};
+
+// Calls `use` for every instruction before the first function. Ends early if the code is not
+// SPIR-V.
+template <class Use>
+void forEachDeclaration(std::span<const std::uint32_t> code, Use&& use) {
+    constexpr std::size_t kHeaderWords = 5;
+    for (std::size_t at = kHeaderWords; at < code.size();) {
+        const std::size_t count = code[at] >> 16;
+        const std::uint32_t operation = code[at] & 0xffff;
+        if (operation == spirv::kFunction || count == 0 || count > code.size() - at) return;
+        use(SpirvInstruction{operation, code.subspan(at + 1, count - 1)});
+        at += count;
+    }
+}
 
 }  // namespace engine

@@ -6,6 +6,7 @@
 
 #include "engine/buffer_image.h"
 #include "engine/pipeline.h"
+#include "engine/transfer.h"
 
 namespace engine {
 namespace {

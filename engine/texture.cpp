@@ -7,6 +7,7 @@
 
 #include "engine/commands.h"
 #include "engine/error.h"
+#include "engine/transfer.h"
 
 namespace engine {
 namespace {
@@ -137,7 +138,7 @@ Texture::Texture(
     std::size_t bytes = 0;
     for (const Pixels& level : levels) bytes += level.rgba.size();
     const Buffer staging(device, {.size = bytes, .usage = Usage::upload, .name = name});
-    device.runOnce([&](Commands& commands) {
+    runOnce(device, [&](Commands& commands) {
         commands.transition(
             image_, VK_IMAGE_LAYOUT_UNDEFINED, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL,
             Access::anything, Access::transfer_write);

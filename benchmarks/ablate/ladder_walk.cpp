@@ -21,7 +21,6 @@
 #include "benchmarks/scene/assets.h"
 #include "engine/error.h"
 #include "engine/process.h"
-#include "engine/steps.h"
 #include "hair/rendering/backends.h"
 
 namespace benchmarks::ablate {

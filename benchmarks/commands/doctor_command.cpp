@@ -12,7 +12,6 @@
 #include "benchmarks/report/report.h"
 #include "engine/files.h"
 #include "engine/process.h"
-#include "engine/steps.h"
 
 namespace benchmarks::commands {
 namespace {

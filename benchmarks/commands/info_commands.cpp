@@ -19,7 +19,7 @@
 #include "benchmarks/scene/scene.h"
 #include "benchmarks/scene/schema.h"
 #include "benchmarks/scene/sweep.h"
-#include "engine/steps.h"
+#include "engine/process.h"
 
 namespace benchmarks::commands {
 

@@ -11,7 +11,6 @@
 #include "engine/error.h"
 #include "engine/files.h"
 #include "engine/process.h"
-#include "engine/steps.h"
 
 namespace benchmarks::commands {
 namespace {

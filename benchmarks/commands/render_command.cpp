@@ -10,6 +10,7 @@
 #include "benchmarks/report/change.h"
 #include "benchmarks/scene/frames.h"
 #include "engine/files.h"
+#include "engine/float_pictures.h"
 #include "engine/pictures.h"
 #include "engine/process.h"
 #include "hair/groom/files.h"

@@ -19,6 +19,7 @@
 #include "engine/commands.h"
 #include "engine/process.h"
 #include "engine/queries.h"
+#include "engine/transfer.h"
 
 namespace benchmarks::doctor {
 namespace {
@@ -137,7 +138,7 @@ std::optional<TimestampSteps> timestampSteps(const engine::Device& device) {
     if (device.info().timestamp_valid_bits == 0) return std::nullopt;
     constexpr std::uint32_t kStamps = 1000;
     engine::Timestamps stamps(device, kStamps);
-    device.runOnce([&](engine::Commands& commands) {
+    runOnce(device, [&](engine::Commands& commands) {
         for (std::uint32_t i = 0; i < kStamps; ++i) stamps.write(commands);
     });
     // Whole ticks again: so few that a double holds them.

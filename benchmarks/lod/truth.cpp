@@ -15,7 +15,7 @@
 #include "benchmarks/reference/mitsuba.h"
 #include "benchmarks/reference/picture_errors.h"
 #include "benchmarks/report/text.h"
-#include "engine/pictures.h"
+#include "engine/float_pictures.h"
 #include "engine/process.h"
 
 namespace benchmarks::lod {

@@ -7,6 +7,7 @@
 #include "benchmarks/measure/gpu_structs.h"
 #include "engine/buffer_image.h"
 #include "engine/error.h"
+#include "engine/transfer.h"
 
 namespace benchmarks::measure {
 

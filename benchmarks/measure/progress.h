@@ -8,16 +8,16 @@
 #include <string>
 #include <thread>
 
-#include "engine/steps.h"
+#include "engine/process.h"
 
 // Progress on stderr.
 namespace benchmarks::measure {
 
 struct SamplingState;  // measure.h
 
-// Shows which steps (engine/steps.h) are under way: on a terminal once they are for two seconds, in
-// one line that is rewritten, elsewhere in a line of its own every ten seconds. A program has one,
-// for as long as it works; a thread of its own looks twice a second.
+// Shows which steps (engine/process.h) are under way: on a terminal once they are for two seconds,
+// in one line that is rewritten, elsewhere in a line of its own every ten seconds. A program has
+// one, for as long as it works; a thread of its own looks twice a second.
 class ProgressLine {
 public:
     ProgressLine();

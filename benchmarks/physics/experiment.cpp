@@ -11,6 +11,7 @@
 #include "benchmarks/physics/theory.h"
 #include "engine/commands.h"
 #include "engine/process.h"
+#include "engine/transfer.h"
 #include "hair/simulation/solvers.h"
 #include "hair/simulation/stiffness.h"
 
@@ -83,7 +84,7 @@ void Experiment::advance(std::uint32_t steps) {
     while (steps > 0) {
         engine::checkInterrupted();
         const std::uint32_t batch = std::min(steps, kBatch);
-        device_->runOnce([&](engine::Commands& commands) {
+        runOnce(*device_, [&](engine::Commands& commands) {
             for (std::uint32_t i = 0; i < batch; ++i) {
                 if (wind) simulation_.recordWind(commands);
                 if (simulation_.hasVolume()) simulation_.recordVolume(commands);

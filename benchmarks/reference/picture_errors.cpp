@@ -11,7 +11,6 @@
 #include "engine/process.h"
 #include "engine/program_files.h"
 #include "engine/run_tool.h"
-#include "engine/steps.h"
 
 namespace benchmarks::reference {
 namespace {

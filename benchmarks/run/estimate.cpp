@@ -20,7 +20,6 @@
 #include "benchmarks/report/text.h"
 #include "engine/error.h"
 #include "engine/process.h"
-#include "engine/steps.h"
 #include "hair/groom/growth/roots.h"
 #include "hair/rendering/strand_plan.h"
 #include "hair/simulation/solvers.h"

@@ -15,6 +15,7 @@
 #include "benchmarks/scene/extensions.h"
 #include "benchmarks/scene/settings_json.h"
 #include "engine/error.h"
+#include "engine/float_pictures.h"
 #include "hair/fields.h"
 #include "hair/groom/build_groom.h"
 #include "hair/groom/files.h"

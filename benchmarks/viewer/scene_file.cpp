@@ -14,7 +14,7 @@
 #include "benchmarks/scene/sweep.h"
 #include "engine/error.h"
 #include "engine/files.h"
-#include "engine/pictures.h"
+#include "engine/float_pictures.h"
 #include "hair/fields.h"
 #include "hair/groom/files.h"
 #include "hair/groom/formats/ply.h"

@@ -16,7 +16,7 @@
 #include <glm/mat4x4.hpp>
 
 #include "engine/error.h"
-#include "engine/steps.h"
+#include "engine/process.h"
 #include "hair/groom/files.h"
 #include "hair/groom/growth/grow.h"
 #include "hair/groom/growth/vellus.h"

@@ -17,7 +17,7 @@
 #include <glm/trigonometric.hpp>
 
 #include "engine/error.h"
-#include "engine/steps.h"
+#include "engine/process.h"
 #include "hair/groom/mesh/depth.h"
 #include "hair/groom/mesh/surface.h"
 

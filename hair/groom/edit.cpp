@@ -11,7 +11,7 @@
 #include <glm/geometric.hpp>
 
 #include "engine/error.h"
-#include "engine/steps.h"
+#include "engine/process.h"
 #include "hair/groom/build_groom.h"
 #include "hair/groom/inspect.h"
 #include "hair/groom/mesh/depth.h"

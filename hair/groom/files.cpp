@@ -4,7 +4,7 @@
 #include <memory>
 
 #include "engine/error.h"
-#include "engine/steps.h"
+#include "engine/process.h"
 #include "hair/groom/formats/alembic_export.h"
 #include "hair/groom/formats/alembic_import.h"
 #include "hair/groom/formats/cyhair.h"

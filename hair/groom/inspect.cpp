@@ -15,7 +15,7 @@
 #include <glm/geometric.hpp>
 
 #include "engine/error.h"
-#include "engine/steps.h"
+#include "engine/process.h"
 #include "hair/groom/mesh/depth.h"
 #include "hair/groom/mesh/surface.h"
 

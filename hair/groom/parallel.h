@@ -7,7 +7,7 @@
 #include <thread>
 #include <vector>
 
-#include "engine/steps.h"
+#include "engine/process.h"
 
 namespace hair::groom {
 

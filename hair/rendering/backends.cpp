@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "engine/error.h"
+#include "engine/transfer.h"
 #include "hair/gpu_structs.h"
 #include "hair/rendering/mesh_backend.h"
 #include "hair/rendering/points_pass.h"

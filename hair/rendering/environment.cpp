@@ -8,6 +8,8 @@
 
 #include <glm/trigonometric.hpp>
 
+#include "engine/float_pictures.h"
+#include "engine/transfer.h"
 #include "hair/gpu_structs.h"
 
 namespace hair::rendering {

@@ -9,7 +9,7 @@
 
 #include "engine/buffer_image.h"
 #include "engine/commands.h"
-#include "engine/pictures.h"
+#include "engine/float_pictures.h"
 #include "engine/pipeline.h"
 #include "hair/rendering/render_assets.h"
 #include "hair/settings.h"

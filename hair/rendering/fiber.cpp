@@ -10,6 +10,7 @@
 #include <glm/exponential.hpp>
 #include <glm/trigonometric.hpp>
 
+#include "engine/transfer.h"
 #include "hair/rendering/render_assets.h"
 
 namespace hair::rendering {

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "engine/error.h"
+#include "engine/transfer.h"
 #include "hair/gpu_structs.h"
 #include "hair/groom/style/displace.h"
 #include "hair/random.h"

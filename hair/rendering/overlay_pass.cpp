@@ -12,6 +12,7 @@
 
 #include "engine/commands.h"
 #include "engine/target.h"
+#include "engine/transfer.h"
 
 namespace hair::rendering {
 namespace {

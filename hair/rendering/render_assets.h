@@ -5,6 +5,7 @@
 
 #include <glm/vec3.hpp>
 
+#include "engine/float_pictures.h"
 #include "engine/pictures.h"
 #include "engine/target.h"
 #include "hair/groom/mesh/mesh.h"

@@ -7,6 +7,7 @@
 #include <glm/trigonometric.hpp>
 
 #include "engine/buffer_image.h"
+#include "engine/transfer.h"
 #include "hair/rendering/lights.h"
 #include "hair/rendering/software_backend.h"
 

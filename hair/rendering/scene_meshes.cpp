@@ -8,6 +8,7 @@
 #include <glm/trigonometric.hpp>
 
 #include "engine/target.h"
+#include "engine/transfer.h"
 #include "hair/gpu_structs.h"
 #include "hair/rendering/strand_pass.h"
 

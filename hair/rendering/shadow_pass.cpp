@@ -18,6 +18,7 @@
 #include "engine/error.h"
 #include "engine/pipeline.h"
 #include "engine/target.h"
+#include "engine/transfer.h"
 #include "hair/rendering/lights.h"
 
 namespace hair::rendering {
@@ -401,7 +402,7 @@ ShadowPass::ShadowPass(
         pictures_[slot] = uploadBuffer(
             device, std::max<std::size_t>(maps_.size(), 1) * kPictureStride, "lights' pictures");
     }
-    device.runOnce([&](engine::Commands& commands) {
+    runOnce(device, [&](engine::Commands& commands) {
         for (const engine::SampledImage& sampled : images_)
             toRead(commands, *sampled.image, VK_IMAGE_LAYOUT_UNDEFINED);
     });

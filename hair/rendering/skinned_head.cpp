@@ -12,6 +12,7 @@
 #include <glm/matrix.hpp>
 #include <glm/vec4.hpp>
 
+#include "engine/transfer.h"
 #include "hair/gpu_structs.h"
 #include "hair/groom/mesh/deforming_mesh.h"
 #include "hair/rendering/backends.h"
@@ -84,7 +85,7 @@ SkinnedHead::SkinnedHead(
         settings, plan, rest,
         {.guide_normals = frames ? frames->normals().address() : 0,
          .guide_turns = frames ? frames->turns().address() : 0}));
-    device.runOnce([&](engine::Commands& commands) {
+    runOnce(device, [&](engine::Commands& commands) {
         if (frames) {
             frames->record(commands, rest);
             commands.barrier(Access::compute_write, Access::compute_read);

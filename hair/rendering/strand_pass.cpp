@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "engine/error.h"
+#include "engine/transfer.h"
 #include "hair/gpu_structs.h"
 #include "hair/rendering/lights.h"
 #include "hair/rendering/render_assets.h"

@@ -10,6 +10,7 @@
 #include "engine/buffer_image.h"
 #include "engine/error.h"
 #include "engine/pipeline.h"
+#include "engine/transfer.h"
 #include "hair/rendering/backends.h"
 #include "hair/rendering/renderer.h"
 #include "hair/rendering/skinned_head.h"
@@ -78,7 +79,7 @@ StrandPoints evaluateStrandPoints(
     result.records.reserve(count);
     for (std::uint32_t first = 0; first < count; first += std::min(size, count - first)) {
         const std::uint32_t part = std::min(size, count - first);
-        device.runOnce([&](engine::Commands& commands) {
+        runOnce(device, [&](engine::Commands& commands) {
             if (frames && first == 0) {
                 frames->record(commands, view);
                 commands.barrier(engine::Access::compute_write, engine::Access::compute_read);

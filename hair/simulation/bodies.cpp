@@ -16,7 +16,8 @@
 #include "engine/commands.h"
 #include "engine/error.h"
 #include "engine/pipeline.h"
-#include "engine/steps.h"
+#include "engine/process.h"
+#include "engine/transfer.h"
 #include "hair/simulation/open_body.h"
 #include "hair/simulation/stiffness.h"
 
@@ -260,7 +261,7 @@ DistanceField::DistanceField(
         .band = padding + kBandCells * parameters_.cell};
     constexpr std::uint32_t kGroup = gpu::kBakeBlock * gpu::kBakeBlock * gpu::kBakeBlock;
     const auto run = [&](std::uint32_t groups) {
-        device.runOnce([&](engine::Commands& commands) {
+        runOnce(device, [&](engine::Commands& commands) {
             commands.bind(pipeline, push);
             commands.dispatchGroups(groups);
             commands.barrier(engine::Access::compute_write, engine::Access::anything);

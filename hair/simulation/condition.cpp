@@ -6,6 +6,7 @@
 #include "engine/buffer_image.h"
 #include "engine/commands.h"
 #include "engine/pipeline.h"
+#include "engine/transfer.h"
 
 namespace hair::simulation {
 namespace {
@@ -49,7 +50,7 @@ std::vector<gpu::VertexCondition> inspectVertices(
         device, {.size = count * sizeof(gpu::VertexCondition), .name = "guide conditions"});
     const engine::ComputePipeline pipeline(
         device, {.shader = "simulation/condition.comp", .push_size = sizeof(gpu::ConditionPush)});
-    device.runOnce([&](engine::Commands& commands) {
+    runOnce(device, [&](engine::Commands& commands) {
         commands.barrier(engine::Access::anything, engine::Access::compute_write);
         commands.bind(
             pipeline, gpu::ConditionPush{

@@ -10,6 +10,7 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
+#include "engine/transfer.h"
 #include "hair/simulation/stiffness.h"
 
 namespace hair::simulation {
@@ -229,7 +230,7 @@ HairHair::HairHair(
 }
 
 void HairHair::forget(const engine::Device& device) {
-    device.runOnce([&](engine::Commands& commands) {
+    runOnce(device, [&](engine::Commands& commands) {
         commands.barrier(Access::anything, Access::transfer_write);
         commands.fill(kept_, 0);
         commands.barrier(Access::transfer_write, Access::anything);

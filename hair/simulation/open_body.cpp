@@ -17,7 +17,8 @@
 #include "engine/commands.h"
 #include "engine/error.h"
 #include "engine/pipeline.h"
-#include "engine/steps.h"
+#include "engine/process.h"
+#include "engine/transfer.h"
 #include "hair/groom/mesh/winding_number.h"
 
 namespace hair::simulation {
@@ -90,7 +91,7 @@ std::vector<float> windingsAt(
     engine::Step step("looks for the inside of an open mesh, block", count);
     for (; push.first_block < count; push.first_block += push.block_count) {
         push.block_count = std::min(kWindingBlocks, count - push.first_block);
-        device.runOnce([&](engine::Commands& commands) {
+        runOnce(device, [&](engine::Commands& commands) {
             commands.bind(pipeline, push);
             commands.dispatchGroups(push.block_count);
             commands.barrier(engine::Access::compute_write, engine::Access::anything);

@@ -9,7 +9,8 @@
 #include <utility>
 
 #include "engine/error.h"
-#include "engine/steps.h"
+#include "engine/process.h"
+#include "engine/transfer.h"
 #include "hair/gpu_structs.h"
 #include "hair/simulation/stiffness.h"
 
@@ -156,7 +157,7 @@ Simulation::Simulation(
         return;
     }
     settle(settings.settle_steps);
-    device.runOnce([&](engine::Commands& commands) {
+    runOnce(device, [&](engine::Commands& commands) {
         commands.barrier(engine::Access::anything, engine::Access::transfer_write);
         for (std::size_t i = 0; i < settled_.size(); ++i)
             commands.copy(*state()[i], settled_[i], settled_[i].size());
@@ -183,7 +184,7 @@ void Simulation::balanceRest(std::span<const glm::vec3> start) {
     for (int i = 0; i < kMostCorrections && corrects; ++i) {
         balancing.advance();
         setState(start, start);
-        device_->runOnce([&](engine::Commands& commands) {
+        runOnce(*device_, [&](engine::Commands& commands) {
             wind_.recordCalm(commands, addresses());
             recordSubsteps(commands, 1, current_, 0.0, 0.0);
         });
@@ -276,7 +277,7 @@ void Simulation::settle(std::uint32_t steps) {
     engine::Step settling("settles hair, step", steps);
     while (steps > 0) {
         const std::uint32_t batch = std::min(steps, most);
-        device_->runOnce([&](engine::Commands& commands) {
+        runOnce(*device_, [&](engine::Commands& commands) {
             for (std::uint32_t i = 0; i < batch; ++i) {
                 wind_.recordCalm(commands, addresses());
                 if (hair_hair_) hair_hair_->record(commands, addresses(), pose());
@@ -298,7 +299,7 @@ void Simulation::recordReset(engine::Commands& commands) {
 }
 
 void Simulation::reset() {
-    device_->runOnce([&](engine::Commands& commands) { recordReset(commands); });
+    runOnce(*device_, [&](engine::Commands& commands) { recordReset(commands); });
 }
 
 void Simulation::setState(
@@ -311,7 +312,7 @@ void Simulation::setState(
     engine::upload(*device_, std::as_bytes(std::span(before)), previous_[current_]);
     if (hair_hair_) hair_hair_->forget(*device_);
     if (!solver_) return;
-    device_->runOnce([&](engine::Commands& commands) {
+    runOnce(*device_, [&](engine::Commands& commands) {
         const gpu::RigidFrame frame = toGpu(pose());
         if (roots_) roots_->record(commands, motion_, 1, time(), time());
         commands.barrier(engine::Access::anything, engine::Access::compute_write);

@@ -4,6 +4,7 @@
 #include <span>
 
 #include "engine/buffer_image.h"
+#include "engine/transfer.h"
 #include "hair/simulation/stiffness.h"
 
 namespace hair::simulation {

@@ -10,6 +10,7 @@
 #include <glm/gtc/quaternion.hpp>
 
 #include "engine/buffer_image.h"
+#include "engine/transfer.h"
 #include "hair/simulation/rod_balance.h"
 #include "hair/simulation/stiffness.h"
 

@@ -19,6 +19,7 @@
 
 #include "engine/buffer_image.h"
 #include "engine/error.h"
+#include "engine/transfer.h"
 #include "hair/gpu_structs.h"
 #include "hair/groom/groom.h"
 #include "hair/simulation/stiffness.h"

@@ -12,6 +12,7 @@
 #include <glm/vec4.hpp>
 
 #include "engine/error.h"
+#include "engine/transfer.h"
 #include "hair/simulation/stiffness.h"
 
 namespace hair::simulation {

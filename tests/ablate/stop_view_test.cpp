@@ -8,6 +8,7 @@
 
 #include "benchmarks/ablate/ladder_walk.h"
 #include "engine/queries.h"
+#include "engine/transfer.h"
 #include "tests/gpu_fixture.h"
 #include "tests/rendering/pictures.h"
 #include "tests/required.h"
@@ -192,7 +193,7 @@ TEST_F(StopViewTest, CountsSamples) {
                    .depth_format = engine::Target::kDepthFormat,
                    .samples = samples,
                    .depth_compare = VK_COMPARE_OP_ALWAYS});
-    device().runOnce([&](engine::Commands& commands) {
+    runOnce(device(), [&](engine::Commands& commands) {
         query->begin(commands);
         target.beginRendering(commands, engine::Load::clear, {});
         const VkRect2D left{{0, 0}, {32, 32}};

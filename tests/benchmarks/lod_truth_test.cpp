@@ -10,7 +10,7 @@
 #include <nlohmann/json.hpp>
 
 #include "benchmarks/reference/picture_errors.h"
-#include "engine/pictures.h"
+#include "engine/float_pictures.h"
 #include "tests/cli/reference_python.h"
 #include "tests/temporary_folder.h"
 

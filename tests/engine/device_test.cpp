@@ -17,6 +17,7 @@
 #include "engine/pipeline.h"
 #include "engine/shaders.h"
 #include "engine/target.h"
+#include "engine/transfer.h"
 #include "tests/error_text.h"
 #include "tests/gpu_fixture.h"
 
@@ -118,7 +119,7 @@ TEST_F(DeviceTest, ChecksAddressesInShadersWhereThatIsAskedFor) {
     const std::vector<float> zeros(64, 0.0f);
     const Buffer memory = makeBuffer(checked, std::span(zeros), "frames");
     const auto messagesOf = [&](VkDeviceAddress at) {
-        checked.runOnce([&](Commands& commands) {
+        runOnce(checked, [&](Commands& commands) {
             commands.bind(frames, Push{.addresses = {at, at, at}});
             commands.uses({{memory, Access::compute_write}});
             commands.dispatch(1);

@@ -4,6 +4,7 @@
 
 #include <gmock/gmock.h>
 
+#include "engine/float_pictures.h"
 #include "engine/pictures.h"
 #include "hair/random.h"
 #include "tests/error_text.h"

@@ -5,6 +5,7 @@
 
 #include "engine/commands.h"
 #include "engine/frame_loop.h"
+#include "engine/transfer.h"
 #include "tests/gpu_fixture.h"
 
 // Expected results: synchronization chapter of the Vulkan specification, 7.1 to 7.6.
@@ -297,10 +298,10 @@ TEST_F(HazardLogTest, FindsAMissingBarrierBetweenBuffers) {
         commands.barrier(Access::transfer_write, Access::transfer_read);
         commands.copy(a, b, 64);
     };
-    device().runOnce(record);
+    runOnce(device(), record);
     EXPECT_EQ(messages(), "");
     device().hazards()->drop(0);
-    device().runOnce(record);
+    runOnce(device(), record);
     EXPECT_THAT(messages(), HasSubstr("hazard: read after write of 'a': set-up is not ordered"));
     EXPECT_THAT(device().hazards()->dropped().value_or(""), HasSubstr("hazard_checker_test.cpp:"));
 }
@@ -317,10 +318,10 @@ TEST_F(HazardLogTest, ThePlantedHazardOnAnImageIsSeenByTheValidationLayer) {
         commands.copy(image, pixels);
         commands.barrier(Access::transfer_write, Access::host_read);
     };
-    device().runOnce(record);
+    runOnce(device(), record);
     EXPECT_EQ(messages(), "");
     device().hazards()->drop(0);
-    device().runOnce(record);
+    runOnce(device(), record);
     const std::string found = messages();
     EXPECT_THAT(found, HasSubstr("SYNC-HAZARD-READ-AFTER-WRITE"));
     EXPECT_THAT(found, HasSubstr("hazard: read after write of 'planted picture'"));

@@ -14,7 +14,6 @@
 #include <unistd.h>
 
 #include "engine/process.h"
-#include "engine/steps.h"
 #include "tests/temporary_folder.h"
 
 namespace engine {

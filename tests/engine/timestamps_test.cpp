@@ -7,6 +7,7 @@
 
 #include <gtest/gtest.h>
 
+#include "engine/transfer.h"
 #include "tests/gpu_fixture.h"
 
 namespace engine {
@@ -29,7 +30,7 @@ using TimestampsTest = GpuTest;
 
 TEST_F(TimestampsTest, NeverRunBackwards) {
     Timestamps stamps(device(), 4);
-    device().runOnce([&](Commands& commands) {
+    runOnce(device(), [&](Commands& commands) {
         for (int i = 0; i < 4; ++i) stamps.write(commands);
     });
     const std::span<const double> times = stamps.read();
@@ -40,7 +41,7 @@ TEST_F(TimestampsTest, NeverRunBackwards) {
 
 TEST_F(TimestampsTest, RefuseOneMoreThanThereIsRoomFor) {
     Timestamps stamps(device(), 2);
-    device().runOnce([&](Commands& commands) {
+    runOnce(device(), [&](Commands& commands) {
         stamps.write(commands);
         stamps.write(commands);
         EXPECT_THROW(stamps.write(commands), Error);
@@ -49,7 +50,7 @@ TEST_F(TimestampsTest, RefuseOneMoreThanThereIsRoomFor) {
 
 TEST_F(TimestampsTest, AreGoneAfterReset) {
     Timestamps stamps(device(), 2);
-    device().runOnce([&](Commands& commands) { stamps.write(commands); });
+    runOnce(device(), [&](Commands& commands) { stamps.write(commands); });
     EXPECT_EQ(stamps.read().size(), 1u);
     stamps.reset();
     EXPECT_EQ(stamps.count(), 0u);
@@ -72,7 +73,7 @@ TEST_F(TimestampsTest, AreResetByTheNumberWritten) {
         });
     for (const std::size_t count : {5u, 2u, 0u, 1024u, 3u, 5u}) {
         stamps.reset();
-        device().runOnce([&](Commands& commands) {
+        runOnce(device(), [&](Commands& commands) {
             for (std::size_t i = 0; i < count; ++i) stamps.write(commands);
         });
         const std::span<const double> times = stamps.read();

@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "engine/commands.h"
+#include "engine/transfer.h"
 #include "tests/gpu_fixture.h"
 
 namespace engine {
@@ -29,7 +30,7 @@ TEST_F(TransferTest, GivesAnEmptyArrayAnAddress) {
 
 TEST_F(TransferTest, FillsABuffer) {
     const Buffer buffer(device(), {.size = 64, .usage = Usage::storage, .name = "filled"});
-    device().runOnce([&](Commands& commands) {
+    runOnce(device(), [&](Commands& commands) {
         commands.fill(buffer, 0xABCD1234u);
         commands.barrier(Access::transfer_write, Access::anything);
     });

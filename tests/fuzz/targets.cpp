@@ -26,6 +26,7 @@
 #include "benchmarks/scene/settings_json.h"
 #include "benchmarks/scene/sweep.h"
 #include "engine/error.h"
+#include "engine/float_pictures.h"
 #include "engine/pictures.h"
 #include "engine/png_text.h"
 #include "hair/extension.h"

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "engine/frame_loop.h"
+#include "engine/transfer.h"
 #include "tests/error_text.h"
 #include "tests/gpu_fixture.h"
 #include "tests/required.h"
@@ -35,7 +36,7 @@ class BusyWorkTest : public GpuTest {
 protected:
     static BusyWork::Done doneOf(std::uint32_t steps) {
         const BusyWork work(device(), steps);
-        device().runOnce([&](engine::Commands& commands) { work.record(commands); });
+        runOnce(device(), [&](engine::Commands& commands) { work.record(commands); });
         return work.done();
     }
 };

@@ -15,7 +15,7 @@
 
 #include "benchmarks/reference/mitsuba.h"
 #include "engine/files.h"
-#include "engine/pictures.h"
+#include "engine/float_pictures.h"
 #include "hair/groom/groom.h"
 #include "hair/random.h"
 #include "hair/reference/path_tracer.h"

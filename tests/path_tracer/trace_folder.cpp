@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "engine/pictures.h"
+#include "engine/float_pictures.h"
 #include "hair/reference/path_tracer.h"
 #include "tests/path_tracer/mitsuba_folder.h"
 

@@ -11,6 +11,7 @@
 #include <glm/vec4.hpp>
 
 #include "engine/buffer_image.h"
+#include "engine/transfer.h"
 #include "hair/gpu_structs.h"
 #include "hair/groom/groom.h"
 #include "hair/rendering/groom_buffers.h"

@@ -9,6 +9,7 @@
 
 #include "engine/buffer_image.h"
 #include "engine/frame_loop.h"
+#include "engine/transfer.h"
 #include "hair/rendering/renderer.h"
 #include "tests/gpu_fixture.h"
 #include "tests/rendering/linear_picture.h"
@@ -97,7 +98,7 @@ std::vector<std::uint16_t> drawRendered(const engine::Device& device, const Sett
     loop.finish();
     const engine::Image& color = renderer.target().color();
     EXPECT_EQ(color.format(), VK_FORMAT_R16G16B16A16_SFLOAT);
-    device.runOnce([&](engine::Commands& commands) {
+    runOnce(device, [&](engine::Commands& commands) {
         commands.transition(
             color, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL,
             engine::Access::anything, engine::Access::transfer_read);

@@ -9,6 +9,8 @@
 #include <glm/vec3.hpp>
 
 #include "engine/buffer_image.h"
+#include "engine/float_pictures.h"
+#include "engine/transfer.h"
 #include "hair/gpu_structs.h"
 #include "hair/rendering/environment.h"
 #include "tests/gpu_fixture.h"
@@ -52,7 +54,7 @@ protected:
         const engine::Buffer directions = engine::makeBuffer(device(), std::span(at), "directions");
         const engine::Buffer radiance = engine::makeBuffer(device(), std::span(at), "radiance");
         const engine::Buffer light = engine::makeBuffer(device(), std::span(at), "light");
-        device().runOnce([&](engine::Commands& commands) {
+        runOnce(device(), [&](engine::Commands& commands) {
             commands.bind(
                 pipeline, gpu::EnvironmentProbePush{
                               .environment = environment.address(),

@@ -8,7 +8,7 @@
 #include <glm/geometric.hpp>
 #include <glm/vec3.hpp>
 
-#include "engine/pictures.h"
+#include "engine/float_pictures.h"
 
 namespace hair::rendering {
 

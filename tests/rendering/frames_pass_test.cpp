@@ -1,3 +1,4 @@
+#include "engine/transfer.h"
 #include "hair/rendering/strand_offsets.h"
 
 #include <cmath>
@@ -28,7 +29,7 @@ protected:
         view.guides = moved.view().guides;
         view.head = head;
         const FramesPass pass(device(), view);
-        device().runOnce([&](engine::Commands& commands) { pass.record(commands, view); });
+        runOnce(device(), [&](engine::Commands& commands) { pass.record(commands, view); });
         const auto floats = engine::downloadAs<glm::vec3>(device(), pass.normals());
         return {floats.begin(), floats.end()};
     }

@@ -8,6 +8,7 @@
 #include "engine/buffer_image.h"
 #include "engine/commands.h"
 #include "engine/pipeline.h"
+#include "engine/transfer.h"
 #include "hair/reference/fiber.h"
 #include "hair/rendering/fiber.h"
 #include "hair/simulation/stiffness.h"
@@ -37,7 +38,7 @@ protected:
             .optics = optics.address(),
             .probes = buffer.address(),
             .count = static_cast<std::uint32_t>(probes.size())};
-        device().runOnce([&](engine::Commands& commands) {
+        runOnce(device(), [&](engine::Commands& commands) {
             commands.bind(pipeline, push);
             commands.dispatchInvocations(push.count, 64);
             commands.barrier(engine::Access::compute_write, engine::Access::transfer_read);

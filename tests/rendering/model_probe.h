@@ -7,6 +7,7 @@
 #include "engine/buffer_image.h"
 #include "engine/commands.h"
 #include "engine/pipeline.h"
+#include "engine/transfer.h"
 #include "hair/rendering/lights.h"
 #include "tests/gpu_fixture.h"
 #include "tests/probe_shaders.h"
@@ -29,7 +30,7 @@ inline std::vector<gpu::ModelProbe> probeModels(
     const engine::Buffer buffer =
         engine::makeBuffer(device, std::span<const gpu::ModelProbe>(probes), "probes");
     const auto count = static_cast<std::uint32_t>(probes.size());
-    device.runOnce([&](engine::Commands& commands) {
+    runOnce(device, [&](engine::Commands& commands) {
         commands.bind(
             pipeline,
             gpu::ProbeModelsPush{

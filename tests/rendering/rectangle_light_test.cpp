@@ -9,6 +9,7 @@
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
+#include "engine/transfer.h"
 #include "hair/reference/fiber.h"
 #include "hair/rendering/lights.h"
 #include "tests/gpu_fixture.h"
@@ -194,7 +195,7 @@ protected:
             {.shader = "probe_rectangle.comp", .push_size = sizeof(gpu::RectangleProbePush)});
         const gpu::RectangleProbePush push{
             .probes = buffer.address(), .count = static_cast<std::uint32_t>(probes.size())};
-        device().runOnce([&](engine::Commands& commands) {
+        runOnce(device(), [&](engine::Commands& commands) {
             commands.bind(pipeline, push);
             commands.dispatch((push.count + 63) / 64, 1);
             commands.barrier(engine::Access::compute_write, engine::Access::transfer_read);

@@ -9,6 +9,7 @@
 #include "engine/buffer_image.h"
 #include "engine/frame_loop.h"
 #include "engine/target.h"
+#include "engine/transfer.h"
 #include "hair/rendering/renderer.h"
 #include "hair/rendering/scene_meshes.h"
 #include "hair/rendering/shadow_pass.h"

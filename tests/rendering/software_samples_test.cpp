@@ -5,6 +5,7 @@
 #include "engine/buffer_image.h"
 #include "engine/commands.h"
 #include "engine/pipeline.h"
+#include "engine/transfer.h"
 #include "tests/gpu_fixture.h"
 #include "tests/probe_shaders.h"
 
@@ -31,7 +32,7 @@ protected:
         const gpu::SamplePlaces none{};
         const engine::Buffer buffer = engine::makeBuffer(
             device(), std::span<const gpu::SamplePlaces>(&none, 1), "sample places");
-        device().runOnce([&](engine::Commands& commands) {
+        runOnce(device(), [&](engine::Commands& commands) {
             commands.bind(pipeline, gpu::SamplePlacesPush{.places = buffer.address()});
             commands.dispatch(1);
             commands.barrier(engine::Access::compute_write, engine::Access::transfer_read);

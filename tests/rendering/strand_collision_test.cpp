@@ -6,6 +6,7 @@
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
+#include "engine/transfer.h"
 #include "hair/rendering/strand_points.h"
 #include "hair/simulation/bodies.h"
 #include "tests/error_text.h"

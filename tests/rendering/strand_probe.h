@@ -7,6 +7,7 @@
 #include "engine/buffer_image.h"
 #include "engine/commands.h"
 #include "engine/pipeline.h"
+#include "engine/transfer.h"
 #include "hair/rendering/fiber.h"
 #include "hair/rendering/lights.h"
 #include "hair/shader_codes.h"
@@ -48,7 +49,7 @@ inline std::vector<gpu::StrandProbe> shadeStrands(
                       {gpu::kFarFieldConstant, settings.shading.far_field}},
                  .push_size = sizeof(gpu::ProbeStrandPush)});
     const auto count = static_cast<std::uint32_t>(probes.size());
-    device.runOnce([&](engine::Commands& commands) {
+    runOnce(device, [&](engine::Commands& commands) {
         commands.bind(
             pipeline,
             gpu::ProbeStrandPush{

@@ -10,6 +10,7 @@
 #include "engine/buffer_image.h"
 #include "engine/commands.h"
 #include "engine/pipeline.h"
+#include "engine/transfer.h"
 #include "hair/simulation/stiffness.h"
 #include "tests/gpu_fixture.h"
 #include "tests/probe_shaders.h"
@@ -53,7 +54,7 @@ protected:
             device(), {.shader = "probe_surface.comp", .push_size = sizeof(gpu::SurfaceProbePush)});
         const gpu::SurfaceProbePush push{
             .probes = buffer.address(), .count = static_cast<std::uint32_t>(probes.size())};
-        device().runOnce([&](engine::Commands& commands) {
+        runOnce(device(), [&](engine::Commands& commands) {
             commands.bind(pipeline, push);
             commands.dispatchInvocations(push.count, 64);
             commands.barrier(engine::Access::compute_write, engine::Access::transfer_read);

@@ -7,6 +7,7 @@
 
 #include <glm/vec3.hpp>
 
+#include "engine/transfer.h"
 #include "hair/rendering/render_assets.h"
 #include "hair/rendering/resolve_pass.h"
 #include "tests/gpu_fixture.h"
@@ -35,7 +36,7 @@ protected:
         const engine::Target target(device(), description);
         const ResolvePass resolve(device(), render, description);
         const std::uint32_t columns = render.width * render.ssaa;
-        device().runOnce([&](engine::Commands& commands) {
+        runOnce(device(), [&](engine::Commands& commands) {
             target.beginRendering(commands, engine::Load::clear, {});
             for (std::uint32_t i = 0; i < rendered.size(); ++i)
                 paint(

@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include "engine/transfer.h"
 #include "tests/gpu_fixture.h"
 #include "tests/largest_difference.h"
 #include "tests/simulation/closed_meshes.h"

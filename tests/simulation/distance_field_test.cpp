@@ -1,3 +1,4 @@
+#include "engine/transfer.h"
 #include "hair/simulation/bodies.h"
 
 #include <algorithm>

@@ -7,6 +7,7 @@
 #include "engine/buffer_image.h"
 #include "engine/commands.h"
 #include "engine/pipeline.h"
+#include "engine/transfer.h"
 #include "hair/simulation/bodies.h"
 #include "hair/simulation/stiffness.h"
 #include "tests/probe_shaders.h"
@@ -34,7 +35,7 @@ inline std::vector<gpu::DistanceProbe> probe(
         .count = static_cast<std::uint32_t>(probes.size()),
         .margin = contact.margin,
         .friction = contact.friction};
-    device.runOnce([&](engine::Commands& commands) {
+    runOnce(device, [&](engine::Commands& commands) {
         commands.bind(pipeline, push);
         commands.dispatchInvocations(push.count, 64);
         commands.barrier(engine::Access::compute_write, engine::Access::transfer_read);

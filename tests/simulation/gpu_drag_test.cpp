@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "engine/buffer_image.h"
+#include "engine/transfer.h"
 #include "hair/gpu_structs.h"
 #include "hair/reference/solvers.h"
 #include "hair/reference/wind.h"
@@ -52,7 +53,7 @@ protected:
         const engine::Buffer parameters = engine::makeBuffer(
             device(), std::span<const gpu::GuideParameters>(guides), "parameters");
         const WindPass pass(device(), groom.strand_count * groom.vertices_per_strand, settings);
-        device().runOnce([&](engine::Commands& commands) {
+        runOnce(device(), [&](engine::Commands& commands) {
             commands.barrier(engine::Access::anything, engine::Access::compute_write);
             pass.record(
                 commands,

@@ -7,6 +7,7 @@
 
 #include "engine/buffer_image.h"
 #include "engine/error.h"
+#include "engine/transfer.h"
 #include "hair/gpu_structs.h"
 #include "hair/reference/constraints.h"
 #include "hair/reference/solvers.h"
@@ -50,7 +51,7 @@ protected:
             device(), std::span<const gpu::GuideParameters>(guides), "parameters");
         const PullPass pass(
             device(), groom.strand_count, groom.vertices_per_strand, step, settings.pulls);
-        device().runOnce([&](engine::Commands& commands) {
+        runOnce(device(), [&](engine::Commands& commands) {
             commands.barrier(engine::Access::anything, engine::Access::compute_write);
             pass.record(
                 commands,

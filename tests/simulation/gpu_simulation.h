@@ -4,6 +4,7 @@
 
 #include "engine/commands.h"
 #include "engine/device.h"
+#include "engine/transfer.h"
 #include "hair/simulation/simulation.h"
 
 namespace hair::simulation {
@@ -20,7 +21,7 @@ inline constexpr Solver kSolversOfPositions[] = {Solver::shape, Solver::ftl};
 
 // Runs wind, hair against hair, hands and step `steps` times and waits.
 inline void advance(const engine::Device& device, Simulation& simulation, int steps) {
-    device.runOnce([&](engine::Commands& commands) {
+    runOnce(device, [&](engine::Commands& commands) {
         for (int i = 0; i < steps; ++i) {
             simulation.recordWind(commands);
             if (simulation.hasVolume()) simulation.recordVolume(commands);

@@ -11,6 +11,7 @@
 #include <glm/vec4.hpp>
 
 #include "engine/buffer_image.h"
+#include "engine/transfer.h"
 #include "hair/reference/hair_hair.h"
 #include "hair/simulation/hair_hair.h"
 #include "hair/simulation/solvers.h"
@@ -63,7 +64,7 @@ public:
         upload(positions, positions_);
         upload(previous, previous_);
         upload(std::vector(groom_.points.size(), others), accelerations_);
-        device_.runOnce([&](engine::Commands& commands) {
+        runOnce(device_, [&](engine::Commands& commands) {
             commands.barrier(engine::Access::anything, engine::Access::compute_write);
             hair_hair_.record(
                 commands,

@@ -9,6 +9,7 @@
 #include "benchmarks/viewer/difference.h"
 #include "engine/buffer_image.h"
 #include "engine/commands.h"
+#include "engine/transfer.h"
 #include "tests/gpu_fixture.h"
 
 namespace benchmarks::viewer {
@@ -61,7 +62,7 @@ protected:
         const engine::Buffer staging(
             device(), {.size = bytes.size(), .usage = engine::Usage::upload, .name = "staging"});
         std::ranges::copy(std::as_bytes(std::span(bytes)), staging.mapped().begin());
-        device().runOnce([&](engine::Commands& commands) {
+        runOnce(device(), [&](engine::Commands& commands) {
             commands.transition(
                 made, VK_IMAGE_LAYOUT_UNDEFINED, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL,
                 engine::Access::anything, engine::Access::transfer_write);
@@ -79,7 +80,7 @@ protected:
         const engine::Image a_image = picture(a, size), b_image = picture(b, size);
         const engine::Image output =
             image(size, VK_IMAGE_USAGE_STORAGE_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT);
-        device().runOnce([&](engine::Commands& commands) {
+        runOnce(device(), [&](engine::Commands& commands) {
             commands.transition(
                 output, VK_IMAGE_LAYOUT_UNDEFINED, VK_IMAGE_LAYOUT_GENERAL,
                 engine::Access::anything, engine::Access::compute_write);

@@ -7,7 +7,7 @@
 
 #include <glm/geometric.hpp>
 
-#include "engine/steps.h"
+#include "engine/process.h"
 #include "hair/groom/growth/root_density.h"
 #include "hair/groom/growth/roots.h"
 #include "hair/random.h"

@@ -6,7 +6,7 @@
 #include <optional>
 
 #include "engine/error.h"
-#include "engine/steps.h"
+#include "engine/process.h"
 #include "hair/groom/growth/spread.h"
 #include "hair/groom/growth/triangulate.h"
 

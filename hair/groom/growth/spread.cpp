@@ -6,7 +6,7 @@
 #include <numbers>
 #include <numeric>
 
-#include "engine/steps.h"
+#include "engine/process.h"
 #include "hair/groom/parallel.h"
 #include "hair/random.h"
 

@@ -13,7 +13,7 @@
 #include <glm/geometric.hpp>
 
 #include "engine/error.h"
-#include "engine/steps.h"
+#include "engine/process.h"
 #include "hair/groom/growth/grow.h"
 #include "hair/groom/growth/parting.h"
 #include "hair/groom/growth/roots.h"

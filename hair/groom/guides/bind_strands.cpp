@@ -12,7 +12,7 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
-#include "engine/steps.h"
+#include "engine/process.h"
 
 namespace hair::groom {
 namespace {

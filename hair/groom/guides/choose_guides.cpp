@@ -12,7 +12,7 @@
 #include <glm/geometric.hpp>
 
 #include "engine/error.h"
-#include "engine/steps.h"
+#include "engine/process.h"
 #include "hair/random.h"
 
 namespace hair::groom {

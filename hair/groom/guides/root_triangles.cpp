@@ -12,7 +12,7 @@
 #include <glm/mat3x3.hpp>
 #include <glm/vec3.hpp>
 
-#include "engine/steps.h"
+#include "engine/process.h"
 #include "hair/groom/growth/scalp.h"
 #include "hair/groom/growth/triangulate.h"
 #include "hair/groom/mesh/surface.h"

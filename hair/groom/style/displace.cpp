@@ -9,7 +9,7 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
-#include "engine/steps.h"
+#include "engine/process.h"
 #include "hair/groom/groom.h"
 #include "hair/groom/style/style.h"
 #include "hair/random.h"

@@ -14,7 +14,7 @@
 #include <glm/geometric.hpp>
 
 #include "engine/error.h"
-#include "engine/steps.h"
+#include "engine/process.h"
 #include "hair/groom/style/displace.h"
 #include "hair/groom/style/clearance.h"
 #include "hair/random.h"

@@ -13,6 +13,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include "engine/float_pictures.h"
 #include "engine/pictures.h"
 #include "hair/groom/files.h"
 #include "hair/groom/mesh/import_mesh.h"
