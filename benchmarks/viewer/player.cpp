@@ -16,6 +16,7 @@
 #include "engine/device.h"
 #include "engine/process.h"
 #include "engine/target.h"
+#include "engine/transfer.h"
 
 namespace benchmarks::viewer {
 namespace {
@@ -196,7 +197,7 @@ void Player::drawFrame(
 
 void Player::next(engine::Timing timing) {
     // Keeps earlier submissions out of the frame's times.
-    device_.runOnce([](engine::Commands&) {});
+    runOnce(device_, [](engine::Commands&) {});
     drawFrame(timing, [&](engine::Passes& passes) { case_->simulate(passes); });
     ++frame_;
 }
@@ -282,6 +283,25 @@ Sphere groomNow(const Shown& shown) {
 }
 
 std::string Shown::stateHash() const { return report::hashBytes(std::as_bytes(std::span(guides))); }
+
+// ---- Timings of drawn frames --------------------------------------------------------------------
+
+void TimingHistory::add(
+    const engine::FrameRecord& frame, engine::Timing timing, std::uint32_t number) {
+    TimedFrames& frames = timing == engine::Timing::overlapped ? overlapped_ : isolated_;
+    if (frames.size() == kFrames) {
+        frames.records.erase(frames.records.begin());
+        frames.numbers.erase(frames.numbers.begin());
+    }
+    frames.records.push_back(frame);
+    frames.numbers.push_back(number);
+}
+
+void TimingHistory::clear() {
+    isolated_ = {};
+    overlapped_ = {};
+    ++revision_;
+}
 
 // ---- Edit history -------------------------------------------------------------------------------
 

@@ -23,7 +23,6 @@
 #include "benchmarks/viewer/picking.h"
 #include "benchmarks/viewer/preview.h"
 #include "benchmarks/viewer/shader_reload.h"
-#include "benchmarks/viewer/timings.h"
 #include "engine/frame_loop.h"
 
 // Plays frames by the window's clock. Also has a case that follows its settings, and a side with
@@ -178,6 +177,36 @@ private:
     std::uint64_t pictures_ = 0;
     WatchedFiles files_;
     std::chrono::steady_clock::time_point next_look_;
+};
+
+// Records of frames in one timing mode, oldest first.
+struct TimedFrames {
+    std::vector<engine::FrameRecord> records;
+    std::vector<std::uint32_t> numbers;  // each frame's number in the simulation, from 0
+
+    std::size_t size() const { return records.size(); }
+};
+
+// Records of the last drawn frames, by timing mode. The history must be cleared when settings
+// change, so that frames of different settings do not mix.
+class TimingHistory {
+public:
+    static constexpr std::size_t kFrames = 300;  // limit per mode
+
+    // `timing` is isolated or overlapped.
+    void add(const engine::FrameRecord& frame, engine::Timing timing, std::uint32_t number);
+    void clear();
+
+    const TimedFrames& isolated() const { return isolated_; }
+    const TimedFrames& overlapped() const { return overlapped_; }
+
+    // Changes with each clear(); earlier results then belong to other settings.
+    std::uint64_t revision() const { return revision_; }
+
+private:
+    TimedFrames isolated_;
+    TimedFrames overlapped_;
+    std::uint64_t revision_ = 0;
 };
 
 // Past documents of a scene, for undo and redo.

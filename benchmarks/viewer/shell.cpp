@@ -1,37 +1,76 @@
 #include "benchmarks/viewer/shell.h"
 
 #include <algorithm>
-#include <array>
+#include <exception>
+#include <future>
+#include <iterator>
+#include <memory>
 #include <string>
+#include <thread>
 #include <utility>
 
 #include <imgui.h>
+#include <unistd.h>
 
-#include "benchmarks/viewer/recorder.h"
-#include "benchmarks/viewer/setting_text.h"
-#include "benchmarks/viewer/settings_panel.h"
-#include "engine/shaders.h"
+#include "engine/error.h"
+#include "engine/process.h"
+#include "engine/program_files.h"
+#include "engine/transfer.h"
 
 namespace benchmarks::viewer {
 namespace {
 
-constexpr double kLong = 1.0;  // s; a picture of the scene that takes longer is mentioned
-constexpr double kToldFor = 12.0;  // s; duration of a message
+constexpr double kAwake = 1.0;  // s of drawing the window after an event
+constexpr double kAsleep = 0.25;  // s between pictures without events
+constexpr double kKeeping = 2.0;  // s between checks whether preferences changed
 
-constexpr std::array kSides{
-    Choice<std::size_t>{"A", 0, "The settings below are those of A."},
-    Choice<std::size_t>{"B", 1, "The settings below are those of B; marked ones differ from A."}};
+// s between pictures of the window during motion without events, and while the scene is drawn: a
+// software device needs the processors for that.
+constexpr double kMoving = 1.0 / 60.0;
+constexpr double kMovingBeside = 1.0 / 15.0;
+constexpr double kHolding = 0.02;  // s between checks of events during a measurement
+constexpr double kLooking = 0.25;  // s between checks of shader files
 
-void enabledButton(const char* label, bool enabled, const auto& press) {
-    ImGui::BeginDisabled(!enabled);
-    if (ImGui::Button(label)) press();
-    ImGui::EndDisabled();
+// Waits up to this long for a picture of the scene without drawing meanwhile, because so short a
+// delay is not noticed.
+constexpr std::chrono::milliseconds kSoon{8};
+constexpr double kOfLate = 2.0;  // s in which pictures of the scene are counted
+constexpr std::size_t kAnswers = 300;  // number of the window's pictures to remember
+
+engine::DeviceOptions windowed(engine::DeviceOptions options) {
+    options.window_extensions = engine::Window::instanceExtensions();
+    return options;
 }
 
-std::string hintOf(Tool tool) {
-    for (const ActionRow& row : actionTable())
-        if (toolOf(row.action) == tool) return std::string(row.name) + ": " + row.help;
-    return {};
+bool computesOnProcessors(const engine::DeviceOptions& options) {
+    const engine::Instance instance(engine::Validation::off);
+    return engine::chooseDevice(instance, options.wanted).type == "cpu";
+}
+
+// A software device inherits the priority of the thread that creates it, so a new thread does that.
+std::unique_ptr<engine::Device>
+makeSceneDevice(const engine::DeviceOptions& options, bool gives_way) {
+    std::packaged_task<std::unique_ptr<engine::Device>()> make([&] {
+        if (gives_way) engine::giveWay();
+        return std::make_unique<engine::Device>(options);
+    });
+    std::future<std::unique_ptr<engine::Device>> made = make.get_future();
+    std::thread(std::move(make)).join();
+    return made.get();
+}
+
+std::filesystem::path preferencesOf(const ViewOptions& options) {
+    if (!options.preferences.empty() || !options.script.empty()) return options.preferences;
+    return usersPreferences().value_or("");
+}
+
+// Returns the size from the command line, or otherwise that of the last session.
+engine::WindowDescription windowOf(const ViewOptions& options, const Preferences& preferences) {
+    const ViewOptions unsaid;
+    const bool as_it_was = options.width == unsaid.width && options.height == unsaid.height;
+    return {
+        .width = as_it_was ? preferences.width : options.width,
+        .height = as_it_was ? preferences.height : options.height};
 }
 
 constexpr const char* kTitle = "Save scene as";
@@ -41,230 +80,448 @@ bool exists(const std::string& path) {
     return std::filesystem::exists(path, none);
 }
 
-constexpr float kZoomStep = 1.125f;
-
-std::optional<engine::PresentMode> presentModeOf(Action action) {
-    switch (action) {
-    case Action::present_fifo:
-        return engine::PresentMode::fifo;
-    case Action::present_mailbox:
-        return engine::PresentMode::mailbox;
-    case Action::present_immediate:
-        return engine::PresentMode::immediate;
-    default:
-        return std::nullopt;
-    }
-}
-
-std::optional<Tab> tabOf(Action action) {
-    switch (action) {
-    case Action::open_scene:
-    case Action::panel_files:
-        return Tab::files;
-    case Action::panel_scene:
-        return Tab::scene;
-    case Action::panel_timings:
-        return Tab::timings;
-    case Action::panel_compare:
-        return Tab::compare;
-    case Action::panel_shaders:
-        return Tab::shaders;
-    default:
-        return std::nullopt;
-    }
-}
-
 }  // namespace
 
-// ---- Contents of the window ---------------------------------------------------------------------
+// ---- The window, picture by picture -------------------------------------------------------------
 
-void Viewer::Parts::showScene() {
-    Side& side = scene.editedSide();
-    ImGui::SetNextItemWidth(-1.0f);
-    textInput("##search", search, "Search settings");
-    enabledButton("Undo", side.canUndo(), [&] { side.undo(); });
-    ImGui::SameLine();
-    enabledButton("Redo", side.canRedo(), [&] { side.redo(); });
-    if (scene.sideCount() > 1) {
-        ImGui::SameLine(0.0f, ImGui::GetFontSize());
-        std::size_t edited = scene.edited();
-        choiceButtons<std::size_t>(kSides, edited);
-        scene.setEdited(edited);
-    }
-    if (!side.problem().empty()) {
-        ImGui::PushStyleColor(ImGuiCol_Text, ImGui::GetStyleColorVec4(ImGuiCol_PlotHistogram));
-        ImGui::TextWrapped("%s", side.problem().c_str());
-        ImGui::PopStyleColor();
-    }
-    ImGui::Separator();
-    hair::Settings settings = scene.editedSide().wanted();
-    Edit edit;
-    if (ImGui::BeginChild("fields")) edit = settingsPanel(settings, scene.reference(), search);
-    ImGui::EndChild();
-    scene.edit(scene.edited(), settings, edit);
+Shell::Shell(
+    const ViewOptions& options, const SceneFile& file, const hair::Settings& settings,
+    measure::HairCache cache)
+    : outside(options.scene.outside), preferences(preferencesOf(options)),
+      driven(!options.script.empty() || options.frames > 0), live(options.live),
+      fixed_scale(static_cast<float>(options.scale)), window(windowOf(options, preferences.now)),
+      gives_way(!waitsForDrawing() && computesOnProcessors(options.scene.device)),
+      scene_device(makeSceneDevice(options.scene.device, gives_way)),
+      device(windowed(options.scene.device)),
+      presenter(device, window, preferences.now.present_mode), ui(device, window, 1.0f),
+      area(device), scene(file, settings), scenes(file.directory),
+      timings(*scene_device, &engine::Window::endWait), previews(!driven),
+      studio(
+          *scene_device, options.shaders.empty() ? engine::programFile("shaders") : options.shaders,
+          options.before_drawing, std::move(cache)),
+      drawing(
+          [this, first = true](const Order& order, const Stop& stop) mutable {
+              if (std::exchange(first, false) && gives_way) engine::giveWay();
+              return studio.perform(order, stop);
+          },
+          &engine::Window::endWait) {
+    origin.command = options.command;
+    origin.validation = options.scene.device.validation;
+    // The scale on the command line is the total scale.
+    if (options.scale > 0.0) preferences.now.zoom = 1.0f;
+    window.setTitle("hairbench " + file.name);
+    remember(preferences.now, file.path);
 }
 
-void Viewer::Parts::showFiles() {
-    std::optional<std::filesystem::path> chosen = recentScenes(preferences.now.recent);
-    if (const auto listed = scenes.show(scene.file().path)) chosen = listed;
-    if (chosen) open(*chosen);
+void Shell::start() {
+    if (!waitsForDrawing()) return;
+    orderWork();
+    waitForWork();
 }
 
-void Viewer::Parts::showCompare() {
-    compare_panel.edited = static_cast<int>(scene.edited());
-    compare_panel.same_camera = scene.cameras == Cameras::linked;
-    const bool two = scene.sideCount() > 1;
-    const CompareWish wish =
-        compare_panel.show(area, scene.side(0).wanted(), two ? &scene.side(1).wanted() : nullptr);
-    scene.setEdited(static_cast<std::size_t>(compare_panel.edited));
-    scene.cameras = compare_panel.same_camera ? Cameras::linked : Cameras::separate;
-    switch (wish) {
-    case CompareWish::nothing:
-        break;
-    case CompareWish::start:
-    case CompareWish::stop:
-        compare();
-        break;
-    case CompareWish::swap:
-        scene.swapSides();
-        break;
-    case CompareWish::copy_a_to_b:
-        scene.side(1).edit(scene.side(0).wanted(), {.changed = true});
-        break;
+double Shell::seconds() const {
+    const std::chrono::duration<double> passed = std::chrono::steady_clock::now() - opened_at;
+    return passed.count();
+}
+
+// Returns how long the window may sleep, s. Events end the wait, including a finished picture of
+// the scene.
+double Shell::patience() const {
+    if (waitsForDrawing() || unseen) return 0.0;
+    if (timings.measuring().isMeasuring()) return kHolding;
+    if (presenter.extent().width == 0) return kAsleep;
+    const bool awake = driven || tools.isBusy() || ImGui::GetTime() < awake_until;
+    if (drawing.busy()) return awake ? kMovingBeside : kAsleep;
+    if (stopped) return awake ? kMoving : kAsleep;
+    if (!scene.isFollowed() || state.scrub || (state.playing && !state.speed)) return 0.0;
+    const bool refines = scene.side(0).shown().level > 0;
+    return awake || state.playing || refines ? kMoving : kAsleep;
+}
+
+// Without events, the window is drawn a few times a second.
+void Shell::waitForEvents() {
+    window.poll(patience());
+    looked_at = seconds();
+    if (window.takeActivity()) awake_until = ImGui::GetTime() + kAwake;
+}
+
+// Sets the size of letters for the screen and the user's choice, with a matching style.
+void Shell::followScale() {
+    const float screen = fixed_scale > 0.0f ? fixed_scale : window.contentScale();
+    const float wanted = screen * preferences.now.zoom;
+    if (wanted == styled_scale && preferences.now.theme == styled_theme) return;
+    if (wanted != ui.scale()) ui.setScale(wanted);
+    ImGui::GetStyle() = styleOf(preferences.now.theme, wanted);
+    styled_scale = wanted;
+    styled_theme = preferences.now.theme;
+}
+
+void Shell::present() {
+    presenter.frame(
+        [&](engine::Commands& commands) {
+            const bool all_seen = area.copy(
+                commands, scene.side(0).shown(),
+                scene.sideCount() > 1 ? &scene.side(1).shown() : nullptr);
+            unseen |= !all_seen;
+        },
+        [&](engine::Commands& commands) { ui.draw(commands); });
+    disturbed |= drawing.busy();
+}
+
+void Shell::drawPicture() {
+    const double start = looked_at.value_or(seconds());
+    looked_at.reset();
+    unseen = false;
+    followScale();
+    presenter.setMode(preferences.now.present_mode);
+    ui.begin();
+    due += double{ImGui::GetIO().DeltaTime};
+    showWindow();
+    if (!ImGui::IsAnyItemActive() && !tools.isBusy())
+        for (Side* const side : scene.sides()) side->settle();
+    ui.end();
+    present();
+    if (answers.size() == kAnswers) answers.erase(answers.begin());
+    answers.push_back(1000.0 * (seconds() - start));
+}
+
+void Shell::keepPreferences() {
+    if (presenter.extent().width > 0) {
+        // The desktop will enlarge the window again on a high-resolution screen, so its scale is
+        // removed.
+        const VkExtent2D size = window.size();
+        const float scale = window.contentScale();
+        preferences.now.width = static_cast<std::uint32_t>(static_cast<float>(size.width) / scale);
+        preferences.now.height =
+            static_cast<std::uint32_t>(static_cast<float>(size.height) / scale);
+    }
+    preferences.keep();
+    if (!preferences.problem().empty() && preferences.problem() != reported_preferences) {
+        reported_preferences = preferences.problem();
+        message.complain(reported_preferences);
     }
 }
 
-void Viewer::Parts::showTab(Tab tab) {
-    switch (tab) {
-    case Tab::scene:
-        showScene();
-        break;
-    case Tab::files:
-        showFiles();
-        break;
-    case Tab::timings:
-        origin.scene = scene.file().path;
-        origin.name = scene.file().name;
-        timings.show(
-            scene.side(0), scene.sideCount() > 1 ? &scene.side(1) : nullptr, origin,
-            {.device = presenter.milliseconds(),
-             .slowest_answer = answers.empty() ? 0.0 : std::ranges::max(answers),
-             .pictures_per_second = picturesPerSecond(),
-             .memory = device.allocatedBytes()});
-        break;
-    case Tab::compare:
-        showCompare();
-        break;
-    case Tab::shaders:
-        shaderPanel(shaders);
-        break;
+bool Shell::frame() {
+    waitForEvents();
+    const double now = ImGui::GetTime();
+    if (now > kept_at + kKeeping) {
+        keepPreferences();
+        kept_at = now;
+    }
+    if (window.wantsToClose()) return false;
+    for (const std::filesystem::path& file : window.takeDropped()) drop(file);
+    takeWork();
+    const bool is_minimised = presenter.extent().width == 0;
+    if (timings.measuring().isMeasuring()) {
+        holdStill();
+        return true;
+    }
+    if (is_minimised) return true;
+    // While the scene is drawn, an untouched window does not change, except for its note about a
+    // slow picture. That note is no reason to disturb frames being played.
+    const bool untouched = !driven && !unseen && !tools.isBusy() && now >= awake_until;
+    if (untouched && drawing.busy() && (state.playing || drawingNote() == shown_note)) return true;
+    drawPicture();
+    orderWork();
+    if (waitsForDrawing()) waitForWork();
+    return true;
+}
+
+// ---- The thread that draws ----------------------------------------------------------------------
+
+// Returns the level of the next picture.
+unsigned Shell::levelFor(const Order& order) {
+    const bool moves = order.frames > 0 || order.seek || !scene.isFollowed() || scene.isDragged() ||
+                       tools.isBusy();
+    if (moves) moved_at = seconds();
+    const bool exact = std::ranges::any_of(
+        waiting, [](const Waiting& each) { return each.needs == Needs::picture; });
+    if (!previews || exact || recorder.records()) return 0;
+    if (scene.isMaking()) return PreviewControl::kFirst;
+    return moves ? control.moving()
+                 : control.still(scene.side(0).shown().level, seconds() - moved_at);
+}
+
+// Orders the window's next request, if any. Only one order runs at a time; later wishes go into the
+// next order in their then current state.
+void Shell::orderWork() {
+    if (drawing.busy() || stopped) return;
+    MeasurePanel& measuring = timings.measuring();
+    if (const auto wanted = measuring.wanted(); wanted && !scene.isMaking()) {
+        PlayState still{.playing = false};
+        Order order = scene.order(still, 0.0, OpenScene::Frames::as_due);
+        order.measure = MeasureOrder{
+            .side = scene.side(*wanted).id(),
+            .name = scene.file().name,
+            .hooks = measuring.begin()};
+        drawPicture();
+        beginWork(std::move(order));
+        return;
+    }
+    // A recording has every frame, whatever the speed.
+    const auto frames =
+        recorder.records() ? OpenScene::Frames::every_one : OpenScene::Frames::as_due;
+    Order order = scene.order(state, std::exchange(due, 0.0), frames);
+    order.level = levelFor(order);
+    if (const auto side = timings.wantsCounts(); side && !scene.isMaking()) order.count = *side;
+    const auto lacks = [&](const Side* side) {
+        return side->shown().level != order.level || !side->shown().has_guides;
+    };
+    const bool asks = order.frames > 0 || order.seek || order.count || !scene.isFollowed() ||
+                      std::ranges::any_of(scene.sides(), lacks) ||
+                      (shaders.watches && seconds() >= ordered_at + kLooking);
+    if (asks) beginWork(std::move(order));
+}
+
+void Shell::beginWork(Order order) {
+    // Keeps pending work of the window's device out of the frame's times.
+    runOnce(device, [](engine::Commands&) {});
+    disturbed = false;
+    ordered_at = seconds();
+    drawing.begin(std::move(order));
+    if (!waitsForDrawing() && drawing.waitFor(kSoon)) takeWork();
+}
+
+// Waits until the reply arrives.
+void Shell::waitForWork() {
+    while (drawing.busy() && !engine::interrupted()) {
+        if (drawing.waitFor(kSoon)) {
+            takeWork();
+            return;
+        }
+        window.poll(0.0);
+        if (timings.measuring().isMeasuring()) holdStill();
     }
 }
 
-void Viewer::Parts::showColumn(
-    const char* name, const Box& box, std::span<const Tab> shown, Tab& chosen) {
-    pane(name, box, Surface::panel, [&] {
-        if (tabStrip(shown, chosen)) tabs.choose(chosen);
-        ImGui::Spacing();
-        if (ImGui::BeginChild(tabName(chosen))) showTab(chosen);
-        ImGui::EndChild();
+// During a measurement, the window is only drawn between rounds.
+void Shell::holdStill() {
+    MeasurePanel& measuring = timings.measuring();
+    if (window.wantsToClose() || engine::interrupted()) measuring.cancel();
+    if (!measuring.wantsPicture()) return;
+    if (presenter.extent().width > 0) {
+        drawPicture();
+        runOnce(device, [](engine::Commands&) {});
+    }
+    measuring.shown();
+}
+
+// Counts recent pictures of the scene.
+double Shell::picturesPerSecond() const {
+    if (came.size() < 2 || came.back() < seconds() - kOfLate) return 0.0;
+    return static_cast<double>(came.size() - 1) / (came.back() - came.front());
+}
+
+void Shell::stopDrawing(const std::string& why) {
+    stopped = true;
+    timings.measuring().end(std::nullopt, why);
+    message.complain(why + "; nothing is drawn any more, and the scene can be saved");
+    actOnFollowed();
+}
+
+void Shell::takeWork() {
+    std::optional<Reply> reply;
+    try {
+        reply = drawing.take();
+    } catch (const std::exception& error) {
+        // If a user is there, the changes can still be saved.
+        if (driven || !scene.side(0).shown().isThere()) throw;
+        stopDrawing(error.what());
+        return;
+    }
+    if (!reply) return;
+    control.drawn(reply->level, reply->milliseconds);
+    timings.setMemory(reply->memory);
+    timings.setReplacedShaders(reply->shaders.replaced);
+    shaders = std::move(reply->shaders);
+    for (const SideReply& side : reply->sides) unseen |= side.shown.has_value();
+    if (!reply->sides.empty() && reply->sides.front().shown) {
+        const double now = seconds();
+        came.push_back(now);
+        std::erase_if(came, [&](double time) { return time < now - kOfLate; });
+    }
+    const auto beside = disturbed ? Side::Beside::other_work : Side::Beside::nothing;
+    const OpenScene::News news = scene.take(std::move(reply->sides), beside);
+    if (timings.measuring().isMeasuring()) {
+        timings.measuring().end(std::move(reply->measured), reply->not_measured);
+        unseen = true;
+    }
+    takeNews(news);
+    pauseIfCrawling();
+    if (const auto counts = timings.wantsCounts()) {
+        const Side* const side = scene.find(*counts);
+        if (!side) timings.forgetCounts();
+        if (side && reply->counted) timings.setCounts(std::move(*reply->counted), *side);
+        unseen |= reply->counted.has_value();
+    }
+    const std::string& problem = scene.editedSide().problem();
+    if (problem != reported) unseen = true;
+    if (problem != reported && !problem.empty()) message.complain(problem);
+    reported = problem;
+    const Shown& shown = scene.side(0).shown();
+    if (shown.level == 0) message.attempt([&] { recorder.frame(shown); });
+    actOnFollowed();
+}
+
+// Pauses because a still picture is refined and shows more than one that hardly moves. Does not
+// pause again if the user continues.
+void Shell::pauseIfCrawling() {
+    if (!previews || driven || paused_crawling || !state.playing || !control.crawls()) return;
+    paused_crawling = true;
+    state.playing = false;
+    message.tell("paused: this device takes over a second for the coarsest picture; Space plays");
+}
+
+void Shell::takeNews(const OpenScene::News& news) {
+    if (news.failure) {
+        // Without a scene, the viewer cannot run.
+        if (!scene.side(0).shown().isThere()) std::rethrow_exception(news.failure);
+        message.attempt([&] { std::rethrow_exception(news.failure); });
+    }
+    if (news.opened) {
+        paused_crawling = false;
+        state.scrub.reset();
+        state.furthest = 0;
+        const SceneFile& file = scene.file();
+        scenes = SceneList(file.directory);
+        area.views = Views::a;
+        window.setTitle("hairbench " + file.name);
+        remember(preferences.now, file.path);
+        message.tell("opened " + file.path.string());
+    }
+    if (news.compares) {
+        area.views = Views::side_by_side;
+        message.tell("the settings panel is B's now; A is as it was");
+    }
+    unseen |= news.failure || news.opened || news.compares;
+}
+
+void Shell::whenFollowed(Side& side, Needs needs, std::function<void(Side&)> act) {
+    side.settle();
+    waiting.push_back(
+        {.side = side.id(), .revision = side.revision(), .needs = needs, .act = std::move(act)});
+    actOnFollowed();
+}
+
+void Shell::actOnFollowed() {
+    std::vector<Waiting> left;
+    for (Waiting& each : std::exchange(waiting, {})) {
+        Side* const side = scene.find(each.side);
+        if (!side) {
+            message.complain("the scene that was to be written was closed before");
+        } else if (stopped && each.needs == Needs::picture) {
+            message.complain("no picture can be drawn any more");
+        } else if (
+            stopped || (side->answered() >= each.revision &&
+                        (each.needs == Needs::settings || side->shown().isExact()))) {
+            // The request is applied, unless its settings are impossible.
+            message.attempt([&] {
+                if (!side->problem().empty())
+                    throw engine::Error("what the panel says can't be", side->problem());
+                each.act(*side);
+            });
+        } else {
+            left.push_back(std::move(each));
+        }
+    }
+    std::ranges::move(left, std::back_inserter(waiting));
+}
+
+// ---- Files that are opened and written ----------------------------------------------------------
+
+std::filesystem::path Shell::suggestedPath() const {
+    const SceneFile& file = scene.file();
+    if (scene.wasSaved()) return file.path;
+    // The user cannot write scenes of an installed program.
+    const std::filesystem::path beside = file.path.parent_path();
+    const bool is_users = access(beside.empty() ? "." : beside.c_str(), W_OK) == 0;
+    return freeName(is_users ? beside : std::filesystem::current_path(), file.name, ".json");
+}
+
+void Shell::open(const std::filesystem::path& path) {
+    message.attempt([&] {
+        scene.open(openScene(path, outside));
+        message.tell("opening " + path.string());
     });
 }
 
-void Viewer::Parts::showPicture() {
-    {
-        Side& side = scene.editedSide();
-        hair::Settings settings = side.wanted();
-        Edit edit;
-        // Tools need a shown picture to point at.
-        ImGui::BeginDisabled(!side.shown().isThere());
-        if (ImGui::BeginChild("toolbar", {0.0f, 0.0f}, ImGuiChildFlags_AutoResizeY))
-            edit = tools.toolbar(settings, side.shown());
-        ImGui::EndChild();
-        ImGui::EndDisabled();
-        scene.edit(scene.edited(), settings, edit);
-    }
-    constexpr ImGuiWindowFlags kStill =
-        ImGuiWindowFlags_NoScrollbar | ImGuiWindowFlags_NoScrollWithMouse;
-    if (ImGui::BeginChild("picture", {0.0f, 0.0f}, ImGuiChildFlags_None, kStill)) {
-        std::array<std::string, 2> captions;
-        for (std::size_t i = 0; i < scene.sideCount(); ++i)
-            captions[i] = frameTimeCaption(scene.side(i).timings());
-        shown_note = drawingNote();
-        for (const PictureArea::Shown& shown : area.show(captions, shown_note)) {
-            const auto index = static_cast<std::size_t>(shown.side);
-            hair::Settings settings = scene.side(index).wanted();
-            const Edit edit = tools.update(
-                shown.rect, shown.clip, shown.hovered, area.held() == shown.side, settings,
-                scene.side(index).shown());
-            scene.edit(index, settings, edit);
-        }
-    }
-    ImGui::EndChild();
-}
-
-// Returns notes about the current pictures.
-std::string Viewer::Parts::drawingNote() const {
-    const Shown& shown = scene.side(0).shown();
-    std::string note;
-    if (shown.level > 0)
-        note = previewText(shown.level, shown.strand_share, shown.width, shown.height);
-    const double since = drawing.busy() ? seconds() - ordered_at : 0.0;
-    if (!shown.isThere() || since >= kLong) {
-        if (!note.empty()) note += "; ";
-        note += shown.isThere() ? "the next picture is being drawn" : "the scene is being opened";
-        note += ", " + std::to_string(static_cast<int>(since)) + " s";
-    }
-    return note;
-}
-
-void Viewer::Parts::showStatus() {
-    if (message.count() != told) {
-        told = message.count();
-        told_at = ImGui::GetTime();
-    }
-    const Shown& shown = scene.editedSide().shown();
-    const hair::RenderSettings& render = shown.settings.render;
-    StatusText status{
-        .text = hintOf(tools.tool),
-        .device = scene_device->info().name,
-        .picture = std::to_string(render.width) + " × " + std::to_string(render.height) +
-                   " px, frame " + std::to_string(shown.frame)};
-    if (shown.previews) status.picture += ", goes on from what was";
-    if (shown.level > 0) status.picture += ", preview";
-    if (!shaders.replaced.empty()) status.picture += ", shaders changed";
-    if (recorder.records()) {
-        status.text = recorder.message();
-        status.tone = StatusText::Tone::message;
-    } else if (!message.text().empty() && ImGui::GetTime() < told_at + kToldFor) {
-        status.text = message.text();
-        status.tone = message.tone() == Message::Tone::problem ? StatusText::Tone::problem
-                                                               : StatusText::Tone::message;
-    }
-    statusLine(status);
-}
-
-void Viewer::Parts::showWindow() {
-    for (const Action action : menuBar([&](Action each) { return stateOf(each); })) perform(action);
-    for (const Action action : pressedActions())
-        if (stateOf(action).enabled) perform(action);
-
-    const ImVec2 size = ImGui::GetIO().DisplaySize;
-    const Layout layout = arrange(
-        size.x, size.y, ImGui::GetFrameHeight(), ImGui::GetFontSize(), preferences.now.left,
-        preferences.now.right);
-    merged = layout.merged;
-    if (merged)
-        showColumn("Left", layout.left, allTabs(), tabs.only);
+// A scene written by hand contains more than its state, such as a sweep, so it is replaced only if
+// the user says so.
+void Shell::save() {
+    if (scene.wasSaved())
+        saveAs(scene.file().path);
     else
-        showColumn("Left", layout.left, leftTabs(), tabs.left);
-    showColumn("Right", layout.right, rightTabs(), tabs.right);
-    pane("Picture", layout.picture, Surface::stage, [&] { showPicture(); });
-    pane("Play", layout.play, Surface::bar, [&] { playPanel(state, scene.side(0).shown()); });
-    pane("Status", layout.status, Surface::bar, [&] { showStatus(); });
-    splitters(layout, preferences.now);
-    helpPanel(help);
-    if (const auto path = path_popup.show()) saveAs(*path);
+        path_popup.open(suggestedPath());
+}
+
+void Shell::saveAs(const std::filesystem::path& path) {
+    Side& edited = scene.editedSide();
+    edited.settle();
+    whenFollowed(edited, Needs::settings, [this, path, settings = edited.wanted()](Side&) {
+        saveScene(settings, scene.file().directory, path);
+        scene.savedAs(path, settings);
+        window.setTitle("hairbench " + scene.file().name);
+        remember(preferences.now, path);
+        message.tell("saved to " + path.string());
+    });
+}
+
+void Shell::copyArguments() {
+    message.attempt([&] {
+        const scene::Scene saved = scene::loadScene(scene.file().path, scene::Outside::allowed);
+        // The scene may have been saved to another folder than it was opened from.
+        const std::string arguments = caseArguments(
+            saved,
+            movedFiles(scene.editedSide().wanted(), scene.file().directory, saved.directory));
+        ImGui::SetClipboardText(arguments.c_str());
+        message.tell(arguments.empty() ? "nothing differs from the scene" : "copied: " + arguments);
+    });
+}
+
+void Shell::screenshot() {
+    whenFollowed(scene.editedSide(), Needs::picture, [this](Side& side) {
+        const std::filesystem::path folder = std::filesystem::current_path();
+        const std::filesystem::path path =
+            freeName(folder, "hairbench-" + scene.file().name, ".png");
+        const Shown& shown = side.shown();
+        writeScreenshot(
+            path, shown.width, shown.height, shown.picture,
+            sceneText(shown.settings, shown.directory, folder));
+        message.tell("wrote " + path.string());
+    });
+}
+
+void Shell::record() {
+    message.attempt([&] {
+        if (recorder.records()) {
+            message.tell(
+                "recorded " + std::to_string(recorder.written()) + " frames to " +
+                recorder.folder().string());
+            recorder.stop();
+            return;
+        }
+        recorder.start(
+            freeName(std::filesystem::current_path(), "hairbench-" + scene.file().name, ""));
+        message.tell("recording to " + recorder.folder().string());
+    });
+}
+
+void Shell::drop(const std::filesystem::path& file) {
+    const Dropped what = whatIs(file);
+    if (what == Dropped::scene) {
+        open(file);
+    } else if (what == Dropped::unknown) {
+        message.complain(
+            file.string() + ": no scene, screenshot, groom, mesh or environment, by its name");
+    } else {
+        message.attempt([&] {
+            const hair::Settings settings =
+                withDropped(scene.editedSide().wanted(), scene.file().directory, file);
+            scene.edit(scene.edited(), settings, {.changed = true});
+            message.tell("took " + file.string());
+        });
+    }
 }
 
 // ---- The box that asks for a path ---------------------------------------------------------------
@@ -301,195 +558,6 @@ std::optional<std::filesystem::path> PathPopup::show() {
     if (accepted || leaves) ImGui::CloseCurrentPopup();
     ImGui::EndPopup();
     return accepted;
-}
-
-// ---- Effects of menus and keys ------------------------------------------------------------------
-
-void Viewer::Parts::compare() {
-    if (scene.sideCount() > 1) {
-        scene.stopComparing();
-        area.views = Views::a;
-        message.tell("A is shown alone");
-    } else {
-        scene.startComparing();
-    }
-}
-
-// Changes settings; false if the action does not concern settings.
-bool Viewer::Parts::changeSetting(Action action) {
-    hair::Settings settings = scene.editedSide().wanted();
-    const Shown& shown = scene.editedSide().shown();
-    Edit edit{.changed = true};
-    if (bool* const value = switchOf(action, settings))
-        *value = !*value;
-    else if (const std::optional<hair::Show> show = showOf(action))
-        settings.render.show = *show;
-    else if ((presetOf(action) || action == Action::frame_groom) && !shown.isThere())
-        return true;
-    else if (const CameraPreset* const preset = presetOf(action))
-        edit = tools.look(settings, shown, *preset);
-    else if (action == Action::frame_groom)
-        edit = tools.frameGroom(settings, shown);
-    else
-        return false;
-    scene.edit(scene.edited(), settings, edit);
-    return true;
-}
-
-// If only one column fits, toggles both.
-void Viewer::Parts::toggleColumn(Column& column) {
-    Preferences& now = preferences.now;
-    if (merged)
-        now.left.shown = now.right.shown = !(now.left.shown || now.right.shown);
-    else
-        column.shown = !column.shown;
-}
-
-// Changes the window's arrangement; false if the action does not concern it.
-bool Viewer::Parts::changeWindow(Action action) {
-    Preferences& now = preferences.now;
-    const auto zoomTo = [&](float zoom) {
-        now.zoom = std::clamp(zoom, kSmallestZoom, kLargestZoom);
-    };
-    if (const std::optional<Tab> tab = tabOf(action)) {
-        tabs.choose(*tab);
-        (std::ranges::count(leftTabs(), *tab) > 0 ? now.left : now.right).shown = true;
-        return true;
-    }
-    if (const std::optional<engine::PresentMode> mode = presentModeOf(action)) {
-        now.present_mode = *mode;
-        return true;
-    }
-    switch (action) {
-    case Action::dark_theme:
-        now.theme = Theme::dark;
-        return true;
-    case Action::light_theme:
-        now.theme = Theme::light;
-        return true;
-    case Action::larger:
-        zoomTo(now.zoom * kZoomStep);
-        return true;
-    case Action::smaller:
-        zoomTo(now.zoom / kZoomStep);
-        return true;
-    case Action::left_column:
-        toggleColumn(now.left);
-        return true;
-    case Action::right_column:
-        toggleColumn(now.right);
-        return true;
-    case Action::help:
-        help = !help;
-        return true;
-    case Action::reset_layout: {
-        const Preferences first;
-        now.left = first.left;
-        now.right = first.right;
-        now.zoom = first.zoom;
-        tabs = {};
-        return true;
-    }
-    default:
-        return false;
-    }
-}
-
-void Viewer::Parts::perform(Action action) {
-    if (changeSetting(action) || changeWindow(action)) return;
-    if (const std::optional<Tool> tool = toolOf(action)) {
-        tools.tool = *tool;
-        return;
-    }
-    switch (action) {
-    case Action::save_scene:
-        save();
-        break;
-    case Action::save_scene_as:
-        path_popup.open(suggestedPath());
-        break;
-    case Action::copy_axes:
-        copyArguments();
-        break;
-    case Action::screenshot:
-        screenshot();
-        break;
-    case Action::record:
-        record();
-        break;
-    case Action::quit:
-        window.close();
-        break;
-    case Action::undo:
-        scene.editedSide().undo();
-        break;
-    case Action::redo:
-        scene.editedSide().redo();
-        break;
-    case Action::play:
-        state.playing = !state.playing;
-        break;
-    case Action::step:
-        state.step = true;
-        break;
-    case Action::restart:
-        state.seek = 0;
-        break;
-    case Action::preview:
-        previews = !previews;
-        break;
-    case Action::compare:
-        compare();
-        break;
-    case Action::edit_other:
-        scene.setEdited(1 - scene.edited());
-        break;
-    default:
-        break;
-    }
-}
-
-ActionState Viewer::Parts::stateOf(Action action) const {
-    const Preferences& now = preferences.now;
-    hair::Settings settings = scene.editedSide().wanted();
-    if (const bool* const value = switchOf(action, settings)) return {.checked = *value};
-    if (const std::optional<hair::Show> show = showOf(action))
-        return {.checked = settings.render.show == *show};
-    if (const std::optional<Tool> tool = toolOf(action)) return {.checked = tools.tool == *tool};
-    if (const std::optional<engine::PresentMode> mode = presentModeOf(action))
-        return {
-            .checked = presenter.mode() == *mode,
-            .enabled = std::ranges::count(presenter.modes(), *mode) > 0};
-    switch (action) {
-    case Action::record:
-        return {.checked = recorder.records()};
-    case Action::undo:
-        return {.enabled = scene.editedSide().canUndo()};
-    case Action::redo:
-        return {.enabled = scene.editedSide().canRedo()};
-    case Action::play:
-        return {.checked = state.playing};
-    case Action::step:
-        return {.enabled = !state.playing};
-    case Action::preview:
-        return {.checked = previews};
-    case Action::compare:
-        return {.checked = scene.sideCount() > 1};
-    case Action::edit_other:
-        return {.enabled = scene.sideCount() > 1};
-    case Action::dark_theme:
-        return {.checked = now.theme == Theme::dark};
-    case Action::light_theme:
-        return {.checked = now.theme == Theme::light};
-    case Action::left_column:
-        return {.checked = now.left.shown || (merged && now.right.shown)};
-    case Action::right_column:
-        return {.checked = now.right.shown || (merged && now.left.shown)};
-    case Action::help:
-        return {.checked = help};
-    default:
-        return {};
-    }
 }
 
 }  // namespace benchmarks::viewer

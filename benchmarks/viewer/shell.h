@@ -26,13 +26,13 @@
 #include "benchmarks/viewer/studio.h"
 #include "benchmarks/viewer/timings_panel.h"
 #include "benchmarks/viewer/toolbar.h"
-#include "benchmarks/viewer/viewer.h"
+#include "benchmarks/viewer/view_options.h"
 #include "engine/device.h"
 #include "engine/presenter.h"
 #include "engine/ui.h"
 #include "engine/window.h"
 
-// Internals of the viewer, only for viewer.cpp and shell.cpp.
+// What is behind the viewer's window: the window itself, the thread that draws, and files.
 namespace benchmarks::viewer {
 
 // The last message to the user.
@@ -86,13 +86,24 @@ private:
     bool opens_ = false;
 };
 
-// The parts of the viewer.
-struct Viewer::Parts {
-    Parts(
+// The state of the viewer, and its work beside the contents of the window, which viewer.cpp adds.
+struct Shell {
+    Shell(
         const ViewOptions& options, const SceneFile& file, const hair::Settings& settings,
         measure::HairCache cache);
+    virtual ~Shell() = default;
+    Shell(const Shell&) = delete;
+    Shell& operator=(const Shell&) = delete;
 
-    // ---- viewer.cpp: the window, picture by picture
+    // Shows the contents of the window with Dear ImGui.
+    virtual void showWindow() = 0;
+    // Returns the note that the picture in progress is slow; may be empty.
+    virtual std::string drawingNote() const = 0;
+
+    // ---- The window, picture by picture
+
+    // Draws the scene's first picture, if the window waits for pictures.
+    void start();
 
     // Draws one picture of the window; false if it was closed.
     bool frame();
@@ -104,7 +115,7 @@ struct Viewer::Parts {
     void keepPreferences();
     double seconds() const;  // since it was opened, by a clock that scripts do not control
 
-    // ---- viewer.cpp: the thread that draws
+    // ---- The thread that draws
 
     bool waitsForDrawing() const { return driven && !live; }
     void orderWork();
@@ -123,7 +134,7 @@ struct Viewer::Parts {
     void whenFollowed(Side& side, Needs needs, std::function<void(Side&)> act);
     void actOnFollowed();
 
-    // ---- viewer.cpp: files that are opened and written
+    // ---- Files that are opened and written
 
     std::filesystem::path suggestedPath() const;  // a path to save a scene
     void open(const std::filesystem::path& path);
@@ -133,27 +144,6 @@ struct Viewer::Parts {
     void screenshot();
     void record();
     void drop(const std::filesystem::path& file);
-
-    // ---- shell.cpp: contents of the window
-
-    void showWindow();
-    void showColumn(const char* name, const Box& box, std::span<const Tab> shown, Tab& chosen);
-    void showTab(Tab tab);
-    void showScene();
-    void showFiles();
-    void showCompare();
-    void showPicture();
-    std::string drawingNote() const;
-    void showStatus();
-
-    // ---- shell.cpp: effects of menus and keys
-
-    void perform(Action action);
-    ActionState stateOf(Action action) const;
-    bool changeSetting(Action action);
-    bool changeWindow(Action action);
-    void toggleColumn(Column& column);
-    void compare();
 
     scene::Outside outside;  // for opened scenes
     PreferencesFile preferences;

@@ -17,10 +17,10 @@
 #include "benchmarks/run/backends.h"
 #include "benchmarks/run/case.h"
 #include "benchmarks/scene/settings_json.h"
-#include "benchmarks/viewer/player.h"
 #include "engine/device.h"
 #include "engine/frame_loop.h"
 #include "engine/shaders.h"
+#include "engine/transfer.h"
 
 namespace benchmarks::viewer {
 namespace {
@@ -157,25 +157,6 @@ std::vector<report::Metric> OwnMemory::metrics() const {
 }
 
 }  // namespace
-
-// ---- History of frames --------------------------------------------------------------------------
-
-void TimingHistory::add(
-    const engine::FrameRecord& frame, engine::Timing timing, std::uint32_t number) {
-    TimedFrames& frames = timing == engine::Timing::overlapped ? overlapped_ : isolated_;
-    if (frames.size() == kFrames) {
-        frames.records.erase(frames.records.begin());
-        frames.numbers.erase(frames.numbers.begin());
-    }
-    frames.records.push_back(frame);
-    frames.numbers.push_back(number);
-}
-
-void TimingHistory::clear() {
-    isolated_ = {};
-    overlapped_ = {};
-    ++revision_;
-}
 
 // ---- Metrics of frames --------------------------------------------------------------------------
 
@@ -334,7 +315,7 @@ SideMeasurement measureSide(
     const measure::MeasureHooks own_hooks{
         .stop = hooks.stop, .progress = [&](const measure::SamplingState& state) {
             if (hooks.progress) memory.others([&] { hooks.progress(state); });
-            device.runOnce([](engine::Commands&) {});  // waits for all submitted work
+            runOnce(device, [](engine::Commands&) {});  // waits for all submitted work
         }};
     measure::Case test_case(device, settings, directory);
     measured.picture = measure::measure(device, test_case, settings.run, own_hooks, result);

@@ -13,45 +13,14 @@
 #include "benchmarks/measure/measure.h"
 #include "benchmarks/report/report.h"
 #include "benchmarks/report/statistics.h"
+#include "benchmarks/viewer/player.h"
 #include "engine/device.h"
 #include "engine/frame_loop.h"
 #include "hair/settings.h"
 
-// Frame times: the history of the frames that a side drew, figures of it for the panel, and reports
-// of these figures or of a measurement like the runner's.
+// Figures of the frames that a side drew, for the panel, and reports of these figures or of a
+// measurement like the runner's.
 namespace benchmarks::viewer {
-
-class Side;  // player.h
-
-// Records of frames in one timing mode, oldest first.
-struct TimedFrames {
-    std::vector<engine::FrameRecord> records;
-    std::vector<std::uint32_t> numbers;  // each frame's number in the simulation, from 0
-
-    std::size_t size() const { return records.size(); }
-};
-
-// Records of the last drawn frames, by timing mode. The history must be cleared when settings
-// change, so that frames of different settings do not mix.
-class TimingHistory {
-public:
-    static constexpr std::size_t kFrames = 300;  // limit per mode
-
-    // `timing` is isolated or overlapped.
-    void add(const engine::FrameRecord& frame, engine::Timing timing, std::uint32_t number);
-    void clear();
-
-    const TimedFrames& isolated() const { return isolated_; }
-    const TimedFrames& overlapped() const { return overlapped_; }
-
-    // Changes with each clear(); earlier results then belong to other settings.
-    std::uint64_t revision() const { return revision_; }
-
-private:
-    TimedFrames isolated_;
-    TimedFrames overlapped_;
-    std::uint64_t revision_ = 0;
-};
 
 // Returns a report's metrics of frames that the viewer drew: the runner's metrics by its own
 // functions, and the sum of the passes over the frame. The viewer draws one frame at a time, so

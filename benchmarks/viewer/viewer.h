@@ -4,12 +4,11 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
-#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
 
-#include "benchmarks/scene/sweep.h"
+#include "benchmarks/viewer/view_options.h"
 #include "engine/presenter.h"
 #include "hair/settings.h"
 
@@ -18,24 +17,6 @@ namespace benchmarks::viewer {
 enum class Action;  // actions.h
 class Side;         // player.h
 struct PlayState;   // player.h
-
-struct ViewOptions {
-    scene::SceneOptions scene;
-    std::uint32_t width = 1600;  // of the window, in screen coordinates
-    std::uint32_t height = 900;
-    double scale = 0.0;  // of letters and widgets; 0: the screen's
-    std::uint32_t frames = 0;  // the window closes after so many pictures; 0: it stays open
-    std::filesystem::path screenshot;  // file for the window's last picture; empty: none
-    std::filesystem::path script;  // steps that drive the window; empty: none
-    bool live = false;  // Viewer::setLive(), for scripts or a number of pictures
-    std::filesystem::path shaders;  // watched folder; empty: the build's
-    // File of preferences; empty: the user's file, or none with a script.
-    std::filesystem::path preferences;
-    std::vector<std::string> command;  // for reports
-    // Called on the drawing thread with each order before any work, for tests that delay it; may be
-    // empty.
-    std::function<void()> before_drawing{};
-};
 
 // A window that plays a scene and can change everything about it. It responds while pictures of the
 // scene are drawn, because another thread draws them.
