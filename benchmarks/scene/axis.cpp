@@ -12,7 +12,6 @@
 
 #include "benchmarks/scene/json.h"
 #include "benchmarks/scene/settings_json.h"
-#include "benchmarks/scene/sweep.h"
 #include "engine/error.h"
 
 namespace benchmarks::scene {

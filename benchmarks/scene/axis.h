@@ -11,6 +11,7 @@
 namespace benchmarks::scene {
 
 inline constexpr std::size_t kMostAxisValues = 10000;
+inline constexpr std::size_t kMaximumCases = 100000;  // of a sweep, and values of a range
 
 // A field that a sweep varies, and the fields tied to it.
 struct Axis {

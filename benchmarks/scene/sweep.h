@@ -27,8 +27,6 @@ bool isSuite(const std::filesystem::path& path);
 std::vector<Scene>
 loadScenes(const std::filesystem::path& path, Outside outside = Outside::refused);
 
-inline constexpr std::size_t kMaximumCases = 100000;
-
 // One combination of a sweep's values.
 struct CaseSpec {
     std::string name;  // "thesis/guides:86/msaa:4", unique; the scene's name without a sweep
