@@ -1,7 +1,8 @@
 #pragma once
 
 #include "engine/pipeline.h"
-#include "hair/simulation/solvers.h"
+#include "hair/groom/groom.h"
+#include "hair/simulation/guide_solver.h"
 
 namespace hair::simulation {
 

@@ -8,8 +8,10 @@
 
 #include "engine/instance.h"
 #include "engine/pipeline.h"
+#include "hair/groom/groom.h"
+#include "hair/groom/groom_size.h"
 #include "hair/settings.h"
-#include "hair/simulation/solvers.h"
+#include "hair/simulation/guide_solver.h"
 
 namespace hair::simulation {
 

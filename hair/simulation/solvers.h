@@ -1,77 +1,18 @@
 #pragma once
 
-#include <algorithm>
-#include <cstdint>
 #include <memory>
-#include <span>
-#include <vector>
 
-#include "engine/buffer_image.h"
-#include "engine/commands.h"
+#include "engine/device.h"
 #include "hair/gpu_structs.h"
 #include "hair/groom/groom.h"
 #include "hair/groom/groom_size.h"
 #include "hair/settings.h"
+#include "hair/simulation/guide_solver.h"
 
-// The solvers, which move guides, and their table.
+// The list of solvers, for those who choose one.
 namespace hair::simulation {
 
-// Result of /simulation/rest: balanced.
-struct RestBalance {
-    std::uint32_t stiffened = 0;  // guides stiffened beyond the settings
-    double stiffest = 1.0;  // largest stiffening factor
-    std::vector<std::uint32_t>
-        unbalanced;  // guides that keep the groom's shape as their rest shape
-
-    // Counts a balanced guide.
-    void add(double stiffening) {
-        if (stiffening > 1.0) ++stiffened;
-        stiffest = std::max(stiffest, stiffening);
-    }
-};
-
-// Moves guides. Reads the positions and previous positions behind SubstepPush::from and writes all
-// of those behind SubstepPush::guides, which may be the same. May keep more state of its own.
-class GuideSolver {
-public:
-    virtual ~GuideSolver() = default;
-
-    // Records one substep: integrate, constrain the strands, push them out of bodies. The caller
-    // fills in the push constants except `solver` and `first_strand`, declares the uses of the
-    // guides (Commands::uses), and orders earlier and later work by barriers. The solver declares
-    // the uses of its own buffers.
-    virtual void record(engine::Commands& commands, gpu::SubstepPush push) const = 0;
-
-    // Derives the solver's own state from positions and previous positions that other code wrote.
-    virtual void recordAdopt(engine::Commands&, gpu::SubstepPush) const {}
-
-    // Allows bodies from now on, even if the constructor's settings had none. Throws like the
-    // constructor.
-    virtual void expectBodies(const engine::Device&) {}
-
-    // Balance, if the settings ask for it and the solver has rest shapes; else null.
-    virtual const RestBalance* balance() const { return nullptr; }
-
-    // Corrects the balanced rest shape. The argument is the movement of guides that were at rest in
-    // the groom's shape, in a substep without bodies, [strand][vertex], groom axes, m. Returns
-    // false if nothing is left to correct; then it is not called again.
-    virtual bool correctBalance(const engine::Device&, std::span<const glm::vec3>) { return false; }
-
-    // The solver's own state, to save and restore.
-    virtual std::vector<const engine::Buffer*> state() const { return {}; }
-};
-
-// Whether an animation deforms the mesh under the hair. Then solvers read SubstepPush::roots.
-inline bool hasSkinnedRoots(const SimulationSettings& settings) {
-    return !settings.animation.clip.empty();
-}
-
-// Device memory of a solver for the guides, B.
-struct SolverSizes {
-    std::uint64_t all = 0;
-    std::uint64_t state = 0;  // part of `all` in state()
-};
-
+// Returns the solver's memory.
 SolverSizes solverSizes(
     const engine::DeviceInfo& device, const groom::GroomSize& size,
     const SimulationSettings& settings);
