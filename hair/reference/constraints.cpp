@@ -6,8 +6,6 @@
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
 
-#include "hair/reference/wind.h"
-
 namespace hair::reference {
 
 glm::dvec3 sideways(const glm::dvec3& v) {
@@ -89,6 +87,15 @@ void integrate(
             now + velocity_kept * (now - previous[i]) + accelerations[i] * (substep * substep);
         previous[i] = now;
     }
+}
+
+glm::dvec3
+braked(const glm::dvec3& velocity, const glm::dmat3& rate, const glm::dvec3& air, double h) {
+    return glm::inverse(glm::dmat3(1.0) + h * rate) * (velocity + h * rate * air);
+}
+
+double lightnessIn(const glm::dmat3& rate, double h) {
+    return 1.0 / (1.0 + h * (rate[0][0] + rate[1][1] + rate[2][2]) / 2.0);
 }
 
 void pullToRest(Points positions, ConstPoints rest, double stiffness, Lightness lightness) {

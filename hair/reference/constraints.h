@@ -42,7 +42,16 @@ void integrate(
     Points positions, Points previous, ConstPoints accelerations, double velocity_kept,
     double substep);
 
-// Fraction of the vertices' inverse masses that air leaves, [vertex]: wind.h. Empty: 1.
+// Returns v' = velocity + h K (air - v'): the velocity after an implicit step h of a free vertex to
+// which everything else gives `velocity`.
+glm::dvec3
+braked(const glm::dvec3& velocity, const glm::dmat3& rate, const glm::dvec3& air, double h);
+
+// Returns the fraction that remains of a later movement of the vertex across its tangent:
+// 1 / (1 + h k), where k is the double eigenvalue of K.
+double lightnessIn(const glm::dmat3& rate, double h);
+
+// Fraction of the vertices' inverse masses that air leaves, [vertex]: lightnessIn(). Empty: 1.
 using Lightness = std::span<const double>;
 
 // Thesis eq. 10: an implicit step of a spring by the fraction c / (1 + c), where c is the spring's

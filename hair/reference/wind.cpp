@@ -8,7 +8,6 @@
 #include <glm/matrix.hpp>
 
 #include "hair/random.h"
-#include "hair/reference/constraints.h"
 
 namespace hair::reference {
 namespace {
@@ -197,15 +196,6 @@ std::vector<glm::dmat3> dragRates(
         rates[i] = k * (glm::dmat3(1.0) - glm::outerProduct(t, t));
     }
     return rates;
-}
-
-glm::dvec3
-braked(const glm::dvec3& velocity, const glm::dmat3& rate, const glm::dvec3& air, double h) {
-    return glm::inverse(glm::dmat3(1.0) + h * rate) * (velocity + h * rate * air);
-}
-
-double lightnessIn(const glm::dmat3& rate, double h) {
-    return 1.0 / (1.0 + h * (rate[0][0] + rate[1][1] + rate[2][2]) / 2.0);
 }
 
 Air airAt(

@@ -63,15 +63,6 @@ std::vector<glm::dmat3> dragRates(
     ConstPoints tangents, ConstPoints velocities, ConstPoints air,
     const SimulationSettings& settings);
 
-// Returns v' = velocity + h K (air - v'): the velocity after an implicit step h of a free vertex to
-// which everything else gives `velocity`.
-glm::dvec3
-braked(const glm::dvec3& velocity, const glm::dmat3& rate, const glm::dvec3& air, double h);
-
-// Returns the fraction that remains of a later movement of the vertex across its tangent:
-// 1 / (1 + h k), where k is the double eigenvalue of K.
-double lightnessIn(const glm::dmat3& rate, double h);
-
 // Effects of air on a strand during a time step.
 struct Air {
     std::vector<glm::dvec3> accelerations;  // windAccelerations in thesis mode
