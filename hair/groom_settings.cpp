@@ -1,7 +1,6 @@
 #include "hair/groom_settings.h"
 
 #include "hair/field_rows.h"
-#include "hair/groom/files.h"
 
 namespace hair {
 
@@ -297,10 +296,12 @@ const Table& tableOf(const FilePlacementSettings*) {
 
 const Table& tableOf(const GroomSettings*) {
     using S = GroomSettings;
-    static const std::string file_help = "file of strands (" + groom::readExtensions() +
-                                         "), relative to the scene file; empty: guides are grown";
     static const Table table = tableWith<S>(
-        {fileName("file", &S::file, file_help.c_str()),
+        {fileName(
+             "file", &S::file,
+             "file of strands (.hair, .tfx, .hgl, .ply, .obj, .gltf, .glb, .usd, .usda, .usdc, "
+             ".usdz, .data, .npy, .npz, .xml, .bin, .abc), relative to the scene file; empty: "
+             "guides are grown"),
          number(
              "points_per_strand", &S::points_per_strand, 0, 65536, "count",
              "points of each strand of a PLY file that has points alone, strand after strand; 0: "

@@ -17,7 +17,7 @@
 #include "benchmarks/report/text.h"
 #include "benchmarks/scene/json.h"
 #include "engine/error.h"
-#include "hair/groom/build_groom.h"
+#include "hair/groom/groom.h"
 #include "hair/groom/inspect.h"
 #include "hair/groom/mesh/body_mesh.h"
 #include "hair/groom/mesh/depth.h"

@@ -2,7 +2,6 @@
 
 #include <cstdint>
 #include <filesystem>
-#include <span>
 
 #include "hair/groom/groom.h"
 #include "hair/groom/groom_size.h"
@@ -29,15 +28,6 @@ Groom buildGroom(
 GroomSize expectedSize(const GroomSettings& settings, std::uint64_t file_bytes);
 
 inline constexpr std::uint64_t kUncountedPoints = 16;
-
-// Resamples every strand to `vertices` >= 2 points, evenly spaced by arc length along its polyline.
-// Both ends are kept to the bit, and attributes of points are interpolated. A strand that already
-// has this number of points stays as it is. A strand of one point, or without length, stays at its
-// place. Throws engine::Error if the result has 2^32 points or more.
-StrandSet resample(StrandSet strands, std::uint32_t vertices);
-
-// The same with a number of points for each strand: at least 2, or its present number.
-StrandSet resample(StrandSet strands, std::span<const std::uint32_t> sizes);
 
 // Makes guides of the strands, with their widths and root triangles, resampled to `vertices`
 // points. 0 takes the greatest number of points of a strand, clamped to [2, 256]. Lengths count as

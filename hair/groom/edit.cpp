@@ -12,7 +12,7 @@
 
 #include "engine/error.h"
 #include "engine/process.h"
-#include "hair/groom/build_groom.h"
+#include "hair/groom/groom.h"
 #include "hair/groom/inspect.h"
 #include "hair/groom/mesh/depth.h"
 #include "hair/groom/style/style.h"

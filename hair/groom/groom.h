@@ -104,4 +104,13 @@ std::optional<std::uint32_t> commonSize(const StrandSet& strands);
 // The greatest number of points of a strand; 0 without strands.
 std::uint32_t greatestSize(const StrandSet& strands);
 
+// Resamples every strand to `vertices` >= 2 points, evenly spaced by arc length along its polyline.
+// Both ends are kept to the bit, and attributes of points are interpolated. A strand that already
+// has this number of points stays as it is. A strand of one point, or without length, stays at its
+// place. Throws engine::Error if the result has 2^32 points or more.
+StrandSet resample(StrandSet strands, std::uint32_t vertices);
+
+// The same with a number of points for each strand: at least 2, or its present number.
+StrandSet resample(StrandSet strands, std::span<const std::uint32_t> sizes);
+
 }  // namespace hair::groom

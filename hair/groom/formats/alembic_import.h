@@ -1,7 +1,7 @@
 #pragma once
 
-#include "hair/groom/files.h"
 #include "hair/groom/groom.h"
+#include "hair/groom/strand_format.h"
 
 // The curves of an Alembic archive (Ogawa; AbcGeom_Curve_v2), in its world's space and its order.
 // Alembic has no unit and no up axis; hairbench's own archives state the unit.

@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "hair/groom/files.h"
 #include "hair/groom/groom.h"
+#include "hair/groom/strand_format.h"
 
 // Cem Yuksel's hair models, cemyuksel.com/research/hairmodels. Little-endian: a header of 128
 // bytes, then the arrays that its bits name, without padding:

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "hair/groom/files.h"
 #include "hair/groom/groom.h"
+#include "hair/groom/strand_format.h"
 
 // The curves of a scene of Embree's tutorials (Intel, tutorials/common/scenegraph/xml_loader.cpp):
 //   <scene>

@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "hair/groom/files.h"
 #include "hair/groom/groom.h"
+#include "hair/groom/strand_format.h"
 
 namespace hair::groom {
 

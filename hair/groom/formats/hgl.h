@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "hair/groom/files.h"
 #include "hair/groom/groom.h"
+#include "hair/groom/strand_format.h"
 
 // The thesis's guide file. Little-endian, nothing between the parts:
 //   int32 strands, int32 segments, int32 triangles

@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "hair/groom/files.h"
 #include "hair/groom/groom.h"
+#include "hair/groom/strand_format.h"
 
 // NumPy's arrays (numpy.lib.format, versions 1.0 to 3.0), which have no unit:
 //   .npy  one array of shape (strands, points of each, 3)

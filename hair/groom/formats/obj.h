@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "hair/groom/files.h"
 #include "hair/groom/groom.h"
+#include "hair/groom/strand_format.h"
 
 // Strands of a Wavefront OBJ file: its line elements, `l`, of vertices, `v x y z [r g b]`, root
 // first.

@@ -9,8 +9,8 @@
 #include <string_view>
 #include <vector>
 
-#include "hair/groom/files.h"
 #include "hair/groom/groom.h"
+#include "hair/groom/strand_format.h"
 
 // Strands of a PLY file (Greg Turk, The PLY Polygon File Format, 1994), ascii or binary of either
 // byte order. The points are the element `vertex`: x, y, z and, where present, width or radius,

@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "hair/groom/files.h"
 #include "hair/groom/groom.h"
+#include "hair/groom/strand_format.h"
 
 // Two formats of research on hair, which list strand after strand and have no header. Both are
 // little-endian and state no unit:

@@ -4,8 +4,6 @@
 #include <charconv>
 #include <system_error>
 
-#include "hair/groom/build_groom.h"
-
 namespace hair::groom {
 namespace {
 
@@ -76,7 +74,7 @@ std::string commentLines(std::string_view comment, std::string_view keyword) {
     return lines + '\n';
 }
 
-// ---- Parts that a format leaves out ------------------------------------------------------------
+// ---- Parts that a format leaves out -------------------------------------------------------------
 
 std::vector<std::string> leftOut(const StrandSet& strands, std::initializer_list<Part> held) {
     std::vector<std::string> warnings;

@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "hair/groom/files.h"
 #include "hair/groom/groom.h"
+#include "hair/groom/strand_format.h"
 
 // TressFX 4 (AMD, TressFXFileFormat.h), guide strands. Little-endian: a header of 160 bytes, which
 // says where these arrays lie:

@@ -9,9 +9,9 @@
 
 #include <glm/vec3.hpp>
 
-#include "hair/groom/files.h"
 #include "hair/groom/groom.h"
 #include "hair/groom/mesh/mesh.h"
+#include "hair/groom/strand_format.h"
 
 namespace hair::groom {
 

@@ -6,7 +6,6 @@
 
 #include "engine/error.h"
 #include "engine/pictures.h"
-#include "hair/groom/growth/roots.h"
 
 namespace hair::groom {
 namespace {

@@ -7,6 +7,7 @@
 #include <glm/vec2.hpp>
 
 #include "hair/groom/growth/scalp.h"
+#include "hair/random.h"
 
 // The density of roots: pictures over a scalp, and the density that a mask gives.
 namespace hair::groom {
@@ -52,5 +53,12 @@ private:
 
 // The texture's value at a point. Throws engine::Error if the scalp has no texture coordinates.
 double textureAt(const Texture& texture, const Scalp& scalp, const SurfacePoint& point);
+
+// Returns the sample with this number, of random points uniform in area.
+inline SurfacePoint rootSample(const Scalp& scalp, std::uint32_t seed, std::uint32_t number) {
+    return sampleSurface(
+        scalp, {random01(seed, number, purpose::root_triangle),
+                random01(seed, number, purpose::root_u), random01(seed, number, purpose::root_v)});
+}
 
 }  // namespace hair::groom

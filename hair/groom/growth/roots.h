@@ -51,11 +51,4 @@ std::uint32_t boundaryRootCount(std::uint32_t guides);
 std::vector<double>
 hairlineLengths(double total, std::uint32_t count, std::vector<double> cuts, double gap);
 
-// Returns the sample with this number, of random points uniform in area.
-inline SurfacePoint rootSample(const Scalp& scalp, std::uint32_t seed, std::uint32_t number) {
-    return sampleSurface(
-        scalp, {random01(seed, number, purpose::root_triangle),
-                random01(seed, number, purpose::root_u), random01(seed, number, purpose::root_v)});
-}
-
 }  // namespace hair::groom

@@ -12,8 +12,6 @@
 
 #include <glm/geometric.hpp>
 
-#include "hair/groom/growth/triangulate.h"
-
 namespace hair::groom {
 namespace {
 
@@ -163,8 +161,10 @@ void TriangleNet::erase(std::uint32_t cell) {
 
 // ---- A scalp cut at roots -----------------------------------------------------------------------
 
-SurfaceNet::SurfaceNet(const Scalp& scalp, std::span<const SurfacePoint> roots)
-    : root_count_(static_cast<std::uint32_t>(roots.size())), net_(cutAtRoots(scalp, roots)) {
+SurfaceNet::SurfaceNet(
+    const Scalp& scalp, std::span<const SurfacePoint> roots,
+    std::span<const std::array<std::uint32_t, 3>> cut)
+    : root_count_(static_cast<std::uint32_t>(roots.size())), net_(cut) {
     for (const SurfacePoint& root : roots) positions_.emplace_back(root.position);
     for (const glm::vec3& position : scalp.positions) positions_.emplace_back(position);
     corners_.resize(positions_.size(), kNone);

@@ -86,7 +86,10 @@ void flipEdges(
 // those of the straight triangles in space.
 class SurfaceNet {
 public:
-    SurfaceNet(const Scalp& scalp, std::span<const SurfacePoint> roots);
+    // `cut`: cutAtRoots() of the scalp and the roots (triangulate.h).
+    SurfaceNet(
+        const Scalp& scalp, std::span<const SurfacePoint> roots,
+        std::span<const std::array<std::uint32_t, 3>> cut);
 
     // Flips edges with opposite angles of more than 180 degrees in sum, unless that folds the
     // surface or gives two vertices a second edge.

@@ -378,7 +378,7 @@ void joinLonely(
 
 std::vector<std::array<std::uint32_t, 3>>
 surfaceTriangles(const Scalp& scalp, std::span<const SurfacePoint> roots) {
-    SurfaceNet net(scalp, roots);
+    SurfaceNet net(scalp, roots, cutAtRoots(scalp, roots));
     net.makeDelaunay();
     net.removeScalpVertices();
     net.makeDelaunay();

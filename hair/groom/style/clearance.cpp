@@ -11,8 +11,6 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
-#include "hair/groom/style/style.h"
-
 namespace hair::groom {
 
 NearGround groundUnder(const glm::dvec3& point, const MeshPoint& nearest, const Mesh& mesh) {

@@ -4,6 +4,9 @@
 #include <cassert>
 #include <cmath>
 #include <numbers>
+#include <numeric>
+#include <optional>
+#include <unordered_map>
 #include <utility>
 
 #include <glm/common.hpp>
@@ -11,7 +14,6 @@
 
 #include "engine/process.h"
 #include "hair/groom/groom.h"
-#include "hair/groom/style/style.h"
 #include "hair/random.h"
 
 namespace hair::groom {
@@ -266,6 +268,87 @@ Groom wave(Groom groom, const WaveSettings& settings, std::uint32_t seed) {
                 return settings.amplitude * std::sin(angle) * frames[point].normal;
             };
         });
+}
+
+// ---- Clumps -------------------------------------------------------------------------------------
+
+namespace {
+
+// Centre strands by the place of their root, in cubes as wide as the distance between centres.
+class Centres {
+public:
+    Centres(const Groom& groom, double spacing) : groom_(groom), spacing_(spacing) {}
+
+    void add(std::uint32_t strand) { cubes_[cube(strand)].push_back(strand); }
+
+    // The centre nearest to a strand's root, if one is nearer than the spacing.
+    std::optional<std::uint32_t> nearest(std::uint32_t strand) const {
+        std::optional<std::uint32_t> found;
+        double least = spacing_;
+        const Cube home = cube(strand);
+        for (int neighbour = 0; neighbour < 27; ++neighbour) {
+            const auto at = cubes_.find(
+                {home.x + neighbour % 3 - 1, home.y + neighbour / 3 % 3 - 1,
+                 home.z + neighbour / 9 - 1});
+            if (at == cubes_.end()) continue;
+            for (const std::uint32_t centre : at->second) {
+                const double distance = glm::distance(root(centre), root(strand));
+                if (distance >= least) continue;
+                least = distance;
+                found = centre;
+            }
+        }
+        return found;
+    }
+
+private:
+    struct Cube {
+        int x, y, z;
+        friend bool operator==(const Cube&, const Cube&) = default;
+    };
+    struct CubeHash {
+        std::size_t operator()(const Cube& cube) const {
+            return hash(
+                static_cast<std::uint32_t>(cube.x), static_cast<std::uint32_t>(cube.y),
+                static_cast<std::uint32_t>(cube.z));
+        }
+    };
+
+    glm::dvec3 root(std::uint32_t strand) const { return groom_.strand(strand).front(); }
+
+    Cube cube(std::uint32_t strand) const {
+        static constexpr double kLimit = 1e9;  // points farther out share the last cube
+        const glm::dvec3 place = glm::floor(root(strand) / spacing_);
+        const auto whole = [](double x) {
+            return static_cast<int>(std::clamp(x, -kLimit, kLimit));
+        };
+        return {whole(place.x), whole(place.y), whole(place.z)};
+    }
+
+    const Groom& groom_;
+    double spacing_;
+    std::unordered_map<Cube, std::vector<std::uint32_t>, CubeHash> cubes_;
+};
+
+}  // namespace
+
+std::vector<std::uint32_t> clumpCentres(const Groom& groom, double spacing, std::uint32_t seed) {
+    std::vector<std::uint32_t> order(groom.strand_count);
+    std::iota(order.begin(), order.end(), 0u);
+    std::ranges::sort(order, {}, [seed](std::uint32_t strand) {
+        return std::pair(hash(seed, strand, purpose::clump_centre), strand);
+    });
+    Centres centres(groom, spacing);
+    engine::Step step("looks for clumps", 2 * std::uint64_t{groom.strand_count});
+    for (const std::uint32_t strand : order) {
+        step.advance();
+        if (!centres.nearest(strand)) centres.add(strand);
+    }
+    for (std::uint32_t i = 0; i < groom.strand_count; ++i) {
+        step.advance();
+        order[i] = centres.nearest(i).value();
+    }
+    return order;
 }
 
 }  // namespace hair::groom

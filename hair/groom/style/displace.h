@@ -7,6 +7,7 @@
 #include <glm/vec3.hpp>
 
 #include "hair/groom/groom.h"
+#include "hair/groom_settings.h"
 
 // Tools to displace the points of strands: places along a strand, rotation-minimising frames, and
 // smooth noise.
@@ -67,5 +68,23 @@ glm::dvec3 across(const glm::dvec3& direction);
 // Computation of rotation minimizing frames, table I (double reflection).
 std::vector<StrandFrame>
 strandFrames(std::span<const glm::vec3> points, const glm::vec3* root_normal);
+
+// Adds a sine across the strand, in the plane of its tangent at the root and the root's normal.
+// Where those are parallel or there is no normal, it is in the strand's own plane. Its phase is
+// that of the strand's clump of `spacing`, and drifts along the strand by up to `drift` waves. The
+// helix of curl() has the same kind of phase.
+Groom wave(Groom groom, const WaveSettings& settings, std::uint32_t seed);
+
+// Winds the strand to a right-handed helix in its rotation-minimising frame (Wang et al. 2008,
+// Computation of rotation minimizing frames). At phase 0 it starts in the direction in which
+// wave() swings first. The frequency counts turns along the strand before the change.
+Groom curl(Groom groom, const CurlSettings& settings, std::uint32_t seed);
+
+// Adds a smooth random displacement, at most `amplitude` in length.
+Groom frizz(Groom groom, const FrizzSettings& settings, std::uint32_t seed);
+
+// Gives a share of the strands, each chosen at random, a smooth random displacement that grows by
+// smoothstep(start, 1, position along the strand) to at most `reach`.
+Groom flyaways(Groom groom, const FlyawaySettings& settings, std::uint32_t seed);
 
 }  // namespace hair::groom

@@ -9,6 +9,8 @@
 #include "hair/groom/groom.h"
 #include "hair/groom/mesh/mesh.h"
 #include "hair/groom/mesh/surface.h"
+#include "hair/groom/style/clearance.h"
+#include "hair/groom/style/displace.h"
 #include "hair/groom_settings.h"
 
 // Styling: pure functions from a groom to a groom. Roots, counts, normals, triangles and the order
@@ -30,41 +32,6 @@ Groom braid(Groom groom, const BraidSettings& settings, std::uint32_t seed, cons
 // roots are at least `spacing` apart, and every strand joins the nearest. With several levels,
 // this is done for spacing / 2^(levels - 1) first and for `spacing` last.
 Groom clump(Groom groom, const ClumpSettings& settings, std::uint32_t seed);
-
-// Adds a sine across the strand, in the plane of its tangent at the root and the root's normal.
-// Where those are parallel or there is no normal, it is in the strand's own plane. Its phase is
-// that of the strand's clump of `spacing`, and drifts along the strand by up to `drift` waves. The
-// helix of curl() has the same kind of phase.
-Groom wave(Groom groom, const WaveSettings& settings, std::uint32_t seed);
-
-// Winds the strand to a right-handed helix in its rotation-minimising frame (Wang et al. 2008,
-// Computation of rotation minimizing frames). At phase 0 it starts in the direction in which
-// wave() swings first. The frequency counts turns along the strand before the change.
-Groom curl(Groom groom, const CurlSettings& settings, std::uint32_t seed);
-
-// Adds a smooth random displacement, at most `amplitude` in length.
-Groom frizz(Groom groom, const FrizzSettings& settings, std::uint32_t seed);
-
-// Gives a share of the strands, each chosen at random, a smooth random displacement that grows by
-// smoothstep(start, 1, position along the strand) to at most `reach`.
-Groom flyaways(Groom groom, const FlyawaySettings& settings, std::uint32_t seed);
-
-// Leads strands round the mesh. From the root on, a segment that would end nearer to its surface
-// than `clearance`, or inside, is turned along the surface, in its own direction and that of the
-// segment above, and the rest of the strand moves with it. Near the root, at the arc length s, 0.3
-// s is enough. Segments keep their lengths, and strands that are clear of the mesh keep every bit.
-// For an open mesh, inside means behind the nearest triangle.
-Groom keepClear(Groom groom, const Mesh& mesh, double clearance);
-
-// The same for the points of one strand, root first; returns whether they moved. `surface` is the
-// mesh's.
-bool keepClear(
-    std::vector<glm::dvec3>& points, const Mesh& mesh, const NearestSurface& surface,
-    double clearance);
-
-// Returns the unit vector away from the part of a mesh's surface next to a point. It points
-// outward on either side of the surface.
-glm::dvec3 outwardOf(const Mesh& mesh, const NearestSurface& surface, const glm::dvec3& point);
 
 // Cuts strands at settings.length of arc, and where they first pass the plane. The rest is
 // resampled evenly to as many vertices. A strand with its root beyond the plane, or one that would

@@ -1,5 +1,13 @@
+#include <algorithm>
+#include <string>
+#include <string_view>
+#include <vector>
+
 #include <gmock/gmock.h>
 
+#include "hair/fields.h"
+#include "hair/groom/files.h"
+#include "hair/groom_settings.h"
 #include "tests/groom/formats/bytes.h"
 #include "tests/groom/formats/strand_files.h"
 
@@ -71,6 +79,14 @@ TEST(ImportStrands, ListsWhatItKnows) {
             ": unknown format of strands \".xyz\"; known are .hair, .tfx, .hgl, "
             ".ply, .obj, .gltf, .glb, .usd, .usda, .usdc, .usdz, .data, .npy, .npz, .xml, .bin, "
             ".abc");
+}
+
+// The settings know no formats, so their help has a list of its own.
+TEST(ImportStrands, IsListedInTheHelpOfItsSetting) {
+    const std::vector<Field>& fields = tableOf(static_cast<const GroomSettings*>(nullptr)).fields();
+    const auto file = std::ranges::find(fields, std::string_view("file"), &Field::name);
+    ASSERT_NE(file, fields.end());
+    EXPECT_THAT(file->help, HasSubstr("(" + readExtensions() + ")"));
 }
 
 // The first bytes are those that the formats' own descriptions state.

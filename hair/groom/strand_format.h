@@ -1,0 +1,47 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <ostream>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "hair/groom/groom.h"
+#include "hair/groom/named_files.h"
+
+// What a format of strands implements. The tables of all formats are in files.h.
+namespace hair::groom {
+
+// A writer of strands. `write` returns a sentence for each kind of data that the format can't hold
+// of these strands; everything else reads back equal to the last bit. Throws engine::Error where
+// the format can't hold the strands at all.
+struct StrandExporter {
+    std::string_view extension;  // lower case, with the dot
+    std::vector<std::string> (*write)(const StrandSet& strands, std::ostream& out);
+};
+
+// A file in memory. `path` is its origin, for formats that name other files or that another program
+// reads. If it is empty, no other file is opened.
+struct StrandFile {
+    std::span<const std::byte> bytes;
+    std::filesystem::path path;
+    // For formats that can leave it out, such as a PLY of points alone; 0: not known.
+    std::uint32_t points_per_strand = 0;
+    NamedFileCheck check{};  // for those other files
+};
+
+// A reader of strands. Its errors begin with the place in the file, "byte N" or "line N", and don't
+// name the file. It refuses files that are not exactly of the format, and checks counts against the
+// file's size before it allocates by them.
+struct StrandImporter {
+    std::string_view name;  // for messages
+    std::span<const std::string_view> extensions;  // lower case, with the dot
+    std::string_view magic;  // first bytes of all such files; empty: there are none
+    StrandSet (*read)(const StrandFile& file);
+    bool from_memory = true;  // reads `bytes`; false: another program reads the file at `path`
+};
+
+}  // namespace hair::groom
