@@ -19,11 +19,6 @@ namespace {
 
 using engine::Access;
 
-constexpr std::uint32_t pushSize(const StrandStages& stages) {
-    return stages.watched ? std::uint32_t{sizeof(gpu::WatchedPush)}
-                          : std::uint32_t{sizeof(gpu::StrandPush)};
-}
-
 // The geometry stage that makes the quads.
 std::string geometryShader(QuadKind quads) {
     return quads == QuadKind::camera ? "strands/strand.geom" : "shadows/hair.geom";
@@ -473,65 +468,6 @@ bool readsPoints(const Settings& settings) {
 
 bool readsSceneDepth(const Settings& settings) {
     return settings.render.hair && settings.strands.backend == Backend::software;
-}
-
-engine::GraphicsDescription strandPipeline(const BackendContext& context) {
-    const StrandOutput& output = context.output;
-    const StrandStages& stages = context.stages;
-    std::vector<engine::ColorTarget> colors = output.colors;
-    if (stages.last != StrandStage::fragment)
-        for (engine::ColorTarget& color : colors) color.blend = engine::Blend::keep;
-    engine::Constants constants = strandConstants(context.strands, context.plan);
-    constants.emplace_back(gpu::kPixelSamplesConstant, output.samples);
-    constants.insert(constants.end(), output.shading.begin(), output.shading.end());
-    engine::ShaderExtensions extensions = strandExtensions(context.strands);
-    extensions.insert(extensions.end(), output.extensions.begin(), output.extensions.end());
-    return {
-        .constants = constants,
-        .extensions = extensions,
-        .push_size = pushSize(stages),
-        .colors = colors,
-        .depth_format = output.depth_format,
-        .samples = output.samples,
-        .depth_write = output.depth_write,
-        .discard = discards(stages),
-        .sampled_images = output.sampled_images};
-}
-
-void declareStrands(engine::Commands& commands, const gpu::PictureParameters& picture) {
-    commands.uses(
-        {{picture.guides, Access::vertex_read},
-         {picture.contacts, Access::vertex_read},
-         {picture.guide_normals, Access::vertex_read},
-         {picture.guide_turns, Access::vertex_read},
-         {picture.root_corrections, Access::vertex_read}});
-}
-
-engine::Constants strandConstants(const StrandSettings& strands, const StrandPlan& plan) {
-    engine::Constants constants{
-        {gpu::kCurveConstant, shaderCode(strands.curve)},
-        {gpu::kTaperConstant, shaderCode(strands.taper)},
-        {gpu::kLodModeConstant, shaderCode(plan.lod_mode)},
-        {gpu::kSourceConstant, shaderCode(strands.source)},
-        {gpu::kWidthConstant, shaderCode(strands.width)},
-        {gpu::kOffsetsConstant, hasOffsets(strands)},
-        {gpu::kInterpolationConstant, shaderCode(strands.interpolation)},
-        {gpu::kCollisionRuleConstant, strands.collision_rule},
-        {gpu::kStrandCollisionConstant, shaderCode(strands.collision)},
-        {gpu::kRandomnessConstant, shaderCode(strands.randomness)},
-        {gpu::kLodMorphConstant, plan.morphs},
-        {gpu::kMergedHairsConstant, plan.merged_hairs},
-        {gpu::kOwnColorsConstant, plan.own_colors},
-        {gpu::kResidualsConstant, plan.residuals},
-        {gpu::kSkinnedStrandsConstant, plan.skinned},
-        {gpu::kOffsetReachConstant, functionReach(strands)}};
-    const engine::Constants own = extensionConstants(strands.offset_parameters);
-    constants.insert(constants.end(), own.begin(), own.end());
-    return constants;
-}
-
-engine::ShaderExtensions strandExtensions(const StrandSettings& strands) {
-    return shaderExtensions(strands.offset_parameters);
 }
 
 // ---- Watched stages -----------------------------------------------------------------------------

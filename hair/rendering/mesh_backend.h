@@ -8,7 +8,7 @@
 #include "engine/device.h"
 #include "engine/pipeline.h"
 #include "hair/gpu_structs.h"
-#include "hair/rendering/backends.h"
+#include "hair/rendering/strand_backend.h"
 #include "hair/rendering/strand_plan.h"
 #include "hair/settings.h"
 

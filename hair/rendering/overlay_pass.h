@@ -8,8 +8,8 @@
 #include "engine/pipeline.h"
 #include "hair/gpu_structs.h"
 #include "hair/groom/mesh/mesh.h"
-#include "hair/rendering/groom_buffers.h"
 #include "hair/rendering/render_assets.h"
+#include "hair/rendering/strand_view.h"
 #include "hair/settings.h"
 
 // Overlays on the finished hair that show the simulation.

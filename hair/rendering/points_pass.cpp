@@ -6,7 +6,7 @@
 #include <string>
 
 #include "engine/error.h"
-#include "hair/rendering/backends.h"
+#include "hair/rendering/strand_backend.h"
 
 namespace hair::rendering {
 namespace {

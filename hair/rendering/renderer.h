@@ -10,7 +10,6 @@
 #include "hair/rendering/backend_choice.h"
 #include "hair/rendering/environment.h"
 #include "hair/rendering/fiber.h"
-#include "hair/rendering/groom_buffers.h"
 #include "hair/rendering/overlay_pass.h"
 #include "hair/rendering/points_pass.h"
 #include "hair/rendering/render_assets.h"
@@ -21,27 +20,10 @@
 #include "hair/rendering/strand_offsets.h"
 #include "hair/rendering/strand_pass.h"
 #include "hair/rendering/strand_plan.h"
+#include "hair/rendering/strand_view.h"
 #include "hair/settings.h"
 
 namespace hair::rendering {
-
-// Addresses of other buffers that shaders read; 0 where they don't.
-struct PictureBuffers {
-    std::uint64_t guide_normals = 0;  // FramesPass::normals()
-    std::uint64_t guide_turns = 0;  // FramesPass::turns()
-    std::uint64_t root_corrections = 0;  // SkinnedHead::corrections()
-    std::uint64_t lights = 0;
-    std::uint64_t optics = 0;
-    std::uint64_t shadows = 0;
-    std::uint64_t environment = 0;
-    std::uint64_t fragments = 0;
-};
-
-// Returns the parameters that every shader of a picture reads. `plan` is planStrands() of the
-// settings.
-gpu::PictureParameters pictureParameters(
-    const Settings& settings, const StrandPlan& plan, const StrandView& view,
-    const PictureBuffers& buffers);
 
 // Bytes of device memory that a Renderer's images and strands take, without its assets. The
 // settings must name the back end that draws them.

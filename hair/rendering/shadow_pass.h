@@ -15,9 +15,9 @@
 #include "hair/gpu_structs.h"
 #include "hair/groom/groom.h"
 #include "hair/rendering/backends.h"
-#include "hair/rendering/groom_buffers.h"
 #include "hair/rendering/render_assets.h"
 #include "hair/rendering/scene_meshes.h"
+#include "hair/rendering/strand_view.h"
 #include "hair/settings.h"
 
 // Shadows: the views of lights, the atlas of their maps, and the passes that draw them.

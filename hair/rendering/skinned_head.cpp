@@ -15,8 +15,7 @@
 #include "engine/transfer.h"
 #include "hair/gpu_structs.h"
 #include "hair/groom/mesh/deforming_mesh.h"
-#include "hair/rendering/backends.h"
-#include "hair/rendering/renderer.h"
+#include "hair/rendering/strand_backend.h"
 #include "hair/rendering/strand_offsets.h"
 
 namespace hair::rendering {

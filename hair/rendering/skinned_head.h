@@ -12,8 +12,8 @@
 #include "engine/pipeline.h"
 #include "hair/gpu_structs.h"
 #include "hair/groom/mesh/deforming_mesh.h"
-#include "hair/rendering/groom_buffers.h"
 #include "hair/rendering/strand_plan.h"
+#include "hair/rendering/strand_view.h"
 #include "hair/settings.h"
 
 namespace hair::rendering {

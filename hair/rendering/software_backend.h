@@ -11,8 +11,8 @@
 #include "engine/pipeline.h"
 #include "engine/target.h"
 #include "hair/gpu_structs.h"
-#include "hair/rendering/backends.h"
 #include "hair/rendering/points_pass.h"
+#include "hair/rendering/strand_backend.h"
 
 namespace hair::rendering {
 

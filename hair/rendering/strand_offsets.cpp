@@ -15,7 +15,7 @@
 
 #include "engine/error.h"
 #include "hair/gpu_structs.h"
-#include "hair/groom/build_groom.h"
+#include "hair/groom/groom.h"
 #include "hair/groom/style/displace.h"
 #include "hair/groom/style/style.h"
 #include "hair/random.h"

@@ -11,7 +11,7 @@
 #include "engine/commands.h"
 #include "engine/pipeline.h"
 #include "hair/groom/groom.h"
-#include "hair/rendering/groom_buffers.h"
+#include "hair/rendering/strand_view.h"
 #include "hair/settings.h"
 
 // Offsets of strands from their smooth shape, and the frames along guides that offsets and

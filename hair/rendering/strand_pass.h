@@ -12,7 +12,7 @@
 #include "engine/target.h"
 #include "engine/texture.h"
 #include "hair/rendering/backends.h"
-#include "hair/rendering/groom_buffers.h"
+#include "hair/rendering/strand_view.h"
 #include "hair/settings.h"
 
 // The pass that draws strands: kinds of transparency, their texture, and the pass itself.

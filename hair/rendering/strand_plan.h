@@ -9,7 +9,7 @@
 
 #include "engine/commands.h"
 #include "hair/groom/groom.h"
-#include "hair/rendering/groom_buffers.h"
+#include "hair/rendering/strand_view.h"
 #include "hair/settings.h"
 
 // How many strands a picture draws, in which draws and at which level of detail.

@@ -11,9 +11,9 @@
 #include "engine/error.h"
 #include "engine/pipeline.h"
 #include "engine/transfer.h"
-#include "hair/rendering/backends.h"
 #include "hair/rendering/renderer.h"
 #include "hair/rendering/skinned_head.h"
+#include "hair/rendering/strand_backend.h"
 #include "hair/rendering/strand_offsets.h"
 
 namespace hair::rendering {

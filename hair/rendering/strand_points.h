@@ -5,8 +5,8 @@
 
 #include "engine/device.h"
 #include "hair/gpu_structs.h"
-#include "hair/rendering/groom_buffers.h"
 #include "hair/rendering/strand_plan.h"
+#include "hair/rendering/strand_view.h"
 #include "hair/settings.h"
 
 namespace hair::rendering {
