@@ -13,7 +13,6 @@
 
 #include <link.h>
 
-#include "benchmarks/doctor/play_pairs.h"
 #include "benchmarks/measure/machine_watch.h"
 #include "benchmarks/report/environment.h"
 #include "engine/commands.h"

@@ -8,8 +8,8 @@
 #include <string_view>
 #include <vector>
 
+#include "benchmarks/doctor/play_pairs.h"
 #include "benchmarks/measure/measure.h"
-#include "benchmarks/measure/trust.h"
 #include "benchmarks/report/report.h"
 #include "engine/device.h"
 
@@ -21,20 +21,6 @@ struct TimestampFacts {
     double period_ns = 0.0;        // of a tick, as the driver says
     std::optional<double> step_ns;  // that differences of stamps are multiples of
     std::optional<double> gap_ns;   // between two stamps with nothing between them, at least
-};
-
-// How times of passes add up in the doctor's scene.
-struct PassFacts {
-    measure::PassSum sum;  // of isolated passes
-    std::vector<std::string> faults;  // of timestamps against submit-and-wait
-};
-
-// Two cases of equal settings, played in turns.
-struct RepeatFacts {
-    bool same_picture = false;
-    bool same_state = false;
-    std::vector<double> frame;  // [pair], ln(B/A) of the median frame time
-    std::vector<double> cpu;    // [pair], ln(B/A) of the process's CPU time
 };
 
 struct ClockFacts {

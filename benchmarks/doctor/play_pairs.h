@@ -2,9 +2,10 @@
 
 #include <filesystem>
 #include <string>
+#include <vector>
 
-#include "benchmarks/doctor/facts.h"
 #include "benchmarks/measure/measure.h"
+#include "benchmarks/measure/trust.h"
 #include "engine/device.h"
 #include "hair/groom/groom.h"
 #include "hair/settings.h"
@@ -27,6 +28,20 @@ hair::groom::StrandSet doctorStrands();
 std::filesystem::path writeDoctorScene(const std::filesystem::path& folder);
 
 // Plays the doctor's scene. Throws Interrupted where the hooks say so.
+
+// How times of passes add up in the doctor's scene.
+struct PassFacts {
+    measure::PassSum sum;  // of isolated passes
+    std::vector<std::string> faults;  // of timestamps against submit-and-wait
+};
+
+// Two cases of equal settings, played in turns.
+struct RepeatFacts {
+    bool same_picture = false;
+    bool same_state = false;
+    std::vector<double> frame;  // [pair], ln(B/A) of the median frame time
+    std::vector<double> cpu;    // [pair], ln(B/A) of the process's CPU time
+};
 
 // How the passes add up, and whether timestamps say what the CPU's clock does.
 PassFacts examinePasses(const engine::Device& device, const measure::MeasureHooks& hooks);

@@ -10,7 +10,7 @@
 #include <glm/trigonometric.hpp>
 #include <nlohmann/json.hpp>
 
-#include "benchmarks/lod/walk.h"
+#include "benchmarks/lod/frozen_view.h"
 #include "benchmarks/measure/hair_cache.h"
 #include "benchmarks/reference/mitsuba.h"
 #include "benchmarks/reference/picture_errors.h"

@@ -8,7 +8,6 @@
 #include <string>
 #include <vector>
 
-#include "benchmarks/measure/measure.h"
 #include "benchmarks/measure/stage.h"
 #include "benchmarks/measure/steady_state.h"
 #include "benchmarks/report/report.h"

@@ -8,8 +8,6 @@
 #include <thread>
 #include <utility>
 
-#include "benchmarks/measure/measure.h"
-#include "benchmarks/measure/metrics.h"
 #include "benchmarks/report/environment.h"
 #include "engine/error.h"
 #include "engine/queries.h"

@@ -8,7 +8,6 @@
 #include <glm/geometric.hpp>
 
 #include "benchmarks/measure/measure.h"
-#include "benchmarks/physics/theory.h"
 #include "engine/commands.h"
 #include "engine/process.h"
 #include "engine/transfer.h"

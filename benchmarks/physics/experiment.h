@@ -17,6 +17,8 @@
 // A strand or groom under one solver, played step by step, and the settings of each check.
 namespace benchmarks::physics {
 
+inline constexpr double kPi = 3.14159265358979323846;
+
 // A strand in `segments` equal segments from the origin along a unit vector, at rest. m
 hair::groom::Groom
 straightStrand(std::uint32_t segments, double length, const glm::dvec3& direction);

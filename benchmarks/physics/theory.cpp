@@ -10,8 +10,6 @@
 #include <glm/geometric.hpp>
 #include <glm/vec3.hpp>
 
-#include "benchmarks/physics/experiment.h"
-
 namespace benchmarks::physics {
 namespace {
 

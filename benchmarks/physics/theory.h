@@ -88,8 +88,6 @@ std::optional<double> measureFrequency(Experiment& experiment, const Vibration& 
 
 // Small vibrations of what hangs or sticks out.
 
-inline constexpr double kPi = 3.14159265358979323846;
-
 // The n roots of Laguerre's polynomial L_n, ascending.
 std::vector<double> laguerreRoots(unsigned n);
 
