@@ -6,9 +6,6 @@
 #include <string_view>
 #include <vector>
 
-#include "benchmarks/report/report.h"
-#include "benchmarks/scene/json.h"
-
 // Numbers, quantities and tables for a terminal.
 namespace benchmarks::report {
 
@@ -49,14 +46,6 @@ std::string lengthText(double metres);
 
 // "1.2 MB", in powers of 1000.
 std::string sizeText(std::uint64_t bytes);
-
-// Returns a table of a report (reportJson): a line on the device and the scene, then a row per case
-// with the axes that vary, FPS, the median times of the frame and of every pass, strands, and
-// status. Unknown values are "-".
-std::string table(const scene::Json& report);
-
-// Returns the same table from a report's header (headerJson) and cases that are visited one by one.
-std::string table(const scene::Json& header, const EachCase& each_case);
 
 // About three significant digits without an exponent: "1234", "123", "12.3", "1.23", "0.0123".
 std::string shortNumber(double number);

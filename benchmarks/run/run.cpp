@@ -11,6 +11,7 @@
 #include "benchmarks/measure/progress.h"
 #include "benchmarks/report/environment.h"
 #include "benchmarks/report/report.h"
+#include "benchmarks/report/table.h"
 #include "benchmarks/report/text.h"
 #include "benchmarks/run/case.h"
 #include "benchmarks/run/record.h"

@@ -1,3 +1,4 @@
+#include "benchmarks/report/table.h"
 #include "benchmarks/report/text.h"
 
 #include <gtest/gtest.h>

@@ -8,6 +8,7 @@
 #include "benchmarks/report/change.h"
 #include "benchmarks/report/report.h"
 #include "benchmarks/report/schema_errors.h"
+#include "benchmarks/report/table.h"
 #include "benchmarks/report/text.h"
 #include "benchmarks/viewer/measure_panel.h"
 #include "tests/gpu_fixture.h"
