@@ -1,0 +1,173 @@
+#include <algorithm>
+#include <cstddef>
+#include <filesystem>
+#include <fstream>
+#include <map>
+#include <regex>
+#include <set>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+// Circles of units. A unit is a .cpp with the header of its name, or one of both alone. Headers
+// without a cycle can still make units that need one another: a.cpp includes b.h, and b.cpp a.h.
+// Then neither unit can be understood, tested or reused without the other.
+namespace {
+
+using Includes = std::map<std::string, std::vector<std::string>>;  // file -> what it includes
+
+std::string unitOf(const std::string& file) { return file.substr(0, file.rfind('.')); }
+
+// The edges between units, each with the files that it comes from.
+using Units = std::map<std::string, std::map<std::string, std::vector<std::string>>>;
+
+Units unitsOf(const Includes& files) {
+    Units units;
+    for (const auto& [file, included] : files) units[unitOf(file)];
+    for (const auto& [file, included] : files)
+        for (const std::string& each : included)
+            if (const std::string to = unitOf(each); files.contains(each) && to != unitOf(file))
+                units[unitOf(file)][to].push_back(file);
+    return units;
+}
+
+// Finds the strongly connected components with more than one unit. Tarjan 1972, Depth-first search
+// and linear graph algorithms.
+class CircleSearch {
+public:
+    explicit CircleSearch(const Units& units) : units_(units) {
+        for (const auto& [unit, edges] : units_)
+            if (!places_.contains(unit)) visit(unit);
+    }
+
+    // The units of each circle, sorted.
+    const std::vector<std::vector<std::string>>& circles() const { return circles_; }
+
+private:
+    struct Place {
+        std::size_t number = 0;  // in the order of the visits
+        std::size_t lowest = 0;  // that is reached from here
+        bool open = true;
+    };
+
+    std::size_t visit(const std::string& unit) {
+        const std::size_t number = places_.size();
+        places_[unit] = {.number = number, .lowest = number};
+        path_.push_back(unit);
+        std::size_t lowest = number;
+        for (const auto& [to, files] : units_.at(unit)) {
+            if (!places_.contains(to))
+                lowest = std::min(lowest, visit(to));
+            else if (places_.at(to).open)
+                lowest = std::min(lowest, places_.at(to).number);
+        }
+        if (lowest == number) close(unit);
+        return lowest;
+    }
+
+    // Takes the units off the path that are in one component with `unit`.
+    void close(const std::string& unit) {
+        const auto first = std::ranges::find(path_, unit);
+        std::vector<std::string> circle(first, path_.end());
+        path_.erase(first, path_.end());
+        for (const std::string& each : circle) places_.at(each).open = false;
+        std::ranges::sort(circle);
+        if (circle.size() > 1) circles_.push_back(std::move(circle));
+    }
+
+    const Units& units_;
+    std::map<std::string, Place> places_;
+    std::vector<std::string> path_;
+    std::vector<std::vector<std::string>> circles_;
+};
+
+// A line for each edge of each circle: "a -> b (a.cpp, a.h)".
+std::vector<std::string> circularEdges(const Includes& files) {
+    const Units units = unitsOf(files);
+    const CircleSearch search(units);
+    std::vector<std::string> lines;
+    for (const std::vector<std::string>& circle : search.circles()) {
+        for (const std::string& unit : circle) {
+            for (const auto& [to, sources] : units.at(unit)) {
+                if (!std::ranges::binary_search(circle, to)) continue;
+                std::string line = unit + " -> " + to + " (";
+                for (std::size_t i = 0; i < sources.size(); ++i)
+                    line += (i == 0 ? "" : ", ") + sources[i];
+                lines.push_back(line + ')');
+            }
+        }
+    }
+    return lines;
+}
+
+std::vector<std::string> ownIncludes(const std::filesystem::path& file) {
+    static const std::regex pattern(R"-(^\s*#\s*include\s*"([^"]+)".*)-");
+    std::vector<std::string> found;
+    std::ifstream stream(file);
+    std::smatch match;
+    for (std::string line; std::getline(stream, line);)
+        if (line.find("include") != std::string::npos && std::regex_match(line, match, pattern))
+            found.push_back(match[1]);
+    return found;
+}
+
+TEST(Units, AreInNoCircle) {
+    const std::filesystem::path root = HAIRBENCH_SOURCE_DIR;
+    Includes files;
+    for (const std::string_view folder : {"engine", "hair", "benchmarks"}) {
+        for (const auto& entry : std::filesystem::recursive_directory_iterator(root / folder)) {
+            const std::filesystem::path& path = entry.path();
+            if (path.extension() != ".h" && path.extension() != ".cpp") continue;
+            files[std::filesystem::relative(path, root).generic_string()] = ownIncludes(path);
+        }
+    }
+    EXPECT_GT(files.size(), 100u);
+    EXPECT_THAT(circularEdges(files), testing::IsEmpty());
+}
+
+TEST(Units, OfACircleAreNamedWithTheirEdges) {
+    using testing::ElementsAre;
+    using testing::IsEmpty;
+    // A registry that is its implementations' interface: no cycle of headers, but one of units.
+    EXPECT_THAT(
+        circularEdges(
+            {{"x/list.h", {}},
+             {"x/list.cpp", {"x/list.h", "x/one.h", "x/two.h"}},
+             {"x/one.h", {"x/list.h"}},
+             {"x/one.cpp", {"x/one.h", "x/list.h"}},
+             {"x/two.h", {"x/part.h"}},
+             {"x/two.cpp", {"x/two.h"}},
+             {"x/part.h", {}},
+             {"main.cpp", {"x/list.h"}}}),
+        ElementsAre("x/list -> x/one (x/list.cpp)", "x/one -> x/list (x/one.cpp, x/one.h)"));
+    // A longer way round, and two circles with one unit in common are one.
+    EXPECT_THAT(
+        circularEdges(
+            {{"a.cpp", {"b.h"}},
+             {"a.h", {}},
+             {"b.cpp", {"c.h", "d.h"}},
+             {"b.h", {}},
+             {"c.cpp", {"a.h"}},
+             {"c.h", {}},
+             {"d.cpp", {"b.h"}},
+             {"d.h", {}}}),
+        ElementsAre(
+            "a -> b (a.cpp)", "b -> c (b.cpp)", "b -> d (b.cpp)", "c -> a (c.cpp)",
+            "d -> b (d.cpp)"));
+    // Two ways to one unit, a .cpp with its own header, and what is not ours are no circles.
+    EXPECT_THAT(
+        circularEdges(
+            {{"a.cpp", {"a.h", "b.h", "c.h"}},
+             {"a.h", {"vector"}},
+             {"b.h", {"d.h"}},
+             {"c.h", {"d.h"}},
+             {"d.cpp", {"d.h", "other/a.h"}},
+             {"d.h", {}}}),
+        IsEmpty());
+}
+
+}  // namespace
