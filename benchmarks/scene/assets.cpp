@@ -21,6 +21,7 @@
 #include "hair/groom/files.h"
 #include "hair/groom/mesh/body_mesh.h"
 #include "hair/groom/mesh/import_mesh.h"
+#include "hair/rendering/groom_buffers.h"
 #include "hair/rendering/strand_offsets.h"
 
 namespace benchmarks::scene {

@@ -1,3 +1,4 @@
+#include "benchmarks/measure/trust.h"
 #include "tests/measure/simulated_gpu.h"
 
 #include <algorithm>
