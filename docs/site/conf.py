@@ -8,44 +8,43 @@ html_theme = "furo"
 # Pages are read where they lie, and all of them have their place here: Sphinx warns of one that has
 # not, and of links that lead nowhere, and scripts/docs takes warnings for errors.
 PAGES = {
-    "Begin": ["docs/tutorial", "docs/install", "docs/gallery", "docs/faq"],
-    "Scenes": [
+    "Start": ["docs/index", "docs/install", "docs/tutorial", "docs/viewer", "docs/gallery", "docs/faq"],
+    "Measure": [
+        "docs/scenes",
         "docs/fields",
-        "docs/extending_scenes",
-        "docs/grooms",
-        "docs/groom_compare",
-        "docs/viewer",
-        "scenes/assets/README",
-        "scenes/references/README",
-    ],
-    "Measuring": [
-        "docs/measuring",
         "docs/sweeps",
-        "docs/devices",
+        "docs/measuring",
         "docs/doctor",
+        "docs/ablation",
         "docs/comparing",
         "docs/ci",
-        "docs/ablation",
-        "docs/performance",
+        "docs/report_page",
+        "docs/python",
+        "results/README",
     ],
-    "Reports": ["results/README", "docs/report_page", "docs/python"],
-    "How it works": [
-        "docs/frame",
+    "Hair": [
+        "docs/grooms",
+        "docs/groom_compare",
+        "scenes/assets/README",
         "docs/physics",
         "docs/rendering",
         "docs/optics",
         "docs/references",
-        "docs/thesis",
+        "scenes/references/README",
     ],
-    "The source": [
+    "Extend": ["docs/extending_scenes", "docs/extending"],
+    "Inside": [
         "docs/design",
-        "docs/extending",
+        "docs/frame",
+        "docs/devices",
+        "docs/performance",
         "docs/dependencies",
+        "docs/thesis",
+        "docs/paper",
         "tests/corpus/README",
         "tests/golden/README",
         "docs/CONTRIBUTING",
         "docs/CHANGELOG",
-        "docs/paper",
     ],
 }
 include_patterns = ["README.md", "docs/*.md", "*/*/README.md", "results/README.md"]

@@ -1,7 +1,8 @@
-"""read_report() against a report made by hand, the JSON of a measured one and README's table."""
+"""read_report() against a report made by hand, the JSON of a measured one and the tables of README and docs."""
 
 import json
 import math
+import re
 import tempfile
 import unittest
 from pathlib import Path
@@ -9,6 +10,21 @@ from pathlib import Path
 from support import REPOSITORY, hairbench
 
 MEASURED = REPOSITORY / "results" / "thesis-llvmpipe-ff656b85a1cb.json"
+MEASURED_ON_A_GPU = REPOSITORY / "results" / "thesis-h200-bbe05d81e193.json"
+
+
+def table(page, beginning):
+    """The rows of the table of a page that has a line beginning so, each by its headings."""
+    lines = (REPOSITORY / page).read_text().splitlines()
+    start = next(i for i, line in enumerate(lines) if line.startswith(beginning))
+    heads = [each.strip() for each in lines[start].strip("|").split("|")]
+    rows = []
+    for line in lines[start + 2:]:
+        if not line.startswith("|"):
+            break
+        cells = [each.strip() for each in line.strip("|").split("|")]
+        rows.append(dict(zip(heads, cells, strict=True)))
+    return rows
 
 
 def made_report():
@@ -108,37 +124,56 @@ class MeasuredReport(unittest.TestCase):
         self.assertEqual(count, len(self.frame))
         self.assertGreater(count, 16 * 10)
 
-    # The table there was printed by the program, to three digits.
-    def test_agrees_with_the_table_in_the_readme(self):
-        lines = (REPOSITORY / "README.md").read_text().splitlines()
-        start = next(i for i, line in enumerate(lines) if line.startswith("| density | msaa |"))
-        heads = [each.strip() for each in lines[start].strip("|").split("|")]
+    # The program printed the tables, to three digits.
+    def assert_printed(self, printed, value, row):
+        self.assertAlmostEqual(value / float(printed), 1, delta=0.0051, msg=str(row))
+
+    def test_agrees_with_the_table_of_a_software_device(self):
         metrics = {"frame ms": "frame.time", "wind ms": "pass.wind.time",
                    "simulate ms": "pass.simulate.time", "scene ms": "pass.scene.time",
                    "strands ms": "pass.strands.time", "points ms": "pass.points.time",
                    "resolve ms": "pass.resolve.time", "fps": "fps"}
         compared = 0
-        for line in lines[start + 2:]:
-            if not line.startswith("|"):
-                break
-            cells = [each.strip() for each in line.strip("|").split("|")]
-            row = dict(zip(heads, cells, strict=True))
+        for row in table("docs/performance.md", "| density | msaa |"):
             case = self.frame[
                 (self.frame["/strands/density"] == int(row["density"]))
                 & (self.frame["/render/msaa"] == int(row["msaa"]))
                 & (self.frame["/lod/level"] == int(row["level"]))
                 & (self.frame["backend"] == row["back end"])].set_index("metric")
-            self.assertEqual(case["case"].nunique(), 1, line)
-            self.assertTrue((case["counts.strands"] == int(row["strands"])).all(), line)
+            self.assertEqual(case["case"].nunique(), 1, row)
+            self.assertTrue((case["counts.strands"] == int(row["strands"])).all(), row)
             for head, metric in metrics.items():
                 if row[head]:
-                    printed = float(row[head])
-                    self.assertAlmostEqual(
-                        case.loc[metric, "median"] / printed, 1, delta=0.0051, msg=line)
+                    self.assert_printed(row[head], case.loc[metric, "median"], row)
                     compared += 1
                 else:
                     self.assertNotIn(metric, case.index)
         self.assertEqual(compared, 16 * 6 + 8 + 8)
+
+    def test_agrees_with_the_line_in_the_readme(self):
+        (line,) = [line for line in (REPOSITORY / "README.md").read_text().splitlines()
+                   if line.startswith("On lavapipe with two cores ")]
+        cases = self.frame[
+            (self.frame["/strands/density"] == 64) & (self.frame["/render/msaa"] == 1)
+            & (self.frame["/lod/level"] == 0) & (self.frame["metric"] == "frame.time")]
+        printed = re.findall(r"([0-9.]+) ms (?:a frame )?by `(\w+)`", line)
+        self.assertEqual([backend for _, backend in printed], ["tessellation", "software"])
+        for milliseconds, backend in printed:
+            (median,) = cases[cases["backend"] == backend]["median"]
+            self.assert_printed(milliseconds, median, line)
+
+    def test_agrees_with_the_table_in_the_readme(self):
+        frame = hairbench.read_report(MEASURED_ON_A_GPU)
+        rows = table("README.md", "| back end |")
+        self.assertEqual({row["back end"] for row in rows}, set(frame["backend"]))
+        for row in rows:
+            for samples, words in ((1, "1 sample"), (4, "4 samples")):
+                case = frame[(frame["backend"] == row["back end"])
+                             & (frame["/render/msaa"] == samples)].set_index("metric")["median"]
+                strands = case["pass.strands.time"] + case.get("pass.points.time", 0)
+                self.assert_printed(row[f"fps, {words}"], case["fps"], row)
+                self.assert_printed(row[f"frame ms, {words}"], case["frame.time"], row)
+                self.assert_printed(row[f"strands ms, {words}"], strands, row)
 
 
 if __name__ == "__main__":
