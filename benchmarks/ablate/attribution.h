@@ -9,7 +9,7 @@
 
 #include "benchmarks/ablate/stops.h"
 
-// From times to costs; docs/ablation.md says what they mean.
+// From times to costs; docs/measuring.md says what they mean.
 namespace benchmarks::ablate {
 
 // A difference of times, ms: the Hodges-Lehmann estimate over the laps' differences and its exact

@@ -14,8 +14,6 @@ PAGES = {
         "docs/fields",
         "docs/sweeps",
         "docs/measuring",
-        "docs/doctor",
-        "docs/ablation",
         "docs/comparing",
         "docs/ci",
         "docs/report_page",

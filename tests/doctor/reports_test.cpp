@@ -67,7 +67,7 @@ TEST_F(KeptReport, HasTheFormThatItsSchemaSays) {
         StartsWith("/cases/0: "));
 }
 
-// Bounds are those of docs/doctor.md.
+// Bounds are those of docs/measuring.md.
 TEST_F(KeptReport, IsRefusedForWhatTheDoctorWouldNotTrust) {
     const auto first = [](json& report) -> json& { return report["cases"][0]; };
     EXPECT_THAT(
