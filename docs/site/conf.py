@@ -15,7 +15,6 @@ PAGES = {
         "docs/sweeps",
         "docs/measuring",
         "docs/comparing",
-        "docs/ci",
         "docs/report_page",
         "docs/python",
         "results/README",

@@ -1,4 +1,4 @@
-"""What others' CI runs: the shell steps of the action and of docs/ci.md, on repositories made here.
+"""What others' CI runs: the shell steps of the action and of docs/comparing.md, on repositories made here.
 
 cmake and scripts/setup are stand-ins there, whose builds are the program under test.
 """
@@ -208,7 +208,7 @@ class Action(Repository):
 class GitLab(Repository):
     def test_gates_a_merge_request(self):
         need_device(self)
-        page = (REPOSITORY / "docs" / "ci.md").read_text().partition("## GitLab")[2]
+        page = (REPOSITORY / "docs" / "comparing.md").read_text().partition("### GitLab")[2]
         job = yaml.safe_load(re.search(r"^```yaml\n(.*?)^```$", page, re.M | re.S)[1])["gate"]
         self.make_branches()
         self.tool("apt-get", '#!/bin/sh\necho "apt-get $*" >>"$STAND_IN_LOG"\n')
@@ -246,7 +246,7 @@ class Workflow(unittest.TestCase):
             self.assertLessEqual(set(step["with"]), set(inputs))
 
     def test_the_page_names_every_input(self):
-        page = (REPOSITORY / "docs" / "ci.md").read_text()
+        page = (REPOSITORY / "docs" / "comparing.md").read_text()
         for name, each in yaml.safe_load((ACTION / "action.yml").read_text())["inputs"].items():
             self.assertRegex(page, rf"(?m)^\|.*`{name}`.*\|")
             if name in ("scene", "options", "out", "comment"):
