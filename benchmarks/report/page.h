@@ -9,7 +9,7 @@
 #include "benchmarks/scene/json.h"
 
 // Builds the page of `hairbench report`: one HTML file with the reports and the code that draws
-// them. Its parts lie in page/; docs/report_page.md describes them.
+// them. Its parts lie in page/; docs/results.md describes them.
 namespace benchmarks::report {
 
 // ---- Parts --------------------------------------------------------------------------------------

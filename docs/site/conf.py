@@ -15,8 +15,7 @@ PAGES = {
         "docs/sweeps",
         "docs/measuring",
         "docs/comparing",
-        "docs/report_page",
-        "docs/python",
+        "docs/results",
         "results/README",
     ],
     "Hair": [

@@ -1,4 +1,4 @@
-"""Runs what docs/python.md and docs/notebook.ipynb show, in their order."""
+"""Runs what docs/results.md and docs/notebook.ipynb show, in their order."""
 
 import contextlib
 import io
@@ -40,7 +40,7 @@ class Documents(unittest.TestCase):
         return names, printed.getvalue()
 
     def test_the_page_on_python(self):
-        names, printed = self.play("python.md")
+        names, printed = self.play("results.md")
         self.assertEqual(names["result"].status, 0)
         self.assertEqual(len(names["times"]), 2)
         self.assertTrue((names["times"]["median"] > 0).all())

@@ -1,4 +1,4 @@
-"""Reports, hair and runs of hairbench in Python: docs/python.md."""
+"""Reports, hair and runs of hairbench in Python: docs/results.md."""
 
 from .groom import Groom, read_groom, write_groom
 from .program import GateResult, ProgramError, RunResult, gate, program, run, scenes
