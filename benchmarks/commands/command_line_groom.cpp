@@ -23,7 +23,7 @@ void addPointsPerStrand(
 constexpr const char* kCompareGroomsNotes =
     R"(Samples, evenly along the strands of one file, are held against the polylines of the other. Precision
 is the share of B that is found in A, recall that of A found in B. Strand consistency is the greatest
-share of a strand of A that is found in one strand of B, mean over strands. docs/groom_compare.md
+share of a strand of A that is found in one strand of B, mean over strands. docs/grooms.md
 defines all that is printed.)";
 
 constexpr const char* kGroomSceneNotes =

@@ -20,7 +20,6 @@ PAGES = {
     ],
     "Hair": [
         "docs/grooms",
-        "docs/groom_compare",
         "scenes/assets/README",
         "docs/physics",
         "docs/rendering",

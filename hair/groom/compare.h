@@ -11,7 +11,7 @@
 #include "hair/groom/mesh/body_mesh.h"
 
 // Similarity of two grooms, by the measures of papers on the reconstruction of strands:
-// docs/groom_compare.md has the definitions. Strands are continuous here: evenly spaced samples of
+// docs/grooms.md has the definitions. Strands are continuous here: evenly spaced samples of
 // one groom are compared with the polylines of the other, so that no measure depends on the places
 // of vertices.
 namespace hair::groom {
