@@ -24,7 +24,7 @@ inline constexpr std::array kLightAngles{0.0, 45.0, 90.0, 180.0};
 // A level is compared with what it is a little finer; what that changes is popping.
 inline constexpr float kLevelStep = 0.05f;
 
-// How far a level's picture is from the path-traced one of level 0: docs/references.md.
+// How far a level's picture is from the path-traced one of level 0: docs/rendering.md.
 struct LightErrors {
     double angle = 0.0;  // of kLightAngles
     double flip = 0.0;

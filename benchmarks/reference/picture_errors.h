@@ -12,7 +12,7 @@
 #include "benchmarks/report/report.h"
 #include "engine/process.h"
 
-// How far pictures are from others: docs/references.md says what the figures are.
+// How far pictures are from others: docs/rendering.md says what the figures are.
 namespace benchmarks::reference {
 
 struct PictureErrors {

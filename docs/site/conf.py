@@ -23,8 +23,6 @@ PAGES = {
         "scenes/assets/README",
         "docs/physics",
         "docs/rendering",
-        "docs/optics",
-        "docs/references",
         "scenes/references/README",
     ],
     "Extend": ["docs/extending_scenes", "docs/extending"],
