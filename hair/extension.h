@@ -12,7 +12,7 @@ struct Constant;
 struct ShaderExtension;
 }  // namespace engine
 
-// GLSL functions that a scene supplies: docs/extending_scenes.md.
+// GLSL functions that a scene supplies: docs/extending.md.
 namespace hair {
 
 enum class ExtensionKind {

@@ -86,7 +86,7 @@ const Table& tableOf(const ShadingSettings*) {
              "marschner: light that a fibre reflects and lets through once (R, TT, TRT), d'Eon et "
              "al. 2011 and Chiang et al. 2016; dual_scattering: marschner and what other strands "
              "scatter, Zinke et al. 2008; a file of GLSL (.glsl), relative to the scene file: "
-             "docs/extending_scenes.md"),
+             "docs/extending.md"),
          parameters(
              "model_parameters", &S::model_parameters,
              "parameters of the file that model names, by the names, ranges and units that it "

@@ -374,7 +374,7 @@ const Table& tableOf(const SimulationSettings*) {
          extensionFile(
              "force", &S::force,
              "file of GLSL (.glsl) that accelerates guides beside gravity and wind, but not while "
-             "they settle; relative to the scene file: docs/extending_scenes.md; empty: none"),
+             "they settle; relative to the scene file: docs/extending.md; empty: none"),
          parameters(
              "force_parameters", &S::force_parameters,
              "parameters of the file that force names, by the names, ranges and units that it "

@@ -114,7 +114,7 @@ const Table& tableOf(const StrandSettings*) {
          extensionFile(
              "offset_function", &S::offset_function,
              "file of GLSL (.glsl) that offsets drawn strands, relative to the scene file: "
-             "docs/extending_scenes.md; empty: none"),
+             "docs/extending.md; empty: none"),
          parameters(
              "offset_parameters", &S::offset_parameters,
              "parameters of the file that offset_function names, by the names, ranges and units "

@@ -159,7 +159,7 @@ struct MemoryNeed {
     std::uint64_t host = 0;  // the program with the case, without a software device's memory
 };
 
-// A GLSL file that extends the case: docs/extending_scenes.md.
+// A GLSL file that extends the case: docs/extending.md.
 struct ExtensionRecord {
     std::string pointer;  // of the field that names the file
     std::string file;  // as the field names it

@@ -8,7 +8,7 @@
 #include "hair/extension.h"
 #include "hair/settings.h"
 
-// GLSL files that scenes name: docs/extending_scenes.md.
+// GLSL files that scenes name: docs/extending.md.
 namespace benchmarks::scene {
 
 // A field that may name a GLSL file, and the field of its parameters.

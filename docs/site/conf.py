@@ -25,7 +25,7 @@ PAGES = {
         "docs/rendering",
         "scenes/references/README",
     ],
-    "Extend": ["docs/extending_scenes", "docs/extending"],
+    "Extend": ["docs/extending"],
     "Inside": [
         "docs/design",
         "docs/frame",

@@ -1,5 +1,5 @@
 // Crimped hair: every strand is bent to and fro in a plane, with sharp edges, ever more closely
-// toward the tip. docs/extending_scenes.md says what an offset is given.
+// toward the tip. docs/extending.md says what an offset is given.
 
 // @parameter reach 0.02 [0, 0.1] m: no offset is longer
 // @parameter amplitude 0.0035 [0, 0.05] m: of the bends at the tip

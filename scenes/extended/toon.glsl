@@ -1,5 +1,5 @@
 // Hair of a cartoon: the colour in few steps of light, a highlight with an edge, dark where the
-// hair turns away. docs/extending_scenes.md says what a model is given.
+// hair turns away. docs/extending.md says what a model is given.
 
 // @parameter bands 3 [1, 12] count: steps between shade and light
 // @parameter shade_color (0.3, 0.12, 0.28) [0, 1] 1: factor of the hair's colour in the darkest step

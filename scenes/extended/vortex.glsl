@@ -1,6 +1,6 @@
 // A whirl of air about a vertical axis, with an updraught in its core: a Rankine vortex, of solid
 // rotation within the core and of 1 / distance outside. It grows and then stays.
-// docs/extending_scenes.md says what a force is given.
+// docs/extending.md says what a force is given.
 
 // @parameter axis (0, 0, 0) [-10, 10] m: a point on the axis
 // @parameter core 0.08 [0.001, 10] m: radius of the core

@@ -1,5 +1,5 @@
 // What a file that /strands/offset_function names sees, and what it defines:
-// docs/extending_scenes.md. A unit of its own is compiled of this and that file, so this includes
+// docs/extending.md. A unit of its own is compiled of this and that file, so this includes
 // nothing.
 #ifndef HAIRBENCH_EXTENSION_OFFSET_GLSL
 #define HAIRBENCH_EXTENSION_OFFSET_GLSL

@@ -1,4 +1,4 @@
-// What a file that /shading/model names sees, and what it defines: docs/extending_scenes.md. A unit
+// What a file that /shading/model names sees, and what it defines: docs/extending.md. A unit
 // of its own is compiled of this and that file, so this includes nothing.
 #ifndef HAIRBENCH_EXTENSION_SHADING_GLSL
 #define HAIRBENCH_EXTENSION_SHADING_GLSL

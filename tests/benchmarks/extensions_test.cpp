@@ -1,4 +1,4 @@
-// GLSL files that scenes name: docs/extending_scenes.md.
+// GLSL files that scenes name: docs/extending.md.
 #include "benchmarks/scene/extensions.h"
 
 #include <string>
@@ -256,7 +256,7 @@ TEST_F(SceneExtensions, OffsetsDeclareHowFarTheyReach) {
 
 // The shipped extensions compile, and the documentation page names them.
 TEST(ShippedExtensions, AreDocumentedAndCompile) {
-    const std::string page = textOf(HAIRBENCH_SOURCE_DIR "/docs/extending_scenes.md");
+    const std::string page = textOf(HAIRBENCH_SOURCE_DIR "/docs/extending.md");
     for (const char* const name : {"toon", "crimped", "vortex"}) {
         const std::filesystem::path path = std::filesystem::path(HAIRBENCH_SCENES_DIR) /
                                            "extended" / (std::string(name) + ".json");

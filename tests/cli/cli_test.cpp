@@ -485,7 +485,7 @@ TEST_F(CliRun, RendersThePictureThatItMeasures) {
     EXPECT_GT(fs::file_size(picture), 1000u);
 }
 
-// docs/extending_scenes.md. The hash is what sha256sum says of the file.
+// docs/extending.md. The hash is what sha256sum says of the file.
 TEST(Cli, ReportsSayWhichFilesOfGlslCasesWerePlayedWith) {
     if (!hasDevice()) return skipWithout(Need::device, "no Vulkan device");
     const TemporaryFolder folder;

@@ -157,7 +157,7 @@ TEST_F(FramesHazards, AreNoneInAnySceneOrFeatureAndNoBarrierIsSuperfluous) {
     segments.simulation.colliders = {{.radius = 0.05f}};
     segments.simulation.substeps = 3;  // each after the one before
     silent("segments", segments);
-    // What scenes bring along: docs/extending_scenes.md.
+    // What scenes bring along: docs/extending.md.
     hair::Settings extended = everything();
     extended.simulation.force = "extended/vortex.glsl";
     extended.strands.offset_function = "extended/crimped.glsl";

@@ -1,4 +1,4 @@
-// Functions that a scene brings along, on the device: docs/extending_scenes.md.
+// Functions that a scene brings along, on the device: docs/extending.md.
 #include <algorithm>
 #include <memory>
 #include <set>

@@ -142,7 +142,7 @@ TEST_F(SettingsPanel, KeepsNamesAndWidgetsWithinTheNarrowestColumn) {
     }
 }
 
-// Parameters of docs/extending_scenes.md.
+// Parameters of docs/extending.md.
 TEST_F(SettingsPanel, ShowsAFilesParameters) {
     for (hair::Settings* settings : {&settings_, &original_}) {
         settings->shading.model = hair::ShadingModel::extension;

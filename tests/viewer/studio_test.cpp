@@ -194,7 +194,7 @@ TEST_F(StudioTest, CountsTheSideThatWasAskedFor) {
     EXPECT_EQ(reply.counted->statistics.size(), engine::statisticNames(device()).size());
 }
 
-// A GLSL file beside the scene: docs/extending_scenes.md.
+// A GLSL file beside the scene: docs/extending.md.
 TEST_F(StudioTest, DrawsByAFileOnceItIsSaved) {
     const TemporaryFolder folder;
     const auto write = [&](const std::string& body) {
