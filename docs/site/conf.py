@@ -28,7 +28,6 @@ PAGES = {
     "Extend": ["docs/extending"],
     "Inside": [
         "docs/design",
-        "docs/frame",
         "docs/devices",
         "docs/performance",
         "docs/dependencies",

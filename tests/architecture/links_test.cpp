@@ -169,7 +169,7 @@ TEST(Pages, TheFramesHasEveryPass) {
         names.erase(own);
     EXPECT_GE(names.size(), 15u);
     std::stringstream page;
-    page << std::ifstream(kRoot / "docs/frame.md").rdbuf();
+    page << std::ifstream(kRoot / "docs/design.md").rdbuf();
     for (const std::string& name : names)
         EXPECT_THAT(page.str(), testing::HasSubstr('`' + name + '`'));
 }
