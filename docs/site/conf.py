@@ -1,5 +1,9 @@
 """The documentation as a site, of README.md and docs/ as they are. scripts/docs makes it."""
 
+import json
+import pathlib
+import re
+
 project = "hairbench"
 root_doc = "README"
 extensions = ["myst_parser"]
@@ -66,6 +70,39 @@ def add_navigation(_app, page: str, text: list[str]) -> None:
         text[0] += "\n".join(["", *lines, ""])
 
 
+# A page from the disk may not fetch another one, so the search has all pages in a script of its own.
+PAGES_SCRIPT = """
+{
+    const pages = %s;
+    const ask = window.fetch;
+    window.fetch = (url, ...rest) => {
+        const page = pages[String(url).replace(/^\\.\\//, "")];
+        return page === undefined ? ask(url, ...rest) : Promise.resolve(new Response(page));
+    };
+}
+"""
+
+
+def add_pages_to_search(app, page: str, *_others) -> None:
+    if page == "search":
+        app.add_js_file("pages.js")
+
+
+def write_pages(app, error: "Exception | None") -> None:
+    """Writes the text of every page for the excerpts that the search shows."""
+    if error is not None or app.builder.format != "html":
+        return
+    pages, site = {}, pathlib.Path(app.outdir)
+    for name in app.env.found_docs:
+        text = (site / f"{name}.html").read_text(encoding="utf-8")
+        main = re.search(r'<article role="main".*?</article>', text, re.DOTALL)
+        pages[f"{name}.html"] = re.sub(r"<(script|style|img|svg)\b.*?>", "", main[0])
+    script = PAGES_SCRIPT % json.dumps(pages).replace("</", "<\\/")
+    (site / "_static" / "pages.js").write_text(script, encoding="utf-8")
+
+
 def setup(app) -> dict:
     app.connect("source-read", add_navigation)
+    app.connect("html-page-context", add_pages_to_search)
+    app.connect("build-finished", write_pages)
     return {"parallel_read_safe": True}

@@ -39,6 +39,7 @@ const said = {
     landmark: document.querySelectorAll("main, [role=main]").length,
     background: getComputedStyle(document.body).backgroundColor,
     found: document.querySelectorAll("#search-results li").length,
+    excerpts: [...document.querySelectorAll("#search-results li p.context")].map((each) => each.textContent),
 };
 const text = JSON.stringify(said).replace(/[<>&]/g, (each) =>
     "\\\\u" + each.charCodeAt(0).toString(16).padStart(4, "0"));
@@ -128,6 +129,8 @@ class Site(unittest.TestCase):
         said = self.look("search.html", query="?q=tessellation")
         self.expect_whole(said)
         self.assertGreater(said["found"], 3)
+        self.assertGreater(len(said["excerpts"]), 3)
+        self.assertIn("tessellation", " ".join(said["excerpts"]).lower())
 
     def test_sees_what_comes_from_elsewhere(self) -> None:
         outside = "https://outside.invalid/"
