@@ -179,7 +179,8 @@ public:
                   .nodes = nodes_.address(),
                   .counters = counter_.address(),
                   .capacity = capacity_,
-                  .width = context.target.color().extent().width}}),
+                  .width = context.target.color().extent().width,
+                  .height = context.target.color().extent().height}}),
               "fragment lists")),
           composite_(device_, compositePipeline(context.settings.render, "composite/list.frag")) {}
 

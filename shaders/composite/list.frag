@@ -29,10 +29,10 @@ bool isBefore(Nodes list, float depth_a, uint a, float depth_b, uint b) {
 }
 
 void main() {
-    // Its pixel may lie outside the picture, past the end of the heads.
-    if (gl_HelperInvocation) return;
     FragmentLists lists = Lists(push.fragments).lists;
     uvec2 pixel = uvec2(gl_FragCoord.xy);
+    // A helper invocation may lie outside the picture, past the end of the heads.
+    if (pixel.x >= lists.width || pixel.y >= lists.height) return;
     uint head = Heads(lists.heads).heads[pixel.y * lists.width + pixel.x];
     if (head == kNoFragment) discard;
     Nodes list = Nodes(lists.nodes);

@@ -22,6 +22,7 @@ struct FragmentLists {
     Address counters;  // uint: fragments asked for; may be over the capacity
     uint capacity;  // nodes
     uint width;  // rendered pixels in a row
+    uint height;  // rendered pixels in a column
 };
 
 struct FragmentNode {

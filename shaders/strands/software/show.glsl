@@ -6,9 +6,10 @@
 layout(location = 0) out vec4 color;
 
 void main() {
-    // Its pixel may lie outside the picture, past the end of the samples.
-    if (gl_HelperInvocation) return;
-    uint index = sampleIndex(uvec2(gl_FragCoord.xy), push.choice);
+    uvec2 pixel = uvec2(gl_FragCoord.xy);
+    // A helper invocation may lie outside the picture, past the end of the samples.
+    if (pixel.x >= push.width || pixel.y >= push.height) return;
+    uint index = sampleIndex(pixel, push.choice);
     uvec2 seen = fetchSample(index);
     if (seen.x == kNoPiece) discard;
     gl_FragDepth = depthOf(seen.y);
