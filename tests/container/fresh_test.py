@@ -104,8 +104,8 @@ def write_row(release, cells):
     before, head, after = INSTALL.read_text().partition(HEAD + "\n")
     hold(head, f"{INSTALL} has no table that begins with {HEAD}")
     rule, *lines = after.split("\n")
-    rows = [line for line in lines if line.startswith("|")]
-    rest = lines[len(rows):]
+    end = next(i for i, line in enumerate(lines) if not line.startswith("|"))
+    rows, rest = lines[:end], lines[end:]
     rows = sorted([line for line in rows if not line.startswith(f"| {NAMES[release]} ")] + [row])
     INSTALL.write_text(before + head + "\n".join([rule, *rows, *rest]))
 
