@@ -1,8 +1,8 @@
 #version 460
-// Work that nobody needs: numbers that are each made from the one before, so that none can be
-// skipped. A linear congruential generator (multiplier and increment of Numerical Recipes) alone
-// would not do, as compilers know that two of its steps are one with other constants: hence the
-// shift. A step is kBusyRounds numbers in every invocation of a group; groups share the steps
+// Does work that nobody needs. Each number is made from the one before, so no step can be skipped.
+// A linear congruential generator (multiplier and increment of Numerical Recipes) is not enough:
+// compilers know that two of its steps equal one with other constants. The shift prevents that. One
+// step is kBusyRounds numbers in every invocation of a work group. The work groups share the steps
 // evenly.
 #extension GL_GOOGLE_include_directive : require
 

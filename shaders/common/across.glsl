@@ -1,24 +1,24 @@
-// Directions across a line, also where the line is seen end-on and the view gives none.
+// Directions across a line, even where the line is seen end-on and the view gives none.
 #ifndef HAIRBENCH_ACROSS_GLSL
 #define HAIRBENCH_ACROSS_GLSL
 
 #include "common/quaternion.glsl"
 
-// The unit vector along `direction`, or where that has no length `otherwise`.
+// Returns the unit vector along `direction`, or `otherwise` if `direction` has no length.
 vec3 unitOr(vec3 direction, vec3 otherwise) {
     return dot(direction, direction) > 1e-30 ? normalize(direction) : otherwise;
 }
 
-// The unit vector across both of two unit vectors, E x T. Where it is no longer than what rounding
-// leaves of parallel ones, any across the tangent.
+// Returns the unit vector perpendicular to two unit vectors, E x T. Where they are parallel within
+// rounding, it returns any vector perpendicular to the tangent.
 vec3 unitSide(vec3 to_eye, vec3 tangent) {
     vec3 side = cross(to_eye, tangent);
     if (dot(side, side) > 1e-14) return normalize(side);
     return perpendicular(tangent);
 }
 
-// The vector of this length along E x T, of vectors of any length; where they are parallel any
-// across the tangent.
+// Returns the vector of length `size` along E x T. The inputs may have any length. Where they are
+// parallel, it returns any vector perpendicular to the tangent.
 vec3 sideOfLength(vec3 to_eye, vec3 tangent, float size) {
     vec3 side = cross(to_eye, tangent);
     float squared = dot(side, side);

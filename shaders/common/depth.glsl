@@ -1,4 +1,5 @@
-// Which way depth goes: engine/pipeline.h says it, and why. Shaders compare depths by these alone.
+// The direction of depth. engine/pipeline.h defines and explains it. Shaders compare depths only
+// with these functions.
 #ifndef HAIRBENCH_DEPTH_GLSL
 #define HAIRBENCH_DEPTH_GLSL
 
@@ -10,22 +11,23 @@ bool isNearer(float depth, float than) { return depth > than; }
 
 bool isNearerOrEqual(float depth, float than) { return depth >= than; }
 
-// A place that no picture shows, beyond the far plane.
+// A clip-space position beyond the far plane, which no picture shows.
 const vec4 kNowhere = vec4(0.0, 0.0, 2.0 * float(kFarDepth) - float(kNearDepth), 1.0);
 
-// A depth moved towards the near plane, by a positive amount.
+// Moves a depth towards the near plane by a positive amount.
 float nearer(float depth, float by) { return depth + by; }
 
-// A depth moved into what images of depth can hold: nothing is drawn beyond the far plane.
+// Clamps a depth to the range of depth images: nothing is drawn beyond the far plane.
 float notBeyondFar(float depth) { return max(depth, float(kFarDepth)); }
 
-// A number that is smaller the nearer a depth is, and back. Floats that are not negative are ordered
-// as their bits.
+// Maps a depth to an integer that is smaller the nearer the depth is; depthOf() is the inverse.
+// Non-negative floats have the same order as their bits.
 uint nearness(float depth) { return ~floatBitsToUint(max(depth, float(kFarDepth))); }
 
 float depthOf(uint nearness) { return uintBitsToFloat(~nearness); }
 
-// Of clip space: 0 on the near plane, positive beyond; linear in the coordinates.
+// Distance of a clip-space position from the near plane: 0 on it, positive beyond it, linear in the
+// coordinates.
 float beyondNear(vec4 clip) { return clip.w - clip.z; }
 
 #endif

@@ -1,4 +1,4 @@
-// sRGB's curve, IEC 61966-2-1:1999.
+// The sRGB transfer function, IEC 61966-2-1:1999.
 #ifndef HAIRBENCH_DISPLAY_COLOR_GLSL
 #define HAIRBENCH_DISPLAY_COLOR_GLSL
 

@@ -1,15 +1,15 @@
 #ifndef HAIRBENCH_COMMON_NEAREST_ON_TRIANGLE_GLSL
 #define HAIRBENCH_COMMON_NEAREST_ON_TRIANGLE_GLSL
 
-// What a nearest point lies on: 0 the face, 1 to 3 the edge from corner i - 1 to the next, 4 to 6
-// corner i - 4.
+// The feature on which a nearest point lies. 0 is the face, 1 to 3 the edge from corner i - 1 to
+// the next corner, 4 to 6 corner i - 4.
 const uint kFaceFeature = 0u;
 const uint kEdgeFeatures = 1u;
 const uint kCornerFeatures = 4u;
 
 struct Nearest {
-    vec3 outward;  // from the nearest point to the point that asks
-    float size;  // its square
+    vec3 outward;  // from the nearest point to the query point
+    float size;  // squared length of `outward`
     uint feature;
 };
 
@@ -25,9 +25,10 @@ void compareSegment(vec3 from_a, vec3 edge, uint index, inout Nearest nearest) {
     nearest = Nearest(outward, found, feature);
 }
 
-// Makes `nearest` the point of the triangle nearest to p if it is nearer. Over the face by the
-// three planes through the edges, else over the edges: unlike barycentric coordinates none of it
-// divides by the area, so slivers are as exact as other triangles. The normal has unit length.
+// Replaces `nearest` by the point of the triangle nearest to p if that is nearer. The planes
+// through the three edges tell whether p is over the face; otherwise the edges are compared. Unlike
+// barycentric coordinates, this never divides by the area, so slivers are as exact as other
+// triangles. The normal has unit length.
 void compareTriangle(vec3 p, vec3 corners[3], vec3 normal, inout Nearest nearest) {
     vec3 from_a = p - corners[0];
     vec3 from_b = p - corners[1];

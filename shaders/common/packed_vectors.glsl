@@ -5,8 +5,8 @@
 
 #include "common/extensions.glsl"
 
-// What common/vectors.glsl has, read and written 64 bits at a time: a device that takes one element
-// of one invocation at a time, as Mesa 22's lavapipe does, then has half as many to take.
+// The functions of common/vectors.glsl, but with 64-bit reads and writes. A device that moves one
+// element of one invocation at a time, as Mesa 22's lavapipe does, then moves half as many.
 layout(buffer_reference, scalar) buffer PackedVectors { u64vec2 at[]; };
 
 vec4 loadVector(Address address, uint index) {

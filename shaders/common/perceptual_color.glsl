@@ -2,8 +2,8 @@
 #ifndef HAIRBENCH_PERCEPTUAL_COLOR_GLSL
 #define HAIRBENCH_PERCEPTUAL_COLOR_GLSL
 
-// Linear RGB with sRGB's primaries, clipped to [0, 1]. lightness: 0 to 1; hue: radians, 0.5 is red
-// and 4.5 blue.
+// Returns linear RGB with sRGB's primaries, clipped to [0, 1]. lightness: 0 to 1; hue: radians,
+// where 0.5 is red and 4.5 blue.
 vec3 perceptualColor(float lightness, float chroma, float hue) {
     float a = chroma * cos(hue);
     float b = chroma * sin(hue);

@@ -5,7 +5,7 @@
 
 const vec4 kNoRotation = vec4(0.0, 0.0, 0.0, 1.0);
 
-// The rotation by b, then by a.
+// Rotates by b, then by a.
 vec4 multiply(vec4 a, vec4 b) {
     return vec4(a.w * b.xyz + b.w * a.xyz + cross(a.xyz, b.xyz), a.w * b.w - dot(a.xyz, b.xyz));
 }
@@ -17,8 +17,8 @@ vec3 rotate(vec4 rotation, vec3 v) {
     return v + rotation.w * t + cross(rotation.xyz, t);
 }
 
-// Perpendicular to v: its cross product with the axis it has least of (x before y before z where
-// they tie).
+// A vector perpendicular to v: its cross product with the axis along which v is smallest (x before
+// y before z where they tie).
 vec3 crossLeastAxis(vec3 v) {
     vec3 size = abs(v);
     return size.x <= size.y && size.x <= size.z ? vec3(0.0, v.z, -v.y)
@@ -33,11 +33,11 @@ vec3 perpendicular(vec3 v) {
     return len > 0.0 ? normal / len : vec3(0.0, 1.0, 0.0);
 }
 
-// The smallest rotation that takes unit vector `from` to unit vector `to`; half a turn round
-// perpendicular(from) where they are opposite.
+// The smallest rotation that takes unit vector `from` to unit vector `to`. If they are opposite, it
+// is half a turn round perpendicular(from).
 vec4 rotationBetween(vec3 from, vec3 to) {
     vec4 rotation = vec4(cross(from, to), 1.0 + dot(from, to));
-    // Unit vectors are off by some 1e-7, so what is shorter has no direction.
+    // Unit vectors are off by some 1e-7, so a shorter rotation has no direction.
     if (dot(rotation, rotation) < 1.0e-12) rotation = vec4(crossLeastAxis(from), 0.0);
     return rotation * inversesqrt(dot(rotation, rotation));
 }

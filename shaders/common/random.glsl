@@ -11,12 +11,12 @@ uint pcg(uint value) {
     return (word >> 22u) ^ word;
 }
 
-// `index` counts the things of one kind, `purpose` tells apart the numbers that one thing needs.
+// `index` counts the things of one kind; `purpose` distinguishes the numbers that one thing needs.
 uint hash(uint seed, uint index, uint purpose) {
     return pcg(purpose + pcg(index + pcg(seed)));
 }
 
-// A number in [0, 1): the top 24 bits, all of which a float holds.
+// Returns a number in [0, 1) from the top 24 bits, which a float holds exactly.
 float unitFloat(uint bits) { return float(bits >> 8u) * (1.0 / 16777216.0); }
 
 float random01(uint seed, uint index, uint purpose) {

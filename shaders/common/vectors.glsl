@@ -12,7 +12,7 @@ void storeVector(Address address, uint index, vec4 value) {
     PlainVectors(address).at[index] = value;
 }
 
-// Two whole numbers in memory.
+// Two unsigned integers in memory.
 layout(buffer_reference, scalar) buffer PlainPairs { uvec2 at[]; };
 
 uvec2 loadPair(Address address, uint index) { return PlainPairs(address).at[index]; }

@@ -1,7 +1,7 @@
 #version 460
-// A pixel's list of fragments -> one fragment over the picture. However long the list is, all of it
-// is blended in order: the nearest kChunk fragments are picked out and sorted, then those behind
-// them, until the list ends or nothing behind can be seen.
+// Blends a pixel's list of fragments into one fragment over the picture. All fragments are blended
+// in order, however long the list is. Each pass selects and sorts the kChunk nearest remaining
+// fragments. It ends with the list, or when nothing behind is visible.
 #extension GL_GOOGLE_include_directive : require
 #include "common/depth.glsl"
 #include "common/extensions.glsl"
@@ -15,10 +15,11 @@ layout(buffer_reference, scalar) readonly buffer Nodes { FragmentNode nodes[]; }
 layout(location = 0) out vec4 color;
 
 const uint kChunk = 16;
-const float kUnseen = 1.0 / 4096.0;  // of what is behind: a sixteenth of a step of 8-bit colours
+const float kUnseen = 1.0 / 4096.0;  // of the background: a sixteenth of a step of 8-bit colours
 
-// The order in which fragments are blended: by depth, then by colour, which are the same however
-// the list came about, and at last by index, which tells apart what looks the same.
+// The order in which fragments are blended: by depth, then by colour, then by index. Depth and
+// colour do not depend on how the list was built. The index decides between fragments that look the
+// same.
 bool isBefore(Nodes list, float depth_a, uint a, float depth_b, uint b) {
     if (depth_a != depth_b) return isNearer(depth_a, depth_b);
     FragmentNode node_a = list.nodes[a];
@@ -39,7 +40,7 @@ void main() {
 
     vec3 light = vec3(0.0);
     float revealed = 1.0;
-    float last_depth = -1.0;  // of the fragments already blended the farthest
+    float last_depth = -1.0;  // of the farthest blended fragment; negative before the first
     uint last = 0u;
     uint found = kChunk;
     while (found == kChunk && revealed > kUnseen) {

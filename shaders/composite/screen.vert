@@ -1,5 +1,5 @@
 #version 460
-// A triangle over the whole target.
+// Draws one triangle that covers the whole target.
 
 void main() {
     vec2 corner = vec2(gl_VertexIndex & 1, gl_VertexIndex >> 1);  // (0, 0), (1, 0), (0, 1)

@@ -1,5 +1,5 @@
 #version 460
-// One sample of every pixel.
+// Composites one sample of every pixel.
 #extension GL_GOOGLE_include_directive : require
 #include "common/extensions.glsl"
 #include "composite/weighted.glsl"

@@ -1,5 +1,5 @@
 #version 460
-// The environment as the background.
+// Draws the environment as the background.
 #extension GL_GOOGLE_include_directive : require
 #include "common/display_color.glsl"
 #include "common/picture.glsl"

@@ -1,6 +1,6 @@
-// Light that comes from a direction. The picture's columns go round +y: the middle one is +z, that
-// at a quarter +x, at three quarters -x, and where its ends meet -z; the top row is +y. It is what
-// Mitsuba's `envmap` does, and what is left of the middle is left of +z for who stands inside.
+// Light that comes from a direction. The picture's columns go round +y. The middle column is +z, a
+// quarter +x, three quarters -x, and both ends -z. The top row is +y. Mitsuba's `envmap` has the
+// same layout. A viewer inside sees the left half of the picture to the left of +z.
 #ifndef HAIRBENCH_ENVIRONMENT_RADIANCE_GLSL
 #define HAIRBENCH_ENVIRONMENT_RADIANCE_GLSL
 
@@ -10,8 +10,8 @@ layout(buffer_reference, scalar) readonly buffer EnvironmentTexels { vec3 texels
 
 const float kTurn = 6.28318531;  // rad
 
-// `direction` has unit length. Bilinear between texel centres, round the horizon and clamped at the
-// poles.
+// `direction` has unit length. The lookup is bilinear between texel centres; it wraps round the
+// horizon and clamps at the poles.
 vec3 environmentRadiance(Address environment, vec3 direction) {
     EnvironmentParameters map = EnvironmentReference(environment).parameters;
     EnvironmentTexels data = EnvironmentTexels(map.texels);

@@ -1,5 +1,5 @@
-// What a file that /simulation/force names sees, and what it defines: docs/extending.md. A
-// unit of its own is compiled of this and that file, so this includes nothing.
+// The interface for a file that /simulation/force names: docs/extending.md. This header and
+// that file are compiled as one unit, so this header includes nothing.
 #ifndef HAIRBENCH_EXTENSION_FORCE_GLSL
 #define HAIRBENCH_EXTENSION_FORCE_GLSL
 
@@ -14,12 +14,12 @@ struct GuidePoint {
 
 // ---- Defined by the file ----
 
-// What the vertex is accelerated by beside gravity and wind, m/s^2, until the end of the time step.
+// The acceleration of the vertex besides gravity and wind, m/s^2, until the end of the time step.
 vec3 accelerateGuide(GuidePoint point);
 
 // ---- Defined by the program ----
 
-// A random number in [0, 1) of the guide, for each `which` another.
+// A random number in [0, 1) for the guide; every `which` gives a different one.
 float guideRandom(GuidePoint point, uint which);
 
 #endif

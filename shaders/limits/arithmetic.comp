@@ -1,5 +1,5 @@
 #version 460
-// How fast compute calculates.
+// Measures the arithmetic rate of compute shaders.
 #extension GL_GOOGLE_include_directive : require
 #include "limits/arithmetic.glsl"
 

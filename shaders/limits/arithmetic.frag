@@ -1,5 +1,5 @@
 #version 460
-// How fast the fragment stage calculates.
+// Measures the arithmetic rate of the fragment stage.
 #extension GL_GOOGLE_include_directive : require
 #include "limits/arithmetic.glsl"
 

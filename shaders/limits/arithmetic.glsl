@@ -1,5 +1,5 @@
-// Eight chains of products and sums beside each other, enough to keep a processor's arithmetic
-// units at work, whose factors no compiler knows.
+// Eight independent chains of multiply-adds, enough to keep a processor's arithmetic units busy. No
+// compiler knows the factors.
 #ifndef HAIRBENCH_LIMITS_ARITHMETIC_GLSL
 #define HAIRBENCH_LIMITS_ARITHMETIC_GLSL
 

@@ -1,5 +1,6 @@
 #version 460
-// How fast the vertex stage calculates. Its points lie outside the picture, which only they know.
+// Measures the arithmetic rate of the vertex stage. Its points lie outside the picture, but a
+// compiler cannot know that.
 #extension GL_GOOGLE_include_directive : require
 #include "limits/arithmetic.glsl"
 

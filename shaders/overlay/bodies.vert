@@ -1,5 +1,5 @@
 #version 460
-// The wire frames of bodies as quads: [line][corner].
+// Draws the wire frames of bodies as quads: [line][corner].
 #extension GL_GOOGLE_include_directive : require
 #include "overlay/overlay.glsl"
 

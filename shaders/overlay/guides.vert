@@ -1,5 +1,5 @@
 #version 460
-// The simulated guides as quads: [guide][segment][corner].
+// Draws the simulated guides as quads: [guide][segment][corner].
 #extension GL_GOOGLE_include_directive : require
 #include "overlay/overlay.glsl"
 

@@ -1,5 +1,5 @@
-// What the overlays' vertex stages share: lines as quads that face the camera, six vertices each.
-// Not every device has the geometry stage that makes the quads of strands.
+// Common code of the overlays' vertex stages. Lines are quads that face the camera, with six
+// vertices each. Strands get their quads from a geometry stage, which not every device has.
 #ifndef HAIRBENCH_OVERLAY_GLSL
 #define HAIRBENCH_OVERLAY_GLSL
 
@@ -10,16 +10,16 @@ layout(push_constant, scalar) uniform Push { OverlayPush push; };
 const float kOverlayLift = 0.015;   // m
 const float kOverlayWidth = 0.0015;  // m
 const float kBodyWidth = 0.0008;
-const float kGuidePixels = 2.0;  // that guides are wide at most, so that near ones are thin too
+const float kGuidePixels = 2.0;  // maximum width of guides, so that near guides are thin too
 const float kAnyPixels = 1e9;
 
-// Corners of a quad's two triangles: end of the line and side of it.
+// Corners of a quad's two triangles. Each number encodes the line's end and side.
 const uint kCorners[6] = uint[](0u, 1u, 2u, 1u, 3u, 2u);
 
 uint lineIndex() { return uint(gl_VertexIndex) / 6u; }
 
-// Overlays are drawn a little nearer to the eye, so that hair does not hide its own guides but the
-// head hides those behind it. They are `width` metres wide, or so many pixels where that is less.
+// Overlays are drawn a little nearer to the eye. Hair then does not hide its own guides, but the
+// head hides the guides behind it. Lines are `width` metres or `pixels` wide, whichever is less.
 void emitCorner(PictureParameters picture, vec3 from, vec3 to, float width, float pixels) {
     uint corner = kCorners[uint(gl_VertexIndex) % 6u];
     vec3 position = corner < 2u ? from : to;

@@ -1,5 +1,5 @@
 #version 460
-// The edges of the root triangles as quads: [triangle][edge][corner].
+// Draws the edges of the root triangles as quads: [triangle][edge][corner].
 #extension GL_GOOGLE_include_directive : require
 #include "overlay/overlay.glsl"
 

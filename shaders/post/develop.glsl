@@ -1,24 +1,24 @@
-// Rendered linear light -> its mean over each pixel of the picture, and what a display shows of it.
+// Averages rendered linear light over each pixel of the picture and converts it for the display.
 #include "common/display_color.glsl"
 #include "post/tone_map_aces.glsl"
 #include "post/tone_map_agx.glsl"
 #include "shared/options.h"
 
 layout(local_size_x = kResolveGroupSide, local_size_y = kResolveGroupSide) in;
-// Per rendered pixel
+// Samples per rendered pixel
 layout(constant_id = kResolveSamplesConstant) const int kSamples = 1;
-// Rendered pixels per pixel, along each side
+// Rendered pixels per picture pixel, along each side
 layout(constant_id = kResolveFactorConstant) const int kFactor = 1;
 layout(constant_id = kResolveToneMapConstant) const uint kToneMap = kToneMapSrgb;
-// Factor of the light
+// Factor on the light
 layout(constant_id = kResolveExposureConstant) const float kExposure = 1.0;
 layout(binding = 1, rgba32f) uniform writeonly image2D radiance;
 layout(binding = 2, rgba8) uniform writeonly image2D picture;
 
 const float kMostHalf = 65504.0;  // largest half-precision float
 
-// One bad sample must not spoil its pixel: below 0 and what is no number (which no comparison
-// holds for) is black, infinity the brightest there is.
+// Keeps one bad sample from spoiling its pixel. Negative values and NaN (for which no comparison
+// holds) become black; infinity becomes the largest half float.
 vec3 soundLight(vec3 light) {
     return min(mix(vec3(0.0), light, greaterThan(light, vec3(0.0))), vec3(kMostHalf));
 }

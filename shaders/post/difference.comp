@@ -1,8 +1,8 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_samplerless_texture_functions : require
-// The difference of two pictures of one size, |a - b| of their display colours, brightened; and how
-// much that is, exactly: pictures have 8 bits a channel, so all of it is whole numbers.
+// Writes the difference of two pictures of one size: |a - b| of their display colours, brightened.
+// It also counts the differences exactly in integers, since pictures have 8 bits per channel.
 #include "common/extensions.glsl"
 #include "shared/difference_structs.h"
 
@@ -15,7 +15,7 @@ layout(push_constant, scalar) uniform Push { DifferencePush push; };
 
 layout(buffer_reference, scalar) buffer CountsReference { DifferenceCounts counts; };
 
-const uint kMost = 255;  // steps of a channel
+const uint kMost = 255;  // largest step of a channel
 
 shared DifferenceCounts group;  // its sum stays below kDifferenceGroupSide^2 x 3 x kMost
 

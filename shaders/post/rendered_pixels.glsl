@@ -1,4 +1,4 @@
-// What was rendered, one sample a pixel.
+// The rendered image with one sample per pixel.
 #extension GL_EXT_samplerless_texture_functions : require
 
 layout(binding = 0) uniform texture2D rendered;

@@ -1,4 +1,4 @@
-// What was rendered, with kSamples a pixel.
+// The rendered image with kSamples samples per pixel.
 #extension GL_EXT_samplerless_texture_functions : require
 
 layout(binding = 0) uniform texture2DMS rendered;

@@ -1,11 +1,11 @@
-// Averages the rendered samples of each pixel of the picture. Colours are display-referred, and so
-// is the mean, as fixed-function resolve of such images does it.
+// Averages the rendered samples of each pixel of the picture. Colours are display-referred and are
+// averaged as they are, as a fixed-function resolve of these images does.
 #include "shared/options.h"
 
 layout(local_size_x = kResolveGroupSide, local_size_y = kResolveGroupSide) in;
-// Per rendered pixel
+// Samples per rendered pixel
 layout(constant_id = kResolveSamplesConstant) const int kSamples = 1;
-// Rendered pixels per pixel, along each side
+// Rendered pixels per picture pixel, along each side
 layout(constant_id = kResolveFactorConstant) const int kFactor = 1;
 layout(binding = 1, rgba8) uniform writeonly image2D picture;
 

@@ -1,11 +1,12 @@
 // Troy Sobotka's AgX (2022) with the primaries and matrices of Eary Chow's version in Blender 4.0,
-// which Filament and three.js take too. They fit the curve with a polynomial; here it is itself.
+// which Filament and three.js use too. They fit the curve with a polynomial; this is the exact
+// curve.
 #ifndef HAIRBENCH_TONE_MAP_AGX_GLSL
 #define HAIRBENCH_TONE_MAP_AGX_GLSL
 
 // Matrices are written row by row, so vectors go on their left.
-// Rec. 2020 from sRGB's primaries and back (ITU-R BT.2087-0), and primaries drawn in towards white,
-// so that bright colours fade to it, and out again.
+// Matrices from sRGB's primaries to Rec. 2020 and back (ITU-R BT.2087-0). The inset draws the
+// primaries in towards white, so that bright colours fade to white; the outset undoes it.
 const mat3 kToRec2020 = mat3(
     0.6274039, 0.3292830, 0.0433131,
     0.0690973, 0.9195404, 0.0113623,
@@ -24,13 +25,13 @@ const mat3 kAgxOutset = mat3(
     -0.14132976349843826, -0.11060664309660294, 1.2519364065950405);
 
 const float kAgxGrey = 0.18;
-const vec2 kAgxStops = vec2(-10.0, 6.5);  // about the grey: black and white
-const vec2 kAgxPivot = vec2(10.0 / 16.5, 0.5);  // where the grey comes and what becomes of it
-const float kAgxSlope = 2.0;  // there
+const vec2 kAgxStops = vec2(-10.0, 6.5);  // black and white, relative to the grey
+const vec2 kAgxPivot = vec2(10.0 / 16.5, 0.5);  // input and output of the grey
+const float kAgxSlope = 2.0;  // at the pivot
 const vec2 kAgxPowers = vec2(3.0, 3.25);  // of the toe and the shoulder
 
-// A half of the curve: from the pivot, where its slope is kAgxSlope, to `reach`, which is the end
-// that it levels off at. `away` is the distance from the pivot, in [0, reach.x].
+// Half of the curve, from the pivot, where its slope is kAgxSlope, to `reach`, where it levels off.
+// `away` is the distance from the pivot, in [0, reach.x].
 float agxHalf(float away, vec2 reach, float power) {
     float steep = kAgxSlope * reach.x;
     float scale = steep * pow(pow(steep / reach.y, power) - 1.0, -1.0 / power);
@@ -38,14 +39,14 @@ float agxHalf(float away, vec2 reach, float power) {
     return scale * t * pow(1.0 + pow(t, power), -1.0 / power);
 }
 
-// In stops over [0, 1] -> display-encoded with a power of 2.2, in [0, 1].
+// Maps stops scaled to [0, 1] to a display value encoded with a power of 2.2, in [0, 1].
 float agxCurve(float x) {
     if (x < kAgxPivot.x)
         return kAgxPivot.y - agxHalf(kAgxPivot.x - x, kAgxPivot, kAgxPowers.x);
     return kAgxPivot.y + agxHalf(x - kAgxPivot.x, vec2(1.0) - kAgxPivot, kAgxPowers.y);
 }
 
-// Linear light -> linear light of a display, about [0, 1].
+// Maps linear scene light to linear display light, about [0, 1].
 vec3 toneMapAgx(vec3 light) {
     vec3 inset = light * kToRec2020 * kAgxInset;
     vec3 stops = log2(max(inset, vec3(1e-10)) / kAgxGrey);

@@ -1,6 +1,6 @@
 #version 460
-// A surface under the picture's light: matt, with the same ambient part as the hair, or where light
-// is linear by its glTF material.
+// Shades a surface under the picture's lights. It is matt, with the same ambient part as the hair.
+// If light is linear, its glTF material is used.
 #extension GL_GOOGLE_include_directive : require
 #define HAIRBENCH_SHADOW_BINDING 3
 #include "common/picture.glsl"
@@ -32,7 +32,8 @@ vec3 surfaceNormal() {
     return mappedNormal(normal, position, coordinates, texel);
 }
 
-// The part of a light that gets to the point. The triangle's own normal is what its depths go by.
+// The part of a light that reaches the point. Shadow lookups use the triangle's own normal, because
+// the shadow map holds the depths of the flat triangle.
 float visiblePart(PictureParameters picture, uint light) {
     if (kMeshShadows == 0u && kHairShadows == kHairShadowsNone) return 1.0;
     vec3 flat_normal = cross(dFdx(position), dFdy(position));
@@ -42,7 +43,7 @@ float visiblePart(PictureParameters picture, uint light) {
     return visibility(lightPath(picture, light, receiver));
 }
 
-// The matt surface in working colours; the thesis has such a head.
+// A matt surface in working colours, like the head of the thesis.
 vec3 shadeMatt(PictureParameters picture, vec3 base_color, vec3 normal) {
     vec3 sum = vec3(0.0);
     float ambient = kEnvironment != 0u ? 0.0 : picture.ambient;
@@ -56,15 +57,15 @@ vec3 shadeMatt(PictureParameters picture, vec3 base_color, vec3 normal) {
     return sum;
 }
 
-// A light's disc makes the highlight wider: the half vector turns by half of what the light does,
-// and a slope's variance along each axis is alpha^2 / 2.
+// A light's disc widens the highlight. The half vector turns by half as much as the light, and the
+// variance of a slope along each axis is alpha^2 / 2.
 Surface widened(Surface surface, LightSample light) {
     if (hasSpheres())
         surface.roughness = sqrt(sqrt(pow(surface.roughness, 4.0) + 0.5 * lightVariance(light)));
     return surface;
 }
 
-// The surface in linear light. What comes from all around is reflected as blurred as by a matt
+// The surface in linear light. Ambient light is reflected as if it were equally blurred by a matt
 // surface.
 vec3 shadeSurface(PictureParameters picture, Surface surface, vec3 normal, vec3 to_eye) {
     vec3 sum = vec3(0.0);
@@ -112,6 +113,6 @@ void main() {
     vec3 to_eye = normalize(picture.eye - position);
     vec3 light = kLinearLight == 1u ? shadeSurface(picture, surface, normal, to_eye)
                                     : shadeMatt(picture, base_color.rgb, normal);
-    if (kMask == 1u && base_color.a < push.cutoff) discard;  // no derivatives are taken after it
+    if (kMask == 1u && base_color.a < push.cutoff) discard;  // after the last derivative
     color = vec4(light, 1.0);
 }

@@ -1,5 +1,6 @@
 #version 460
-// A triangle mesh that moves with the head or stands still, pulled from its buffers by index.
+// Draws a triangle mesh that moves with the head or stands still. It fetches vertices from buffers
+// by index.
 #extension GL_GOOGLE_include_directive : require
 #include "common/picture.glsl"
 #include "scene/options.glsl"
@@ -12,7 +13,7 @@ layout(push_constant, scalar) uniform Push { MeshPush push; };
 layout(location = 0) out vec3 position;
 layout(location = 1) out vec3 normal;
 layout(location = 2) out vec2 coordinates;
-invariant gl_Position;  // the same whatever is drawn with it
+invariant gl_Position;  // the same in every pass
 
 void main() {
     PictureParameters picture = PictureReference(push.picture).parameters;

@@ -1,5 +1,5 @@
 #version 460
-// Depth of a mesh where its mask is.
+// Writes the depth of a mesh where its alpha mask is opaque.
 #extension GL_GOOGLE_include_directive : require
 #include "common/picture.glsl"
 #include "scene/options.glsl"

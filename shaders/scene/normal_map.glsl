@@ -1,9 +1,9 @@
-// Normals from pictures.
+// Normals from normal maps.
 #ifndef HAIRBENCH_NORMAL_MAP_GLSL
 #define HAIRBENCH_NORMAL_MAP_GLSL
 
-// `texel` is a normal with x towards growing u, y towards falling v, z out (glTF 2.0, section
-// 3.9.3). The tangent is that of the triangle, from derivatives on the screen; vertices' tangents
+// `texel` is a normal with x towards growing u, y towards falling v and z outwards (glTF 2.0,
+// section 3.9.3). The tangent is the triangle's, from screen-space derivatives. Vertex tangents
 // (MikkTSpace) would be smoother.
 vec3 mappedNormal(vec3 normal, vec3 position, vec2 coordinates, vec3 texel) {
     vec3 position_x = dFdx(position);
@@ -17,7 +17,7 @@ vec3 mappedNormal(vec3 normal, vec3 position, vec2 coordinates, vec3 texel) {
     if (dot(tangent, tangent) == 0.0) return normal;
     tangent = normalize(tangent);
     vec3 bitangent = cross(normal, tangent);
-    if (dot(bitangent, along_v) > 0.0) bitangent = -bitangent;  // the picture is mirrored
+    if (dot(bitangent, along_v) > 0.0) bitangent = -bitangent;  // the texture is mirrored
     return normalize(texel.x * tangent + texel.y * bitangent + texel.z * normal);
 }
 

@@ -1,4 +1,4 @@
-// What a mesh's material has: specialization constants.
+// Properties of a mesh's material as specialization constants.
 #ifndef HAIRBENCH_SCENE_OPTIONS_GLSL
 #define HAIRBENCH_SCENE_OPTIONS_GLSL
 
@@ -7,7 +7,7 @@
 layout(constant_id = kBaseColorTextureConstant) const uint kBaseColorTexture = 0;
 layout(constant_id = kMetallicRoughnessTextureConstant) const uint kMetallicRoughnessTexture = 0;
 layout(constant_id = kNormalTextureConstant) const uint kNormalTexture = 0;
-// 1: there is no surface where it is less opaque than the cutoff
+// 1: texels with less opacity than the cutoff are discarded
 layout(constant_id = kMaskConstant) const uint kMask = 0;
 layout(constant_id = kDoubleSidedConstant) const uint kDoubleSided = 0;
 

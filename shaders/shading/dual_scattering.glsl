@@ -1,4 +1,4 @@
-// Light that a fibre gets through other fibres: Zinke et al. 2008, Dual scattering approximation
+// Light that reaches a fibre through other fibres: Zinke et al. 2008, Dual scattering approximation
 // for fast multiple scattering in hair.
 #ifndef HAIRBENCH_DUAL_SCATTERING_GLSL
 #define HAIRBENCH_DUAL_SCATTERING_GLSL
@@ -18,8 +18,8 @@ FiberAverage fiberAverage(HairOptics optics, float cos_theta) {
                         mix(a.shifts, b.shifts, part));
 }
 
-// Part of N_p in the half turn whose middle is at these distances from its own: the logistic
-// distribution goes round the fibre.
+// The part of N_p in the half turn with its middle at these distances from the lobe's own. The
+// logistic distribution wraps round the fibre.
 vec4 azimuthalHalves(HairOptics optics, vec3 distances) {
     const float half_pi = 1.57079633;
     float k = optics.inverse_azimuthal_scale;
@@ -30,13 +30,14 @@ vec4 azimuthalHalves(HairOptics optics, vec3 distances) {
     return vec4(mix(vec3(0.0), vec3(1.0), wraps) + optics.trimmed * (cdf - begin), 0.5);
 }
 
-// Part of the light from there that a fibre scatters forward, to others.
+// The part of the light from that direction that a fibre scatters forward to other fibres.
 vec3 passedForward(HairOptics optics, vec3 to_light) {
     return fiberAverage(optics, sqrt(max(1.0 - to_light.x * to_light.x, 0.0))).forward.rgb;
 }
 
-// f |cos theta_i| of a fibre whose light has come by `path`, asked for with passedForward(); what it
-// loses there is in it, but for meshes. Directions as in fiberBsdf(), `view` of to_eye.
+// f |cos theta_i| of a fibre whose light has come along `path`, which was computed with
+// passedForward(). The result includes the losses on the path, except those by meshes. Directions
+// are as in fiberBsdf(); `view` belongs to to_eye.
 vec3 dualScattering(HairOptics optics, FiberView view, vec3 to_eye, vec3 to_light,
                     LightPath path) {
     float sin_i = clamp(to_light.x, -1.0, 1.0);
@@ -51,7 +52,7 @@ vec3 dualScattering(HairOptics optics, FiberView view, vec3 to_eye, vec3 to_ligh
     float forward_shift = path.met * average.shifts.x;
     float forward_variance = path.met * average.forward.w;
 
-    // theta_i less its mean changes: by nothing, forward, back there, both.
+    // Shifts of the mean of theta_i: none, forward, backward there, both.
     vec4 changes =
         vec4(0.0, forward_shift, average.shifts.y, forward_shift + average.shifts.y);
     vec4 sines = sin(changes);
@@ -59,15 +60,15 @@ vec3 dualScattering(HairOptics optics, FiberView view, vec3 to_eye, vec3 to_ligh
     vec4 sin_from = sin_i * cosines - cos_i * sines;
     vec4 cos_from = abs(cos_i * cosines + sin_i * sines);
 
-    // Local scattering: light from theta_i less the change, seen from theta_o.
+    // Local scattering: light from theta_i less the shift, seen from theta_o.
     vec4 local_variances = average.local.w + vec4(0.0, forward_variance, 0.0, 0.0);
     vec4 behind = longitudinalLobes(
         sin_o, cos_o, sin_from.zwzw, cos_from.zwzw, local_variances);
     vec2 around = kHalfInversePi * (1.0 + vec2(1.0, 2.0 * kInversePi) * cos_phi);
     vec2 local = 2.0 * behind.xy * around;
-    // Where there are m fibres behind, the sum of the paths that turn back once among them has
-    // 1 - q^m of all its terms, q being what one lets through there and back; a surface behind
-    // sends back what comes through them.
+    // With m fibres behind, the paths that turn back once among them sum to 1 - q^m of the infinite
+    // series. q is the part that one fibre passes there and back. A surface behind them sends back
+    // the light that passes them.
     vec3 albedo = path.kept *
                   (average.local.rgb * (1.0 - path.ended) + average.forward.rgb * path.returned);
 

@@ -9,8 +9,8 @@ layout(buffer_reference, scalar) readonly buffer HairOpticsReference { HairOptic
 const float kInversePi = 0.318309886;
 const float kHalfInversePi = 0.159154943;
 
-// I_0(x) e^-x: Abramowitz and Stegun 1964, Handbook of mathematical functions, 9.8.1 and 9.8.2,
-// whose relative errors are below 2e-7.
+// I_0(x) e^-x: Abramowitz and Stegun 1964, Handbook of mathematical functions, 9.8.1 and 9.8.2. The
+// relative errors are below 2e-7.
 vec4 scaledBessel0(vec4 x) {
     vec4 t = min(x * (1.0 / 3.75), 1.0);
     t *= t;
@@ -24,8 +24,8 @@ vec4 scaledBessel0(vec4 x) {
 }
 
 // M_p of four lobes, d'Eon et al. 2011: e^(-sin sin / v) I_0(cos cos / v) / (2 v sinh(1 / v)). The
-// exponents are taken together, to -(1 - cos(theta_i + theta_o)) / v, which never overflows; this
-// 1 - cos is half the square of the way from wi to the mirror image of wo, which keeps its digits.
+// exponents are combined to -(1 - cos(theta_i + theta_o)) / v, which never overflows. Here 1 - cos
+// is half the squared distance from wi to the mirror image of wo, which keeps its digits.
 vec4 longitudinalLobes(float sin_i, float cos_i, vec4 sin_o, vec4 cos_o, vec4 variances) {
     vec4 inverse = 1.0 / variances;
     vec4 up = sin_i + sin_o;
@@ -35,7 +35,7 @@ vec4 longitudinalLobes(float sin_i, float cos_i, vec4 sin_o, vec4 cos_o, vec4 va
            scaledBessel0(cos_i * cos_o * inverse);
 }
 
-// Reflected part of light without polarisation; cosine of the angle of incidence.
+// The reflected part of unpolarised light. `cosine` is that of the angle of incidence.
 float fiberFresnel(float cosine, float eta) {
     float transmitted = sqrt(1.0 - (1.0 - cosine * cosine) / (eta * eta));
     float parallel = (eta * cosine - transmitted) / (eta * cosine + transmitted);
@@ -43,18 +43,19 @@ float fiberFresnel(float cosine, float eta) {
     return 0.5 * (parallel * parallel + across * across);
 }
 
-// What of a fibre's scattering has nothing to do with the light.
+// The part of a fibre's scattering that does not depend on the light.
 struct FiberView {
     vec4 sin_tilted;  // theta_o, tilted for each lobe
     vec4 cos_tilted;
-    vec3 centre_y;  // directions phi_o + Phi(p), to which R, TT and TRT would go if it were smooth
+    vec3 centre_y;  // directions phi_o + Phi(p) in which a smooth fibre would send R, TT and TRT
     vec3 centre_z;
     vec2 eye;  // direction phi_o
     mat4x3 attenuations;  // A_p
-    vec3 reaches;  // rad: to each side of those directions N_p is averaged; 0 at one place
+    vec3 reaches;  // rad: half width over which N_p is averaged round those directions; 0: no
+                   // averaging
 };
 
-// (x, y) turned by the angle of (c, s).
+// Turns `v` by the angle of the direction `by`.
 vec2 turned(vec2 v, vec2 by) { return vec2(v.x * by.x - v.y * by.y, v.x * by.y + v.y * by.x); }
 
 vec2 azimuthOf(vec3 direction) {
@@ -70,7 +71,7 @@ FiberView fiberView(HairOptics optics, vec3 to_eye, float h) {
     view.cos_tilted = abs(cos_o * optics.cos_tilts - sin_o * optics.sin_tilts);
     view.eye = azimuthOf(to_eye);
 
-    // eta' cos theta_o = sqrt(eta^2 - sin^2 theta_o) is eta cos theta_t too.
+    // eta' cos theta_o = sqrt(eta^2 - sin^2 theta_o) also equals eta cos theta_t.
     float inner = sqrt(optics.eta * optics.eta - sin_o * sin_o);
     float cos_gamma_o = sqrt(1.0 - h * h);
     float sin_gamma_t = h * cos_o / inner;
@@ -96,8 +97,8 @@ FiberView fiberView(HairOptics optics, vec3 to_eye, float h) {
     return view;
 }
 
-// The same for what is seen round the place sin(gamma), `turn` wide in gamma: over that Phi(p) is
-// taken to be linear.
+// The same, averaged over a range of width `turn` in gamma round `gamma`. Phi(p) is taken as linear
+// over this range.
 FiberView fiberViewRound(HairOptics optics, vec3 to_eye, float gamma, float turn) {
     float h = sin(gamma);
     FiberView view = fiberView(optics, to_eye, h);
@@ -117,8 +118,8 @@ vec3 azimuthalDistances(FiberView view, vec2 light) {
     return atan(abs(across), along);
 }
 
-// The mean of N_p from distances - reaches to distances + reaches, by the logistic distribution's
-// own integral.
+// The mean of N_p from distances - reaches to distances + reaches, by the integral of the logistic
+// distribution.
 vec4 averageAzimuthalLobes(HairOptics optics, vec3 reaches, vec3 distances) {
     float k = optics.inverse_azimuthal_scale;
     vec3 near = 1.0 / (1.0 + exp(min(k * (distances - reaches), 80.0)));
@@ -126,7 +127,7 @@ vec4 averageAzimuthalLobes(HairOptics optics, vec3 reaches, vec3 distances) {
     return vec4(optics.trimmed * (near - far) / (2.0 * reaches), kHalfInversePi);
 }
 
-// N_p at distances from azimuthalDistances(); the rest goes everywhere alike.
+// N_p at distances from azimuthalDistances(). The remaining lobe is uniform.
 vec4 azimuthalLobes(HairOptics optics, FiberView view, vec3 distances) {
     if (view.reaches.x > 0.0) return averageAzimuthalLobes(optics, view.reaches, distances);
     vec3 e = exp(-distances * optics.inverse_azimuthal_scale);
@@ -134,7 +135,7 @@ vec4 azimuthalLobes(HairOptics optics, FiberView view, vec3 distances) {
     return vec4(scale * e / ((1.0 + e) * (1.0 + e)), kHalfInversePi);
 }
 
-// f |cos theta_i|, in which the cosine cancels.
+// f |cos theta_i|; the cosine cancels.
 vec3 fiberScattering(HairOptics optics, FiberView view, vec3 to_light) {
     float sin_i = clamp(to_light.x, -1.0, 1.0);
     float cos_i = sqrt(1.0 - sin_i * sin_i);
@@ -144,9 +145,10 @@ vec3 fiberScattering(HairOptics optics, FiberView view, vec3 to_light) {
     return view.attenuations * lobes;
 }
 
-// f of pbrt-v4: radiance = sum over lights of f |cos theta_i| times irradiance of a plane that
-// faces the light. Directions are unit vectors away from the fibre, x along it towards the tip; h
-// in [-1, 1] is the place across it, seen from `to_eye`: positive towards cross(to_eye, x).
+// f of pbrt-v4: radiance = sum over lights of f |cos theta_i| times the irradiance of a plane that
+// faces the light. Directions are unit vectors away from the fibre, with x along it towards the
+// tip. h in [-1, 1] is the position across it as seen from `to_eye`, positive towards cross(to_eye,
+// x).
 vec3 fiberBsdf(HairOptics optics, vec3 to_eye, vec3 to_light, float h) {
     float cos_i = sqrt(max(1.0 - to_light.x * to_light.x, 1e-8));
     return fiberScattering(optics, fiberView(optics, to_eye, h), to_light) / cos_i;

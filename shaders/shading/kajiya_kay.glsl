@@ -7,9 +7,9 @@ struct KajiyaKayLight {
     float specular;  // max(0, cos(T, L) cos(T, E) + sin(T, L) sin(T, E))^n
 };
 
-// All directions are unit vectors that point away from the strand, the tangent along it. L of the
-// equations is the direction in which light goes, so that the specular term is greatest where the
-// eye is on the cone of mirrored light.
+// All directions are unit vectors that point away from the strand; the tangent points along it. L
+// in the equations is the direction in which light travels, so the specular term is greatest where
+// the eye is on the cone of mirrored light.
 KajiyaKayLight kajiyaKay(vec3 tangent, vec3 to_light, vec3 to_eye, float exponent) {
     float cos_light = -dot(tangent, to_light);
     float cos_eye = dot(tangent, to_eye);

@@ -11,11 +11,12 @@ layout(buffer_reference, scalar) readonly buffer Lights { Light lights[]; };
 // A light as a point sees it.
 struct LightSample {
     vec3 to_light;  // unit length
-    vec3 color;  // what a white matt surface that faces it shows: irradiance / pi
-    float angular_radius;  // rad; 0 of points: of rectangles that of the disc of equal variance
-    // Of rectangles:
+    vec3 color;  // what a white matt surface facing it shows: irradiance / pi
+    float angular_radius;  // rad; 0 for points; for rectangles that of the disc with equal variance
+    // Rectangles only:
     mat4x3 corners;  // from the point, m
-    float facing;  // irradiance of a surface that faces the light, of radiance 1; 0 of other lights
+    float facing;  // irradiance of a surface that faces the light, for radiance 1; 0 for other
+                   // lights
 };
 
 bool hasSpheres() { return (kLightKinds & kSomeSpheres) != 0u; }
@@ -23,9 +24,9 @@ bool hasRectangles() { return (kLightKinds & kSomeRectangles) != 0u; }
 bool isRectangle(LightSample light) { return hasRectangles() && light.facing > 0.0; }
 
 const float kLightInversePi = 0.318309886;
-const float kNearestLight = 1e-3;  // m: a point light is nowhere stronger than here
+const float kNearestLight = 1e-3;  // m: a point light is not stronger than at this distance
 
-// A rectangle shines to one side, with a radiance that is the same everywhere on it.
+// A rectangle shines to one side, with uniform radiance.
 void seeRectangle(inout LightSample result, Light light, vec3 offset) {
     if (dot(offset, light.to_light) <= 0.0) {
         result.color = vec3(0.0);
@@ -47,10 +48,10 @@ void seeRectangle(inout LightSample result, Light light, vec3 offset) {
     result.angular_radius = sqrt(2.0 * variances);
 }
 
-// The irradiance of a surface that faces a sphere of uniform radiance is pi L (r / d)^2 outside of
-// it, exactly: it falls as that of a point. Inside the sphere is all around.
+// Outside a sphere of uniform radiance, the irradiance of a surface that faces it is exactly pi L
+// (r / d)^2. It falls off like that of a point. Inside, the sphere is all around.
 LightSample lightAt(Light light, vec3 position) {
-    // The 1e-18 m give a direction to where the light is, and change no other.
+    // The 1e-18 m give a direction even at the light's position. They change no other direction.
     vec3 offset = light.position - position + vec3(0.0, 1e-18, 0.0);
     LightSample result = LightSample(normalize(offset), light.color, 0.0, mat4x3(0.0), 0.0);
     if ((kLightKinds & kSomeDirectional) != 0u && light.type == kLightDirectional)
@@ -70,24 +71,24 @@ LightSample lightAt(Light light, vec3 position) {
     return result;
 }
 
-// What light has met on its way.
+// Losses and scattering of light on its way to a point.
 struct LightPath {
-    float meshes;  // part of it that meshes let through, 0 to 1
-    float strands;  // mean number of strands that it meets
-    float direct;  // part that meets none
-    vec3 scattered;  // part that strands let through which it meets
-    float met;  // their mean number, of what they let through; at least 1
-    vec3 ended;  // part that strands behind the point would let through, there and back
-    vec3 returned;  // what meshes behind those send back of that part
-    float kept;  // of light that turns back in hair, over that where it comes straight in
+    float meshes;  // part that meshes let through, 0 to 1
+    float strands;  // mean number of strands on the path
+    float direct;  // part that meets no strand
+    vec3 scattered;  // part that reaches the point through one or more strands
+    float met;  // mean number of strands that the scattered light passes; at least 1
+    vec3 ended;  // part that the strands behind the point would let through, there and back
+    vec3 returned;  // part of `ended` that meshes behind the strands send back
+    float kept;  // ratio of light that turns back in hair to the same where it comes straight in
 };
 
 const LightPath kFreePath =
     LightPath(1.0, 0.0, 1.0, vec3(0.0), 1.0, vec3(0.0), vec3(0.0), 1.0);
 
-// Of light that meets strands independently, so that their number has Poisson's distribution, and
-// of which each lets this part through: exp(-n) meets none, and exp(-n (1 - passed)) - exp(-n) gets
-// there through some.
+// For light that meets strands independently, the number of strands has a Poisson distribution.
+// `passed` is the part that each strand lets through. exp(-n) meets none; exp(-n (1 - passed)) -
+// exp(-n) arrives through some.
 LightPath metAtRandom(LightPath path, float strands, vec3 passed) {
     path.strands = strands;
     path.direct = exp(-strands);
@@ -101,10 +102,10 @@ Light pictureLight(PictureParameters picture, uint index) {
     return Lights(picture.lights).lights[index];
 }
 
-// The irradiance of a surface over that of one which faces the light: the cosine, but where the
-// horizon cuts the light a parabola that joins it smoothly. There it is off by up to 4 % of the
-// sine of the light's angular radius (Snyder 1996, Area light sources for real-time graphics, has
-// the exact one). That of rectangles is exact.
+// Ratio of a surface's irradiance to that of a surface that faces the light. It is the cosine,
+// except where the horizon cuts the light: there a parabola joins it smoothly. The parabola is off
+// by up to 4 % of the sine of the light's angular radius (Snyder 1996, Area light sources for
+// real-time graphics, has the exact ratio). Rectangles are exact.
 float mattResponse(LightSample light, vec3 normal) {
     float cosine = dot(normal, light.to_light);
     if (isRectangle(light)) {
@@ -119,9 +120,8 @@ float mattResponse(LightSample light, vec3 normal) {
     return over * over / (4.0 * size);
 }
 
-// A direction of the light is off its centre by this much in the mean square along each of two
-// axes, rad^2: that of a uniform disc. What a light's size makes of a lobe is the lobe with its
-// variance increased by this.
+// Mean squared deviation of a light's directions from its centre along each of two axes, rad^2, as
+// for a uniform disc. The light's size increases the variance of a lobe by this much.
 float lightVariance(LightSample light) {
     return 0.25 * light.angular_radius * light.angular_radius;
 }

@@ -1,4 +1,4 @@
-// How strands are lit and what becomes of their fragments: specialization constants.
+// How strands are lit and how their fragments are used, as specialization constants.
 #ifndef HAIRBENCH_SHADING_OPTIONS_GLSL
 #define HAIRBENCH_SHADING_OPTIONS_GLSL
 
@@ -12,17 +12,17 @@ layout(constant_id = kHairShadowsConstant) const uint kHairShadows = kHairShadow
 layout(constant_id = kEnvironmentConstant) const uint kEnvironment = kEnvironmentNone;
 // 1: working colours are linear
 layout(constant_id = kLinearLightConstant) const uint kLinearLight = 0;
-// 1: thin strands fade
+// 1: strands thinner than a pixel are drawn with partial coverage
 layout(constant_id = kAnalyticCoverageConstant) const uint kAnalyticCoverage = 0;
-// 1: strands have a picture
+// 1: strands have a texture
 layout(constant_id = kStrandTextureConstant) const uint kStrandTexture = 0;
 layout(constant_id = kShowConstant) const uint kShow = kShowShading;
-// What lights there may be
+// Kinds of lights that may occur
 layout(constant_id = kLightKindsConstant) const uint kLightKinds = kAllLightKinds;
-// 1: fibres show the mean over what a pixel covers of their width
+// 1: fibres show the mean over the part of their width that a pixel covers
 layout(constant_id = kFarFieldConstant) const uint kFarField = 0;
 
-// Whether fragments read how wide their strand is.
+// True if fragments read the width of their strand.
 const bool kNeedsWidth = kAnalyticCoverage != 0u || kFarField != 0u ||
                          kHairShadows == kHairShadowsDeepShadow;
 

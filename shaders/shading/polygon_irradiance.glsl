@@ -3,15 +3,14 @@
 #ifndef HAIRBENCH_POLYGON_IRRADIANCE_GLSL
 #define HAIRBENCH_POLYGON_IRRADIANCE_GLSL
 
-// The corners of a rectangle that a plane through the point may have cut, one after the other; what
-// is left of five repeats the last one. Lengths don't matter.
+// The corners of a rectangle in order, after a plane through the point may have cut it. If there
+// are fewer than five, the last one is repeated. Lengths don't matter.
 struct CutRectangle {
     vec3 at[5];
 };
 
-// The angle between two directions along the axis that turns one into the other. Its size over
-// its sine is the series of the arc sine where it is small, so that what edges leave of each other
-// keeps its digits.
+// The angle between two directions, along the axis that turns one into the other. For small angles,
+// angle over sine is the arcsine series, so that differences between edges keep their digits.
 vec3 edgeAngle(vec3 a, vec3 b) {
     vec3 across = cross(a, b);
     float squared = dot(across, across);
@@ -28,9 +27,9 @@ vec3 cornerDirection(vec3 corner) {
     return corner * inversesqrt(max(dot(corner, corner), 1e-30));
 }
 
-// The irradiance of a surface with normal n is the scalar product with n, for a radiance of 1,
-// where all of the polygon is before the surface. It points to the polygon if its corners come
-// round it clockwise as the point sees them.
+// The vector irradiance of a polygon of radiance 1. Its dot product with n is the irradiance of a
+// surface with normal n, provided that the whole polygon is in front of the surface. It points to
+// the polygon if the corners run clockwise as seen from the point.
 vec3 vectorIrradiance(CutRectangle polygon) {
     vec3 sum = vec3(0.0);
     vec3 last = cornerDirection(polygon.at[4]);
@@ -50,7 +49,7 @@ bool isBefore(mat4x3 corners, vec3 normal) {
     return all(greaterThanEqual(normal * corners, vec4(0.0)));
 }
 
-// What of a rectangle is before the surface; without any of it all corners are 0.
+// Returns the part of a rectangle in front of the surface. If there is none, all corners are 0.
 CutRectangle cutByHorizon(mat4x3 corners, vec3 normal) {
     const vec3 none = vec3(0.0);
     CutRectangle result = CutRectangle(vec3[5](none, none, none, none, none));

@@ -1,5 +1,5 @@
-// What is between a light and a point: shadow maps of meshes, deep opacity and deep shadow maps of
-// hair.
+// Occlusion between a light and a point: shadow maps of meshes, deep opacity maps and deep shadow
+// maps of hair.
 #ifndef HAIRBENCH_SHADOWS_GLSL
 #define HAIRBENCH_SHADOWS_GLSL
 
@@ -9,7 +9,7 @@
 #include "shading/options.glsl"
 #include "shadows/layers.glsl"
 
-// ShadowPass::images() are at this binding and the next two.
+// ShadowPass::images() use this binding and the next two.
 #ifndef HAIRBENCH_SHADOW_BINDING
 #define HAIRBENCH_SHADOW_BINDING 1
 #endif
@@ -19,48 +19,51 @@ layout(binding = HAIRBENCH_SHADOW_BINDING) uniform sampler2D mesh_depths;
 layout(binding = HAIRBENCH_SHADOW_BINDING + 1) uniform sampler2D hair_depths;
 layout(binding = HAIRBENCH_SHADOW_BINDING + 2) uniform sampler2D hair_layers;
 
-// What is asked for: a point of a surface, or of a strand.
+// The query: a point of a surface or of a strand.
 struct Receiver {
     vec3 position;  // m
-    vec3 normal;  // of a surface, its sign does not matter; 0 for a strand
+    vec3 normal;  // of a surface, with either sign; 0 for a strand
     vec3 tangent;  // of a strand, unit length
     float width;  // m, of a strand
     vec3 passed;  // part of the light that each strand in between lets through
 };
 
-// A point in a map. Depths of texels round it are taken to lie on a plane through it.
+// A point in a map. The depths of nearby texels are assumed to lie on a plane through it.
 struct ShadowPoint {
     vec2 texel;  // within the light's part of the atlas
     float depth;
     vec2 slope;  // of depth, per texel
-    float most_slope;  // of each part of it
-    float bias;  // of depth: what is in front of the point by less than this doesn't shade it
+    float most_slope;  // limit for each component of `slope`
+    float bias;  // in depth: whatever is in front of the point by less than this does not shade it
     vec3 log_passed;  // log of Receiver::passed
     vec3 log_turned;  // log of the part that a strand in between lets through there and back
-    // Of strands:
+    // Strands only:
     vec2 line;  // direction in the map, unit length
-    vec2 line_slope;  // of depth along that, per texel
+    vec2 line_slope;  // depth per texel along `line`
     float half_width;  // texels
-    float own_depth;  // m: what is in front by less is the strand itself
+    float own_depth;  // m: anything in front by less is the strand itself
 };
 
-// Surfaces steeper than this (tangent of the angle to the light) are taken to be as steep: light
-// that comes in at less than 6 degrees shows little.
+// Steeper surfaces (tangent of the angle to the light) are treated as this steep: light that comes
+// in at less than 6 degrees shows little.
 const float kSteepest = 10.0;
-// Surfaces: half a texel for rounding, and what a neighbouring triangle that is turned by this
-// more (5 degrees, in rad) rises in the filter: (1 + tan^2) times the angle per texel.
+// Bias for surfaces. kSurfaceBias is half a texel for rounding. kTurned allows for a neighbouring
+// triangle that is turned by 5 degrees (in rad): within the filter it rises by (1 + tan^2) times
+// the angle per texel.
 const float kSurfaceBias = 0.5;
 const float kTurned = 0.0873;
-// Strands lie on surfaces whose slope they don't know: one of 63 degrees may rise this much within
-// the filter, times its half width and half a texel.
+// Bias for strands. Strands lie on surfaces of unknown slope. A surface of 63 degrees may rise by
+// this factor times the filter's half width plus half a texel.
 const float kStrandBias = 2.0;
-// Widths of a strand by which a ray through a texel may meet the strand itself before the point.
+// A ray through a texel may meet the strand itself up to this many strand widths before the point.
 const float kOwnDepth = 1.0;
-// keptInHair(): the first strands of single texels are in and out by a lock's thickness, so their
-// surface's slope is taken over this, m; where it ends it falls by kEdge times that.
+// For keptInHair(). The first strands of single texels scatter in depth by the thickness of a lock.
+// The slope of their surface is therefore taken over kReach, m. Where the surface ends, it falls by
+// kEdge times kReach.
 const float kReach = 0.008;
 const float kEdge = 3.0;
-// Against Mitsuba's light by the cosine, paths among strands are about right at 0.8 as they are.
+// Compared with Mitsuba over the light's cosine, paths among strands are about right at 0.8 without
+// a correction.
 const float kStraight = 0.8;
 const float kEyeH = 2.4;  // 1 + 2 mu at mu = 0.7
 
@@ -76,8 +79,8 @@ vec2 planeSlope(ShadowMap map, vec3 clip, vec3 normal, float side) {
     return slope / (abs(area) < 1e-20 ? 1e-20 : area) * 2.0 / side;  // clip space is 2 wide
 }
 
-// How many strands a ray of light through a texel meets before it is beside the point, and behind.
-// The strand itself, where the ray hits it, is none of them.
+// The number of strands that a ray of light through a texel meets before it passes the point, and
+// behind it. If the ray hits the strand itself, that strand is not counted.
 struct RayStrands {
     float before;
     float behind;
@@ -90,14 +93,14 @@ RayStrands strandsOnRay(vec4 layers, float ahead, ShadowMap map, ShadowPoint poi
     if (ahead > point.own_depth) {
         before = strandsBefore(layers, ahead, map.layer_depth);
         if (hits_itself) before -= layerPart(ahead, map.layer_depth);
-        before = max(before, 1.0);  // its first one
+        before = max(before, 1.0);  // the first strand on the ray
     }
     float all = layers.w - (hits_itself ? 1.0 : 0.0);
     return RayStrands(before, max(all - before, 0.0));
 }
 
-// What a texel of a deep shadow map adds to a path with this weight: depth is that of the point,
-// moved along its strand to beside the ray.
+// Adds a texel of a deep shadow map to a path with this weight. `depth` is the depth of the point
+// on the texel's plane; it is moved along the strand to where the strand passes the ray.
 void addRay(inout LightPath path, ShadowMap map, ShadowPoint point, ivec2 at, vec2 offset,
             float depth, float weight) {
     float along = dot(offset, point.line);
@@ -125,11 +128,11 @@ void addRay(inout LightPath path, ShadowMap map, ShadowPoint point, ivec2 at, ve
     }
 }
 
-// The mean over a square of `half_width` texels to each side, texels in part by what is in it: 0.5
-// is bilinear interpolation of what each texel says.
+// The mean over a square of `half_width` texels to each side. Texels partly inside count in
+// proportion to their area. At 0.5 this is bilinear interpolation of the texels' results.
 LightPath filteredPath(ShadowMap map, ShadowPoint point, float half_width) {
     vec2 whole = floor(point.texel);
-    vec2 centre = point.texel - whole;  // small, for weights without rounding
+    vec2 centre = point.texel - whole;  // small, so that the weights are not rounded
     ivec2 first = ivec2(floor(centre - half_width));
     ivec2 last = ivec2(ceil(centre + half_width)) - 1;
     bool meshes_cast = kMeshShadows != 0 && (map.casters & kMeshesCast) != 0u;
@@ -176,9 +179,9 @@ LightPath filteredPath(ShadowMap map, ShadowPoint point, float half_width) {
     return path;
 }
 
-// Metres along the light's view to the first strand in a texel. Where skin is before it the hair
-// ends on that, and its surface counts as one that goes on at `here`; where there is neither it
-// falls steeply.
+// Distance in metres along the light's view to the first strand in a texel. Where skin is in front
+// of it, the hair ends on the skin, and its surface is assumed to continue at `here`. Where there
+// is neither, the surface falls steeply.
 float firstStrand(ShadowMap map, vec2 texel, float side, float here) {
     ivec2 at = ivec2(map.corner) + ivec2(clamp(texel, vec2(0.0), vec2(side - 1.0)));
     float depth = texelFetch(hair_depths, at, 0).r;
@@ -189,12 +192,13 @@ float firstStrand(ShadowMap map, vec2 texel, float side, float here) {
                                              : here + kEdge * kReach;
 }
 
-// Light that grazes hair leaves it again sooner than light that comes straight in. A deep medium
-// shows H(mu_0) H(mu) times the light of single scattering (Chandrasekhar 1960, Radiative
-// Transfer; mu_0 and mu: cosines of light and eye to its surface), so H(mu_0) H(mu) - 1 times as
-// much of several. This is that over what it is at a cosine of kStraight. H(mu) is 1 + 2 mu, that
-// of no absorption (Hapke 1981, Bidirectional reflectance spectroscopy 1); the eye's is kEyeH.
-// The surface is that of the first strands, with its slope taken over kReach to both sides.
+// Light that grazes hair leaves it sooner than light that comes straight in. A deep medium shows
+// H(mu_0) H(mu) times the light of single scattering (Chandrasekhar 1960, Radiative Transfer; mu_0
+// and mu: cosines of the light and the eye to its surface), so multiple scattering adds H(mu_0)
+// H(mu) - 1 times as much. This function returns the ratio of that to its value at a cosine of
+// kStraight. H(mu) is 1 + 2 mu, for no absorption (Hapke 1981, Bidirectional reflectance
+// spectroscopy 1); the eye's is kEyeH. The surface is that of the first strands, with its slope
+// taken over kReach to both sides.
 float keptInHair(ShadowMap map, vec2 texel, float side, float texel_size) {
     float nearest = texelFetch(hair_depths, ivec2(map.corner) + ivec2(texel), 0).r;
     if (!isNearer(nearest, float(kFarDepth))) return 1.0;
@@ -209,7 +213,7 @@ float keptInHair(ShadowMap map, vec2 texel, float side, float texel_size) {
     return ((1.0 + 2.0 * cosine) * kEyeH - 1.0) / ((1.0 + 2.0 * kStraight) * kEyeH - 1.0);
 }
 
-// The path of light to a point, by one of the light's maps.
+// Returns the path of light to a point, from one of the light's maps.
 LightPath pathByMap(ShadowReference shadows, ShadowMap map, Receiver receiver) {
     vec4 clip = map.view_projection * vec4(receiver.position, 1.0);
     if (clip.w <= 0.0) return kFreePath;  // behind the light's view
@@ -218,7 +222,7 @@ LightPath pathByMap(ShadowReference shadows, ShadowMap map, Receiver receiver) {
 
     float side = shadows.parameters.side;
     float half_width = max(shadows.parameters.softness, 0.5);
-    // All of the filter lies in the map.
+    // The whole filter must lie in the map.
     if (any(greaterThan(abs(clip.xy), vec2(1.0 - 2.0 * half_width / side)))) return kFreePath;
     if (isNearer(clip.z, float(kNearDepth))) return kFreePath;
     float z = viewDepth(map.depth_terms, clip.z);
@@ -235,7 +239,7 @@ LightPath pathByMap(ShadowReference shadows, ShadowMap map, Receiver receiver) {
     point.half_width = 0.0;
     point.own_depth = 0.0;
     point.log_passed = log(max(receiver.passed, 1e-6));
-    point.log_turned = point.log_passed + receiver.passed - 1.0;  // LocalScattering's
+    point.log_turned = point.log_passed + receiver.passed - 1.0;  // as LocalScattering has it
     if (receiver.normal != vec3(0.0)) {
         point.slope = planeSlope(map, clip.xyz, receiver.normal, side);
         vec2 steepness = min(abs(point.slope) / depth_per_texel, vec2(kSteepest));
@@ -258,8 +262,8 @@ LightPath pathByMap(ShadowReference shadows, ShadowMap map, Receiver receiver) {
     return path;
 }
 
-// What paths that have equal parts of a light bring is their mean. What each says of strands counts
-// as far as meshes let its light through.
+// Averages paths that sample equal parts of a light. The strand terms are weighted by the light
+// that meshes let through.
 LightPath meanPath(ShadowReference shadows, ShadowMap first, Receiver receiver) {
     LightPath sum = LightPath(0.0, 0.0, 0.0, vec3(0.0), 0.0, vec3(0.0), vec3(0.0), 0.0);
     for (uint i = 0u; i <= first.further_count; ++i) {
@@ -289,7 +293,7 @@ LightPath meanPath(ShadowReference shadows, ShadowMap first, Receiver receiver) 
     return sum;
 }
 
-// The path of light to a point.
+// Returns the path of light to a point.
 LightPath lightPath(PictureParameters picture, uint light, Receiver receiver) {
     if (kMeshShadows == 0 && kHairShadows == kHairShadowsNone) return kFreePath;
     ShadowReference shadows = ShadowReference(picture.shadows);
@@ -300,15 +304,15 @@ LightPath lightPath(PictureParameters picture, uint light, Receiver receiver) {
     return pathByMap(shadows, map, receiver);
 }
 
-// Part of the light that each strand in between lets through to opaque shading models: the thesis's
-// and meshes'.
+// The part of the light that each strand in between lets through, for opaque shading models: those
+// of the thesis and of meshes.
 vec3 passedOpaque(PictureParameters picture) {
     if (kHairShadows == kHairShadowsNone) return vec3(0.0);
     return vec3(1.0 - ShadowReference(picture.shadows).parameters.stopped);
 }
 
-// Part of the light that reaches a point which was asked for with passedOpaque(). Of strands at
-// random that is exp(-stopped n).
+// The part of the light that reaches a point, for a path with passedOpaque(). For strands at random
+// it is exp(-stopped n).
 float visibility(LightPath path) { return path.meshes * (path.direct + path.scattered.g); }
 
 #endif

@@ -1,4 +1,4 @@
-// The light that a point of a strand sends to the eye, by the model that is asked for.
+// The light that a point of a strand sends to the eye, by the chosen model.
 #ifndef HAIRBENCH_STRAND_SHADING_GLSL
 #define HAIRBENCH_STRAND_SHADING_GLSL
 
@@ -23,18 +23,19 @@ struct StrandFragment {
     float across;  // -1 at one edge, 1 at the other
     float along;  // 0 at the root, 1 at the tip
     float width;  // m
-    float fiber_width;  // m: of one of the hairs that a merged strand stands for, else the width
+    float fiber_width;  // m: width of one of the hairs that a merged strand stands for; otherwise
+                        // `width`
 };
 
-// Unit vectors: x along the strand, y across it towards the eye, z across both. On a round fibre
-// the quad's point has the normal sqrt(1 - across^2) y - across z.
+// Unit vectors: x along the strand, y across it towards the eye, z perpendicular to both. On a
+// round fibre the normal at the quad's point is sqrt(1 - across^2) y - across z.
 mat3 fiberFrame(StrandFragment fragment) {
     vec3 side = unitSide(fragment.to_eye, fragment.tangent);
     return mat3(fragment.tangent, cross(fragment.tangent, side), -side);
 }
 
-// The normal turns with the place across the strand, as that of the half of a cylinder that faces
-// the camera (the published program takes the side vector, the same for the whole width).
+// The normal varies across the strand like that of the half cylinder that faces the camera. The
+// published program uses the side vector over the whole width.
 vec3 cylinderNormal(StrandFragment fragment) {
     vec3 side = unitSide(fragment.to_eye, fragment.tangent);
     vec3 facing = cross(fragment.tangent, side);
@@ -52,7 +53,7 @@ float visiblePart(PictureParameters picture, uint light, StrandFragment fragment
     return visibility(lightPath(picture, light, receiverOf(fragment, passed)));
 }
 
-// A model's two terms of one light, without color.
+// A model's two terms for one light, without colour.
 struct Reflected {
     float diffuse;
     float specular;
@@ -65,7 +66,7 @@ Reflected reflectedLight(PictureParameters picture, StrandFragment fragment, vec
     if (kModel == kModelKajiyaKay) {
         KajiyaKayLight model =
             kajiyaKay(fragment.tangent, light.to_light, fragment.to_eye, exponent);
-        // The lobe of Kajiya and Kay has a width along the strand only.
+        // The lobe of Kajiya and Kay has a width only along the strand.
         reflected = Reflected(model.diffuse, model.specular);
         if (hasSpheres()) reflected.specular *= sqrt(exponent / picture.exponent);
     } else {
@@ -76,7 +77,7 @@ Reflected reflectedLight(PictureParameters picture, StrandFragment fragment, vec
     return reflected;
 }
 
-// Working colours of the models phong and kajiya_kay.
+// Shades with the models phong and kajiya_kay, in working colours.
 vec3 shadeOpaque(PictureParameters picture, StrandFragment fragment, vec3 hair_color) {
     vec3 normal = cylinderNormal(fragment);
     vec3 sum = vec3(0.0);
@@ -91,8 +92,8 @@ vec3 shadeOpaque(PictureParameters picture, StrandFragment fragment, vec3 hair_c
     return sum;
 }
 
-// A light's directions make lobes wider by their variances along the fibre and round it, rad^2:
-// that of the logistic distribution is (pi s)^2 / 3.
+// Widens lobes by the variances of a light's directions along the fibre and round it, rad^2. The
+// variance of the logistic distribution is (pi s)^2 / 3.
 HairOptics widenedBy(HairOptics optics, vec2 variances) {
     float inverse = optics.inverse_azimuthal_scale;
     optics.variances += variances.x;
@@ -105,17 +106,17 @@ HairOptics widened(HairOptics optics, LightSample light) {
     return hasSpheres() ? widenedBy(optics, vec2(lightVariance(light))) : optics;
 }
 
-// What a fibre that is seen so shows of light that comes by `path`, but for what meshes stop.
+// The scattering towards the eye of light that comes along `path`, without the losses by meshes.
 vec3 seenScattering(HairOptics optics, FiberView view, vec3 to_eye, vec3 to_light,
                     LightPath path) {
-    // By marschner what has met a strand is lost.
+    // marschner loses all light that has met a strand.
     if (kModel == kModelMarschner) return fiberScattering(optics, view, to_light) * path.direct;
     return dualScattering(optics, view, to_eye, to_light, path);
 }
 
-// What a pixel sees of a fibre's width, as h.
+// The part of a fibre's width that a pixel sees, as h.
 struct Footprint {
-    float h;  // at the pixel's middle
+    float h;  // at the pixel's centre
     float from;
     float to;
 };
@@ -129,12 +130,12 @@ Footprint footprintOf(PictureParameters picture, StrandFragment fragment) {
     return Footprint(h, max(h - reach, -1.0), min(h + reach, 1.0));
 }
 
-// Over less of the width, h, light is that of the middle.
+// Footprints narrower than this, in h, take the light of their middle.
 const float kNearField = 0.2;
 const int kFootprintParts = 8;
 
-// The mean over the footprint, by parts of equal angle gamma, h being sin(gamma), so that R's
-// azimuths are in equal steps.
+// The mean over the footprint, in parts of equal angle gamma with h = sin(gamma). The azimuths of R
+// then have equal steps.
 vec3 footprintScattering(HairOptics optics, Footprint footprint, vec3 to_eye, vec3 to_light,
                          LightPath path) {
     if (kFarField == 0u || footprint.to - footprint.from < kNearField) {
@@ -153,15 +154,15 @@ vec3 footprintScattering(HairOptics optics, Footprint footprint, vec3 to_eye, ve
     return sum;
 }
 
-// ---- Rectangles of light ----
+// ---- Rectangular lights ----
 
-// A part of a rectangle is at most this many standard deviations of the fibre's narrowest lobe to
-// each side, as far as the most parts along a side allow.
+// A rectangle is split until a part extends at most this many standard deviations of the fibre's
+// narrowest lobe to each side. kMostParts limits the parts along each side.
 const float kPartReach = 1.5;
 const float kMostParts = 4.0;
 
-// The variances of the directions of a part with these sides, m, along the fibre and round it;
-// angles round it are wider by 1 / cos(theta).
+// The variances of the directions of a part with these sides, m, along the fibre and round it.
+// Angles round it are wider by 1 / cos(theta).
 vec2 partVariances(vec3 to_part, vec3 half_width, vec3 half_height, vec3 tangent) {
     float inverse = inversesqrt(max(dot(to_part, to_part), 1e-18));
     vec3 direction = inverse * to_part;
@@ -172,11 +173,11 @@ vec2 partVariances(vec3 to_part, vec3 half_width, vec3 half_height, vec3 tangent
     vec2 azimuth = vec2(dot(round, half_width), dot(round, half_height)) * inversesqrt(cos_squared);
     vec2 variances = vec2(dot(along, along), dot(azimuth, azimuth)) *
                      (inverse * inverse / (3.0 * cos_squared));
-    return min(variances, vec2(3.28986813));  // of a whole turn
+    return min(variances, vec2(3.28986813));  // variance of a full turn
 }
 
-// What a fibre shows of a rectangle, over what a surface that faces it gets: the sum over parts of
-// it, each by its solid angle.
+// A fibre's scattering of a rectangle's light, relative to the irradiance of a surface that faces
+// it. It is the sum over parts, each weighted by its solid angle.
 vec3 rectangleScattering(HairOptics optics, mat3 frame, Footprint footprint, vec3 to_eye,
                          LightSample light, LightPath path) {
     vec3 middle = 0.25 * (light.corners[0] + light.corners[1] + light.corners[2] +
@@ -184,7 +185,7 @@ vec3 rectangleScattering(HairOptics optics, mat3 frame, Footprint footprint, vec
     vec3 half_width = 0.5 * (light.corners[1] - light.corners[0]);
     vec3 half_height = 0.5 * (light.corners[3] - light.corners[0]);
     vec3 normal = normalize(cross(half_width, half_height));
-    // Of TT, and of the azimuths, whose is (pi s) / sqrt(3).
+    // The lobes are those of TT and of the azimuths, where the deviation is (pi s) / sqrt(3).
     float narrowest = min(sqrt(optics.variances.y), 1.81379936 / optics.inverse_azimuthal_scale);
     float reach = kPartReach * narrowest * length(middle);
     vec2 parts = clamp(ceil(vec2(length(half_width), length(half_height)) / reach), vec2(1.0),
@@ -208,8 +209,8 @@ vec3 rectangleScattering(HairOptics optics, mat3 frame, Footprint footprint, vec
     return sum / max(facing, 1e-18);
 }
 
-// Working colours of the models marschner and dual_scattering. A light's irradiance is pi times its
-// color.
+// Shades with the models marschner and dual_scattering, in working colours. A light's irradiance is
+// pi times its colour.
 vec3 shadeFiber(PictureParameters picture, StrandFragment fragment) {
     HairOptics optics = HairOpticsReference(picture.optics).optics;
     mat3 frame = fiberFrame(fragment);
@@ -234,11 +235,11 @@ vec3 shadeFiber(PictureParameters picture, StrandFragment fragment) {
     return sum;
 }
 
-// ---- A model that the scene brings along ----
+// ---- A shading model from the scene ----
 
 #ifdef HAIRBENCH_EXTENDED_SHADING
 
-// The picture that the functions below are asked about.
+// The picture for the functions below.
 PictureParameters extended_picture;
 
 uint lightCount() { return kLightCount; }
@@ -261,7 +262,7 @@ HairShading hairShading() {
                        extended_picture.exponent);
 }
 
-// sRGB's curve, IEC 61966-2-1:1999.
+// The sRGB transfer function, IEC 61966-2-1:1999.
 vec3 workingColor(vec3 display) {
     if (kLinearLight == 0u) return display;
     vec3 curved = pow((display + 0.055) / 1.055, vec3(2.4));
@@ -277,8 +278,8 @@ vec3 shadeExtended(PictureParameters picture, StrandFragment fragment, vec3 hair
 
 #endif
 
-// The point in working colours. `hair_color` is the picture's, or with a texture's factor and a
-// strand's own.
+// Shades the point in working colours. `hair_color` is the picture's, with the texture's factor and
+// the strand's own factor if there are any.
 vec3 shadeStrand(PictureParameters picture, StrandFragment fragment, vec3 hair_color) {
     vec3 sum;
 #ifdef HAIRBENCH_EXTENDED_SHADING

@@ -4,7 +4,7 @@
 
 #include "shading/polygon_irradiance.glsl"
 
-// A surface; its colour is linear.
+// A surface with a linear colour.
 struct Surface {
     vec3 base_color;
     float metallic;
@@ -12,24 +12,24 @@ struct Surface {
 };
 
 const float kSurfacePi = 3.14159265358979;
-// A smoother surface reflects a light that is a point nowhere.
+// A smoother surface would show no reflection of a point light.
 const float kSmoothest = 0.045;
 
-const float kDielectric = 0.04;  // what it reflects straight back
+const float kDielectric = 0.04;  // reflectance at normal incidence
 
-// What a surface reflects straight back, and the color of what it scatters.
+// Reflectance at normal incidence; scattered() has the colour of the diffuse part.
 vec3 reflectance(Surface surface) {
     return mix(vec3(kDielectric), surface.base_color, surface.metallic);
 }
 
 vec3 scattered(Surface surface) { return surface.base_color * (1.0 - surface.metallic); }
 
-// G / (4 |N.L| |N.V|), separable: Smith 1967, for one of the two directions.
+// G / (4 |N.L| |N.V|) is separable (Smith 1967). This is the factor for one of the two directions.
 float smithVisibility(float cosine, float alpha_squared) {
     return 1.0 / (cosine + sqrt(alpha_squared + (1.0 - alpha_squared) * cosine * cosine));
 }
 
-// f, 1/sr; all directions are unit vectors away from the surface. 0 for light from behind it.
+// f, 1/sr. All directions are unit vectors away from the surface. 0 for light from behind it.
 vec3 surfaceBrdf(Surface surface, vec3 normal, vec3 to_eye, vec3 to_light) {
     float n_dot_l = dot(normal, to_light);
     if (n_dot_l <= 0.0) return vec3(0.0);
@@ -38,12 +38,12 @@ vec3 surfaceBrdf(Surface surface, vec3 normal, vec3 to_eye, vec3 to_light) {
     float v_dot_h = clamp(dot(to_eye, middle), 0.0, 1.0);
     float roughness = max(surface.roughness, kSmoothest);
     float alpha_squared = roughness * roughness * roughness * roughness;
-    // Trowbridge and Reitz 1975, or GGX.
+    // Trowbridge and Reitz 1975, also called GGX.
     float spread = n_dot_h * n_dot_h * (alpha_squared - 1.0) + 1.0;
     float distribution = alpha_squared / (kSurfacePi * spread * spread);
     float visible = smithVisibility(n_dot_l, alpha_squared) *
                     smithVisibility(abs(dot(normal, to_eye)), alpha_squared);
-    // Schlick 1994; what a dielectric doesn't reflect it scatters.
+    // Schlick 1994. A dielectric scatters the light that it does not reflect.
     float grazing = pow(1.0 - v_dot_h, 5.0);
     vec3 straight = reflectance(surface);
     vec3 fresnel = straight + (1.0 - straight) * grazing;
@@ -51,30 +51,30 @@ vec3 surfaceBrdf(Surface surface, vec3 normal, vec3 to_eye, vec3 to_light) {
     return diffuse + fresnel * distribution * visible;
 }
 
-// What a surface sends to the eye of a rectangle of radiance 1.
+// The light that a surface sends to the eye from a rectangle of radiance 1.
 struct RectangleReflection {
-    vec3 diffuse;  // over its irradiance
+    vec3 diffuse;  // relative to the rectangle's irradiance
     vec3 glossy;
 };
 
-// The direction of the facet that mirrors light from there to the eye, its slope over alpha.
+// The half vector of light from `from` and the eye, with its slope divided by alpha.
 vec3 stretchedFacet(vec3 from, vec3 normal, vec3 to_eye, float alpha) {
     vec3 half_vector = to_eye + cornerDirection(from);
     float height = dot(normal, half_vector);
     return cornerDirection((half_vector - height * normal) / alpha + height * normal);
 }
 
-const float kSidePieces = 2.0;  // that sides of a rectangle's half vectors are cut into
+const float kSidePieces = 2.0;  // pieces per side of the polygon of half vectors
 
-// The distribution of facets is a cosine's, stretched by alpha along the surface (Heitz, Dupuy,
-// Hill and Neubelt 2016, Real-time polygonal-light shading with linearly transformed cosines). So
-// which part of the facets mirrors the rectangle to the eye is the irradiance of what the stretched
-// cosine sees of the rectangle's half vectors, a polygon but for its sides' curvature, and exact
-// for a smooth surface. What changes slowly beside it, Fresnel's reflectance and shadowing, is that
-// of the mean such facet.
+// The distribution of facets is a cosine, stretched by alpha along the surface (Heitz, Dupuy, Hill
+// and Neubelt 2016, Real-time polygonal-light shading with linearly transformed cosines). The part
+// of the facets that mirrors the rectangle to the eye is therefore an irradiance: that of the
+// rectangle's half vectors under the stretched cosine. They form a polygon with curved sides, so
+// the result is exact for a smooth surface. Fresnel reflectance and shadowing change slowly and are
+// evaluated for the mean of these facets.
 RectangleReflection rectangleBrdf(Surface surface, vec3 normal, vec3 to_eye, vec3 to_light,
                                   mat4x3 corners) {
-    // An eye that a normal map puts below the surface sees it from the side.
+    // A normal map may put the eye below the surface; it is then moved to just above the horizon.
     to_eye = normalize(to_eye + normal * max(1e-3 - dot(normal, to_eye), 0.0));
     float roughness = max(surface.roughness, kSmoothest);
     float alpha = roughness * roughness;
@@ -105,7 +105,7 @@ RectangleReflection rectangleBrdf(Surface surface, vec3 normal, vec3 to_eye, vec
     float visible = smithVisibility(n_dot_l, alpha * alpha) *
                     smithVisibility(abs(dot(normal, to_eye)), alpha * alpha);
     vec3 fresnel = straight + (1.0 - straight) * pow(1.0 - v_dot_h, 5.0);
-    // D cos(h) dh is along / pi; dl = 4 (v.h) dh.
+    // The integral of D cos(h) dh is along / pi, and dl = 4 (v.h) dh.
     result.glossy = fresnel * (along / kSurfacePi) * visible * 4.0 * v_dot_h * n_dot_l /
                     max(dot(normal, facet), 1e-3);
     return result;

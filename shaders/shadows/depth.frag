@@ -1,3 +1,3 @@
 #version 460
-// Depth alone.
+// Writes only depth.
 void main() {}

@@ -1,5 +1,5 @@
 #version 460
-// Strands' quads in a light's map from their points.
+// Draws strands' quads in a light's map from evaluated points.
 #extension GL_GOOGLE_include_directive : require
 #include "common/vectors.glsl"
 #include "shadows/quad.glsl"

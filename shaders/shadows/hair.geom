@@ -1,5 +1,5 @@
 #version 460
-// A line of a strand -> its quad in a light's map.
+// Makes a line of a strand into its quad in a light's map.
 #extension GL_GOOGLE_include_directive : require
 #include "shadows/quad.glsl"
 #include "strands/geometry_lines.glsl"

@@ -1,5 +1,5 @@
 #version 460
-// A strand that a light sees, added to the layers of opacity.
+// Adds a strand that a light sees to the opacity layers.
 #extension GL_GOOGLE_include_directive : require
 #include "common/depth.glsl"
 #include "common/picture.glsl"
@@ -19,7 +19,7 @@ void main() {
     float nearest = texelFetch(hair_depths, ivec2(gl_FragCoord.xy), 0).r;
     float behind =
         viewDepth(map.depth_terms, gl_FragCoord.z) - viewDepth(map.depth_terms, nearest);
-    // deep_shadow: light ends at a mesh.
+    // For deep_shadow, light ends at a mesh.
     if (map.ends_at_meshes != 0u &&
         isNearer(texelFetch(mesh_depths, ivec2(gl_FragCoord.xy), 0).r, gl_FragCoord.z))
         discard;

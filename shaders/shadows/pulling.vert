@@ -1,5 +1,5 @@
 #version 460
-// Strands in a light's map, without tessellation or geometry stages.
+// Draws strands in a light's map without tessellation or geometry stages.
 #extension GL_GOOGLE_include_directive : require
 #include "shadows/quad.glsl"
 

@@ -1,7 +1,6 @@
-// A line of a strand -> a quad that faces the light, and the part of it that the strand covers: a
-// strand thinner than a texel of the map is as wide as one and as much less opaque, so that what it
-// covers of the map has the right mean, however thin it is. What its corners are, whichever stage
-// makes them.
+// Makes a line of a strand into a quad that faces the light. A strand thinner than a texel of the
+// map is drawn one texel wide and proportionally less opaque, so that its mean coverage is right
+// however thin it is. All stages that make corners share this code.
 #ifndef HAIRBENCH_SHADOW_QUAD_CORNER_GLSL
 #define HAIRBENCH_SHADOW_QUAD_CORNER_GLSL
 
@@ -21,10 +20,10 @@ struct QuadCorner {
 };
 
 QuadEnd quadEnd(PictureParameters picture, LineEnd end) {
-    // Along the view, not to the eye: a texel spans as much at all points of one depth.
+    // Along the view, not to the eye: a texel has the same size at all points of one depth.
     float depth = (picture.view_projection * vec4(end.position, 1.0)).w;
     float texel = picture.pixel_near + picture.pixel_slope * max(depth, 0.0);
-    // Merged hairs lie apart: what they cover is spread over their strip.
+    // Merged hairs lie apart, so their coverage is spread over their strip.
     float width = max(end.width * mergedSpread(end.merged), texel);
     QuadEnd quad;
     quad.side = sideOfLength(picture.eye - end.position, end.tangent, 0.5 * width);

@@ -4,7 +4,7 @@
 // Invocations along each side of a workgroup of post/difference.comp.
 const uint kDifferenceGroupSide = 8u;
 
-// How much two pictures differ; 0 at first.
+// The differences of two pictures; initially 0.
 struct DifferenceCounts {
     uint pixels;  // pixels that differ
     uint most;  // largest difference of a channel, in steps of 1/255
@@ -15,7 +15,7 @@ struct DifferenceCounts {
 // Push constants of post/difference.comp.
 struct DifferencePush {
     Address counts;  // DifferenceCounts
-    uint gain;  // of the picture of the difference
+    uint gain;  // factor on the difference in the picture
 };
 
 #endif

@@ -1,7 +1,7 @@
 #ifndef HAIRBENCH_ENVIRONMENT_STRUCTS_H
 #define HAIRBENCH_ENVIRONMENT_STRUCTS_H
 
-// Light from all around.
+// Light from an environment map.
 struct EnvironmentParameters {
     Address texels;  // vec3 [row][column], radiance, linear RGB with the strength, top row first
     uint width;  // px

@@ -6,14 +6,14 @@ struct MeshPush {
     Address picture;  // PictureParameters
     Address positions;  // vec3, m
     Address normals;  // vec3, unit length
-    Address texture_coordinates;  // vec2, v down; read where there are textures
+    Address texture_coordinates;  // vec2, v down; read if there are textures
     vec3 base_color;  // in working colours
     float opacity;
     float metallic;
     float roughness;
     float normal_scale;
-    float cutoff;  // of opacity; read where the material is a mask
-    uint is_moving;  // 1: with the head
+    float cutoff;  // of opacity; read if the material is a mask
+    uint is_moving;  // 1: moves with the head
 };
 
 #endif

@@ -18,7 +18,7 @@ struct HairOptics {
 // Entries of the table of averages; cos theta_i goes from 0 to 1.
 const uint kFiberAverages = 64u;
 
-// What dual scattering looks up; hair/rendering/fiber.h says what it is.
+// Table entry for dual scattering; hair/rendering/fiber.h defines its members.
 struct FiberAverage {
     vec4 forward;  // a_f; w: beta_f^2, rad^2
     vec4 local;  // A_b; w: its variance, rad^2

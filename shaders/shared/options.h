@@ -1,9 +1,8 @@
 #ifndef HAIRBENCH_OPTIONS_H
 #define HAIRBENCH_OPTIONS_H
 
-// What pipelines are specialized for: the ids of the shaders' specialization constants, and the
-// numbers by which shaders know the settings' choices. hair/shader_codes.h holds the numbers
-// against the settings.
+// Ids of the shaders' specialization constants, and the numbers by which shaders know the choices
+// of settings. hair/shader_codes.h maps settings to these numbers.
 
 // Depth at the near and at the far plane: engine::kNearDepth, engine::kFarDepth.
 const uint kNearDepth = 1u;
@@ -14,19 +13,19 @@ const uint kCurveBspline = 0u;
 const uint kCurveBsplineUnpinned = 1u;
 const uint kCurveCatmullRom = 2u;
 
-// What a strand's width tapers along (Taper).
+// The length over which a strand's width tapers (Taper).
 const uint kTaperStrand = 0u;
 const uint kTaperSegment = 1u;
 
-// What chooses levels of detail (LodMode).
+// Source of the level of detail (LodMode).
 const uint kLodForced = 0u;
 const uint kLodDistance = 1u;
 
-// Where strands come from (StrandSource).
+// Source of the strands (StrandSource).
 const uint kSourceRootTriangles = 0u;
 const uint kSourceGroom = 1u;
 
-// Where widths come from (WidthSource).
+// Source of the widths (WidthSource).
 const uint kWidthScene = 0u;
 const uint kWidthGroom = 1u;
 
@@ -35,27 +34,27 @@ const uint kInterpolationMulti = 0u;
 const uint kInterpolationSingle = 1u;
 const uint kInterpolationMixed = 2u;
 
-// What bodies do to strands where they are drawn (StrandCollision).
+// How bodies move strands where they are drawn (StrandCollision).
 const uint kStrandCollisionNone = 0u;
 const uint kStrandCollisionPushOut = 1u;
 
-// How strands are spread over root triangles (Randomness).
+// How strands are distributed over root triangles (Randomness).
 const uint kRandomnessHashed = 0u;
 const uint kRandomnessThesis = 1u;
 
-// Models of the light that hair scatters (ShadingModel).
+// Models of scattering by hair (ShadingModel).
 const uint kModelPhong = 0u;
 const uint kModelKajiyaKay = 1u;
 const uint kModelMarschner = 2u;
 const uint kModelDualScattering = 3u;
-const uint kModelExtension = 4u;  // of a file that the scene names
+const uint kModelExtension = 4u;  // from a file that the scene names
 
-// What hair throws on hair and meshes (HairShadows).
+// Shadows of hair on hair and meshes (HairShadows).
 const uint kHairShadowsNone = 0u;
 const uint kHairShadowsDeepOpacity = 1u;
 const uint kHairShadowsDeepShadow = 2u;
 
-// What light from all around is to hair; to meshes never the last.
+// How an environment lights hair. Meshes never use the last.
 const uint kEnvironmentNone = 0u;
 const uint kEnvironmentHarmonics = 1u;  // light on a matt surface
 const uint kEnvironmentLights = 2u;  // further lights
@@ -70,13 +69,13 @@ const uint kShowShadow = 5u;
 const uint kShowOverdraw = 6u;
 const uint kShowDensity = 7u;
 
-// From linear light to display colours (ToneMap).
+// Conversion from linear light to display colours (ToneMap).
 const uint kToneMapNone = 0u;
 const uint kToneMapSrgb = 1u;
 const uint kToneMapAces = 2u;
 const uint kToneMapAgx = 3u;
 
-// Constants of all that includes strands/strand.glsl: strands/options.glsl.
+// Constants of everything that includes strands/strand.glsl: strands/options.glsl.
 const uint kCurveConstant = 0u;
 const uint kTaperConstant = 1u;
 const uint kLodModeConstant = 2u;
@@ -93,12 +92,12 @@ const uint kOwnColorsConstant = 32u;
 const uint kResidualsConstant = 33u;
 const uint kSkinnedStrandsConstant = 35u;
 
-// Constants of strands/software: strands/software/software.glsl; of strands/mesh, too.
+// Constants of strands/software and strands/mesh: strands/software/software.glsl.
 const uint kMostSegmentsConstant = 10u;
 const uint kMostPiecesConstant = 11u;
-// Of that and of strands/pulling.glsl.
+// Constant of those two and of strands/pulling.glsl.
 const uint kStrandBlockConstant = 12u;
-// Invocations of a workgroup of what strands/software does pixel by pixel.
+// Invocations of a work group in the per-pixel passes of strands/software.
 const uint kPixelGroupConstant = 29u;
 
 // Constants of the back end `lines`: strands/lines.vert, strands/fragment.glsl.
@@ -108,8 +107,8 @@ const uint kLinesConstant = 14u;
 // Constant of strands' quads and fragments: strands/pixel_samples.glsl.
 const uint kPixelSamplesConstant = 15u;
 
-// Constants of the back end `mesh`: strands/mesh/block.glsl, and the invocations of a workgroup of
-// strands/mesh/draw.glsl.
+// Constants of the back end `mesh`: strands/mesh/block.glsl. The last is the number of invocations
+// of a work group of strands/mesh/draw.glsl.
 const uint kBlockPointsConstant = 26u;
 const uint kTaskGroupConstant = 27u;
 const uint kMeshGroupConstant = 28u;
@@ -121,7 +120,7 @@ const uint kNormalTextureConstant = 2u;
 const uint kMaskConstant = 3u;
 const uint kDoubleSidedConstant = 4u;
 
-// Constants of light, which strands and meshes have beside their own: shading/options.glsl.
+// Constants of lighting, which strands and meshes share: shading/options.glsl.
 const uint kModelConstant = 16u;
 const uint kLightCountConstant = 17u;
 const uint kMeshShadowsConstant = 18u;
@@ -134,47 +133,47 @@ const uint kShowConstant = 24u;
 const uint kLightKindsConstant = 25u;
 const uint kFarFieldConstant = 34u;
 
-// First constants of the parameters of files that a scene names, three each: hair/extension.h.
+// First constants of the parameters of files that a scene names, three for each: hair/extension.h.
 const uint kShadingParameterConstant = 64u;
 const uint kOffsetParameterConstant = 128u;
 const uint kForceParameterConstant = 192u;
 
-// Of an offset that the scene brings along: strands/strand.glsl.
+// Constant of an offset function from the scene: strands/strand.glsl.
 const uint kOffsetReachConstant = 36u;
 
 // Constant of environment/background.frag.
 const uint kBackgroundLinearLightConstant = 0u;
 
-// Constants of post/resolve.glsl and, all four of them, post/develop.glsl.
+// Constants of post/develop.glsl. post/resolve.glsl uses the first two.
 const uint kResolveSamplesConstant = 0u;
 const uint kResolveFactorConstant = 1u;
 const uint kResolveToneMapConstant = 2u;
 const uint kResolveExposureConstant = 3u;
 
-// Invocations along each side of a workgroup of post/resolve.glsl and post/develop.glsl.
+// Invocations along each side of a work group of post/resolve.glsl and post/develop.glsl.
 const uint kResolveGroupSide = 8u;
 
-// Constants of simulation/shape.glsl and, but for the last, simulation/shape_serial.glsl.
+// Constants of simulation/shape.glsl. simulation/shape_serial.glsl uses all but the last.
 const uint kShapeGroupSizeConstant = 0u;
 const uint kShapeVerticesPerStrandConstant = 1u;
 const uint kShapeCollidesConstant = 2u;
-const uint kShapeTridiagonalConstant = 3u;  // lengths by walkDown() and walkUp()
+const uint kShapeTridiagonalConstant = 3u;  // enforces lengths with walkDown() and walkUp()
 const uint kShapeVerticesPerChunkConstant = 4u;
 
-// Of every solver: simulation/constraints/bodies.glsl and simulation/root_frame.glsl.
+// Constants of every solver: simulation/constraints/bodies.glsl and simulation/root_frame.glsl.
 const uint kContinuousCollisionConstant = 5u;
 const uint kSkinnedRootsConstant = 11u;
 
-// Of simulation/segments.comp.
+// Constant of simulation/segments.comp.
 const uint kSegmentVerticesConstant = 0u;
 
-// Of the solver `rod`: simulation/rod/joint.glsl and simulation/rod.glsl.
+// Constants of the solver `rod`: simulation/rod/joint.glsl and simulation/rod.glsl.
 const uint kEllipticSectionConstant = 6u;
 const uint kWarmStartConstant = 7u;
 const uint kRodAlphaConstant = 8u;
 const uint kRodDampedConstant = 9u;
 const uint kRodSegmentsConstant = 10u;
-const uint kRodNoSegments = 0u;  // keep out of bodies
+const uint kRodNoSegments = 0u;  // segments do not collide with bodies
 const uint kRodSegments = 1u;
 const uint kRodSegmentsAtRest = 2u;  // pushed no farther out than they are at rest
 

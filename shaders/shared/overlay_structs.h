@@ -1,13 +1,14 @@
 #ifndef HAIRBENCH_OVERLAY_STRUCTS_H
 #define HAIRBENCH_OVERLAY_STRUCTS_H
 
-// What the overlays' host and shader code share. Scalar layout; addresses are device addresses.
+// Data that the overlays' host and shader code share. Scalar layout; addresses are device
+// addresses.
 
 // A line of a body's wire frame.
 struct BodyLine {
     vec3 from;  // m
     vec3 to;
-    uint moves;  // 1: with the picture's head
+    uint moves;  // 1: moves with the picture's head
 };
 
 // Push constants of overlay/*.

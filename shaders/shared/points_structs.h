@@ -1,16 +1,16 @@
 #ifndef HAIRBENCH_POINTS_STRUCTS_H
 #define HAIRBENCH_POINTS_STRUCTS_H
 
-// What hair/rendering/points_pass.h and the back ends that draw its points share with shaders.
+// Data that hair/rendering/points_pass.h and the back ends that draw its points share with shaders.
 
-// Invocations in a workgroup, of some strands each.
+// Invocations in a work group. Each evaluates some strands.
 const uint kPointsGroup = 32u;
 
-// Strands of a draw of the back end `expanded`: those of them that are seen.
+// Maximum number of visible strands in a draw of the back end `expanded`.
 const uint kExpandedStrands = 128u;
 
-// The rectangle of pixels that hair may touch, as distances from the picture's opposite sides:
-// each grows with the hair, from 0 where there is none.
+// The rectangle of pixels that hair may touch. Each edge is its distance from the opposite side of
+// the picture, so it grows with the hair from 0.
 struct HairBounds {
     uint from_right;  // of the left edge, px
     uint from_bottom;  // of the upper edge, px
@@ -22,14 +22,14 @@ struct HairBounds {
 struct PointsPush {
     Address picture;  // PictureParameters
     Address points;  // vec4 [strand][point], root first: strands/points/points.glsl
-    Address pieces;  // uint [strand]: pieces of a guide segment that are drawn; 0: none of it
+    Address pieces;  // uint [strand]: drawn pieces of a guide segment; 0: the strand is not drawn
     Address bounds;  // HairBounds
     uint width;  // of the rendered picture, px
     uint height;  // px
     uint strands;
-    float reach;  // m, how far offsets move points
+    float reach;  // m: how far offsets move points at most
     float greatest_width;  // m, at level 0 of detail
-    uint culls;  // 1: strands that the picture can't show need no points
+    uint culls;  // 1: strands outside the picture get no points
 };
 
 // VkDrawIndexedIndirectCommand
@@ -41,12 +41,12 @@ struct IndexedCommand {
     uint first_instance;
 };
 
-// Push constants of what draws strands from their points, and of strands/points/list.comp.
+// Push constants of draws of strands from their points, and of strands/points/list.comp.
 struct ExpandedPush {
     Address picture;  // PictureParameters
     Address points;  // PointsPush::points
     Address pieces;  // PointsPush::pieces
-    Address seen;  // uint [draw][kExpandedStrands]: strands; 0: all of them, in their order
+    Address seen;  // uint [draw][kExpandedStrands]: strands; address 0: all strands in their order
     Address arguments;  // IndexedCommand [draw]
     uint strands;
 };

@@ -1,45 +1,46 @@
 #ifndef HAIRBENCH_ROD_STRUCTS_H
 #define HAIRBENCH_ROD_STRUCTS_H
 
-// What the solvers of rods share on host and device: `rod`, `stable_cosserat`, `position_based_rod`
-// and `augmented_mass_spring`. Scalar layout; addresses are device addresses. Each strand is
-// simulated in units of its own, in which 32 bits are accurate: lengths in its mean segment length,
-// masses in the mass of a segment that long, time in substeps. Arrays are of vec4,
-// [vertex][row][strand], so that neighbouring invocations touch neighbouring vectors; segment i
-// ends in vertex i, and entry 0 of what segments have is the follicle's.
+// Data that the solvers of rods share between host and device: `rod`, `stable_cosserat`,
+// `position_based_rod` and `augmented_mass_spring`. Scalar layout; addresses are device addresses.
+// Each strand has its own units, in which 32 bits are accurate: lengths in its mean segment length,
+// masses in the mass of a segment of that length, time in substeps. Arrays are of vec4,
+// [vertex][row][strand], so that neighbouring invocations access neighbouring vectors. Segment i
+// ends in vertex i, and entry 0 of a segment array belongs to the follicle.
 
-// Invocations, each with a strand, in a workgroup of simulation/rod.comp and
-// simulation/rod_adopt.comp.
+// Invocations in a work group of simulation/rod.comp and simulation/rod_adopt.comp; each has one
+// strand.
 const uint kRodGroupSize = 32u;
 
 // Rows of a segment.
 const uint kRodSegmentRows = 2u;
-const uint kRodHalfRotation = 0u;  // at rest, half of the way from the segment above to this one;
+const uint kRodHalfRotation = 0u;  // half of the rest rotation from the segment above to this one;
                                    // entry 0: the follicle's orientation at rest
-const uint kRodStiffness = 1u;  // rest length; mass of the vertex where it ends; stiffness of the
-                                // joint where it starts, per radian, against bending and twisting
+const uint kRodStiffness = 1u;  // rest length; mass of the vertex at its end; stiffness per radian
+                                // of the joint at its start, against bending and against twisting
 
-// Rows of how a segment and the vertex where it ends move. The last three's w are x, y and z of the
-// force of contact that is carried, by how far it would move the vertex in a substep.
+// Rows of the motion of a segment and of the vertex at its end. The w of the last three rows are
+// the x, y and z of the carried contact force, as the displacement of the vertex in a substep.
 const uint kRodMotionRows = 4u;
-const uint kRodOrientation = 0u;  // unit quaternion; takes z to the segment's direction
-const uint kRodAngularVelocity = 1u;  // axes of space
+const uint kRodOrientation = 0u;  // unit quaternion; rotates z to the segment's direction
+const uint kRodAngularVelocity = 1u;  // in world axes
 const uint kRodVelocity = 2u;
-const uint kRodMisfit = 3u;  // by how much its edge is not its length along its direction: after
-                             // collisions
+const uint kRodMisfit = 3u;  // difference between the edge and the segment's length along its
+                             // direction, after collisions
 
-// Rows of accelerations, per substep squared, where `rod` integrates by generalised alpha: of the
-// vertex, and round the segment, each as the velocities took it and as forces and inertia have it.
-// Entry 0: x of the first is 1 where the strand's next substep is implicit Euler.
+// Rows of accelerations, per substep squared, for `rod` with generalised alpha: of the vertex and
+// round the segment. Each has the acceleration that moved the velocities and the true one from
+// forces and inertia. In entry 0, x of the first row is 1 if the strand's next substep is implicit
+// Euler.
 const uint kRodAccelerationRows = 4u;
 const uint kRodAcceleration = 0u;
 const uint kRodTrueAcceleration = 1u;
 const uint kRodAngularAcceleration = 2u;
 const uint kRodTrueAngularAcceleration = 3u;
 
-// Rows of scratch memory, of the strands of a dispatch.
+// Rows of scratch memory, for the strands of a dispatch.
 const uint kRodScratchRows = 9u;
-const uint kRodContactScratchRows = 2u;  // more where `rod` carries forces of contact
+const uint kRodContactScratchRows = 2u;  // additional rows if `rod` carries contact forces
 const uint kStableCosseratScratchRows = 4u;
 const uint kPositionBasedScratchRows = 5u;
 const uint kMassSpringScratchRows = 13u;
@@ -51,18 +52,18 @@ struct RodParameters {
     Address motion;  // vec4 [vertex][kRodMotionRows][strand]
     Address scratch;  // vec4 [vertex][the solver's scratch rows][strand of the dispatch]
     Address accelerations;  // vec4 [vertex][kRodAccelerationRows][strand]; 0: implicit Euler
-    uint most_strands;  // of a dispatch
+    uint most_strands;  // most strands of a dispatch
     uint iterations;
     float stretching;  // modulus of stretch and shear over the density, times the substep squared,
-                       // m^2; `rod` has none
-    float ellipticity;  // of the cross-section: the stiffness round the first axis of a segment's
-                        // frame is a joint's times that, round the second one over that
-    // Of `augmented_mass_spring` alone: of the integrity springs, over the mass and times the
-    // substep squared, and of the angular springs, over the line density and times the substep
-    // squared, m^2.
+                       // m^2; not used by `rod`
+    float ellipticity;  // of the cross-section: stiffness round the first axis of a segment's frame
+                        // is a joint's times this, round the second axis a joint's over this
+    // Only for `augmented_mass_spring`. `integrity` is the stiffness of the integrity springs over
+    // the mass, times the substep squared. `angular` is the stiffness of the angular springs over
+    // the line density, times the substep squared, m^2.
     float integrity;
     float angular;
-    float damping;  // of `rod`: the material's, over the substep
+    float damping;  // for `rod`: damping of the material, over the substep
 };
 
 #endif

@@ -1,32 +1,32 @@
 #ifndef HAIRBENCH_SIMULATION_STRUCTS_H
 #define HAIRBENCH_SIMULATION_STRUCTS_H
 
-// What the simulation's host and compute code share; distance_field_structs.h comes before it.
+// Data that the simulation's host and compute code share. Include distance_field_structs.h first.
 // Scalar layout; addresses are device addresses. Per-vertex arrays are vec4 [strand][vertex], root
-// first; w is unused where nothing is said of it.
+// first; w is unused unless documented.
 
-// Shorter segments, at rest or now, have no direction of their own. m
+// Segments shorter than this, m, at rest or now, have no direction of their own.
 const float kShortestSegment = 1.0e-9f;
 
-// Invocations in a workgroup of the passes over all guides or guide vertices; rods and shape
-// constraints have their own.
+// Invocations in a work group of the passes over all guides or guide vertices. Rods and shape
+// constraints have their own sizes.
 const uint kGuideGroupSize = 64u;
 
-// Purposes kWindWeightPurpose to kWindWeightPurpose + 3 are of the random numbers by which a strand
-// weighs the wind's four directions.
+// Purposes kWindWeightPurpose to kWindWeightPurpose + 3 give the random numbers by which a strand
+// weights the wind's four directions.
 const uint kWindWeightPurpose = 0x57494e44u;
 
-// A rigid motion from where the groom was made to where it is now: x -> rotation x + translation.
+// A rigid motion from the groom's original pose to its current pose: x -> rotation x + translation.
 struct RigidFrame {
     vec4 rotation;  // unit quaternion, w the scalar part
     vec3 translation;  // m
 };
 
-// What a body moves with.
+// The frame that a body follows.
 const uint kFollowsHead = 0u;
 const uint kFollowsWorld = 1u;
 
-// A body with the shape of a capsule, or a sphere where a == b, where its frame is the identity.
+// A capsule, or a sphere if a == b, in the pose where its frame is the identity.
 struct Capsule {
     vec3 a;  // one end of the axis, m
     float radius;  // m
@@ -46,52 +46,53 @@ struct Bodies {
     Address fields;  // BodyField [field_count]
     uint capsule_count;
     uint field_count;
-    float margin;  // m; of guides' vertices: GuideParameters::rest_positions
+    float margin;  // m; the margin of guides' vertices is in GuideParameters::rest_positions
     float friction;  // Coulomb's coefficient
 };
 
-// The fixed step of simulated time, and the substeps that a solver takes in it. Accelerations
-// and the air's velocity are worked out at a step's start and held until its end; a velocity of a
-// vertex is its position less the one a substep earlier, over the substep.
+// The fixed step of simulated time and the solver's substeps in it. Accelerations and the air's
+// velocity are computed at a step's start and held until its end. A vertex's velocity is the
+// difference of its positions over a substep, divided by the substep.
 struct Step {
     float whole;  // s
     float sub;  // s, whole / count
     uint count;  // substeps in a step
 };
 
-// What a simulation knows of its guides for its whole life.
+// Data of a simulation's guides for its whole life.
 struct GuideParameters {
-    Address positions;  // m; w = inverse mass over a vertex's: 0 where pinned (the root), else 1
+    Address positions;  // m; w = inverse mass relative to a vertex's: 0 where pinned (the root),
+                        // else 1
     Address previous;  // m, one substep earlier; w = 1 at vertices in contact with a body and all
                        // vertices below them on the strand, else 0
-    Address rest_positions;  // m; w = margin that bodies keep from the vertex, m
+    Address rest_positions;  // m; w = margin between the vertex and bodies, m
     Bodies bodies;
     vec3 gravity;  // m/s^2
     Step step;
-    float velocity_kept;  // fraction of the velocity that is left after a substep
+    float velocity_kept;  // fraction of the velocity that remains after a substep
     uint strand_count;
     uint vertices_per_strand;
     uint seed;
 };
 
-// Air with the velocity u across a hair accelerates it by (inertial |u| + viscous |u|^(1/3)) u.
+// Air with velocity u across a hair accelerates it by (inertial |u| + viscous |u|^(1/3)) u.
 struct AirDrag {
     float inertial;  // rho_air / (pi r rho), 1/m
-    float viscous;  // 10 (mu / (rho_air 2 r))^(2/3) of that, m^(-1/3) s^(-2/3)
+    float viscous;  // 10 (mu / (rho_air 2 r))^(2/3) times `inertial`, m^(-1/3) s^(-2/3)
 };
 
 // Push constants of a solver's substep.
 struct SubstepPush {
     Address guides;  // GuideParameters: positions and previous positions are written
-    Address from;  // GuideParameters of what the substep starts from; may be `guides`
+    Address from;  // GuideParameters at the start of the substep; may be `guides`
     Address solver;  // the solver's own parameters
-    Address accelerations;  // m/s^2, beside gravity; address 0: none
-    Address air;  // the air's velocity at the vertices, m/s; address 0: it does not brake
+    Address accelerations;  // m/s^2, besides gravity; address 0: none
+    Address air;  // the air's velocity at the vertices, m/s; address 0: no drag
     RigidFrame frame;  // of the head at the end of the substep
     RigidFrame frame_before;  // of the head at the start of the substep
-    Address roots;  // RigidFrame [strand], at the end; read where kSkinnedRoots
+    Address roots;  // RigidFrame [strand], at the end; read if kSkinnedRoots
     Address roots_before;  // RigidFrame [strand], at the start
-    uint first_strand;  // of those that this dispatch moves
+    uint first_strand;  // first strand that this dispatch moves
     AirDrag drag;
 };
 
@@ -112,17 +113,17 @@ struct WindPush {
     float magnitude;  // thesis eq. 13
 };
 
-// Purpose of the random numbers of forces that a scene brings along.
+// Purpose of the random numbers for forces that a scene defines.
 const uint kForcePurpose = 0x464f5243u;
 
 // Push constants of simulation/force.comp.
 struct ForcePush {
     Address guides;  // GuideParameters
     Address accelerations;  // m/s^2, added to
-    float time;  // s, of the start of the time step
+    float time;  // s, at the start of the time step
 };
 
-// Purpose of the random numbers that are the seeds of the turbulence's octaves.
+// Purpose of the random numbers that seed the turbulence's octaves.
 const uint kTurbulencePurpose = 0x54555242u;
 
 // Push constants of simulation/air.comp.
@@ -132,7 +133,7 @@ struct AirPush {
     Address air;  // vec4: velocity of the air, m/s, written
     vec3 mean_wind;  // m/s
     float fluctuation;  // r.m.s. of each component, m/s
-    // Where the world's origin is now in the lattice of the largest eddies, which moves with the
+    // Position of the world's origin in the lattice of the largest eddies, which moves with the
     // mean wind.
     uvec3 cell;  // modulo 2^32
     vec3 fraction;  // of the cell, [0, 1)
@@ -144,7 +145,7 @@ struct AirPush {
 struct PullPush {
     Address guides;  // GuideParameters
     Address accelerations;  // m/s^2, added to
-    Address held;  // vec4: the acceleration of the vertex that is held, m/s^2
+    Address held;  // vec4: the acceleration of the held vertex, m/s^2
     vec3 hand;  // at the end of the time step, m
     vec3 hand_velocity;  // m/s
     uint held_vertex;  // of [strand][vertex]
@@ -154,9 +155,9 @@ struct PullPush {
     float implicit;  // 1 / (1 + damping step.whole + stiffness step.whole^2)
 };
 
-// How a vertex is, as simulation/condition.comp finds it.
+// The condition of a vertex, from simulation/condition.comp.
 struct VertexCondition {
-    float stretch;  // of the segment that ends there, over its rest length; 1 without one
+    float stretch;  // of the segment that ends here, over its rest length; 1 without a segment
     float gap;  // to the nearest body, without its margin, negative inside; infinite at roots, m
     float moved;  // in the last substep, m
 };
@@ -170,13 +171,13 @@ struct ConditionPush {
 
 // Parameters of simulation/shape.glsl.
 struct ShapeParameters {
-    Address rest_positions;  // where the global constraint pulls to, m
+    Address rest_positions;  // target positions of the global constraint, m
     Address rest_edges;  // hair/simulation/solver_shape.h
     Address local_stiffness;  // float [strand]: factor per iteration, or substep^2 K of an energy
     float global_stiffness;  // factor per substep
     uint local_iterations;
     uint length_iterations;
-    float local_damping;  // how many times that an energy's implicit stiffness is
+    float local_damping;  // multiple of an energy's implicit stiffness
 };
 
 // Parameters of simulation/ftl.comp.

@@ -1,9 +1,9 @@
 #ifndef HAIRBENCH_STRAND_MESH_STRUCTS_H
 #define HAIRBENCH_STRAND_MESH_STRUCTS_H
 
-// What hair/rendering/mesh_backend.h shares with the shaders of the back end `mesh`.
+// Data that hair/rendering/mesh_backend.h shares with the shaders of the back end `mesh`.
 
-// Vertices and triangles that a mesh workgroup may make: what every device has. A point of a strand
+// Most vertices and triangles of a mesh work group; every device supports it. A point of a strand
 // is two vertices, a piece two triangles.
 const uint kMeshVertices = 256u;
 
@@ -11,7 +11,7 @@ const uint kMeshVertices = 256u;
 struct StrandMeshPush {
     Address picture;  // PictureParameters
     uint blocks;  // of all strands
-    float reach;  // m, how far offsets move points
+    float reach;  // m: how far offsets move points at most
     float greatest_width;  // m, at level 0 of detail
 };
 

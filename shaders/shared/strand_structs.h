@@ -1,37 +1,38 @@
 #ifndef HAIRBENCH_STRAND_STRUCTS_H
 #define HAIRBENCH_STRAND_STRUCTS_H
 
-// What the renderer's host and shader code share. Scalar layout; addresses are device addresses.
+// Data that the renderer's host and shader code share. Scalar layout; addresses are device
+// addresses.
 
 // Purposes of random numbers (common/random.glsl).
-const uint kRootPurpose = 0x524f4f54u;    // where strands lie in their root triangle
+const uint kRootPurpose = 0x524f4f54u;    // positions of strands in their root triangle
 const uint kOrderPurpose = 0x4f524452u;   // the order of a groom's strands
-const uint kOffsetPurpose = 0x4f464653u;  // which profile of offsets a strand has
+const uint kOffsetPurpose = 0x4f464653u;  // the profile of offsets of a strand
 const uint kMergedPurpose = 0x4d524744u;  // the hairs that a strand of a coarser level stands for
 const uint kExtensionPurpose = 0x45585445u;  // hairRandom() of extension/offset.glsl
-const uint kColorPurpose = 0x434f4c52u;  // the colors by which a picture tells strands apart
+const uint kColorPurpose = 0x434f4c52u;  // colours by which a picture distinguishes strands
 
-// Invocations in a workgroup of strands/frames.comp and strands/turns.comp, and of
+// Invocations in a work group of strands/frames.comp and strands/turns.comp, and in one of
 // strands/evaluate.comp.
 const uint kFramesGroupSize = 64u;
 const uint kStrandPointsGroupSize = 64u;
 
-// How many times as wide as without gaps a strand is that stands for many hairs:
+// Greatest width of a strand that stands for many hairs, relative to its width without gaps:
 // strands/merged_word.glsl.
 const float kMostMergedSpread = 1.5f;
 
-// Everything that a picture's draws read; one per frame in flight.
+// Data for all draws of a picture; one per frame in flight.
 struct PictureParameters {
     mat4 view_projection;  // world -> clip, y down; common/depth.glsl
-    mat4 head;  // rigid motion: where mesh and root normals were made -> world
+    mat4 head;  // rigid motion: frame of the mesh and root normals -> world
     vec3 eye;  // m
-    vec3 lod_eye;  // m: where levels of detail are seen from; of a light's picture the camera
+    vec3 lod_eye;  // m: the eye for levels of detail; the camera's, even in a light's picture
     float lod_near;  // m: level 0 up to here
     float lod_far;  // m: maximum level from here on
     float lod_maximum_level;
     float pixel_near;  // m: a rendered pixel's side at the eye; above 0 in parallel projections
-    float pixel_slope;  // what pixel_near grows by per metre of distance
-    vec3 hair_color;  // in working colours: display RGB, or linear where there is a tone map
+    float pixel_slope;  // growth of pixel_near per metre of distance
+    vec3 hair_color;  // working colour: display RGB, or linear if there is a tone map
     float strand_variation;  // strands/own_color.glsl
     float tip_lightening;
     float ambient;
@@ -46,26 +47,26 @@ struct PictureParameters {
 
     Address lights;  // Light [light]
     Address optics;  // HairOptics; read by marschner and dual_scattering
-    Address shadows;  // ShadowParameters; read where there are shadows
-    Address environment;  // EnvironmentParameters; read where there is an environment
-    Address fragments;  // FragmentLists; read where fragments are listed
+    Address shadows;  // ShadowParameters; read if there are shadows
+    Address environment;  // EnvironmentParameters; read if there is an environment
+    Address fragments;  // FragmentLists; read if fragments are listed
     Address guides;  // vec4 [guide][vertex], m, root first; w is not read
     Address root_triangles;  // uint [triangle][3], guide indices
-    Address root_normals;  // vec3 [guide], unit length, before the head moved; 0: not known, root
-                           // triangles are flat
-    Address guide_widths;  // float [guide][vertex], m; read where the groom's widths are drawn
-    Address bound_strands;  // BoundStrand [strand]; read where the groom's strands are drawn
-    Address guide_normals;  // vec3 [guide][vertex], across the guide; read where offsets are drawn
-    Address guide_turns;  // vec4 [guide][vertex], unit quaternions: how the guide has turned since
-                          // rest; read where residuals are drawn
-    Address residuals;  // uvec2 [sample], all strands': see hair/rendering/strand_residuals.h
+    Address root_normals;  // vec3 [guide], unit length, before the head's motion; address 0:
+                           // unknown, root triangles are flat
+    Address guide_widths;  // float [guide][vertex], m; read if the groom's widths are drawn
+    Address bound_strands;  // BoundStrand [strand]; read if the groom's strands are drawn
+    Address guide_normals;  // vec3 [guide][vertex], across the guide; read if offsets are drawn
+    Address guide_turns;  // vec4 [guide][vertex], unit quaternions: rotation of the guide since
+                          // rest; read if residuals are drawn
+    Address residuals;  // uvec2 [sample] of all strands: hair/rendering/strand_residuals.h
     Address contacts;  // vec4 [guide][vertex]: w > 0 where a guide touches a body and below; read
-                       // where the collision rule holds
-    Address bodies;  // Bodies; read where they push strands out
-    Address root_pattern;  // vec2 [strand], in [0, 1): read where it is that of every triangle
+                       // if the collision rule is on
+    Address bodies;  // Bodies; read if they push strands out
+    Address root_pattern;  // vec2 [strand], in [0, 1): read if all triangles share one pattern
     Address offsets;  // vec3 [profile][1 + sample + 1], m: see hair/rendering/strand_offsets.h
-    Address root_corrections;  // vec4 [root triangle][strand], `density` of them, m: from a
-                               // strand's root to where the deformed mesh has it; read where
+    Address root_corrections;  // vec4 [root triangle][strand], `density` per triangle, m: from a
+                               // strand's root to its place on the deformed mesh; read if
                                // kSkinnedStrands
     uint offset_profiles;
     uint offset_samples;  // along a strand, from root to tip
@@ -74,32 +75,32 @@ struct PictureParameters {
     uint tessellation;  // segments per guide segment at level 0
     uint patches_per_triangle;  // per guide segment: density beyond the device's isolines is split
     uint strands_per_patch;
-    uint forced_density;  // most that are drawn: those of the forced level, or of level 0
+    uint forced_density;  // most strands that are drawn: those of the forced level, or of level 0
     uint forced_tessellation;
     float forced_level;
     float forced_scale;  // 2^-forced_level
-    float least_density_scale;  // of levels by distance: 1 / StrandView::greatest_width_scale
+    float least_density_scale;  // for levels by distance: 1 / StrandView::greatest_width_scale
     uint seed;
     float blend;  // 0: mixed strands follow one guide; 1: all three
 };
 
-// A strand of the groom: the weighted mean of its guides plus `offset`, and a residual where these
-// are known. Without weights it follows the head alone.
+// A strand of the groom: the weighted mean of its guides plus `offset`, and a residual if residuals
+// are known. Without weights it follows only the head.
 struct BoundStrand {
     uvec3 guides;
-    vec3 weights;  // sum 1; all 0: no guide counts
-    vec3 offset;  // m, before the head moved
+    vec3 weights;  // sum 1; all 0: no guide is used
+    vec3 offset;  // m, before the head's motion
     uint first_residual;  // of its samples
     uint residuals;  // samples; at least 2
-    float residual_step;  // m, of a sample's whole numbers
+    float residual_step;  // m: length of one step of a sample's integers
     float residual_reach;  // m: no residual on the strand is longer
-    float width;  // factor of the width; read where residuals are drawn
+    float width;  // factor on the width; read if residuals are drawn
 };
 
-// Where residuals' samples are on a strand, in whole numbers from the root up to this at the tip.
+// Positions of residual samples on a strand are integers from 0 at the root to this at the tip.
 const float kResidualPlaces = 65535.0f;
 
-// The start of a guide's frames, before the head moved: unit vectors along and across it.
+// The start of a guide's frames before the head's motion: unit vectors along and across it.
 struct RootFrame {
     vec3 tangent;
     vec3 normal;
@@ -119,19 +120,19 @@ struct FramesPush {
 struct TurnsPush {
     vec4 head_turn;  // quaternion of PictureParameters::head
     Address guides;  // vec4 [guide][vertex], m, root first
-    Address rest_tangents;  // vec3 [guide][vertex], before the head moved: unit length, or 0 where
-                            // the guide has no direction
+    Address rest_tangents;  // vec3 [guide][vertex], before the head's motion: unit length, or 0
+                            // where the guide has no direction
     Address turns;  // vec4 [guide][vertex]; written
     uint guide_count;
     uint vertices_per_guide;
 };
 
-// What carries a strand's root where the mesh deforms: groom::SurfaceBinding.
+// Attachment of a strand's root to a deforming mesh: groom::SurfaceBinding.
 struct CarriedRoot {
     uvec3 corners;  // vertices of the mesh
     vec3 weights;  // of the corners, sum 1
     vec3 offset;  // from the triangle to the root, along the axes of the triangle, m
-    vec4 inverse_edges;  // of SurfaceBinding::edges, column by column, 1/m
+    vec4 inverse_edges;  // inverse of SurfaceBinding::edges, column by column, 1/m
 };
 
 // Invocations in a workgroup of strands/skin.comp.
@@ -140,7 +141,8 @@ const uint kSkinGroupSize = 64u;
 // Push constants of strands/skin.comp.
 struct SkinPush {
     Address picture;  // PictureParameters
-    Address roots;  // CarriedRoot [root triangle][strand]; 0: what is found is the roots themselves
+    Address roots;  // CarriedRoot [root triangle][strand]; address 0: `found` has the roots
+                    // themselves
     Address mesh;  // vec3 [vertex], the deformed mesh, m
     Address found;  // vec4 [root triangle][strand], m; written
     uint count;  // of strands

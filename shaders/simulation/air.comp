@@ -1,5 +1,5 @@
 #version 460
-// The velocity of the air at every guide vertex, for the solvers to brake hair with in each of
+// Computes the velocity of the air at every guide vertex. The solvers use it for drag in each of
 // their substeps: air_drag.glsl. One invocation per vertex.
 #extension GL_GOOGLE_include_directive : require
 

@@ -1,15 +1,17 @@
 // One substep of the `augmented_mass_spring` solver, one invocation per strand: Amador Herrera et
-// al. 2024, Augmented mass-spring model for real-time dense hair simulation (arXiv 2412.17144).
-// Implicit Euler, by Newton steps that solve the strand's seven diagonals of blocks directly;
-// hair/reference/augmented_mass_spring.h has the springs and what of this is the paper's. See
-// rod_structs.h for the units. Before it: common/vectors.glsl or common/packed_vectors.glsl.
+// al. 2024, Augmented mass-spring model for real-time dense hair simulation (arXiv 2412.17144). It
+// is implicit Euler with Newton steps. Each step solves the strand's block heptadiagonal system
+// directly. hair/reference/augmented_mass_spring.h describes the springs and the differences from
+// the paper. See rod_structs.h for the units. Include common/vectors.glsl or
+// common/packed_vectors.glsl first.
 #include "shared/rod_structs.h"
 
-// Rows of the scratch memory: how the vertex would move without springs; how it moves; the tangent
-// that air brakes it across, and by how much; its segment's edge at rest, turned with the head, and
-// from 4 on, of the Newton step that an elimination from the tip up leaves, by columns, how the
-// vertex goes with the one above it, the second and the third; as the last row of the first three,
-// how it moves by itself.
+// Rows of the scratch memory. kPredicted: the vertex's displacement without springs. kMoved: its
+// displacement. kBrake: the tangent and the strength of the drag across it. kGhostEdge: its
+// segment's rest edge, turned with the head. From kGoesWith on: the elimination of a Newton step
+// from the tip up, as columns of three matrices. They are the vertex's response to the
+// displacements of the first, second and third vertex above it. The last row of the first matrix is
+// the vertex's displacement when those do not move.
 const uint kScratchRows = kMassSpringScratchRows;
 const uint kPredicted = 0u;
 const uint kMoved = 1u;
@@ -21,13 +23,13 @@ const uint kGoesWith = 4u;
 #include "simulation/rod/joint.glsl"
 #include "simulation/rod/symmetric.glsl"
 
-const float kShortestSpan = 1.0e-6;  // what is shorter has no direction
-// Over the mass of a segment and per substep squared: stiffer springs leave nothing of masses in 32
-// bits, and the elimination loses its way. By default half of that is not reached by 128 segments of
-// 15 cm; the reference has no such bound.
+const float kShortestSpan = 1.0e-6;  // shorter spans have no direction
+// Limit of a spring's stiffness over the mass of a segment, per substep squared. Beside stiffer
+// springs, 32 bits lose the masses and the elimination fails. By default, 128 segments of 15 cm
+// stay below half of it. The reference has no limit.
 const float kStiffestSpring = 1.0e4;
 
-// Displacements by all but springs, and the ghost.
+// Computes displacements by everything except springs, and the ghost.
 void predict() {
     takeRoot();
     vec3 edges = vec3(0.0);  // from the root to here
@@ -47,16 +49,16 @@ void predict() {
 
 vec3 movedAt(uint i) { return i > 0 ? scratchAt(i, kMoved).xyz : root_moved; }
 
-// A segment's edge now.
+// The current edge of a segment.
 vec3 edgeNow(uint i) { return edgeAt(i) + (movedAt(i) - movedAt(i - 1)); }
 
-// A spring's force on its lower end, and how that grows with the distance to its upper one.
+// A spring's force on its lower end, and the force's derivative by the distance to the upper end.
 struct Spring {
     vec3 force;
     mat3 stiffness;
 };
 
-// From one vertex to another, which is `span` away and was `rest` at rest.
+// A spring between two vertices with the current difference `span` and the rest difference `rest`.
 Spring stretchOf(vec3 span, vec3 rest) {
     float rest_length = length(rest);
     float stiffness = min(stretching / max(rest_length, kLeastLength), kStiffestSpring);
@@ -69,8 +71,8 @@ Spring stretchOf(vec3 span, vec3 rest) {
         stiffness * (projection + across * (mat3(1.0) - projection)));
 }
 
-// The angular spring of a segment. The angle is twice that of half the directions' sum and
-// difference.
+// The angular spring of a segment. The angle is computed as twice the half angle, from the lengths
+// of the sum and the difference of the directions.
 Spring turnOf(vec3 edge, vec3 ghost_axis, float rest_length) {
     vec3 along = edge / max(length(edge), kShortestSpan);
     float len = max(length(edge), kLeastLength);
@@ -90,8 +92,8 @@ void setGoesWith(uint i, uint which, mat3 with, vec3 by_itself) {
         setScratch(i, kGoesWith + 3 * which + k, vec4(with[k], by_itself[k]));
 }
 
-// From the tip up: what of all below a vertex acts on it and on the next two above, and what its
-// own springs add to these and to the third.
+// Eliminates vertices from the tip up. Carries the action of all vertices below on the current
+// vertex and the two above it. Adds the springs of the current vertex, which also reach the third.
 void eliminate() {
     mat3 own = mat3(0.0);
     mat3 own_first = mat3(0.0);  // row: the vertex, column: the first above it
@@ -103,7 +105,7 @@ void eliminate() {
     vec3 force_first = vec3(0.0);
     vec3 force_second = vec3(0.0);
 
-    // How far the vertex is from its ghost.
+    // Displacement of the vertex from its ghost.
     vec3 astray = vec3(0.0);
     for (uint i = 1; i < guides.vertices_per_strand; ++i)
         astray += edgeNow(i) - scratchAt(i, kGhostEdge).xyz;
@@ -116,7 +118,7 @@ void eliminate() {
         mat3 third = mat3(0.0);
         vec3 force_third = vec3(0.0);
 
-        // What holds the vertex alone.
+        // Inertia, drag and the integrity spring act on the vertex alone.
         vec3 behind = scratchAt(i, kPredicted).xyz - scratchAt(i, kMoved).xyz;
         vec4 brake = scratchAt(i, kBrake);
         float heavier = segment.mass * brake.w;
@@ -128,7 +130,7 @@ void eliminate() {
         astray -= edge - ghost_edge;
 
         Spring spring = stretchOf(edge, ghost_edge);
-        // Not the edge at rest over its length, which may be 0.
+        // The rest edge is not divided by its length, which may be 0.
         vec3 ghost_axis = segment.rest_length > kShortestSpan ? normalize(ghost_edge) : vec3(0.0);
         if (ghost_axis != vec3(0.0)) {
             Spring turn = turnOf(edge, ghost_axis, segment.rest_length);
@@ -176,7 +178,7 @@ void eliminate() {
         setGoesWith(i, 1, with_second, vec3(0.0));
         setGoesWith(i, 2, with_third, vec3(0.0));
 
-        // The vertex above is the next.
+        // Shift by one vertex: the vertex above is next.
         mat3 from_first = transpose(own_first);
         mat3 from_second = transpose(own_second);
         mat3 from_third = transpose(own_third);
@@ -192,7 +194,7 @@ void eliminate() {
     }
 }
 
-// From the root down: how every vertex moves.
+// Computes the displacements of the vertices from the root down.
 void moveVertices() {
     vec3 above = vec3(0.0);
     vec3 second_above = vec3(0.0);
@@ -212,7 +214,7 @@ void moveVertices() {
     }
 }
 
-// Orientations go with the edges.
+// Turns orientations with the edges.
 void turnSegments() {
     for (uint i = 1; i < guides.vertices_per_strand; ++i) {
         vec3 edge = edgeNow(i);

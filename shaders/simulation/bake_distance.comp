@@ -1,10 +1,11 @@
 #version 460
-// Signed distances to a surface: first of the middles of blocks of grid points, which say where no
-// search is needed and how far others have to go; then of the points, one to an invocation, a
-// workgroup per block. The nearest triangle is found by depth-first search of a tree of boxes, the
-// nearer child first. The sign of a closed surface is that of the pseudonormal of the nearest
-// feature (Baerentzen and Aanaes 2005, Signed distance computation using the angle weighted
-// pseudonormal); of others it is known beforehand (bake_winding.comp).
+// Computes signed distances to a surface in two dispatches. The first treats the middles of blocks
+// of grid points. They tell which points need no search and bound the search of the others. The
+// second treats the points: one invocation per point, one work group per block. A depth-first
+// search of a bounding volume hierarchy finds the nearest triangle and visits the nearer child
+// first. For a closed surface, the sign is that of the pseudonormal of the nearest feature
+// (Baerentzen and Aanaes 2005, Signed distance computation using the angle weighted pseudonormal).
+// For others it is computed beforehand (bake_winding.comp).
 #extension GL_GOOGLE_include_directive : require
 
 #include "common/extensions.glsl"
@@ -23,7 +24,7 @@ layout(buffer_reference, scalar) readonly buffer Sides { float at[]; };
 layout(buffer_reference, scalar) buffer Middles { BlockMiddle at[]; };
 layout(buffer_reference, scalar) writeonly buffer Distances { float at[]; };
 
-// The square distance to a box; 0 inside.
+// The squared distance to a box; 0 inside.
 float boxDistance(vec3 p, vec3 lower, vec3 upper) {
     vec3 apart = max(max(lower - p, p - upper), vec3(0.0));
     return dot(apart, apart);
@@ -35,7 +36,8 @@ vec3 pseudonormal(TriangleNormals normals, uint feature) {
                                      : normals.corners[feature - kCornerFeatures];
 }
 
-// `most` is more than the distance, m. `found` is a nearest triangle. Signed where normals tell.
+// Returns the distance to the surface, signed if the normals give the sign. `most` must exceed the
+// distance, m. `found` is a nearest triangle.
 float distanceTo(vec3 p, float most, out uint found) {
     Nodes nodes = Nodes(push.nodes);
     Triangles triangles = Triangles(push.triangles);
@@ -104,10 +106,10 @@ void findPoint(uint group) {
     BlockMiddle middle = Middles(push.middles).at[block];
     float reach = 0.5 * sqrt(3.0) * float(kBakeBlock - 1u) * push.field.cell;
     float side = push.sides != kNoAddress ? Sides(push.sides).at[index] : 1.0;
-    float found = middle.distance - reach;  // at most the distance, as far as rounding lets it
+    float found = middle.distance - reach;  // at most the distance, but for rounding
     if (found <= push.band || side < 0.0) {
-        // What is nearest to the middle is not much farther than the nearest. Roundings are less
-        // than a quarter of a cell.
+        // The triangle nearest to the middle gives an upper bound of the distance. Rounding errors
+        // are below a quarter of a cell.
         TreeTriangle triangle = Triangles(push.triangles).at[middle.triangle];
         Nearest near = Nearest(vec3(0.0), 3.0e38, kFaceFeature);
         compareTriangle(p, triangle.corners, triangle.normal, near);

@@ -1,6 +1,6 @@
 #version 460
-// The generalised winding number of triangles at grid points, one to an invocation, a workgroup per
-// block: hair/groom/mesh/winding_number.h.
+// Computes the generalised winding number of triangles at grid points: one invocation per point,
+// one work group per block. hair/groom/mesh/winding_number.h.
 #extension GL_GOOGLE_include_directive : require
 
 #include "common/extensions.glsl"
@@ -18,7 +18,8 @@ layout(buffer_reference, scalar) writeonly buffer Windings { float at[]; };
 const float kTwoPi = 6.28318531;
 
 // The solid angle of a triangle over 4 pi, positive behind it: van Oosterom and Strackee 1983, The
-// solid angle of a plane triangle, eq. 8. In the plane of the triangle it has no sign and is 0.
+// solid angle of a plane triangle, eq. 8. In the plane of the triangle it has no sign and is set to
+// 0.
 float turnsRound(vec3 corners[3], vec3 p) {
     vec3 a = corners[0] - p;
     vec3 b = corners[1] - p;
@@ -33,7 +34,7 @@ float turnsRound(vec3 corners[3], vec3 p) {
     return atan(volume, across) / kTwoPi;
 }
 
-// The solid angle over 4 pi of what is `away`, as far as its moments tell.
+// The solid angle over 4 pi of a node at the offset `away`, approximated by its moments.
 float fromAfar(uint index, vec3 away) {
     Nodes nodes = Nodes(push.nodes);
     float closeness = inversesqrt(dot(away, away));
@@ -52,8 +53,8 @@ float fromAfar(uint index, vec3 away) {
            (first + closeness * (-3.0 * second + 7.5 * closeness * third));
 }
 
-// `middle`: of points no farther than `radius` from it that go through the same nodes, so that
-// invocations that run together do not part.
+// All points within `radius` of `middle` visit the same nodes, so that invocations that run
+// together do not diverge.
 float windingNumber(vec3 p, vec3 middle, float radius) {
     Nodes nodes = Nodes(push.nodes);
     Triangles triangles = Triangles(push.triangles);
@@ -91,7 +92,8 @@ void main() {
     if (group >= push.block_count || any(greaterThanEqual(point, push.points))) return;
     uint index = point.x + push.points.x * (point.y + push.points.y * point.z);
     vec3 p = push.origin + push.cell * vec3(point);
-    vec3 middle = push.origin + push.cell * (vec3(point & ~1u) + 0.5);  // of eight, in Morton order
+    vec3 middle = push.origin + push.cell * (vec3(point & ~1u) + 0.5);  // of eight points in Morton
+                                                                        // order
     float radius = 0.5 * sqrt(3.0) * push.cell;
     Windings(push.windings).at[index] = windingNumber(p, middle, radius);
 }

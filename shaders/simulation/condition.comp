@@ -1,5 +1,6 @@
 #version 460
-// How every vertex is: stretched, inside a body, moving. One invocation per vertex.
+// Computes the condition of every vertex: stretch, gap to bodies and movement. One invocation per
+// vertex.
 #extension GL_GOOGLE_include_directive : require
 
 #include "simulation/constraints/bodies.glsl"

@@ -4,9 +4,9 @@
 #include "simulation/constraints/bodies.glsl"
 #include "simulation/guides.glsl"
 
-// Takes a vertex of a strand out of bodies and marks contact: `contact` is 1 where any above
-// touched a body, else 0. The invocation has stored its position, and in `previous` that before the
-// substep.
+// Moves a vertex of a strand out of bodies and marks contact. `contact` is 1 if any vertex above
+// touched a body, else 0. The invocation has already stored the vertex's position, and in
+// `previous` the position before the substep.
 Met collide(
     GuideParameters guides, RigidFrame frame, RigidFrame frame_before, uint vertex,
     inout float contact) {

@@ -1,6 +1,6 @@
 #version 460
-// Adds the accelerations of a force that the scene brings along; one invocation per vertex. Without
-// one it is not run.
+// Adds the accelerations of a force that the scene defines; one invocation per vertex. It does not
+// run without one.
 #extension GL_GOOGLE_include_directive : require
 
 #include "common/random.glsl"

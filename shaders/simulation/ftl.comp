@@ -1,6 +1,7 @@
 #version 460
 // One substep of the `ftl` solver: Mueller, Kim and Chentanez 2012, Fast simulation of inextensible
-// hair and fur. One invocation per strand: a vertex needs the final place of the one before it.
+// hair and fur. One invocation per strand, because a vertex needs the final position of the vertex
+// before it.
 #extension GL_GOOGLE_include_directive : require
 
 #include "common/rigid_frame.glsl"
@@ -71,9 +72,9 @@ void main() {
             if (met.held != kTouchesNone) contact = 1.0;
         }
         positions.at[i] = point;
-        // The leader's velocity is what it moved, less a part of how its follower was corrected
-        // (eq. 9); the position before the substep is moved by as much, since velocities are
-        // differences of positions.
+        // The leader's velocity is its displacement less a part of its follower's correction (eq.
+        // 9). Velocities are differences of positions, so the position before the substep is
+        // shifted instead.
         vec3 corrected = i > root + 1 ? params.velocity_correction * correction : vec3(0.0);
         previous.at[i - 1].xyz = leader_before + corrected;
         previous.at[i] = vec4(before, contact);

@@ -1,4 +1,4 @@
-// The guides and a substep's push constants, for every solver.
+// The guides and the push constants of a substep, for every solver.
 #ifndef HAIRBENCH_SIMULATION_GUIDES_GLSL
 #define HAIRBENCH_SIMULATION_GUIDES_GLSL
 
@@ -13,7 +13,7 @@ layout(buffer_reference, scalar) buffer State { vec4 at[]; };
 layout(buffer_reference, scalar) readonly buffer Vectors { vec4 at[]; };
 layout(buffer_reference, scalar) readonly buffer Factors { float at[]; };
 
-// Groups are counted row by row: more of them may be needed than fit in one row.
+// Work groups are counted row by row, because one row may be too short for them.
 uint workgroupIndex() { return gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x; }
 
 #endif

@@ -1,13 +1,14 @@
 // One substep of the `position_based_rod` solver, one invocation per strand: Kugelstadt and
 // Schoemer 2016, Position and orientation based Cosserat rods, with the compliances of Macklin,
-// Mueller and Chentanez 2016, XPBD. hair/reference/position_based_rod.h has the constraints and
-// what of this is the papers'. See rod_structs.h for the units. Before it: common/vectors.glsl or
-// common/packed_vectors.glsl.
+// Mueller and Chentanez 2016, XPBD. hair/reference/position_based_rod.h describes the constraints
+// and the differences from the papers. See rod_structs.h for the units. Include common/vectors.glsl
+// or common/packed_vectors.glsl first.
 #include "shared/rod_structs.h"
 
-// Rows of the scratch memory: how the vertex moves in the substep; the multipliers of the segment's
-// stretch and shear, and of the bend and twist of the joint where it starts; its orientation at the
-// start of the substep; the tangent that air brakes the vertex across, and by how much.
+// Rows of the scratch memory. kMoved: the vertex's displacement in the substep. kStretchForce: the
+// multipliers of the segment's stretch and shear. kJointForce: those of bend and twist of the joint
+// at its start. kBefore: its orientation at the start of the substep. kBrake: the tangent and the
+// strength of the drag across it.
 const uint kScratchRows = kPositionBasedScratchRows;
 const uint kMoved = 0u;
 const uint kStretchForce = 1u;
@@ -18,9 +19,9 @@ const uint kBrake = 4u;
 #include "simulation/rod/edges.glsl"
 #include "simulation/rod/symmetric.glsl"
 
-const float kLeastStiffness = 1.0e-15;  // limp beside any mass; its inverse is a float
+const float kLeastStiffness = 1.0e-15;  // limp compared with any mass; its inverse is a float
 
-// Velocities with the forces of the substep, and where they would take the strand.
+// Predicts velocities with the forces of the substep, and the resulting positions.
 void predict() {
     takeRoot();
     vec3 edges = vec3(0.0);  // from the root to here
@@ -41,8 +42,8 @@ void predict() {
 
 vec3 movedAt(uint i) { return i > 0 ? scratchAt(i, kMoved).xyz : root_moved; }
 
-// The inverse of a vertex's mass: across the hair, and what is added to that along it, which air
-// does not make heavier.
+// The inverse mass of a vertex: x across the hair, y its excess along the hair, where air does not
+// add to the mass.
 vec2 lightnessOf(uint i, vec4 brake) {
     if (i == 0 || isPinned(i)) return vec2(0.0);
     float mass = segmentRow(rod.segments, i, kRodStiffness, guides.strand_count, strand).y;
@@ -50,14 +51,15 @@ vec2 lightnessOf(uint i, vec4 brake) {
     return vec2(across, 1.0 / mass - across);
 }
 
-// The inverse of a quarter of a segment's inertia, which is its orientation's mass as four numbers.
+// The inverse of a quarter of a segment's inertia, which is the mass of its orientation as four
+// numbers.
 float turningLightness(uint i) {
     if (i == 0) return 0.0;
     float len = max(restLength(i), kLeastLength);
     return 3.0 / (len * len * len);
 }
 
-// Stretch and shear of segment i: edge / length = d3.
+// Projects stretch and shear of segment i: edge / length = d3.
 void holdSegment(uint i) {
     RodSegment segment = loadSegment(rod.segments, i, guides.strand_count, strand);
     float len = max(segment.rest_length, kLeastLength);
@@ -97,7 +99,8 @@ void holdSegment(uint i) {
         rod.motion, orientationIndex(i), normalize(orientation + 2.0 * light_turn * turn));
 }
 
-// Bend and twist of the joint where segment i starts: no rotation from one frame to the other.
+// Projects bend and twist of the joint at the start of segment i: no rotation from one frame to the
+// other.
 void holdJoint(uint i) {
     RodSegment segment = loadSegment(rod.segments, i, guides.strand_count, strand);
     vec4 above = orientationAt(i - 1);
@@ -127,7 +130,7 @@ void holdJoint(uint i) {
     }
 }
 
-// Every segment and joint once, every other one downwards and those between upwards by turns.
+// Projects every segment and joint once. Odd ones go down the strand, even ones up, in alternation.
 void holdAll() {
     uint count = guides.vertices_per_strand - 1;
     uint last_odd = count - 1 - count % 2;
@@ -138,7 +141,7 @@ void holdAll() {
     }
 }
 
-// The angular velocity that turned the segment in the substep.
+// Sets the angular velocity from the segment's rotation in the substep.
 void setTurn(uint i) {
     vec4 turn = multiply(orientationAt(i), conjugate(scratchAt(i, kBefore)));
     uint index = motionIndex(i, kRodAngularVelocity, guides.strand_count, strand);

@@ -1,6 +1,6 @@
 #version 460
-// Adds to every guide vertex its part of what a hand gives the vertex that it holds:
-// hair/simulation/pulls.h. One invocation per vertex; roots get nothing, as from the wind.
+// Adds to every guide vertex its part of the acceleration of the vertex that a hand holds:
+// hair/simulation/pulls.h. One invocation per vertex. As with the wind, roots get nothing.
 #extension GL_GOOGLE_include_directive : require
 
 #include "simulation/guides.glsl"

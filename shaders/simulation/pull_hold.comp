@@ -1,6 +1,6 @@
 #version 460
-// The acceleration of the vertex that a hand holds: hair/simulation/pulls.h. One invocation,
-// before any vertex gets its part, since the vertex itself is one of them.
+// Computes the acceleration of the vertex that a hand holds: hair/simulation/pulls.h. One
+// invocation. It runs before pull.comp, which also changes the held vertex.
 #extension GL_GOOGLE_include_directive : require
 
 #include "simulation/guides.glsl"
@@ -15,7 +15,7 @@ void main() {
     float dt = guides.step.whole;
     vec3 position = Vectors(guides.positions).at[held].xyz;
     vec3 velocity = (position - Vectors(guides.previous).at[held].xyz) / guides.step.sub;
-    // Where the vertex would be at the step's end without this hand.
+    // Predicts the vertex at the step's end without this hand.
     vec3 others = guides.gravity + Vectors(push.accelerations).at[held].xyz;
     vec3 velocity_then = velocity + dt * others;
     vec3 position_then = position + dt * velocity_then;

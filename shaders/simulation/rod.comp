@@ -1,5 +1,5 @@
 #version 460
-// A substep of the `rod` solver, on devices without 64-bit integers.
+// Computes a substep of the `rod` solver, on devices without 64-bit integers.
 #extension GL_GOOGLE_include_directive : require
 #include "common/vectors.glsl"
 

@@ -1,24 +1,24 @@
 // One substep of the `rod` solver, one invocation per strand: implicit Euler for an elastic rod
 // that neither stretches nor shears. The unknowns are rotations of the segments; the vertices
-// follow. Each iteration is a Newton step, which eliminates one segment after the other from the
-// tip up: Featherstone 1983, The calculation of robot dynamics using articulated-body inertias. See
-// rod.h for the rod, for generalised alpha and for where they come from, rod_structs.h for the
-// units. Before it: common/vectors.glsl or common/packed_vectors.glsl.
+// follow. Each iteration is a Newton step that eliminates the segments one by one from the tip up:
+// Featherstone 1983, The calculation of robot dynamics using articulated-body inertias. rod.h
+// describes the rod and generalised alpha, with sources; rod_structs.h describes the units. Include
+// common/vectors.glsl or common/packed_vectors.glsl first.
 #include "shared/options.h"
 #include "shared/rod_structs.h"
 
-// Whether forces of contact are carried: simulation/rod/contact.glsl.
+// True if contact forces are carried to the next substep: simulation/rod/contact.glsl.
 layout(constant_id = kWarmStartConstant) const bool kWarmStart = false;
 
-// Whether segments keep out of bodies, and not vertices alone: kRodNoSegments and the next.
+// How segments, and not only vertices, collide with bodies: kRodNoSegments and following.
 layout(constant_id = kRodSegmentsConstant) const uint kSegments = kRodNoSegments;
 const bool kSegmentsCollide = kSegments != kRodNoSegments;
 
-// Rows of the scratch memory: 0 to 2 the columns of `by_move` with `by_itself` as the last row, 3
-// to 5 those of `by_turn`, 6 the vertex's displacement and 7 the segment's rotation, both since the
-// prediction; 8 the tangent that air brakes it across, and by how much: air_drag.glsl. Where forces
-// of contact are carried, 9 and 10 have what holds it: its Hold. The last one, where segments keep
-// out of bodies, is by how much bodies push the vertex, and 1 where it or its segment touches one.
+// Rows of the scratch memory. 0 to 2: the columns of `by_move`, with `by_itself` as the last row. 3
+// to 5: the columns of `by_turn`. 6 and 7: the vertex's displacement and the segment's rotation
+// since the prediction. 8: the tangent and the strength of the drag across it (air_drag.glsl). 9
+// and 10, if contact forces are carried: its Hold. The last row, if segments collide with bodies:
+// the push of bodies on the vertex, and 1 if it or its segment touches a body.
 const uint kPushRow = kRodScratchRows + (kWarmStart ? kRodContactScratchRows : 0u);
 const uint kScratchRows = kPushRow + (kSegmentsCollide ? 1u : 0u);
 
@@ -28,8 +28,9 @@ const uint kScratchRows = kPushRow + (kSegmentsCollide ? 1u : 0u);
 #include "simulation/rod/strand.glsl"
 #include "simulation/rod/symmetric.glsl"
 
-const float kMostTurn = 1.0;  // rad in an iteration; a Newton step from far away can overshoot
-const float kPinMass = 100.0;  // of a pinned vertex, over the strand's: a stiff spring to its place
+const float kMostTurn = 1.0;  // rad in an iteration; a distant Newton step can overshoot
+const float kPinMass = 100.0;  // of a pinned vertex, relative to the strand's: a stiff spring to
+                               // its position
 
 float pinMass() { return kPinMass * float(guides.vertices_per_strand - 1); }
 
@@ -38,23 +39,25 @@ Hold holdAt(uint i) {
     return Hold(facing.xyz, facing.w, scratchAt(i, 10).xyz);
 }
 
-// Generalised alpha (rod.h): the weights of the accelerations before in a prediction, as the
-// velocities took them and as they were; those in a velocity; and the share of the substep squared
-// for which the forces at its end act.
+// Weights of generalised alpha (rod.h). kCarried: of the previous accelerations in a prediction,
+// those that moved the velocities and the true ones. kSpeedsUp: of the previous and the current
+// acceleration in a velocity. kForceShare: share of the substep squared for which the forces at its
+// end act.
 const vec2 kCarried = vec2(1.0 / 18.0, 4.0 / 27.0);
 const vec2 kSpeedsUp = vec2(1.0 / 6.0, 5.0 / 6.0);
-const vec2 kTaken = vec2(1.0 / 3.0, 2.0 / 3.0);  // of accelerations before and now in that
+const vec2 kTaken = vec2(1.0 / 3.0, 2.0 / 3.0);  // of the previous and the current true
+                                                 // acceleration in the one that moves velocities
 const float kForceShare = 8.0 / 27.0;
 const float kSmoothTurn = 1.0e-3;   // rad
-const float kLeastMisfit = 1.0e-4;  // that tells nothing of accelerations
+const float kLeastMisfit = 1.0e-4;  // smaller misfits do not affect accelerations
 
-// Whether accelerations are kept, and whether the material damps: what a constant leaves out costs
-// nothing, where lavapipe works out both sides of a branch.
+// Whether accelerations are kept, and whether the material damps. They are constants because
+// lavapipe evaluates both sides of a branch, but a constant removes the code.
 layout(constant_id = kRodAlphaConstant) const bool kAlpha = false;
 layout(constant_id = kRodDampedConstant) const bool kDamped = false;
 
-bool second_order;  // this substep
-bool is_smooth;       // so may the next be
+bool second_order;  // in this substep
+bool is_smooth;       // the next substep may be second order
 float viscosity;    // of joints, over their stiffness
 
 uint accelerationIndex(uint i, uint row) {
@@ -65,7 +68,7 @@ vec3 accelerationAt(uint i, uint row) {
     return loadVector(rod.accelerations, accelerationIndex(i, row)).xyz;
 }
 
-// What gravity and the substep's accelerations do by themselves.
+// The displacement in a substep by gravity and the substep's accelerations alone.
 vec3 loadAt(uint i) {
     vec3 acceleration = guides.gravity;
     if (push.accelerations != kNoAddress) acceleration += Vectors(push.accelerations).at[root + i].xyz;
@@ -80,14 +83,14 @@ void chooseOrder() {
     is_smooth = true;
 }
 
-// By how much a segment of this angular velocity, friction included, is predicted to turn.
+// The predicted rotation of a segment with this angular velocity, including damping.
 vec3 predictedTurn(uint i, vec3 angular_velocity) {
     if (!kAlpha || !second_order) return angular_velocity;
     return angular_velocity + kCarried.x * accelerationAt(i, kRodAngularAcceleration) +
            kCarried.y * accelerationAt(i, kRodTrueAngularAcceleration);
 }
 
-// Velocities with the forces of the substep, and where they would take the strand.
+// Predicts velocities with the forces of the substep, and the resulting positions.
 void predict() {
     State positions = State(from.positions);
     root_now = toWorld(root_frame, Vectors(guides.rest_positions).at[root].xyz);
@@ -97,7 +100,7 @@ void predict() {
     State(guides.positions).at[root] = vec4(root_now, follicle.w);
     vec3 edges = vec3(0.0);    // from the root to here
     vec3 misfits = vec3(0.0);  // from the root to here
-    vec3 moved = vec3(0.0);    // by segments that turn
+    vec3 moved = vec3(0.0);    // by rotating segments
     for (uint i = 1; i < guides.vertices_per_strand; ++i) {
         RodMotion motion = motionAt(i);
         float len = restLength(i);
@@ -105,7 +108,7 @@ void predict() {
         vec4 brake = vec4(0.0);
         if (push.air != kNoAddress) brake = brakeAt(i, motion);
         motion.velocity *= guides.velocity_kept;
-        vec3 free = motion.velocity;  // how the vertex moves by itself
+        vec3 free = motion.velocity;  // displacement of the vertex by itself
         if (kAlpha && second_order)
             free += kCarried.x * accelerationAt(i, kRodAcceleration) +
                     kCarried.y * accelerationAt(i, kRodTrueAcceleration) + kForceShare * load;
@@ -143,26 +146,27 @@ void predict() {
     }
 }
 
-// By how much a segment has turned in the substep, as small turns add up.
+// Rotation of a segment in the substep, as the sum of small rotations.
 vec3 turnSoFar(uint i) {
     if (i > 0) return predictedTurn(i, motionAt(i).angular_velocity) + scratchAt(i, 7).xyz;
     vec4 turn = multiply(root_frame.rotation, conjugate(root_frame_before.rotation));
     return (turn.w < 0.0 ? -2.0 : 2.0) * turn.xyz;
 }
 
-// From the tip up. The least energy of all below a vertex is, of the vertex's further move x and
-// the further turn t of the segment that ends there, x A x / 2 + x B t + t C t / 2 + a x + b t. All
-// in the segment's own axes: under a great tension its bending and twisting differ by more than 32
-// bits hold side by side.
+// Eliminates segments from the tip up. The minimum energy of all below a vertex is x A x / 2 + x B
+// t + t C t / 2 + a x + b t, where x is the further displacement of the vertex and t the further
+// rotation of the segment that ends there. All are in the segment's own axes: under great tension,
+// bending and twisting differ too much for 32 bits to hold their sum.
 void eliminate() {
     mat3 A = mat3(0.0);
     mat3 B = mat3(0.0);
     mat3 C = mat3(0.0);
     vec3 a = vec3(0.0);
     vec3 b = vec3(0.0);
-    vec3 force = vec3(0.0);  // through the segment on the vertex where it ends
+    vec3 force = vec3(0.0);  // force that the segment transmits to the vertex at its end
     vec4 orientation = orientationAt(guides.vertices_per_strand - 1);
-    float heaviness = second_order ? 1.0 / kForceShare : 1.0;  // as forces act for less time
+    float heaviness = second_order ? 1.0 / kForceShare : 1.0;  // because forces act for a shorter
+                                                               // time
     for (uint i = guides.vertices_per_strand - 1; i > 0; --i) {
         RodSegment segment = loadSegment(rod.segments, i, guides.strand_count, strand);
         vec4 above = orientationAt(i - 1);
@@ -202,7 +206,8 @@ void eliminate() {
         C[1][1] += straightening;
         b += inertia * rotation;
 
-        // From the vertex at the segment's end to the one at its start, which is x + lever t away.
+        // Moves the reference from the vertex at the segment's end to that at its start, which
+        // moves by x + lever t.
         mat3 lever = -segment.rest_length * crossMatrix(vec3(0.0, 0.0, 1.0));
         mat3 raised = transpose(lever) * B;
         C = symmetric(C + transpose(lever) * A * lever + raised + transpose(raised));
@@ -240,12 +245,12 @@ void eliminate() {
     }
 }
 
-// From the root down: every segment's turn, and where it takes the vertices. The greatest turn.
+// Turns the segments from the root down and moves the vertices. Returns the greatest rotation.
 float turnSegments() {
     float greatest = 0.0;
     vec3 turn = vec3(0.0);
-    vec3 linear = vec3(0.0);  // how far small turns would take the vertex above
-    vec3 moved = vec3(0.0);   // and how far they do
+    vec3 linear = vec3(0.0);  // displacement of the vertex above for small rotations
+    vec3 moved = vec3(0.0);   // its actual displacement
     for (uint i = 1; i < guides.vertices_per_strand; ++i) {
         mat3 by_move;
         mat3 by_turn;
@@ -271,8 +276,8 @@ float turnSegments() {
     return greatest;
 }
 
-// What accelerations add to a velocity, kept in two rows from `row` on; `now` as forces and inertia
-// have them.
+// The velocity change by accelerations, which are kept in two rows from `row` on. `now` is the
+// acceleration from forces and inertia.
 vec3 speedUp(uint i, uint row, vec3 now) {
     if (!kAlpha) return now;
     vec3 taken = now;
@@ -286,8 +291,8 @@ vec3 speedUp(uint i, uint row, vec3 now) {
     return change;
 }
 
-// Pushes of bodies on vertices and then, twice over, on the segments between them, each by the mass
-// of its own two ends: the next solve brings them to the rest of the strand.
+// Pushes of bodies on vertices and then, twice, on the segments between them. Each push acts on the
+// masses of its own two ends. The next solve passes it on to the rest of the strand.
 const uint kSweeps = 2u;
 
 void pushSegments() {
@@ -347,7 +352,7 @@ void pushSegments() {
     }
 }
 
-// Velocities and positions, and collisions: what they move turns segments and leaves misfits.
+// Updates velocities and positions, and collides. Pushes of bodies turn segments and leave misfits.
 void finish() {
     State positions = State(guides.positions);
     vec3 edges = vec3(0.0);  // from the root to here, without collisions
@@ -375,7 +380,7 @@ void finish() {
             } else {
                 held = heldByBodies(i, free, before, contact, pushed);
             }
-            // Implicit Euler's velocity has the load already.
+            // Implicit Euler's velocity already includes the load.
             vec3 load = kAlpha ? loadAt(i) : vec3(0.0);
             vec3 change = speedUp(i, kRodAcceleration, share * scratchAt(i, 6).xyz + load);
             motion.velocity += (second_order ? change : change - load) + pushed;

@@ -1,6 +1,6 @@
 #version 460
-// The `rod` solver's state for positions and previous positions that someone else wrote, one
-// invocation per strand. Frames go along the strand by parallel transport, as they do at rest.
+// Sets the `rod` solver's state from positions and previous positions that were written from
+// outside. One invocation per strand. Frames go along the strand by parallel transport, as at rest.
 #extension GL_GOOGLE_include_directive : require
 
 #include "common/rigid_frame.glsl"

@@ -1,5 +1,5 @@
-// How a strand's root, its rest shape and its follicle's directions have moved since rest: as the
-// head has, or, where an animation deforms the mesh, as the root's own triangle has.
+// The motion since rest of a strand's root, its rest shape and its follicle's directions. It is the
+// head's motion or, if an animation deforms the mesh, that of the root's own triangle.
 #ifndef HAIRBENCH_SIMULATION_ROOT_FRAME_GLSL
 #define HAIRBENCH_SIMULATION_ROOT_FRAME_GLSL
 
@@ -10,7 +10,7 @@ layout(constant_id = kSkinnedRootsConstant) const bool kSkinnedRoots = false;
 
 layout(buffer_reference, scalar) readonly buffer RootFrames { RigidFrame at[]; };
 
-// `head` and `roots` are SubstepPush::frame and roots, or both of them `_before`.
+// `head` and `roots` are SubstepPush::frame and roots, or both the `_before` members.
 RigidFrame rootFrame(RigidFrame head, Address roots, uint strand) {
     if (kSkinnedRoots) return RootFrames(roots).at[strand];
     return head;

@@ -1,18 +1,18 @@
 #version 460
-// Takes segments of strands out of bodies, after a substep of a solver whose state is positions. One
-// invocation per strand.
+// Moves segments of strands out of bodies, after a substep of a solver with positions as its state.
+// One invocation per strand.
 //
-// A segment that touches a body is pushed by a force at the place where it touches. How far that
-// place yields is asked of the strand as a chain of masses whose segments keep their lengths: what
-// is below hangs on the segment, and what is above holds it. For a contact at x = (1 - s) a + s b of
-// the segment with the direction d from a to b that is
+// A contact force pushes a segment at its contact place. The compliance of that place is computed
+// for the strand as a chain of masses with segments of fixed length: everything below hangs on the
+// segment, and everything above holds it. For a contact at x = (1 - s) a + s b of the segment with
+// the direction d from a to b it is
 //     K = (1 - s)^2 A + s^2 B - g g^T / (d.A d + d.B d),    g = s B d - (1 - s) A d,
-// with the yielding of its ends by themselves, A with all that is above and B with all that is
-// below. A vertex that hangs on a single segment of direction e, whose other end yields by y along
-// e, yields by w (1 - w / (w + y) e e^T), so that a walk along the strand finds all of them. It is
-// what elimination of the tensions leaves (Featherstone 1983, The calculation of robot dynamics
-// using articulated-body inertias). Contacts are solved one after the other down the strand, each
-// within Coulomb's cone for the whole substep, and some times over: a projected Gauss-Seidel method
+// where A is the compliance of the end a with everything above, and B that of b with everything
+// below. A vertex may hang on one segment of direction e whose other end has compliance y along e.
+// Its own compliance is then w (1 - w / (w + y) e e^T), so a walk along the strand finds all of
+// them. This is the result of eliminating the tensions (Featherstone 1983, The calculation of robot
+// dynamics using articulated-body inertias). Contacts are solved in order down the strand, each
+// within Coulomb's cone for the whole substep, and several times: a projected Gauss-Seidel method
 // (Jean 1999, The non-smooth contact dynamics method).
 #extension GL_GOOGLE_include_directive : require
 
@@ -28,11 +28,12 @@ layout(constant_id = kSegmentVerticesConstant) const uint kVerticesPerStrand = 8
 layout(push_constant, scalar) uniform Push { SegmentPush push; };
 
 const uint kMostPasses = 8u;
-const float kStill = 1.0e-6;  // m, by which no pass need move anything
-// Of a free vertex's yielding: beneath it a segment stands on the body and its strand with it.
+const float kStill = 1.0e-6;  // m: passes end below this displacement
+// Relative to a free vertex's compliance. Below it, a segment stands on the body with its strand
+// behind it.
 const float kLeastYield = 0.02;
-const float kMostMove = 0.5;  // of a segment's length in a pass
-// Of the yielding: what a taut strand and friction hold both is left to either.
+const float kMostMove = 0.5;  // relative to a segment's length in a pass
+// Relative to the compliance. It regularises directions that both a taut strand and friction hold.
 const float kSoftest = 1.0e-3;
 
 GuideParameters guides;
@@ -41,10 +42,10 @@ vec4 points[kVerticesPerStrand];  // w: inverse mass
 vec3 forces[kVerticesPerStrand];  // of contact, on the segment that ends there
 EnteredPlane planes[kVerticesPerStrand];
 uint bodies_met[kVerticesPerStrand];
-float clearances[kVerticesPerStrand];  // of segments from bodies in the first pass, m
-float travelled;  // by vertices since then, at most, m
-float below[kVerticesPerStrand];  // w / (w + y) of the segment below
-float above[kVerticesPerStrand];  // and of the one above
+float clearances[kVerticesPerStrand];  // distances of segments from bodies in the first pass, m
+float travelled;  // upper bound of the vertices' displacement since then, m
+float below[kVerticesPerStrand];  // w / (w + y) for the segment below
+float above[kVerticesPerStrand];  // the same for the segment above
 vec3 shifts[kVerticesPerStrand];  // in a pass, by contacts above and at the segment that ends there
 vec3 lifts[kVerticesPerStrand];  // in a pass, by contacts below
 
@@ -56,14 +57,14 @@ vec3 directionTo(uint i) {
     return len < kShortestSegment ? vec3(0.0) : edge / len;
 }
 
-// What a vertex with the inverse mass w yields to a force, where a segment along e holds a share.
+// Displacement of a vertex of inverse mass w by a force, where a segment along e holds a share.
 vec3 yieldTo(vec3 force, float w, float share, vec3 e) {
     return w * (force - share * dot(e, force) * e);
 }
 
 float shareOf(float w, float beyond) { return w > 0.0 ? w / (w + beyond) : 0.0; }
 
-// The force of contact that is right for what has been moved so far.
+// The contact force for the displacements so far.
 vec3 forceOf(SegmentContact contact, mat3 yields, vec3 slid, vec3 force, float friction) {
     vec3 normal = contact.normal;
     float yields_out = dot(normal, yields * normal);
@@ -84,7 +85,8 @@ vec3 forceOf(SegmentContact contact, mat3 yields, vec3 slid, vec3 force, float f
     return max(pressed / yields_out, 0.0) * normal;
 }
 
-// One pass over all contacts. The farthest that it moved a vertex, m; 0 without a contact.
+// Makes one pass over all contacts. Returns the greatest displacement of a vertex, m; 0 without
+// contacts.
 float pushSegments(bool by_way) {
     below[kVerticesPerStrand - 1] = 0.0;
     vec3 after = vec3(0.0);
@@ -117,7 +119,8 @@ float pushSegments(bool by_way) {
         vec3 b = points[i].xyz + shifts[i];
         SegmentContact contact = kNoContact;
         MovingSegment segment;
-        // Later passes look at what touches, or may have been moved into the body that was nearest.
+        // Later passes test only segments that touch, or that may have moved into the body that was
+        // nearest.
         bool held = forces[i] != vec3(0.0);
         for (bool near = by_way || held || clearances[i] < travelled; near; near = false) {
             segment = movingSegment(guides, root + i, w_a, a, b, startOf(i - 1), startOf(i));
@@ -161,8 +164,8 @@ float pushSegments(bool by_way) {
     return farthest;
 }
 
-// Moves vertices as a pass found, and gives segments their lengths again: it is right to the first
-// order of the moves.
+// Moves vertices by the result of a pass and restores the lengths of segments. The result of a pass
+// is accurate to first order in the displacements.
 void movePoints(float lengths[kVerticesPerStrand]) {
     vec3 lifted = vec3(0.0);  // with the vertex below
     lifts[kVerticesPerStrand - 1] = vec3(0.0);

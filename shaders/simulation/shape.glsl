@@ -1,11 +1,11 @@
-// One substep of the `shape` solver: integrate, then the constraints in the thesis's order (3.2),
+// One substep of the `shape` solver: integration, then the constraints in the thesis's order (3.2),
 // then collisions. A strand is cut into chunks of kVerticesPerChunk vertices, and an invocation
-// keeps one chunk in registers: every loop over its vertices must unroll, so that all indices are
-// constants. Neighbouring invocations have the same chunk of neighbouring strands, so that what
-// differs between chunks is the same in most of a subgroup. A workgroup holds whole strands.
+// keeps one chunk in registers. Every loop over its vertices must unroll, so that all indices are
+// constants. Neighbouring invocations have the same chunk of neighbouring strands, so branches that
+// differ between chunks are uniform in most subgroups. A work group holds whole strands.
 // Invocations past the last strand work on zeros and store nothing, so that all of them reach every
-// barrier; where a strand is one chunk there is none.
-// loadVector() and storeVector() come before it, and HAIRBENCH_SHAPE_ENERGY where the local
+// barrier; with one chunk per strand there is no barrier.
+// Include loadVector() and storeVector() first. Define HAIRBENCH_SHAPE_ENERGY first if the local
 // constraint has an energy, which is solved together with the lengths.
 #ifndef HAIRBENCH_SIMULATION_SHAPE_GLSL
 #define HAIRBENCH_SIMULATION_SHAPE_GLSL
@@ -27,14 +27,13 @@
 #include "simulation/integrate.glsl"
 #include "simulation/root_frame.glsl"
 
-// The workgroup is a multiple of kChunks.
+// The work group size is a multiple of kChunks.
 layout(local_size_x_id = kShapeGroupSizeConstant) in;
 layout(constant_id = kShapeVerticesPerStrandConstant) const uint kVerticesPerStrand = 8;
-// Whether there are bodies.
+// True if there are bodies.
 layout(constant_id = kShapeCollidesConstant) const bool kCollides = true;
 layout(constant_id = kShapeTridiagonalConstant) const bool kTridiagonal = true;
-// The number is even where a strand has more than one chunk, so that all segments between chunks
-// are black.
+// Even if a strand has more than one chunk, so that all segments between chunks are black.
 layout(constant_id = kShapeVerticesPerChunkConstant) const uint kVerticesPerChunk = 8;
 
 layout(push_constant, scalar) uniform Push { SubstepPush push; };
@@ -44,32 +43,32 @@ layout(buffer_reference, scalar) readonly buffer ShapeReference { ShapeParameter
 const uint kChunks = (kVerticesPerStrand + kVerticesPerChunk - 1) / kVerticesPerChunk;
 const uint kLastChunk = kChunks - 1;
 const uint kStrandsPerGroup = gl_WorkGroupSize.x / kChunks;
-// Vertices of the last chunk; the rest of it is padding.
+// Vertices of the last chunk. The rest of that chunk is padding.
 const uint kVerticesInLast = kVerticesPerStrand - kLastChunk * kVerticesPerChunk;
 
 uint lane;
 uint chunk;
 RigidFrame root_frame;  // at the end of the substep
 RigidFrame root_frame_before;
-vec4 head_rotation;  // that the shape is seen from
-// Vertex j of the chunk is points[j + 1]; around them lie the last vertex of the chunk before and
-// the first of the chunk after. Segment j joins points[j] and points[j + 1].
-vec4 points[kVerticesPerChunk + 2];  // w: inverse mass, less where air brakes
+vec4 head_rotation;  // of the frame of the rest shape
+// Vertex j of the chunk is points[j + 1]. Before and after these are the last vertex of the
+// previous chunk and the first vertex of the next. Segment j joins points[j] and points[j + 1].
+vec4 points[kVerticesPerChunk + 2];  // w: inverse mass, reduced by drag
 vec4 rest_edges[kVerticesPerChunk + 1];
 vec3 goal_edges[kVerticesPerChunk + 1];
 #ifdef HAIRBENCH_SHAPE_ENERGY
-// What acts on vertices, the joints at segments' starts, and their axes.
+// Loads of vertices, joints at the segments' starts, and axes of these joints.
 BendLoad loads[kVerticesPerChunk];
 BendJoint joints[kVerticesPerChunk];
 vec3 axes[kVerticesPerChunk];
 #endif
 
-// What chunks exchange. Halves are used in turn, so that one barrier is enough.
+// Data that chunks exchange. The halves alternate, so that one barrier is enough.
 shared vec4 firsts[2][gl_WorkGroupSize.x];
 shared vec4 lasts[2][gl_WorkGroupSize.x];
 shared vec4 rotations[2][gl_WorkGroupSize.x];
 shared float contacts[gl_WorkGroupSize.x];
-shared vec4 tangents[gl_WorkGroupSize.x];  // w: 0 where the chunk has no direction
+shared vec4 tangents[gl_WorkGroupSize.x];  // w: 0 if the chunk has no direction
 #ifdef HAIRBENCH_SHAPE_ENERGY
 shared float forces[gl_WorkGroupSize.x];
 #endif
@@ -79,7 +78,7 @@ bool vertexExists(uint j) { return j < kVerticesInLast || chunk < kLastChunk; }
 bool segmentExists(uint j) { return j == 0 ? chunk > 0 : vertexExists(j); }
 vec3 edge(uint j) { return points[j + 1].xyz - points[j].xyz; }
 
-// Fetches the neighbouring vertices of the chunks before and after.
+// Fetches the neighbouring vertices of the previous and the next chunk.
 void meetNeighbours() {
     if (kChunks == 1) return;
     firsts[turn][lane] = points[1];
@@ -90,7 +89,7 @@ void meetNeighbours() {
     turn = 1 - turn;
 }
 
-// The tangent of the last segment with a direction before segment 0.
+// Returns the tangent of the last segment before segment 0 that has a direction.
 vec3 tangentBefore(vec3 first_rest_tangent) {
     if (kChunks == 1) return first_rest_tangent;
     vec4 last = vec4(0.0);
@@ -106,8 +105,8 @@ vec3 tangentBefore(vec3 first_rest_tangent) {
     return first_rest_tangent;
 }
 
-// The rotation that the chunk begins with, by the head and all chunks before: an exclusive scan by
-// recursive doubling.
+// Returns the rotation at the start of the chunk, from the head and all previous chunks: an
+// exclusive prefix scan by recursive doubling.
 vec4 rotationBefore(vec4 own) {
     rotations[0][lane] = own;
     barrier();
@@ -124,7 +123,7 @@ vec4 rotationBefore(vec4 own) {
     return renormalize(multiply(before, head_rotation));
 }
 
-// The rest edges in the frames of the segments before them.
+// Computes the rest edges in the frames of the segments before them.
 void findGoalEdges(vec3 first_rest_tangent) {
     vec4 rotations_in_chunk[kVerticesPerChunk + 1];
     Transport frame =
@@ -158,8 +157,8 @@ void project(uint j) {
 }
 
 #ifdef HAIRBENCH_SHAPE_ENERGY
-// The energy's system. Where a strand has several chunks they walk one after the other, and hand on
-// what they know through all that is shared.
+// Solves the energy's system. If a strand has several chunks, they walk one after the other. They
+// pass on their state through all the shared arrays.
 void bendUpChunk(vec2 stiffness, float free_mass, vec3 root_moved) {
     BendBelow below = nothingBelow();
     if (kChunks > 1 && chunk < kLastChunk) {
@@ -222,7 +221,7 @@ void bendDownChunk(vec3 root_moved) {
 }
 
 void bend(vec2 stiffness, float free_mass, vec3 root_moved) {
-    if (kChunks > 1) barrier();  // all that is shared is used again
+    if (kChunks > 1) barrier();  // the shared arrays are reused
     for (uint waiting = kChunks; waiting > 0; --waiting) {
         if (kChunks == 1 || chunk == waiting - 1) bendUpChunk(stiffness, free_mass, root_moved);
         if (kChunks > 1) barrier();
@@ -234,7 +233,7 @@ void bend(vec2 stiffness, float free_mass, vec3 root_moved) {
 }
 #endif
 
-// The lengths' systems. Where a strand has several chunks they walk one after the other, down
+// Solves the lengths' systems. If a strand has several chunks, they walk one after the other: down
 // through rotations[] and firsts[0], up through tangents[] and contacts[].
 LengthRow rows[kVerticesPerChunk];
 
@@ -293,11 +292,11 @@ void walkUpChunks() {
     }
 }
 
-// `met`: what bodies did, where `planes`.
+// `met`: contacts with bodies; read if `planes`.
 void solveLengths(uint passes, bool planes, Met met[kVerticesPerChunk]) {
     if (passes == 0) return;
     meetNeighbours();
-    if (kChunks > 1) barrier();  // firsts[] is used again
+    if (kChunks > 1) barrier();  // firsts[] is reused
     [[unroll]] for (uint j = 0; j < kVerticesPerChunk; ++j)
         rows[j] = lengthRow(
             points[j + 1], planes ? met[j].plane : vec4(0.0),
@@ -315,7 +314,7 @@ void storePositions(Address positions, uint first) {
             storeVector(positions, first + j, vec4(points[j + 1].xyz, sign(points[j + 1].w)));
 }
 
-// The tangent at vertex i of the chunk that starts at `first`, where the substep starts from.
+// The tangent at vertex i of the chunk that starts at `first`, at the start of the substep.
 vec3 tangentAt(GuideParameters from, uint first, uint i) {
     vec3 point = loadVector(from.positions, first + i).xyz;
     vec3 above = vec3(0.0);
@@ -327,7 +326,7 @@ vec3 tangentAt(GuideParameters from, uint first, uint i) {
     return tangentBetween(above, below);
 }
 
-// What this invocation's vertices start the substep from.
+// Loads this invocation's vertices at the start of the substep.
 void load(GuideParameters guides, GuideParameters from, ShapeParameters params, uint first) {
     [[unroll]] for (uint j = 0; j < kVerticesPerChunk; ++j) {
         if (!vertexExists(j)) continue;
@@ -380,9 +379,10 @@ void load(GuideParameters guides, GuideParameters from, ShapeParameters params, 
 #ifdef HAIRBENCH_SHAPE_ENERGY
 bool isHeld(uint j) { return vertexExists(j) && points[j + 1].w == 0.0 && (j > 0 || chunk > 0); }
 
-// Whether any vertex but roots is held, of all strands that meet at barriers. By what is shared
-// alone: Mesa 22.3.6's lavapipe runs loops for lanes past the workgroup's end as well, and where
-// those go round more often their subgroup meets the others at the wrong barrier.
+// True if any vertex except roots is held, in all strands that share barriers. The result depends
+// only on shared memory. Mesa 22.3.6's lavapipe also runs loops for lanes past the work group's
+// end. If those lanes iterated more often, their subgroup would meet the others at the wrong
+// barrier.
 bool anyHeld(bool present) {
     float held = 0.0;
     [[unroll]] for (uint j = 0; j < kVerticesPerChunk; ++j)
@@ -402,7 +402,7 @@ void holdInPlace(GuideParameters from, uint first) {
 }
 #endif
 
-// Vertices below one in contact are marked too, also where that is in a chunk before.
+// Marks contact at vertices below one in contact, even if that one is in a previous chunk.
 void markBelow(GuideParameters guides, float contact, uint first, uint end) {
     contacts[lane] = contact;
     barrier();
@@ -432,7 +432,7 @@ void main() {
     float stiffness = 0.0;
     vec3 first_rest_tangent = vec3(0.0);
 #ifdef HAIRBENCH_SHAPE_ENERGY
-    RigidFrame head = root_frame_before;  // that the shape is seen from
+    RigidFrame head = root_frame_before;  // frame of the rest shape
     [[unroll]] for (uint j = 0; j < kVerticesPerChunk; ++j) loads[j] = kNoLoad;
     vec3 root_moved = vec3(0.0);
     if (present)
@@ -449,7 +449,7 @@ void main() {
     }
 
     meetNeighbours();
-    bool lengths = true;  // left to do
+    bool lengths = true;  // true if lengths still need solving
 #ifdef HAIRBENCH_SHAPE_ENERGY
     findGoalEdges(first_rest_tangent);
     bend(
@@ -458,8 +458,9 @@ void main() {
     lengths = anyHeld(present);
     if (lengths && present) holdInPlace(GuideReference(push.from).parameters, first);
 #else
-    // Red-black: segments that share no vertex move at the same time, those that end in odd
-    // vertices (the root's own among them) first. Both chunks move the segment between them.
+    // Red-black order: segments that share no vertex move at the same time. Segments that end in
+    // odd vertices (the root's own among them) are first. Both chunks move the segment between
+    // them.
     for (uint iteration = 0; iteration < params.local_iterations; ++iteration) {
         findGoalEdges(first_rest_tangent);
         [[unroll]] for (uint j = 1; j < kVerticesPerChunk; j += 2) pull(j, stiffness);
@@ -487,7 +488,8 @@ void main() {
         met[i - first] = collide(guides, push.frame, push.frame_before, i, contact);
     if (kChunks > 1) markBelow(guides, contact, first, end);
 
-    // Lengths once more, so that bodies tear no strand. Chunks meet at barriers and go on together.
+    // Solves lengths once more, so that bodies do not stretch strands. Chunks meet at barriers and
+    // therefore continue together.
     if (!kTridiagonal || params.length_iterations == 0) return;
     if (kChunks == 1 && contact == 0.0) return;
     [[unroll]] for (uint j = 0; j < kVerticesPerChunk; ++j)

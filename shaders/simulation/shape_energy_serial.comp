@@ -1,5 +1,6 @@
 #version 460
-// A substep of the `shape` solver whose local constraint has an energy, one invocation per strand.
+// Computes a substep of the `shape` solver with an energy for the local constraint, one invocation
+// per strand.
 #extension GL_GOOGLE_include_directive : require
 #define HAIRBENCH_SHAPE_ENERGY
 #include "simulation/shape_serial.glsl"

@@ -1,4 +1,4 @@
 #version 460
-// A substep of the `shape` solver, one invocation per strand.
+// Computes a substep of the `shape` solver, one invocation per strand.
 #extension GL_GOOGLE_include_directive : require
 #include "simulation/shape_serial.glsl"

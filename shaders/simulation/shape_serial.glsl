@@ -1,7 +1,7 @@
-// A substep of the `shape` solver as shape.glsl has it, for comparison: one invocation per strand,
-// as there is one busy lane per strand in the thesis's local constraint, with the strands packed.
-// It walks along the strand with the state in the device's buffers. HAIRBENCH_SHAPE_ENERGY comes
-// before it where the local constraint has an energy.
+// A substep of the `shape` solver like shape.glsl, for comparison. There is one invocation per
+// strand, as the thesis's local constraint has one busy lane per strand, but strands are packed. It
+// walks along the strand with its state in the device's buffers. Define HAIRBENCH_SHAPE_ENERGY
+// first if the local constraint has an energy.
 #ifndef HAIRBENCH_SIMULATION_SHAPE_SERIAL_GLSL
 #define HAIRBENCH_SIMULATION_SHAPE_SERIAL_GLSL
 
@@ -44,12 +44,12 @@ void main() {
     RigidFrame root_frame = rootFrame(push.frame, push.roots, strand);
     RigidFrame root_frame_before = rootFrame(push.frame_before, push.roots_before, strand);
 
-    vec3 above = vec3(0.0);  // where the substep starts from
+    vec3 above = vec3(0.0);  // at the start of the substep
     float inverse_masses[kVerticesPerStrand];
 #ifdef HAIRBENCH_SHAPE_ENERGY
     BendLoad loads[kVerticesPerStrand];
     vec3 root_moved = vec3(0.0);
-    bool held = false;  // any vertex but the root
+    bool held = false;  // true if any vertex except the root is held
 #endif
     for (uint v = 0; v < kVerticesPerStrand; ++v) {
         vec4 point = State(from.positions).at[root + v];
@@ -105,15 +105,15 @@ void main() {
 
     float stiffness = Factors(params.local_stiffness).at[strand];
     vec3 goal_edges[kVerticesPerStrand];
-    bool lengths = true;  // left to do
+    bool lengths = true;  // true if lengths still need solving
 #ifdef HAIRBENCH_SHAPE_ENERGY
-    // Loops that Mesa would unroll up to 32 vertices, which takes lavapipe 20 times as long to
-    // compile.
+    // Mesa would unroll these loops up to 32 vertices, and lavapipe would compile 20 times as long.
     lengths = held;
     RigidFrame head = root_frame_before;
     Transport start = Transport(firstTangent(head, rest_edges.at[root + 1]), head.rotation);
     vec3 axes[kVerticesPerStrand];
-    // Kept: Mesa 22.3.6's lavapipe takes x for w where it is loaded again alone (2 vertices).
+    // Kept in an array: Mesa 22.3.6's lavapipe reads x instead of w if it is loaded again alone (2
+    // vertices).
     float rest_lengths[kVerticesPerStrand];
     BendJoint joints[kVerticesPerStrand];
     Transport frame = start;

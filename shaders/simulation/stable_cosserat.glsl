@@ -1,13 +1,14 @@
 // One substep of the `stable_cosserat` solver, one invocation per strand: Hsu, Wang, Wu and Yuksel
-// 2025, Stable Cosserat rods. Positions and orientations by turns, each the minimum with the other
-// held; hair/reference/stable_cosserat.h has the energies and what of this is the paper's. See
-// rod_structs.h for the units. Before it: common/vectors.glsl or common/packed_vectors.glsl.
+// 2025, Stable Cosserat rods. It alternates positions and orientations, and minimises over one with
+// the other fixed. hair/reference/stable_cosserat.h has the energies and the differences from the
+// paper. See rod_structs.h for the units. Include common/vectors.glsl or common/packed_vectors.glsl
+// first.
 #include "shared/rod_structs.h"
 
-// Rows of the scratch memory: how a vertex moves in the substep without what holds the strand
-// together, and its weight against that of all below it; where all that hangs on the vertex has its
-// least energy, and its weight against that of the segment above; how the vertex moves; the tangent
-// that air brakes it across, and by how much.
+// Rows of the scratch memory. kPredicted: a vertex's displacement without the strand's forces, and
+// w its weight against all below it. kCentre: the displacement with the least energy of all that
+// hangs on the vertex, and w its weight against the segment above. kMoved: the vertex's
+// displacement. kBrake: the tangent and the strength of the drag across it.
 const uint kScratchRows = kStableCosseratScratchRows;
 const uint kPredicted = 0u;
 const uint kCentre = 1u;
@@ -17,7 +18,7 @@ const uint kBrake = 3u;
 #include "simulation/rod/edges.glsl"
 #include "simulation/rod/orientation.glsl"
 
-const float kLeastJoint = 1.0e-12;  // limp beside any mass; its square is a float
+const float kLeastJoint = 1.0e-12;  // limp compared with any mass; its square is a float
 
 RodSegment segmentAt(uint i) {
     RodSegment segment = loadSegment(rod.segments, i, guides.strand_count, strand);
@@ -26,7 +27,7 @@ RodSegment segmentAt(uint i) {
     return segment;
 }
 
-// Displacements by all that does not hold the strand together.
+// Computes displacements by everything except the forces of the strand.
 void predict() {
     takeRoot();
     vec3 edges = vec3(0.0);  // from the root to here
@@ -39,10 +40,10 @@ void predict() {
     }
 }
 
-// The weights of solveUp() and sweepDown(), which are the same in every iteration: of springs and
-// masses in series, from the tip up.
+// Computes the weights of solveUp() and sweepDown(), as for springs and masses in series from the
+// tip up. They are the same in every iteration.
 void weigh() {
-    float below = 0.0;  // of the spring between a vertex and all that hangs on it
+    float below = 0.0;  // stiffness of the spring between a vertex and all that hangs on it
     for (uint i = guides.vertices_per_strand - 1; i > 0; --i) {
         RodSegment segment = segmentAt(i);
         float spring = min(stretching / max(segment.rest_length, kLeastLength), kMostSpring);
@@ -57,9 +58,9 @@ void weigh() {
     }
 }
 
-// Where a vertex would go by itself. Air makes it heavier across the hair alone: what an equal mass
-// along it would hold back is put right by the last iteration's motion, so that the iteration
-// still lowers the energy.
+// The displacement of a vertex on its own. Drag adds to the mass only across the hair, but the
+// solver uses an equal mass in all directions. The last iteration's motion corrects the excess
+// along the hair, so that the iteration still lowers the energy.
 vec3 goalAt(uint i, vec3 predicted) {
     if (push.air == kNoAddress) return predicted;
     vec4 brake = scratchAt(i, kBrake);
@@ -67,8 +68,8 @@ vec3 goalAt(uint i, vec3 predicted) {
     return predicted + brake.w / (1.0 + brake.w) * dot(brake.xyz, ahead) * brake.xyz;
 }
 
-// The positions for these orientations, first half: from the tip up, the place of a vertex at which
-// all that hangs on it has its least energy.
+// First half of the positions for fixed orientations: from the tip up, finds for each vertex the
+// position with the least energy of all that hangs on it.
 void solveUp() {
     vec3 below = vec3(0.0);
     for (uint i = guides.vertices_per_strand - 1; i > 0; --i) {
@@ -80,8 +81,8 @@ void solveUp() {
     }
 }
 
-// From the root down: the positions, unless they are still the prediction, and with every segment's
-// edge its orientation, its neighbours held.
+// Second half, from the root down: sets the positions, unless they are still the prediction. With
+// every segment's edge it also sets the orientation, with fixed neighbours.
 void sweepDown(bool predicted) {
     vec3 moved = root_moved;
     vec4 above = orientationAt(0);

@@ -1,6 +1,6 @@
-// The grids of hair's density and momentum. Cells are numbered from the grid's corner; the grids
-// turn and move with the head. Quadratic B-splines spread a vertex over 3 x 3 x 3 cells of each:
-// density is smooth in the vertex's place, and its gradient never jumps.
+// The grids of hair's density and momentum. Cells are numbered from the grid's corner. The grids
+// turn and move with the head. Quadratic B-splines spread a vertex over 3 x 3 x 3 cells of each, so
+// density is smooth in the vertex's position and its gradient is continuous.
 #ifndef HAIRBENCH_SIMULATION_VOLUME_GLSL
 #define HAIRBENCH_SIMULATION_VOLUME_GLSL
 
@@ -15,15 +15,16 @@ layout(buffer_reference, scalar) readonly buffer VolumeReference { VolumeParamet
 layout(buffer_reference, scalar) buffer Samples { VolumeSample at[]; };
 layout(buffer_reference, scalar) buffer Blocks { VolumeBlock at[]; };
 
-// Cells that a vertex is spread over in a grid, and where they lie round the one that it is in.
+// Number of cells in a grid over which a vertex is spread, and their offsets from the vertex's
+// cell.
 const uint kStencil = 27;
 ivec3 stencilOffset(uint i) { return ivec3(i % 3, i / 3 % 3, i / 9) - 1; }
 
-// A point of the first grid in the coordinates of another.
+// Converts a point of the first grid to the coordinates of another.
 vec3 onGrid(vec3 point, uint grid) { return point + 0.5 * float(grid); }
 
-// The values, along each axis, of the quadratic B-splines round the middles of a cell and its
-// neighbours before and after it.
+// The values, along each axis, of the quadratic B-splines centred in a cell and in its neighbours
+// before and after it.
 struct Splines {
     vec3 at[3];
 };
@@ -44,12 +45,12 @@ Splines slopesAt(vec3 point, ivec3 cell) {
     return Splines(vec3[3](offset - 0.5, -2.0 * offset, offset + 0.5));
 }
 
-// The part of a vertex that falls to a cell of the stencil.
+// The part of a vertex that goes to a cell of the stencil.
 float weight(Splines splines, uint i) {
     return splines.at[i % 3].x * splines.at[i / 3 % 3].y * splines.at[i / 9].z;
 }
 
-// How weight() grows with the vertex's place, 1/cell.
+// The gradient of weight() by the vertex's position, 1/cell.
 vec3 weightGradient(Splines splines, Splines slopes, uint i) {
     vec3 along = vec3(splines.at[i % 3].x, splines.at[i / 3 % 3].y, splines.at[i / 9].z);
     vec3 slope = vec3(slopes.at[i % 3].x, slopes.at[i / 3 % 3].y, slopes.at[i / 9].z);
@@ -69,25 +70,25 @@ uint blockIndex(uint grid, uvec3 block, uint resolution) {
 
 float powerOfTwo(int exponent) { return uintBitsToFloat(uint(exponent + 127) << 23); }
 
-// 1 / x of a power of two.
+// Returns 1 / x for a power of two.
 float inverseOf(float power_of_two) {
     return uintBitsToFloat((254u << 23) - floatBitsToUint(power_of_two));
 }
 
-// A block's fixed point: the factors from share and from share times velocity. They are powers of
-// two, so that they round nothing, and are the same wherever they are worked out. No weight is
-// above (3/4)^3, so no sum is above 27/64 2^32: it fits an int with room for the roundings of
-// 6 10^8 vertices.
+// A block's fixed-point scales: the factors for share and for share times velocity. They are powers
+// of two, so they cause no rounding and are the same wherever they are computed. No weight is above
+// (3/4)^3, so no sum is above 27/64 2^32. It fits an int, with room for the rounding errors of 6
+// 10^8 vertices.
 vec2 scalesOf(VolumeBlock block) {
-    // Exponents of powers of two that are more than the share and than the fastest. Slower hair
-    // than 2^-62 m/s is no matter.
+    // Exponents of powers of two that exceed the share and the greatest speed. Hair slower than
+    // 2^-62 m/s is irrelevant.
     int share = findMSB(block.share) + 1 - 31;
     int fastest = max(int(block.fastest >> 23) - 126, -62);
     return vec2(powerOfTwo(32 - share), powerOfTwo(32 - share - fastest));
 }
 
-// The scales of the cells that a vertex in the cell `middle` is spread over. They lie in up to two
-// blocks along each axis.
+// Finds the scales of the cells over which a vertex in the cell `middle` is spread. They lie in up
+// to two blocks along each axis.
 void findScales(
     Blocks blocks, uint grid, ivec3 middle, uint resolution, out vec2 scales[kStencil]) {
     uvec3 first = blockOf(middle - 1);
@@ -111,10 +112,10 @@ void findScales(
     }
 }
 
-// Share and momentum of a vertex, in that order.
+// Returns share and momentum of a vertex, in this order.
 vec4 partsOf(VolumeSample vertex) { return vertex.share * vec4(1.0, vertex.velocity); }
 
-// What a vertex adds to a cell. `parts` are from partsOf().
+// The contribution of a vertex to a cell. `parts` is from partsOf().
 ivec4 inFixedPoint(vec4 parts, float weight, vec2 scales) {
     return ivec4(round((weight * scales).xyyy * parts));
 }

@@ -1,5 +1,5 @@
 #version 460
-// Friction and repulsion by the grids, added to every guide vertex's acceleration; hair_hair.h has
+// Adds friction and repulsion from the grids to every guide vertex's acceleration; hair_hair.h has
 // the equations. One invocation per vertex.
 #extension GL_GOOGLE_include_directive : require
 
@@ -11,14 +11,14 @@ layout(push_constant, scalar) uniform Push { VolumePush push; };
 
 layout(buffer_reference, scalar) readonly buffer Cells { ivec4 at[]; };
 
-// Share and momentum of a cell, in its block's fixed point.
+// Returns share and momentum of a cell, in its block's fixed point.
 ivec4 sumAt(VolumeParameters volume, uint cell) {
     ivec4 sum = Cells(volume.sums).at[cell];
     if (volume.borrows == 1 && sum.z < 0) ++sum.w;
     return sum;
 }
 
-// The pressure's potential in a cell with that share in it, over the repulsion's setting.
+// The pressure's potential in a cell with this share, divided by the setting of the repulsion.
 float potential(float share, float crowded) { return log(max(share / crowded, 1.0)); }
 
 void main() {
@@ -33,14 +33,14 @@ void main() {
     uint root = index - index % guides.vertices_per_strand;
 
     vec3 dragged = vec3(0.0);  // m/s
-    vec3 pushed = vec3(0.0);   // 1/cell, axes of the head
+    vec3 pushed = vec3(0.0);   // 1/cell, head axes
     for (uint grid = 0; grid < kVolumeGrids; ++grid) {
         vec3 point = onGrid(vertex.point, grid);
         ivec3 middle = ivec3(floor(point));
         vec2 scales[kStencil];
         findScales(blocks, grid, middle, volume.resolution, scales);
 
-        // What the own strand has added to the cells.
+        // Contributions of the vertex's own strand to the cells.
         ivec4 own[kStencil];
         [[unroll]] for (uint i = 0; i < kStencil; ++i) own[i] = ivec4(0);
         for (uint v = root; v < root + guides.vertices_per_strand; ++v) {
@@ -61,7 +61,7 @@ void main() {
             ivec4 others = sum - own[i];
             float share_unit = inverseOf(scales[i].x);
             vec3 momentum = inverseOf(scales[i].y) * vec3(others.yzw);
-            // A cell without hair has none of the vertex's either.
+            // A cell without hair has no part of this vertex either.
             dragged += weight(splines, i) *
                        (momentum - share_unit * float(others.x) * vertex.velocity) /
                        (share_unit * float(max(sum.x, 1)));
@@ -78,7 +78,8 @@ void main() {
     if (size > volume.greatest_repulsion) repulsion *= volume.greatest_repulsion / size;
 
     vec4 kept = State(volume.kept).at[index];
-    vec3 driven = kept.w == 0.0 ? vec3(0.0) : dragged - kept.xyz;  // m/s, by all but friction
+    vec3 driven = kept.w == 0.0 ? vec3(0.0) : dragged - kept.xyz;  // m/s, by everything except
+                                                                   // friction
     vec3 braked = volume.settled * dragged + volume.foreseen * driven;
     State(volume.kept).at[index] = vec4(dragged - braked, 1.0);
     State(push.accelerations).at[index].xyz += volume.per_step * braked + repulsion;

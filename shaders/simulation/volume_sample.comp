@@ -1,6 +1,6 @@
 #version 460
-// Guide vertices in the grid's coordinates, and what the fixed point of each block of cells has to
-// hold of them; one invocation per vertex.
+// Converts guide vertices to grid coordinates and finds the range for the fixed point of each block
+// of cells. One invocation per vertex.
 #extension GL_GOOGLE_include_directive : require
 
 #include "simulation/volume.glsl"
@@ -9,11 +9,11 @@ layout(local_size_x = kGuideGroupSize) in;
 
 layout(push_constant, scalar) uniform Push { VolumePush push; };
 
-// Adds a vertex to the blocks that its 3 x 3 x 3 cells lie in.
+// Adds a vertex to the blocks of its 3 x 3 x 3 cells.
 void addToBlocks(VolumeParameters volume, VolumeSample vertex) {
     Blocks blocks = Blocks(volume.blocks);
     vec3 size = abs(vertex.velocity);
-    // Floats that are not negative are in the order of their bits.
+    // Non-negative floats have the same order as their bits.
     uint speed = floatBitsToUint(max(size.x, max(size.y, size.z)));
     uint share = uint(ceil(vertex.share * float(kVolumeBlockOne)));
     for (uint grid = 0; grid < kVolumeGrids; ++grid) {
@@ -25,7 +25,8 @@ void addToBlocks(VolumeParameters volume, VolumeSample vertex) {
                 for (uint x = first.x; x <= last.x; ++x) {
                     uint block = blockIndex(grid, uvec3(x, y, z), volume.resolution);
                     atomicAdd(blocks.at[block].share, share);
-                    // It only grows: an old value asks for an atomic operation too many at worst.
+                    // It only grows, so an outdated value at worst causes a needless atomic
+                    // operation.
                     if (blocks.at[block].fastest < speed)
                         atomicMax(blocks.at[block].fastest, speed);
                 }
@@ -43,7 +44,7 @@ void main() {
     vec3 later = fromWorld(push.frame, position + float(guides.step.count) * moved);
 
     VolumeSample vertex;
-    // Hair that is stretched beyond its reach counts at the grid's edge.
+    // Hair that is stretched beyond its reach is clamped to the grid's edge.
     vertex.point = clamp(
         (later - volume.origin) / volume.cell, vec3(kVolumeMargin),
         vec3(float(volume.resolution - kVolumeMargin) - 0.001));

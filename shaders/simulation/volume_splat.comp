@@ -1,5 +1,5 @@
 #version 460
-// volume_splat.glsl on any device: an atomic operation for each component.
+// volume_splat.glsl for any device, with one atomic operation per component.
 #extension GL_GOOGLE_include_directive : require
 
 #include "common/extensions.glsl"

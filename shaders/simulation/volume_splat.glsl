@@ -1,6 +1,6 @@
-// Adds the share and the momentum of every guide vertex to the grids, in integers: their sum is the
-// same in any order. One invocation per vertex. Before it: addToCell(address of the sums, number of
-// a cell, share and momentum).
+// Adds the share and the momentum of every guide vertex to the grids. The sums are integers, so
+// they are the same in any order. One invocation per vertex. Define addToCell(address of the sums,
+// number of a cell, share and momentum) first.
 #include "simulation/volume.glsl"
 
 layout(local_size_x = kGuideGroupSize) in;

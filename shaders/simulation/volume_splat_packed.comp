@@ -1,7 +1,7 @@
 #version 460
-// volume_splat.glsl on devices with atomics on 64-bit integers: one for two components. The lower
-// one of a pair borrows from the upper one where its sum is negative (VolumeParameters::borrows);
-// shares never are.
+// volume_splat.glsl for devices with atomics on 64-bit integers: one for two components. The lower
+// component of a pair borrows from the upper one if its sum is negative
+// (VolumeParameters::borrows). Shares are never negative.
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_shader_explicit_arithmetic_types_int64 : require
 #extension GL_EXT_shader_atomic_int64 : require

@@ -1,5 +1,5 @@
 #version 460
-// The wind's acceleration of every guide vertex, thesis eq. 14; one invocation per vertex.
+// Computes the wind's acceleration of every guide vertex, thesis eq. 14. One invocation per vertex.
 #extension GL_GOOGLE_include_directive : require
 
 #include "common/random.glsl"
@@ -9,7 +9,7 @@ layout(local_size_x = kGuideGroupSize) in;
 
 layout(push_constant, scalar) uniform Push { WindPush push; };
 
-// The strand's own wind: the four directions, weighed by four random numbers that sum to 1. m/s^2
+// The strand's own wind, m/s^2: the four directions, weighted by four random numbers with sum 1.
 vec3 strandWind(uint seed, uint strand) {
     vec4 weights;
     for (uint i = 0; i < 4; ++i)
@@ -20,8 +20,8 @@ vec3 strandWind(uint seed, uint strand) {
            weights.z * push.directions[2] + weights.w * push.directions[3];
 }
 
-// The part of the wind across a segment with tangent T: (T x W) x T. None along a segment without
-// one.
+// The part of the wind across a segment with tangent T: (T x W) x T. It is 0 for a segment without
+// a tangent.
 vec3 across(vec3 edge, vec3 wind) {
     float len = length(edge);
     if (len < kShortestSegment) return vec3(0.0);

@@ -1,4 +1,4 @@
-// Strands out of bodies, where they are drawn: guides collide vertex by vertex, and what is between
+// Pushes drawn strands out of bodies. Guides collide only at their vertices, so points between
 // vertices, or between guides, may be inside.
 #ifndef HAIRBENCH_STRAND_COLLISION_GLSL
 #define HAIRBENCH_STRAND_COLLISION_GLSL
@@ -9,21 +9,22 @@
 
 layout(buffer_reference, scalar) readonly buffer BodiesReference { Bodies bodies; };
 
-// Near the root, in the first guide segment: the margin grows along it, and up to here strands are
-// pushed by a growing part of the way, so that none leaves its root.
+// Applies in the first guide segment. The margin grows along the segment. Up to this fraction of
+// it, the push is scaled from 0 to its full length, so that no strand leaves its root.
 const float kPushedWhole = 0.25;
-// However deep it was, a point is so much of the margin outside.
+// Every point ends at least this fraction of the margin outside, however deep it was.
 const float kLeastOutside = 0.25;
 
-// Takes a point that is `gap` outside of a body, negative inside, out of it the shortest way. Within
-// the margin points are pressed together smoothly, the deeper the more, and keep their order: on one
-// surface they would lie like a cap. The tangent is that of the strand so moved, the body's curvature
-// left out; where it came straight in it stays.
+// Moves a point at distance `gap` from a body, negative inside, out of it along the shortest way.
+// Within the margin, points are compressed smoothly, deeper ones more, and keep their order. On a
+// single surface they would look like a cap. The tangent is that of the moved strand, without the
+// body's curvature. It stays unchanged if the strand came straight in.
 void pushOut(float gap, vec3 normal, float margin, float part, inout vec3 position,
              inout vec3 tangent) {
     if (gap >= margin) return;
     float least = kLeastOutside * margin;
-    float pressed = exp((gap - margin) / max(margin - least, 1e-6));  // of gap's change
+    float pressed = exp((gap - margin) / max(margin - least, 1e-6));  // derivative of the new gap
+                                                                      // by `gap`
     precise vec3 moved =  // strands/curve.glsl
         position + part * (least + (margin - least) * pressed - gap) * normal;
     precise vec3 slid = tangent - part * (1.0 - pressed) * dot(tangent, normal) * normal;
@@ -38,7 +39,7 @@ void pushStrandOut(PictureParameters picture, float along, inout vec3 position,
     float margin = bodies.margin * min(along, 1.0);
     float part = min(along / kPushedWhole, 1.0);
     mat3 rotation = mat3(picture.head);
-    // One loop over both kinds takes half as long again among capsules on llvmpipe.
+    // A single loop over both kinds takes 50 % longer with capsules on llvmpipe.
     vec3 normal;
     for (uint i = 0u; i < bodies.capsule_count; ++i) {
         Capsule capsule = Capsules(bodies.capsules).at[i];

@@ -1,15 +1,16 @@
-// Cubic curves: the uniform B-spline of thesis equation (4), and one that goes through its points.
+// Cubic curves: the uniform B-spline of thesis equation (4), and a curve through its points.
 //
-// Two segments make of the same points the same joint, and all back ends the same strands, because
-// every sum of products on the way is `precise`: each is rounded by itself, in this order, none
-// fused. At the ends of a segment t is 0 or 1 itself (pieceEnd()), so that all weights but for the
-// last division are whole numbers. Dot products, roots and logarithms are single operations, which
-// compilers expand alike in every stage, as far as is known.
+// Two segments compute the same joint from the same points, and all back ends compute the same
+// strands, because every sum of products is `precise`: each is rounded by itself, in this order,
+// and none is fused. At the ends of a segment t is exactly 0 or 1 (pieceEnd()), so all weights are
+// integers before the last division. Dot products, roots and logarithms are single operations,
+// which compilers expand alike in every stage, as far as is known.
 #ifndef HAIRBENCH_CURVE_GLSL
 #define HAIRBENCH_CURVE_GLSL
 
-// Weights of the four control points r(i-1), r(i), r(i+1), r(i+2) at t in [0, 1]. At t = 1 they are
-// the weights at t = 0 of the next segment, shifted by one, to the last bit: joints have no seam.
+// Weights of the four control points r(i-1), r(i), r(i+1), r(i+2) at t in [0, 1]. At t = 1 they
+// equal the weights of the next segment at t = 0, shifted by one, to the last bit: joints have no
+// seam.
 vec4 splineWeights(float t) {
     float s = 1.0 - t;
     precise vec4 weights = vec4(s * s * s, (3.0 * t - 6.0) * t * t + 4.0,
@@ -25,8 +26,8 @@ vec4 splineSlopes(float t) {
     return slopes;
 }
 
-// Weights of four samples, one apart, for the curve through them: Catmull and Rom 1974. t in [0, 1]
-// is the place between the second, where it is exact, and the third.
+// Weights of four samples at unit distances, for the curve through them: Catmull and Rom 1974. t in
+// [0, 1] is the position between the second sample, where the curve is exact, and the third.
 vec4 interpolationWeights(float t) {
     float s = 1.0 - t;
     precise vec4 weights = vec4(-t * s * s, (3.0 * t - 5.0) * t * t + 2.0,

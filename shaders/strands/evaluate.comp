@@ -1,6 +1,6 @@
 #version 460
-// Points of strands, from one on, into a buffer; one invocation per point. The same functions as
-// the back ends that draw them.
+// Writes points of strands, from a first one on, to a buffer; one invocation per point. It uses the
+// same functions as the back ends that draw strands.
 #extension GL_GOOGLE_include_directive : require
 #include "strands/strand.glsl"
 
@@ -17,7 +17,8 @@ void main() {
     uint slot = group * gl_WorkGroupSize.x + gl_LocalInvocationID.x;
     if (slot >= push.count) return;  // no barrier follows
 
-    // Points are numbered [triangle][strand][guide segment][point], as many as at the finest level.
+    // Points are numbered [triangle][strand][guide segment][point], with the counts of the finest
+    // level.
     uint index = push.first + slot;
     PictureParameters picture = PictureReference(push.picture).parameters;
     uint segments = picture.vertices_per_guide - 1u;

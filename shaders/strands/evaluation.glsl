@@ -1,5 +1,5 @@
-// The tessellation back end's evaluation: a vertex of a strand by interpolation between the guides,
-// then the curve. Thesis 2.3.2 and 2.3.5.
+// The evaluation stage of the tessellation back end: interpolates a strand's vertex between the
+// guides and evaluates the curve. Thesis 2.3.2 and 2.3.5.
 #ifndef HAIRBENCH_EVALUATION_GLSL
 #define HAIRBENCH_EVALUATION_GLSL
 
@@ -17,7 +17,8 @@ layout(location = 19) patch in uvec2 patch_pieces;
 layout(location = 20) patch in uint patch_triangle;
 
 StrandPoint evaluatedPoint(PictureParameters picture) {
-    // Whole numbers again, so that no rounding of the tessellator moves a strand or opens a joint.
+    // Converts back to integers, so that the tessellator's rounding cannot move a strand or open a
+    // joint.
     precise vec2 place = gl_TessCoord.yx * vec2(patch_ids.w, patch_pieces.x) + 0.5;
     uint isoline = uint(place.x);
     uint piece_end = uint(place.y);

@@ -1,5 +1,5 @@
 #version 460
-// Strands' quads from their points.
+// Draws strands' quads from evaluated points.
 #extension GL_GOOGLE_include_directive : require
 #include "common/vectors.glsl"
 #include "strands/quad.glsl"

@@ -1,5 +1,5 @@
 #version 460
-// Strands' quads from their points, on devices with 64-bit integers.
+// Draws strands' quads from evaluated points, on devices with 64-bit integers.
 #extension GL_GOOGLE_include_directive : require
 #include "common/packed_vectors.glsl"
 #include "strands/quad.glsl"

@@ -1,4 +1,4 @@
-// What the fragment shaders of strands share: the quad's point that they color.
+// Common code of the strands' fragment shaders: the point of the quad that they shade.
 #ifndef HAIRBENCH_STRAND_FRAGMENT_GLSL
 #define HAIRBENCH_STRAND_FRAGMENT_GLSL
 
@@ -13,23 +13,23 @@ layout(push_constant, scalar) uniform Push { StrandPush push; };
 
 layout(location = 0) in vec4 position_and_across;
 layout(location = 1) in vec4 tangent_and_along;
-layout(location = 2) in float half_width;  // m; where quads tell it. Of lines their coverage
-layout(location = 3) flat in uint merged_hairs;  // where kTellsHairs
+layout(location = 2) in float half_width;  // m, if quads pass it; for lines, their coverage
+layout(location = 3) flat in uint merged_hairs;  // set if kTellsHairs
 
-// 1: strands are lines a pixel wide
+// 1: strands are lines one pixel wide
 layout(constant_id = kLinesConstant) const uint kLines = 0;
 
 // A point of a strand as a pixel sees it.
 struct SeenStrand {
     StrandFragment fragment;
-    vec4 factors;  // of colour and opacity
-    float coverage;  // of the pixel; where it is sampled 1, or in a gap 0
+    vec4 factors;  // on colour and opacity
+    float coverage;  // part of the pixel that the strand covers; with sampling 1, or 0 in a gap
 };
 
 SeenStrand seenStrand(PictureParameters picture) {
     SeenStrand seen;
     seen.fragment.position = position_and_across.xyz;
-    // Tangents of a quad's two ends may cancel out between them.
+    // Tangents of a quad's two ends may cancel between them.
     seen.fragment.tangent = unitOr(tangent_and_along.xyz, vec3(0.0, 1.0, 0.0));
     seen.fragment.to_eye = normalize(picture.eye - seen.fragment.position);
     seen.fragment.across = position_and_across.w;
@@ -63,7 +63,7 @@ vec3 strandColor(PictureParameters picture, SeenStrand seen) {
     return shadeStrand(picture, seen.fragment, picture.hair_color * seen.factors.rgb);
 }
 
-// Colour and opacity, without fragments that nothing is seen of.
+// Returns colour and opacity; discards invisible fragments.
 vec4 transparentStrand(PictureParameters picture) {
     SeenStrand seen = seenStrand(picture);
     float alpha = seen.coverage * picture.opacity * seen.factors.a;

@@ -1,7 +1,7 @@
 #version 460
-// Frames of the guides that don't turn about them: a normal at every vertex, by double reflection.
-// Wang, Juettler, Zheng and Liu 2008, Computation of rotation minimizing frames, table I. One
-// invocation per guide.
+// Computes twist-free frames of the guides: a normal at every vertex, by double reflection. Wang,
+// Juettler, Zheng and Liu 2008, Computation of rotation minimizing frames, table I. One invocation
+// per guide.
 #extension GL_GOOGLE_include_directive : require
 #include "common/picture.glsl"
 #include "common/quaternion.glsl"
@@ -12,10 +12,11 @@ layout(push_constant, scalar) uniform Push { FramesPush push; };
 layout(buffer_reference, scalar) readonly buffer RootFrames { RootFrame frames[]; };
 layout(buffer_reference, scalar) writeonly buffer Normals { vec3 at[]; };
 
-const float kShortest = 1e-3;  // of a normal's part across the tangent; below, it has no direction
+const float kShortest = 1e-3;  // of a normal's part across the tangent; a shorter part has no
+                               // direction
 
-// The unit vector along the chord between a vertex's neighbours, as the strands' curve; `before`
-// where they meet.
+// The unit vector along the chord between a vertex's neighbours, like the tangent of the strands'
+// curve; `before` if the neighbours coincide.
 vec3 vertexTangent(uint first, uint vertex, vec3 before) {
     GuidePoints guides = GuidePoints(push.guides);
     uint last = push.vertices_per_guide - 1u;
@@ -26,14 +27,14 @@ vec3 vertexTangent(uint first, uint vertex, vec3 before) {
     return squared > 0.0 ? chord * inversesqrt(squared) : before;
 }
 
-// Takes out of a normal what rounding put along the tangent.
+// Removes a normal's component along the tangent, which rounding adds.
 vec3 unitAcross(vec3 normal, vec3 tangent) {
     vec3 part = normal - dot(normal, tangent) * tangent;
     float size = length(part);
     return size > kShortest ? part / size : perpendicular(tangent);
 }
 
-// A vector across `from`, turned as the smallest rotation turns `from` to `to`.
+// Applies the smallest rotation from `from` to `to` to a vector across `from`.
 vec3 turned(vec3 across, vec3 from, vec3 to) {
     return across - dot(across, to) / max(1.0 + dot(from, to), 1e-6) * (from + to);
 }

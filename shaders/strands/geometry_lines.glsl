@@ -1,4 +1,4 @@
-// The geometry stage that makes quads: what it is given of a line, and how many corners it gives.
+// The geometry stage that makes quads: its inputs for a line and its number of corners.
 #ifndef HAIRBENCH_GEOMETRY_LINES_GLSL
 #define HAIRBENCH_GEOMETRY_LINES_GLSL
 
@@ -9,7 +9,7 @@ layout(triangle_strip, max_vertices = 4) out;
 
 layout(location = 0) in vec4 position_and_width[];  // a negative width drops the line
 layout(location = 1) in vec4 tangent_and_along[];
-layout(location = 2) in uint merged_hairs[];  // where kTellsHairs
+layout(location = 2) in uint merged_hairs[];  // set if kTellsHairs
 
 LineEnd lineEnd(int end) {
     vec4 position = position_and_width[end];

@@ -1,5 +1,5 @@
 // Control points of a strand from those of the three guides of its root triangle: thesis 2.3.1 to
-// 2.3.4. A strand's root is at the same place in every way.
+// 2.3.4. A strand's root is the same in all modes of interpolation.
 #ifndef HAIRBENCH_STRAND_INTERPOLATION_GLSL
 #define HAIRBENCH_STRAND_INTERPOLATION_GLSL
 
@@ -8,9 +8,9 @@
 
 layout(buffer_reference, scalar) readonly buffer GuideContacts { float values[]; };
 
-// Control point `index` of a guide, -1 and vertices_per_guide included. Reflecting the second point
-// in the end makes the curve start and end exactly at the root and the tip; the published program
-// repeats the end, and its hair floats off the scalp.
+// Control point `index` of a guide, from -1 to vertices_per_guide. The extra points reflect the
+// second point in the end, so that the curve starts exactly at the root and ends exactly at the
+// tip. The published program repeats the end, and its hair floats off the scalp.
 vec3 guideControlPoint(PictureParameters picture, uint guide, int index) {
     int last = int(picture.vertices_per_guide) - 1;
     int inside = clamp(index, 0, last);
@@ -21,8 +21,8 @@ vec3 guideControlPoint(PictureParameters picture, uint guide, int index) {
     return reflected;
 }
 
-// Whether one of the guides touches a body at a vertex or above it: all that is below a contact is
-// marked with it.
+// True if one of the guides touches a body at a vertex or above it. All vertices below a contact
+// are marked too.
 bool touchesBody(PictureParameters picture, uvec3 guides, int index) {
     uint vertex = uint(clamp(index, 0, int(picture.vertices_per_guide) - 1));
     uvec3 w = 4u * (guides * picture.vertices_per_guide + vertex) + 3u;
@@ -30,8 +30,8 @@ bool touchesBody(PictureParameters picture, uvec3 guides, int index) {
     return max(max(contacts.values[w.x], contacts.values[w.y]), contacts.values[w.z]) > 0.0;
 }
 
-// How much the control points r(i-1) to r(i+2) of a segment follow one guide instead of all three:
-// 0 to 1. The curve is as smooth where this changes as elsewhere.
+// The shares, 0 to 1, by which the control points r(i-1) to r(i+2) of a segment follow one guide
+// instead of all three. The curve stays smooth where they change.
 vec4 singleShares(PictureParameters picture, uvec3 guides, uint segment) {
     if (kInterpolation == kInterpolationSingle) return vec4(1.0);
     vec4 shares = vec4(kInterpolation == kInterpolationMixed ? 1.0 - picture.blend : 0.0);
@@ -47,7 +47,8 @@ vec3 mixGuides(vec3 weights, vec3 a, vec3 b, vec3 c) {
     return sum;
 }
 
-// r(i-1) to r(i+2) of a strand in a segment. points: [guide of the triangle][r(i-1) .. r(i+2)]
+// Computes r(i-1) to r(i+2) of a strand in a segment. points: [guide of the triangle][r(i-1) ..
+// r(i+2)]
 void strandControlPoints(PictureParameters picture, uvec3 guides, uint segment, vec3 weights,
                          vec3 points[12], vec4 single_shares, out vec3 r[4]) {
     for (int k = 0; k < 4; ++k) r[k] = mixGuides(weights, points[k], points[4 + k], points[8 + k]);
@@ -61,7 +62,7 @@ void strandControlPoints(PictureParameters picture, uvec3 guides, uint segment, 
     for (int k = 0; k < 4; ++k)
         r[k] = mix(r[k], points[4u * heaviest + uint(k)] + offset, single_shares[k]);
 
-    // Where shares change at an end, the mean of reflected points is no reflection.
+    // Where shares change at an end, the mean of reflected points is not the reflection.
     if (kCollisionRule == 0 || kCurve == kCurveBsplineUnpinned) return;
     precise vec3 before = 2.0 * r[1] - r[2];
     precise vec3 behind = 2.0 * r[2] - r[1];

@@ -1,4 +1,4 @@
-// An end of a line of a strand, as quads are made of it.
+// An end of a line of a strand; quads are made from two ends.
 #ifndef HAIRBENCH_LINE_END_GLSL
 #define HAIRBENCH_LINE_END_GLSL
 
@@ -7,7 +7,7 @@ struct LineEnd {
     vec3 tangent;  // of any length
     float width;  // m
     float along;
-    uint merged;  // strands/merged_word.glsl; where kTellsHairs
+    uint merged;  // strands/merged_word.glsl; set if kTellsHairs
 };
 
 #endif

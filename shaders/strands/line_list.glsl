@@ -1,12 +1,12 @@
-// The vertices of a line list: every one evaluates its own point. Lines are numbered
-// [patch][isoline][piece], as many as at the finest level: in the order of the tessellation back
-// end's.
+// The vertices of a line list. Each one evaluates its own point. Lines are numbered
+// [patch][isoline][piece], with the counts of the finest level, in the order of the tessellation
+// back end.
 #ifndef HAIRBENCH_LINE_LIST_GLSL
 #define HAIRBENCH_LINE_LIST_GLSL
 
 #include "strands/strand.glsl"
 
-// `drawn` says whether the line is one of a strand.
+// `drawn` tells whether the line belongs to a strand.
 StrandPoint listedPoint(PictureParameters picture, uint vertex, out bool drawn) {
     uint line = vertex / 2u;
     uint tessellation = kLodMode == kLodForced ? picture.forced_tessellation : picture.tessellation;

@@ -1,22 +1,22 @@
 #version 460
-// Strands as lines a pixel wide, and the part of their pixels that they cover: thesis 2.2 shows what
-// is wrong with them.
+// Draws strands as lines one pixel wide, with the part of the pixels that they cover. Thesis 2.2
+// shows the faults of this method.
 #extension GL_GOOGLE_include_directive : require
 #include "common/depth.glsl"
 #include "strands/line_list.glsl"
 
 layout(push_constant, scalar) uniform Push { StrandPush push; };
 
-// 1: the device's lines are rectangles a pixel wide; else they have a pixel in every row, or column.
+// 1: the device draws lines as rectangles one pixel wide; 0: with one pixel per row or column.
 layout(constant_id = kStrictLinesConstant) const uint kStrictLines = 0;
 
-layout(location = 0) out vec4 position_and_across;  // m; 0: the middle
+layout(location = 0) out vec4 position_and_across;  // m; w is 0, the middle
 layout(location = 1) out vec4 tangent_and_along_out;
 layout(location = 2) out float line_coverage;
-layout(location = 3) flat out uint merged_hairs;  // of these none: lines have no width to divide
+layout(location = 3) flat out uint merged_hairs;  // for own colours; lines show no merged hairs
 invariant gl_Position;
 
-// How many times as long as its extent in rows, or columns, a line is on the screen.
+// Ratio of a line's length on the screen to its extent in rows or columns.
 float slant(PictureParameters picture, vec3 tangent) {
     mat4 rows = transpose(picture.view_projection);
     vec4 moved = picture.view_projection * vec4(tangent, 0.0);

@@ -1,6 +1,6 @@
 #version 460
-// A strand's quad, put on the list of its pixel: Yang et al. 2010, Real-time concurrent linked list
-// construction on the GPU. With several samples, alpha falls with the part of them that is covered.
+// Adds a strand's fragment to the list of its pixel: Yang et al. 2010, Real-time concurrent linked
+// list construction on the GPU. With several samples, alpha is scaled by the covered part of them.
 #extension GL_GOOGLE_include_directive : require
 #include "strands/fragment.glsl"
 #include "strands/pixel_samples.glsl"

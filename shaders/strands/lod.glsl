@@ -1,7 +1,7 @@
-// Level of detail, thesis 2.3.8.1: strands and drawn segments become fewer and strands wider, all
-// of it continuous in the level. A root triangle's level is that of its roots, the same for all
-// segments of a strand: strands never break between patches, and lower levels keep the first
-// strands of the list.
+// Level of detail, thesis 2.3.8.1. With growing level, there are fewer strands and drawn segments,
+// and strands are wider. Everything is continuous in the level. A root triangle's level is that of
+// its roots and applies to all segments of a strand, so strands never break between patches.
+// Coarser levels keep the first strands of the list.
 #ifndef HAIRBENCH_LOD_GLSL
 #define HAIRBENCH_LOD_GLSL
 
@@ -10,15 +10,15 @@
 
 struct StrandLod {
     float level;        // 0: full detail
-    float density;      // strands per root triangle, >= 1; the last has the fraction's width
-    float width_scale;  // of all of them
+    float density;      // strands per root triangle, >= 1; the last strand has the fraction's width
+    float width_scale;  // of all strands
     uint pieces;        // drawn segments per guide segment
-    uint step;          // every step-th of their ends is one at coarser levels too
-    float morph;        // where the other ends are: 1 on the curve, 0 on the line between those
+    uint step;          // every step-th of their ends also exists at coarser levels
+    float morph;        // position of the other ends: 1 on the curve, 0 on the line between those
 };
 
-// Level 0 up to lod_near, then growing with the logarithm of the distance to lod_maximum_level at
-// lod_far.
+// Level 0 up to lod_near. Beyond, the level grows with the logarithm of the distance, to
+// lod_maximum_level at lod_far.
 float lodLevel(PictureParameters picture, float distance_to_eye) {
     float octaves = log2(distance_to_eye / picture.lod_near);
     float fraction = octaves / log2(picture.lod_far / picture.lod_near);
@@ -31,9 +31,10 @@ uint smallestFactor(uint number) {
     return number;
 }
 
-// The coarsest of the nested sets of pieces that has at least finest * scale: each has as many
-// times fewer than the one before as that number's smallest factor, down to 1. Just above the next set's number
-// the ends that it lacks have all but reached its lines: they are dropped without a jump.
+// Chooses the coarsest of the nested sets of pieces that has at least finest * scale pieces. Each
+// set's count is that of the set before divided by its smallest factor, down to 1. Just above the
+// next set's count, the ends that the next set lacks have almost reached its lines, so they are
+// dropped without a jump.
 void choosePieces(uint finest, float scale, inout StrandLod lod) {
     float wanted = max(float(finest) * scale, 1.0);
     lod.pieces = finest;
@@ -81,13 +82,13 @@ StrandLod forcedLod(PictureParameters picture) {
 
 uint drawnStrands(StrandLod lod) { return uint(ceil(lod.density)); }
 
-// The part of a strand's width that it is drawn with: 1, but for the last strand, which fades in.
+// The share of a strand's width that is drawn. It is 1 for all but the last strand, which fades in.
 float strandShare(StrandLod lod, uint strand) {
     return clamp(lod.density - float(strand), 0.0, 1.0);
 }
 
-// Where an end of a piece lies along the guide segment: 0 and 1 themselves at its ends, which a
-// division is not sure to give (Vulkan: to 2.5 roundings).
+// The position of a piece's end along the guide segment. It is exactly 0 and 1 at the segment's
+// ends, which a division does not guarantee (in Vulkan it is accurate to 2.5 ULP).
 float pieceEnd(StrandLod lod, uint index) {
     return index == lod.pieces ? 1.0 : float(index) / float(lod.pieces);
 }

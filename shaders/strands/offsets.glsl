@@ -1,6 +1,6 @@
 // Offsets of strands from their smooth shape: curls and disorder, thesis 2.3.8.2 and 2.3.8.3. They
-// come from a table (hair/rendering/strand_offsets.h) and are along the normal, the binormal and
-// the tangent of a frame that turns with a guide (strands/frames.comp) but not about it.
+// come from a table (hair/rendering/strand_offsets.h). Their axes are the normal, the binormal and
+// the tangent of a frame that follows a guide (strands/frames.comp) without twist about it.
 #ifndef HAIRBENCH_STRAND_OFFSETS_GLSL
 #define HAIRBENCH_STRAND_OFFSETS_GLSL
 
@@ -11,7 +11,7 @@
 layout(buffer_reference, scalar) readonly buffer GuideNormals { vec3 normals[]; };
 layout(buffer_reference, scalar) readonly buffer OffsetTable { vec3 offsets[]; };
 
-// An offset and its derivative by the place along the strand, 0 to 1.
+// An offset and its derivative by the position along the strand, 0 to 1.
 struct StrandOffset {
     vec3 value;
     vec3 slope;
@@ -25,7 +25,8 @@ StrandOffset strandOffset(PictureParameters picture, uint profile, float along) 
     precise float part = place - float(interval);
     vec4 weights = interpolationWeights(part);
     vec4 slopes = interpolationSlopes(part);
-    // The sample before an interval's start is at its index: the table begins with one outside.
+    // The sample before an interval's start has the interval's index, because the table begins with
+    // one sample outside.
     uint first = profile * (picture.offset_samples + 2u) + interval;
     vec3 a = table.offsets[first];
     vec3 b = table.offsets[first + 1u];
@@ -42,8 +43,8 @@ vec3 guideNormal(PictureParameters picture, uint guide, int index) {
 
 vec3 unitOrZero(vec3 v) { return v * inversesqrt(max(dot(v, v), 1e-30)); }
 
-// Normal, binormal and unit tangent at t of a segment. The guide's normals are blended as its
-// points are, so that the frame is as smooth as the curve, joints included.
+// Normal, binormal and unit tangent at t of a segment. The guide's normals are blended like its
+// points, so the frame is as smooth as the curve, even at joints.
 mat3 strandFrame(PictureParameters picture, uint guide, uint segment, float t, vec3 tangent) {
     int first = int(segment) - 1;
     vec3 blended = blend(splineWeights(t), guideNormal(picture, guide, first),

@@ -1,4 +1,4 @@
-// What a picture can't show of strands.
+// Culling of strands that are outside the picture.
 #ifndef HAIRBENCH_OUTSIDE_GLSL
 #define HAIRBENCH_OUTSIDE_GLSL
 
@@ -6,15 +6,16 @@
 #include "strands/patch.glsl"
 #include "strands/pixel_margin.glsl"
 
-// Whether no strand between the guides can be in the picture, where only their vertices `first` to
-// `last` bear on it. Splines and interpolation stay within the guides' hull but for roots apart
-// from their guide's, a segment at splines' ends and bends, what coverage draws beside strands, and
-// what `beyond` counts: offsets and widths, m.
+// True if no strand between the guides can be in the picture; only the guides' vertices `first` to
+// `last` affect it. Splines and interpolation stay within the guides' convex hull, with these
+// exceptions: roots away from their guide's root, a segment at splines' ends and bends, the margin
+// that coverage draws beside strands, and offsets and widths, which are in `beyond`, m.
 bool isOutside(PictureParameters picture, uvec3 guides, uint first, uint last, float beyond) {
     mat4 rows = transpose(picture.view_projection);
     vec4 planes[5] = vec4[5](rows[3] + rows[0], rows[3] - rows[0], rows[3] + rows[1],
                              rows[3] - rows[1], rows[3] - rows[2]);
-    float furthest[5] = float[5](-1e30, -1e30, -1e30, -1e30, -1e30);  // inside
+    float furthest[5] = float[5](-1e30, -1e30, -1e30, -1e30, -1e30);  // signed distances, positive
+                                                                      // inside
     vec3 root = guideVertex(picture, guides.x, 0u);
     float edge = 0.0;
     float longest = 0.0;

@@ -1,13 +1,14 @@
-// The colours by which single strands differ from their hair's.
+// Colours of single strands, relative to the hair's colour.
 #ifndef HAIRBENCH_OWN_COLOR_GLSL
 #define HAIRBENCH_OWN_COLOR_GLSL
 
 #include "common/picture.glsl"
 #include "strands/merged_word.glsl"
 
-// Factor of the hair's color c at a place along a strand, 0 at the root and 1 at the tip: what is
-// seen is c^a, as of hair that absorbs a times as much (Beer and Lambert). a is a strand's own,
-// 1 - strand_variation to 1 + strand_variation, and falls toward the tip by tip_lightening of it.
+// Factor on the hair's colour c at a position along a strand, 0 at the root and 1 at the tip. The
+// resulting colour is c^a, as for hair that absorbs a times as much (Beer and Lambert). a is random
+// for each strand, 1 - strand_variation to 1 + strand_variation, and decreases towards the tip by
+// the fraction tip_lightening.
 vec3 ownColor(PictureParameters picture, uint word, float along) {
     if (kOwnColors == 0u) return vec3(1.0);
     float place = float(word & 0xffffu) / 65535.0;

@@ -1,4 +1,4 @@
-// Patches: which guides and strands they have.
+// The guides and strands of patches.
 #ifndef HAIRBENCH_STRAND_PATCH_GLSL
 #define HAIRBENCH_STRAND_PATCH_GLSL
 
@@ -10,7 +10,7 @@
 layout(buffer_reference, scalar) readonly buffer BoundStrands { BoundStrand strands[]; };
 
 // One (root triangle, guide segment) pair, or a part of its strands. The strands of a groom count
-// as those of one triangle, the first of which a level of detail keeps; each is a patch.
+// as those of one triangle, and a level of detail keeps the first of them. Each of them is a patch.
 struct StrandPatch {
     uint triangle;
     uint key;           // random, of the triangle
@@ -25,8 +25,8 @@ BoundStrand boundStrand(PictureParameters picture, uint strand) {
 
 bool followsHead(vec3 weights) { return kResiduals != 0 && weights == vec3(0.0); }
 
-// What a strand of the groom is moved by beside its guides: the place of its root, where it follows
-// the head alone.
+// The displacement of a groom's strand in addition to its guides. For a strand that follows only
+// the head, it is the position of its root.
 vec3 boundOffset(PictureParameters picture, BoundStrand bound) {
     precise vec3 offset = mat3(picture.head) * bound.offset;
     if (followsHead(bound.weights)) {
@@ -36,7 +36,7 @@ vec3 boundOffset(PictureParameters picture, BoundStrand bound) {
     return offset;
 }
 
-// How far a strand of the groom may be from the curve of its guides' mean.
+// Greatest distance of a groom's strand from the curve of its guides' mean.
 float boundReach(PictureParameters picture, uint strand) {
     BoundStrand bound = boundStrand(picture, strand);
     return length(bound.offset) + (kResiduals != 0 ? bound.residual_reach : 0.0);
@@ -58,7 +58,7 @@ StrandPatch strandPatch(PictureParameters picture, uint patch_index) {
     return result;
 }
 
-// The three guides of all strands of the patch.
+// Returns the three guides of all strands of the patch.
 uvec3 patchGuides(PictureParameters picture, StrandPatch strand_patch) {
     if (kSource == kSourceGroom) return boundStrand(picture, strand_patch.first_strand).guides;
     RootTriangles triangles = RootTriangles(picture.root_triangles);
@@ -67,7 +67,7 @@ uvec3 patchGuides(PictureParameters picture, StrandPatch strand_patch) {
                  triangles.guides[first + 2]);
 }
 
-// The place that a patch's level of detail is that of.
+// The position that determines a patch's level of detail.
 vec3 lodCentre(PictureParameters picture, StrandPatch strand_patch, uvec3 guides) {
     vec3 a = guideVertex(picture, guides.x, 0);
     vec3 b = guideVertex(picture, guides.y, 0);
@@ -87,7 +87,7 @@ StrandLod patchLod(PictureParameters picture, StrandPatch strand_patch, uvec3 gu
     return lodAtDistance(picture, distance(centre, picture.lod_eye));
 }
 
-// Strands of the patch that its level of detail draws; may be 0.
+// Number of the patch's strands that its level of detail draws; may be 0.
 uint strandsInPatch(PictureParameters picture, StrandPatch strand_patch) {
     uint drawn = drawnStrands(strand_patch.lod);
     uint first = strand_patch.first_strand;

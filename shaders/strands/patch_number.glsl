@@ -1,5 +1,5 @@
-// The patch that a vertex of the tessellation back end stands for: a draw numbers patches by
-// vertex, by instance, or by both, in the order [triangle][part][segment].
+// The patch for a vertex of the tessellation back end. A draw numbers patches by vertex, by
+// instance, or by both, in the order [triangle][part][segment].
 #ifndef HAIRBENCH_PATCH_NUMBER_GLSL
 #define HAIRBENCH_PATCH_NUMBER_GLSL
 

@@ -1,16 +1,16 @@
-// How far beyond a strand's edges its quad must reach, so that every pixel that the strand touches
-// is drawn.
+// The margin of a quad beyond the strand's edges, so that it covers every pixel that the strand
+// touches.
 #ifndef HAIRBENCH_PIXEL_MARGIN_GLSL
 #define HAIRBENCH_PIXEL_MARGIN_GLSL
 
 #include "common/picture.glsl"
 #include "strands/pixel_samples.glsl"
 
-// A pixel whose corner touches the edge has its centre half a diagonal away, and one of its samples
-// may be as far again. A bit more than the half, for rounding.
+// A pixel with a corner on the edge has its centre half a diagonal away, and one of its samples may
+// be as far again. The value is a little more than half, for rounding.
 const float kHalfDiagonal = 0.7075;  // px
 
-// The margin at a place, m.
+// The margin at a position, m.
 float pixelMargin(PictureParameters picture, vec3 position) {
     float depth = max((picture.view_projection * vec4(position, 1.0)).w, 0.0);
     float pixel = picture.pixel_near + picture.pixel_slope * depth;

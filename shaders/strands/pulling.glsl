@@ -1,19 +1,19 @@
-// The back end `pulling`: a vertex is a corner of a quad, and evaluates its own point; quads of one
-// piece and the next share their corners. Before it: strands/quad.glsl or shadows/quad.glsl.
+// The back end `pulling`: a vertex is a corner of a quad and evaluates its own point. Quads of
+// adjacent pieces share their corners. Include strands/quad.glsl or shadows/quad.glsl first.
 #ifndef HAIRBENCH_PULLING_GLSL
 #define HAIRBENCH_PULLING_GLSL
 
 #include "common/depth.glsl"
 #include "strands/strand.glsl"
 
-layout(constant_id = kStrandBlockConstant) const uint kBlock = 1;  // isolines of an instance
+layout(constant_id = kStrandBlockConstant) const uint kBlock = 1;  // isolines per instance
 
 layout(push_constant, scalar) uniform Push { StrandPush push; };
 
 void main() {
     PictureParameters picture = PictureReference(push.picture).parameters;
-    // Vertices are numbered [isoline of the instance][end of a piece][corner], isolines
-    // [patch][isoline], as many of all as at the finest level.
+    // Vertices are numbered [isoline of the instance][end of a piece][corner], and isolines
+    // [patch][isoline], with the counts of the finest level.
     uint tessellation = kLodMode == kLodForced ? picture.forced_tessellation : picture.tessellation;
     uint corner = uint(gl_VertexIndex) % 2u;
     uint end = uint(gl_VertexIndex) / 2u % (tessellation + 1u);

@@ -1,5 +1,5 @@
 #version 460
-// Strands without tessellation or geometry stages.
+// Draws strands without tessellation or geometry stages.
 #extension GL_GOOGLE_include_directive : require
 #include "strands/quad.glsl"
 

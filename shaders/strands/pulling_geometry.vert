@@ -1,5 +1,5 @@
 #version 460
-// Strands without tessellation, for the same geometry stage as the tessellation back end's.
+// Evaluates strands without tessellation, for the geometry stage of the tessellation back end.
 #extension GL_GOOGLE_include_directive : require
 #include "strands/line_list.glsl"
 
@@ -7,7 +7,7 @@ layout(push_constant, scalar) uniform Push { StrandPush push; };
 
 layout(location = 0) out vec4 position_and_width;  // a negative width drops the line
 layout(location = 1) out vec4 tangent_and_along;
-layout(location = 2) out uint merged_hairs;  // where kTellsHairs
+layout(location = 2) out uint merged_hairs;  // set if kTellsHairs
 
 void main() {
     bool drawn;

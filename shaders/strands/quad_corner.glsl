@@ -1,5 +1,5 @@
-// A line of a strand -> a quad that faces the camera, thesis 2.2: side = normalize(E x T), P -+ side
-// w / 2. What its corners are, whichever stage makes them.
+// Makes a line of a strand into a quad that faces the camera, thesis 2.2: side = normalize(E x T),
+// P -+ side w / 2. All stages that make corners share this code.
 #ifndef HAIRBENCH_QUAD_CORNER_GLSL
 #define HAIRBENCH_QUAD_CORNER_GLSL
 
@@ -10,15 +10,15 @@
 #include "strands/merged_word.glsl"
 #include "strands/pixel_margin.glsl"
 
-// Whether fragments are told how wide the strand is, and their place across in metres: only lengths
-// are the same on both triangles of a quad that narrows.
+// True if fragments get the strand's width and their position across in metres. Only lengths are
+// consistent on both triangles of a quad that narrows.
 const bool kTellsWidth = kNeedsWidth || kMergedHairs != 0;
 
 bool isAcrossInMetres(uint merged) {
     return kAnalyticCoverage != 0 || (kMergedHairs != 0 && mergedCount(merged) > 1.0);
 }
 
-// How far the quad's edges are from an end of the line, and where to.
+// Distance and direction from an end of the line to the quad's edges.
 struct QuadEnd {
     vec3 side;  // m
     float half_quad;  // m

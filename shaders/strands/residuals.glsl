@@ -1,6 +1,6 @@
-// Residuals: what a strand of the file is off the curve of its guides' mean at rest. They come from
-// a table (hair/rendering/strand_residuals.h), in the axes of the groom at rest, and turn as the
-// guides have turned since (strands/turns.comp).
+// Residuals: the differences at rest between the file's strands and the curve of their guides'
+// mean. They come from a table (hair/rendering/strand_residuals.h), in the axes of the groom at
+// rest. They turn as the guides have turned since (strands/turns.comp).
 #ifndef HAIRBENCH_STRAND_RESIDUALS_GLSL
 #define HAIRBENCH_STRAND_RESIDUALS_GLSL
 
@@ -11,11 +11,11 @@
 layout(buffer_reference, scalar) readonly buffer Residuals { uvec2 samples[]; };
 layout(buffer_reference, scalar) readonly buffer GuideTurns { vec4 turns[]; };
 
-// Of an interval: how far ahead of its even place a sample is looked for.
-// hair/rendering/strand_residuals.cpp knows it, too.
+// The search for a sample starts this fraction of an interval ahead of its position in even
+// spacing. hair/rendering/strand_residuals.cpp uses the same value.
 const float kResidualGuess = 0.25;
 
-// A sample is four numbers of 16 bits: a vector in steps, and its place along the strand.
+// A sample is four 16-bit numbers: a vector in steps, and its position along the strand.
 struct ResidualSample {
     vec3 value;  // steps
     float place;  // 0 to kResidualPlaces
@@ -29,10 +29,10 @@ ResidualSample residualSample(Residuals table, uint index) {
                           float(bits.y >> 16));
 }
 
-// The last sample of a strand that is not behind a place, or the last but one. Where points are spaced
-// evenly two looks find it, from where it should be on. Otherwise as many halvings as the longest
-// strand needs: in a branch, lavapipe's evaluation stage runs a loop wrongly that invocations leave
-// one by one.
+// Returns the last sample of a strand at or before a position, at most the last but one. If points
+// are evenly spaced, two lookups near the expected position find it. Otherwise it takes as many
+// bisections as the longest strand needs. All invocations run all of them: in a branch, lavapipe's
+// evaluation stage wrongly executes a loop that invocations leave one by one.
 uint residualInterval(Residuals table, BoundStrand strand, float along, float place) {
     uint low = 0u;
     uint high = strand.residuals - 1u;
@@ -50,9 +50,9 @@ uint residualInterval(Residuals table, BoundStrand strand, float along, float pl
     return low;
 }
 
-// The residual and its derivative by the place along the strand, 0 to 1: the cubic that has at both
-// samples the slope of the parabola through them and the sample beyond: Bessel's, de Boor 1978, A
-// Practical Guide to Splines, chapter IV.
+// The residual and its derivative by the position along the strand, 0 to 1, by Bessel's cubic
+// interpolation: at both samples the cubic has the slope of the parabola through them and the
+// sample beyond. De Boor 1978, A Practical Guide to Splines, chapter IV.
 StrandOffset strandResidual(PictureParameters picture, BoundStrand strand, float along) {
     Residuals table = Residuals(picture.residuals);
     precise float place = along * kResidualPlaces;
@@ -65,7 +65,7 @@ StrandOffset strandResidual(PictureParameters picture, BoundStrand strand, float
     ResidualSample c = residualSample(table, first + 1u);
     ResidualSample d = residualSample(table, is_last ? first + 1u : first + 2u);
 
-    // Changes over the interval, were it all as steep as at its ends.
+    // Changes over the interval if it were as steep throughout as at its ends.
     precise float size = c.place - b.place;
     precise vec3 change = c.value - b.value;
     precise float part_before = is_first ? 0.0 : size / (c.place - a.place);
@@ -76,7 +76,7 @@ StrandOffset strandResidual(PictureParameters picture, BoundStrand strand, float
         is_last ? vec3(0.0) : (d.value - c.value) * (size / (d.place - c.place)) - change;
     precise vec3 bent_before = part_before * steep_before;
     precise vec3 bent_behind = part_behind * steep_behind;
-    // Where there is no neighbour the other end's parabola goes on.
+    // Without a neighbour, the parabola of the other end continues.
     if (is_first) bent_before = -bent_behind;
     if (is_last) bent_behind = -bent_before;
 
@@ -98,19 +98,19 @@ vec4 guideTurn(PictureParameters picture, uint guide, uint segment, float share)
     return turn;
 }
 
-// A vector turned by a unit quaternion, rounded alike in every stage: strands/curve.glsl.
+// Turns a vector by a unit quaternion, with the same rounding in every stage: strands/curve.glsl.
 vec3 turnedBy(vec4 turn, vec3 v) {
     precise vec3 half_moved = cross(turn.xyz, v);
     precise vec3 moved = v + 2.0 * (turn.w * half_moved + cross(turn.xyz, half_moved));
     return moved;
 }
 
-// How a strand has turned since rest at t of a segment: the mean of its guides' turns, a step of the
-// power iteration from the heaviest one's towards Markley et al. 2007, Averaging Quaternions,
-// equation (12). Signs make no difference, it is never 0, and where a guide has turned away from the
-// heaviest by half a turn it counts nothing, so that nothing jumps.
+// The rotation of a strand since rest at t of a segment: the mean of its guides' rotations. It is
+// one step of power iteration from the heaviest guide's rotation towards Markley et al. 2007,
+// Averaging Quaternions, equation (12). Signs make no difference, and the result is never 0. A
+// guide half a turn away from the heaviest has no weight, so that nothing jumps.
 vec4 strandTurn(PictureParameters picture, uvec3 guides, vec3 weights, uint segment, float t) {
-    precise float share = t * t * (3.0 - 2.0 * t);  // so that the turn is smooth across vertices
+    precise float share = t * t * (3.0 - 2.0 * t);  // makes the rotation smooth across vertices
     vec4 a = guideTurn(picture, guides.x, segment, share);
     vec4 b = guideTurn(picture, guides.y, segment, share);
     vec4 c = guideTurn(picture, guides.z, segment, share);

@@ -1,4 +1,4 @@
-// Where strands have their roots between three guides.
+// Positions of strands' roots between three guides.
 #ifndef HAIRBENCH_STRAND_ROOTS_GLSL
 #define HAIRBENCH_STRAND_ROOTS_GLSL
 
@@ -6,11 +6,11 @@
 
 layout(buffer_reference, scalar) readonly buffer RootPattern { vec2 pairs[]; };
 
-// A random pair in [0, 1), multiples of 2^-24. `key` differs between triangles; the published
-// program has one pattern for all of them.
+// A random pair in [0, 1), multiples of 2^-24. `key` differs between triangles. The published
+// program uses one pattern for all of them.
 vec2 rootPair(PictureParameters picture, uint key, uint strand) {
     if (kRandomness == kRandomnessThesis) {
-        uint drawn = min(strand, picture.density - 1u);  // a patch may have places to spare
+        uint drawn = min(strand, picture.density - 1u);  // a patch may have unused places
         return RootPattern(picture.root_pattern).pairs[drawn];
     }
     uint bits = pcg(key + strand);
@@ -34,18 +34,18 @@ vec3 strandWeights(PictureParameters picture, uint key, uint strand) {
     return rootWeights(rootPair(picture, key, strand));
 }
 
-// The corner whose guide counts most. In a triangle that is the one whose third, cut out by the
-// medians, the strand's root is in.
+// The corner whose guide has the greatest weight. The medians cut a triangle into thirds; it is the
+// corner of the third that contains the strand's root.
 uint heaviestCorner(vec3 weights) {
     if (weights.x >= weights.y && weights.x >= weights.z) return 0u;
     return weights.y >= weights.z ? 1u : 2u;
 }
 
 // The scalp bulges out of its flat root triangles. edges[i] times the product of its corners'
-// weights is the offset that the edge from corner i to corner i + 1 adds: half of the projection
-// onto the corners' tangent planes (Boubekeur and Alexa 2008, Phong tessellation, with alpha = 1/2,
-// which is exact to second order on a sphere). A strand of the groom knows its root: edges[0] is
-// its offset, the others are 0.
+// weights is the offset that the edge from corner i to corner i + 1 adds. It is half of the
+// projection onto the corners' tangent planes (Boubekeur and Alexa 2008, Phong tessellation, with
+// alpha = 1/2, which is exact to second order on a sphere). A strand of the groom knows its root:
+// edges[0] is its offset, and the others are 0.
 struct RootLift {
     vec3 edges[3];
 };
@@ -77,7 +77,7 @@ RootLift rootLift(PictureParameters picture, StrandPatch strand_patch, uvec3 gui
     return lift;
 }
 
-// What a whole strand is moved by, so that its root is on the scalp.
+// The displacement of a whole strand that puts its root on the scalp.
 vec3 strandLift(RootLift lift, vec3 weights) {
     if (kSource == kSourceGroom) return lift.edges[0];
     precise vec3 sum = weights.x * weights.y * lift.edges[0] +

@@ -1,8 +1,8 @@
 #version 460
-// A strand's quad that covers as many of its pixel's samples as its alpha says: alpha to coverage.
-// The samples are random ones for every fragment, where devices' own conversion takes the same ones
-// for equal alphas, so that many faint strands on one another would never hide what is behind them:
-// Enderton et al. 2010, Stochastic transparency.
+// Alpha to coverage: a strand's fragment covers a part of its pixel's samples in proportion to its
+// alpha. The samples are random for every fragment. Devices' own conversion uses the same samples
+// for equal alphas, so that many faint strands on top of one another would never hide the
+// background: Enderton et al. 2010, Stochastic transparency.
 #extension GL_GOOGLE_include_directive : require
 #include "common/random.glsl"
 #include "strands/fragment.glsl"
@@ -10,7 +10,7 @@
 
 layout(location = 0) out vec4 color;
 
-// A random mask of samples: alpha * kSamples bits in the mean over fragments.
+// A random sample mask with a mean of alpha * kSamples bits over fragments.
 uint sampleMask(float alpha) {
     uvec2 pixel = uvec2(gl_FragCoord.xy);
     uint bits = hash(pixel.x | pixel.y << 16, floatBitsToUint(gl_FragCoord.z), kSamplesPurpose);

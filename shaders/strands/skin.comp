@@ -1,6 +1,7 @@
 #version 460
-// How far the roots of strands are from where the triangles of a deformed mesh carry them; one
-// invocation per strand. The roots are those that all back ends draw, without this correction.
+// Computes the displacement from strands' roots to their positions on the triangles of a deformed
+// mesh; one invocation per strand. The roots are those that all back ends draw without this
+// correction.
 #extension GL_GOOGLE_include_directive : require
 #include "strands/strand.glsl"
 
@@ -11,7 +12,7 @@ layout(buffer_reference, scalar) readonly buffer CarriedRoots { CarriedRoot at[]
 layout(buffer_reference, scalar) readonly buffer MeshPositions { vec3 at[]; };
 layout(buffer_reference, scalar) writeonly buffer Found { vec4 at[]; };
 
-// Where the triangle carries the root: groom::motionOf().
+// Returns the root's position on its moved triangle: groom::motionOf().
 vec3 carried(CarriedRoot root) {
     MeshPositions mesh = MeshPositions(push.mesh);
     vec3 a = mesh.at[root.corners.x];
@@ -27,7 +28,7 @@ vec3 carried(CarriedRoot root) {
     normal /= area;
     vec3 along = edge / size;
     vec3 across = cross(normal, along);
-    // The edges now, over those at rest.
+    // The current edges, relative to those at rest.
     mat2 now = mat2(size, 0.0, dot(other, along), dot(other, across));
     mat2 change = now * mat2(root.inverse_edges.xy, root.inverse_edges.zw);
     vec2 turned = vec2(change[0][0] + change[1][1], change[0][1] - change[1][0]);

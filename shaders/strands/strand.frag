@@ -1,6 +1,6 @@
 #version 460
-// A strand's quad, opaque; where its texture is less than half so, and between the hairs that it
-// stands for, there is a hole.
+// Draws a strand's quad, opaque. It discards fragments where the texture's opacity is below half,
+// and fragments between the hairs that the strand stands for.
 #extension GL_GOOGLE_include_directive : require
 #include "strands/fragment.glsl"
 

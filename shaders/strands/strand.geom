@@ -1,5 +1,5 @@
 #version 460
-// A line of a strand -> its quad.
+// Makes a line of a strand into its quad.
 #extension GL_GOOGLE_include_directive : require
 #include "strands/geometry_lines.glsl"
 #include "strands/quad.glsl"

@@ -1,4 +1,4 @@
-// Guides -> a point on a strand: the one function that every strand back end draws from.
+// Evaluates a point on a strand from guides. All strand back ends draw from this function.
 #ifndef HAIRBENCH_STRAND_GLSL
 #define HAIRBENCH_STRAND_GLSL
 
@@ -22,17 +22,17 @@ struct PatchStrand {
     uint index;    // of the triangle
     uvec3 guides;
     vec3 weights;  // of the guides
-    vec3 lift;     // m, of the whole strand
+    vec3 lift;     // m, displacement of the whole strand
     vec3 r[4];     // control points r(i-1) to r(i+2), without the lift
 };
 
-// A point on a strand as the geometry stage takes it.
+// A point on a strand as input of the geometry stage.
 struct StrandPoint {
     vec3 position;  // m
     vec3 tangent;   // d position / d t, not normalised
     float width;    // m
-    float along;    // 0 at the root, 1 at the tip; or what is shown in its place
-    uint merged;    // strands/merged_word.glsl; where kTellsHairs
+    float along;    // 0 at the root, 1 at the tip; or the value that is shown instead
+    uint merged;    // strands/merged_word.glsl; set if kTellsHairs
 };
 
 float guideWidth(PictureParameters picture, PatchStrand strand, uint vertex) {
@@ -42,7 +42,7 @@ float guideWidth(PictureParameters picture, PatchStrand strand, uint vertex) {
                                     guides.widths[at.z]));
 }
 
-// The width at t of a segment, at level 0 of detail.
+// The width at t of a segment, at level of detail 0.
 float strandWidth(PictureParameters picture, PatchStrand strand, uint segment, float t,
                   float along) {
     if (kWidth == kWidthGroom) {
@@ -55,8 +55,8 @@ float strandWidth(PictureParameters picture, PatchStrand strand, uint segment, f
     return mix(picture.root_width, picture.tip_width, taper);
 }
 
-// Moves a point of the smooth strand. That the frame turns along the strand is left out of the
-// tangent: it is the curvature times the offset, small beside 1.
+// Moves a point of the smooth strand. The tangent ignores the frame's rotation along the strand: it
+// is the curvature times the offset, small compared with 1.
 void offsetPoint(PictureParameters picture, StrandPatch strand_patch, PatchStrand strand, float t,
                  inout StrandPoint point) {
     uint profile =
@@ -79,15 +79,16 @@ float hairRandom(HairPlace place, uint which) {
     return random01(place.strand, which, kExtensionPurpose);
 }
 
-// Not longer than the host knows of.
+// Limits the offset to the length that the host assumes.
 vec3 boundedOffset(HairPlace place) {
     vec3 offset = offsetHair(place);
     float size = length(offset);
-    if (!(size <= 1e30)) return vec3(0.0);  // NaN, infinite
+    if (!(size <= 1e30)) return vec3(0.0);  // NaN or infinite
     return size > kOffsetReach ? offset * (kOffsetReach / size) : offset;
 }
 
-// The same by a function of the scene's, whose slope is taken between two places beside the point.
+// The same with a function from the scene. Its slope is a difference between two positions beside
+// the point.
 void extendPoint(PictureParameters picture, StrandPatch strand_patch, PatchStrand strand, float t,
                  inout StrandPoint point) {
     const float kBeside = 1.0 / 1024.0;  // of the strand
@@ -108,9 +109,9 @@ void extendPoint(PictureParameters picture, StrandPatch strand_patch, PatchStran
 
 #endif
 
-// Moves a point of the guides' mean to the strand of the file. That the turn changes along the
-// strand is left out of the tangent, as above; at rest it doesn't change. A strand that follows the
-// head alone is its root and its residual.
+// Moves a point of the guides' mean to the file's strand. As above, the tangent ignores the change
+// of the rotation along the strand, which is 0 at rest. A strand that follows only the head is its
+// root plus its residual.
 void addResidual(PictureParameters picture, StrandPatch strand_patch, PatchStrand strand, float t,
                  inout StrandPoint point) {
     BoundStrand bound = boundStrand(picture, strand.index);
@@ -132,11 +133,11 @@ void addResidual(PictureParameters picture, StrandPatch strand_patch, PatchStran
     point.tangent = tangent;
 }
 
-// Takes a strand's root to its own triangle of the deformed mesh, and the rest of it along, less and
-// less toward the tip.
+// Moves a strand's root to its own triangle of the deformed mesh. The rest of the strand moves
+// along, less and less towards the tip.
 void correctRoot(PictureParameters picture, StrandPatch strand_patch, PatchStrand strand,
                  inout StrandPoint point) {
-    // A patch may have places to spare.
+    // A patch may have unused places.
     uint index = strand_patch.triangle * picture.density + min(strand.index, picture.density - 1u);
     vec3 correction = RootCorrections(picture.root_corrections).at[index].xyz;
     precise float left = 1.0 - point.along;
@@ -155,12 +156,12 @@ vec4 curveSlopes(float t) {
     return kCurve == kCurveCatmullRom ? interpolationSlopes(t) : splineSlopes(t);
 }
 
-// The hairs that a strand stands for.
+// Returns the word for the hairs that a strand stands for.
 uint strandMerged(StrandLod lod, uint key, uint index) {
     return mergedWord(lod.width_scale * strandShare(lod, index), hash(key, index, kMergedPurpose));
 }
 
-// The point at t in [0, 1] of a patch's segment.
+// Returns the point at t in [0, 1] of a patch's segment.
 StrandPoint pointOnStrand(PictureParameters picture, StrandPatch strand_patch, PatchStrand strand,
                           float t) {
     StrandPoint point;
@@ -181,8 +182,8 @@ StrandPoint pointOnStrand(PictureParameters picture, StrandPatch strand_patch, P
     return point;
 }
 
-// What /render/show asks for of a whole strand, in [0, 1], instead of the place along it: by this
-// way it costs nothing where it isn't asked for.
+// Replaces the position along the strand by the value, in [0, 1], that /render/show selects for a
+// whole strand. This costs nothing if nothing is selected.
 void putShown(PictureParameters picture, StrandPatch strand_patch, uint index,
               inout StrandPoint point) {
     if (kShow == kShowLod)
@@ -190,7 +191,7 @@ void putShown(PictureParameters picture, StrandPatch strand_patch, uint index,
     if (kShow == kShowStrands) point.along = random01(strand_patch.key, index, kColorPurpose);
 }
 
-// End number `index` of a patch's drawn pieces.
+// Returns end number `index` of a patch's drawn pieces.
 StrandPoint drawnPoint(PictureParameters picture, StrandPatch strand_patch, PatchStrand strand,
                        uint index) {
     StrandLod lod = strand_patch.lod;
@@ -216,7 +217,7 @@ StrandPoint drawnPoint(PictureParameters picture, StrandPatch strand_patch, Patc
     return point;
 }
 
-// A strand of a patch, from the guides themselves: for stages that work on one point at a time.
+// Builds a strand of a patch directly from the guides, for stages that work on one point at a time.
 PatchStrand strandFromGuides(PictureParameters picture, StrandPatch strand_patch, uvec3 guides,
                              uint index) {
     PatchStrand strand;
@@ -237,7 +238,7 @@ PatchStrand strandFromGuides(PictureParameters picture, StrandPatch strand_patch
     return strand;
 }
 
-// A point of such a strand.
+// Returns a point of a strand from strandFromGuides().
 StrandPoint pointFromGuides(PictureParameters picture, StrandPatch strand_patch, uvec3 guides,
                             uint index, uint piece_end) {
     PatchStrand strand = strandFromGuides(picture, strand_patch, guides, index);

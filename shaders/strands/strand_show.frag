@@ -1,5 +1,5 @@
 #version 460
-// A strand's quad, opaque, in a color that says something of it: /render/show.
+// Draws a strand's quad, opaque, in a colour that visualises a property of it: /render/show.
 #extension GL_GOOGLE_include_directive : require
 #include "common/display_color.glsl"
 #include "common/perceptual_color.glsl"
@@ -7,16 +7,16 @@
 
 layout(location = 0) out vec4 color;
 
-// Fragments at which red, green and blue are full, of those that are added up.
+// Numbers of added fragments at which red, green and blue saturate.
 const vec3 kFull = vec3(8.0, 32.0, 128.0);
 const float kRed = 0.5;  // hues
 const float kBlue = 4.5;
 const float kTurn = 6.283185307;
 
-// A direction's components from -1 to 1 as red, green and blue of a display.
+// Maps a direction's components from -1 to 1 to red, green and blue of a display.
 vec3 directionColor(vec3 direction) { return 0.5 + 0.5 * direction; }
 
-// Working colors; where they are display RGB, what is linear is made so.
+// Convert to working colours, which are linear or display RGB.
 vec3 fromLinear(vec3 linear) { return kLinearLight != 0 ? linear : toDisplay(linear); }
 vec3 fromDisplay(vec3 display) {
     if (kLinearLight == 0) return display;
@@ -27,7 +27,7 @@ vec3 fromDisplay(vec3 display) {
 void main() {
     PictureParameters picture = PictureReference(push.picture).parameters;
     StrandFragment fragment = seenStrand(picture).fragment;
-    float shown = fragment.along;  // strands/strand.glsl puts it there
+    float shown = fragment.along;  // from strands/strand.glsl
     vec3 result;
     float alpha = 1.0;
     if (kShow == kShowTangents) {
@@ -36,7 +36,7 @@ void main() {
         result = fromDisplay(directionColor(cylinderNormal(fragment)));
     } else if (kShow == kShowOverdraw || kShow == kShowDensity) {
         result = 1.0 / kFull;
-        alpha = 0.0;  // that of what they are added to stays
+        alpha = 0.0;  // leaves the target's alpha unchanged
     } else if (kShow == kShowShadow) {
         float visible = 0.0;
         for (uint i = 0u; i < kLightCount; ++i)

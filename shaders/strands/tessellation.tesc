@@ -1,6 +1,7 @@
 #version 460
-// One invocation a patch: its level of detail, its strands (isolines) and segments along each, and the
-// control points of its three guides, fetched once for all strands. Thesis 2.3.5.
+// One invocation per patch. It sets the level of detail, the number of strands (isolines) and of
+// segments along each. It fetches the control points of the three guides once for all strands.
+// Thesis 2.3.5.
 #extension GL_GOOGLE_include_directive : require
 #include "strands/strand.glsl"
 
@@ -15,7 +16,7 @@ layout(location = 14) patch out vec3 root_lift[3];
 layout(location = 17) patch out uvec3 patch_guides;
 layout(location = 18) patch out vec4 single_shares;  // of the control points
 layout(location = 19) patch out uvec2 patch_pieces;  // pieces, step
-layout(location = 20) patch out uint patch_triangle;  // where kSkinnedStrands
+layout(location = 20) patch out uint patch_triangle;  // set if kSkinnedStrands
 
 void main() {
     PictureParameters picture = PictureReference(push.picture).parameters;

@@ -1,5 +1,5 @@
 #version 460
-// A vertex of a strand, for the geometry stage.
+// Evaluates a vertex of a strand for the geometry stage.
 #extension GL_GOOGLE_include_directive : require
 #include "strands/evaluation.glsl"
 
@@ -7,7 +7,7 @@ layout(push_constant, scalar) uniform Push { StrandPush push; };
 
 layout(location = 0) out vec4 position_and_width;
 layout(location = 1) out vec4 tangent_and_along;
-layout(location = 2) out uint merged_hairs;  // where kTellsHairs
+layout(location = 2) out uint merged_hairs;  // set if kTellsHairs
 
 void main() {
     StrandPoint point = evaluatedPoint(PictureReference(push.picture).parameters);

@@ -1,5 +1,5 @@
 #version 460
-// The tessellation back end's first stage: names the patch.
+// The first stage of the tessellation back end: passes on the patch's number.
 #extension GL_GOOGLE_include_directive : require
 #include "strands/patch_number.glsl"
 

@@ -1,7 +1,8 @@
 #version 460
-// How guides have turned since rest: a rotation at every vertex, the head's turned up the guide as
-// little as its direction there asks for. It has no twist of its own, is no rotation where the guide
-// is at rest, and is the whole one where the guide has turned as a whole. One invocation per guide.
+// Computes the rotation of guides since rest, at every vertex. It starts with the head's rotation
+// and is turned along the guide by the smallest rotations that its directions require. It has no
+// twist of its own. It is the identity where the guide is at rest, and the full rotation where the
+// guide has turned as a whole. One invocation per guide.
 #extension GL_GOOGLE_include_directive : require
 #include "common/picture.glsl"
 #include "common/quaternion.glsl"
@@ -25,7 +26,7 @@ void main() {
         vec3 chord = guides.points[first + min(vertex + 1u, last)].xyz -
                      guides.points[first + max(vertex, 1u) - 1u].xyz;
         float squared = dot(chord, chord);
-        // Without a direction, at rest or now, the guide goes on as it has turned below.
+        // Without a direction, at rest or now, the rotation of the vertex before is kept.
         if (squared > 0.0 && dot(rest, rest) > 0.0) {
             turn = multiply(rotationBetween(rotate(turn, rest), chord * inversesqrt(squared)), turn);
             turn *= inversesqrt(dot(turn, turn));

@@ -1,4 +1,4 @@
-// For shaders of stages that are watched: see hair/rendering/backends.h.
+// For shaders of watched stages: see hair/rendering/backends.h.
 #ifndef HAIRBENCH_WATCH_GLSL
 #define HAIRBENCH_WATCH_GLSL
 
@@ -9,13 +9,14 @@ layout(push_constant, scalar) uniform Push { WatchedPush push; };
 
 layout(buffer_reference, scalar) buffer StageWatchReference { StageWatch watch; };
 
-// Sums of bits: unlike floats' they can't be simplified, and an addition a number is little to do.
+// Sums bits. Unlike sums of floats, they cannot be simplified, and one addition per number is
+// cheap.
 uint bitSum(vec4 made) {
     uvec4 bits = floatBitsToUint(made);
     return bits.x + bits.y + bits.z + bits.w;
 }
 
-// `made` is to have come from all that the invocation makes.
+// `made` must depend on all outputs of the invocation.
 void see(uint made) {
     StageWatchReference reference = StageWatchReference(push.watch);
     if ((made & reference.watch.mask) != reference.watch.wanted) return;

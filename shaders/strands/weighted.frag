@@ -1,17 +1,16 @@
 #version 460
-// A strand's quad, added up with others whatever their order: McGuire and Bavoil 2013, Weighted
-// blended order-independent transparency, JCGT 2(2).
+// Draws a strand's quad for order-independent summation: McGuire and Bavoil 2013, Weighted blended
+// order-independent transparency, JCGT 2(2).
 #extension GL_GOOGLE_include_directive : require
 #include "strands/fragment.glsl"
 
 layout(buffer_reference, scalar) readonly buffer Range { BlendRange range; };
 
-layout(location = 0) out vec4 weighted;  // color and alpha, both times alpha and weight; added
-layout(location = 1) out float hidden;  // the part of what is behind that this fragment hides
+layout(location = 0) out vec4 weighted;  // colour and alpha, both times alpha and weight; added
+layout(location = 1) out float hidden;  // the part of the background that this fragment hides
 
-// Equation (10), with a depth that goes from 0 to 1 through the hair instead of from the near to
-// the far plane. The factor cancels out; with it, half floats have room for 300 opaque fragments at
-// the front.
+// Equation (10), with a depth from 0 to 1 through the hair instead of from the near to the far
+// plane. The factor cancels out; it gives half floats room for 300 opaque fragments at the front.
 float weight(PictureParameters picture, vec3 position, float alpha) {
     BlendRange range = Range(picture.fragments).range;
     vec3 centre = (picture.head * vec4(range.centre, 1.0)).xyz;

@@ -6,34 +6,34 @@
 #include "shared/distance_field_structs.h"
 #include "shared/simulation_structs.h"
 
-// The local constraint as an energy. Segment e_i is drawn to its rest edge in the frame that
+// The local constraint as an energy. It pulls segment e_i to its rest edge in the frame that
 // parallel transport carries to the segment above,
 //     E = sum 1/2 K |e_i - R_(i-1) e0_i|^2,
-// on a strand that neither stretches nor, since parallel transport does not turn about the strand,
-// twists. Every term depends on how a segment is turned against the one above alone, so all that it
-// does is a couple, c_i = K e_i x R_(i-1) e0_i on that segment and -c_i on the frame above, which
-// leads it up the strand. (Thesis eq. 11 turns the segment and not the one above: no energy has
-// that for its gradient.)
+// on a strand that does not stretch. It does not twist either, since parallel transport does not
+// turn about the strand. Every term depends only on the rotation of a segment against the one
+// above. The constraint therefore acts as a couple: c_i = K e_i x R_(i-1) e0_i on that segment, and
+// -c_i on the frame above, which passes it up the strand. (Thesis eq. 11 turns the segment but not
+// the one above. It is not the gradient of any energy.)
 //
-// A substep of length h is one linear system. Segments turn by w_i, so that vertices move by
-// d_i = d_(i-1) + w_i x e_i, and joints turn by w_i - w_(i-1), which is perpendicular to the axis
-// s_i between both segments: of smallest rotations from one tangent to the next, that is what keeps
-// them smallest. The substep minimises
+// A substep of length h is one linear system. Segments turn by w_i, so that vertices move by d_i =
+// d_(i-1) + w_i x e_i. Joints turn by w_i - w_(i-1), perpendicular to the axis s_i between both
+// segments: this keeps the rotations from one tangent to the next the smallest ones. The substep
+// minimises
 //     sum 1/2 d M d - b d + 1/2 k_i |w_i - w_(i-1)|^2 - h^2 c_i (w_i - w_(i-1))
 //         + 1/2 T_i l_i |w_i across e_i|^2
-// with all forces of its start: b has h^2 times the sum of the accelerations and what the vertex
-// would move by without any, M the mass and what air and the pull toward the rest position add to
-// it, and T_i, the tension, straightens (Tournier et al. 2015, Stable constrained dynamics). Where
-// d = 0 solves it forces and couples are in balance, whatever h, the stiffness and the tension's
-// estimate are. k_i = h max(h, h0) K l_i^2 is implicit damping by rotation of the joints alone,
-// with the time constant of h0 = 1/60 s: at that step it is implicit Euler's, at shorter ones hair
-// is damped as much in a second.
+// with all forces of its start. b is h^2 times the sum of the accelerations, plus the displacement
+// without any. M is the mass with the contributions of air and of the pull toward the rest
+// position. T_i is the tension, which straightens (Tournier et al. 2015, Stable constrained
+// dynamics). Where d = 0 is the solution, forces and couples are in balance for any h, stiffness
+// and estimate of the tension. k_i = h max(h, h0) K l_i^2 is implicit damping of joint rotations
+// only, with the time constant h0 = 1/60 s. At h = h0 it is that of implicit Euler. With shorter
+// steps, hair is damped as much in a second.
 //
-// Lengths are exact: a segment is turned. The unknowns are eliminated from the tip up: Featherstone
-// 1983, The calculation of robot dynamics using articulated-body inertias.
+// Lengths are exact, because a segment is turned. The unknowns are eliminated from the tip up:
+// Featherstone 1983, The calculation of robot dynamics using articulated-body inertias.
 
 const float kMostTurned = 1.0;  // rad in a substep
-// Of a vertex that is held, for each of the strand's: the place is put right by the lengths.
+// Mass of a held vertex for each vertex of the strand. The length constraint corrects its position.
 const float kHeldMass = 100.0;
 const float kLeastSize = 1.0e-37;  // of a determinant
 
@@ -78,9 +78,9 @@ Symmetric twiceSymmetric(mat3 m) {
         vec3(m[1].z + m[2].y, m[2].x + m[0].z, m[0].y + m[1].x));
 }
 
-// The least of all below a vertex as a function of how it moves (d) and the segment that ends there
-// turns (w): d moving d / 2 + d coupling w + w turning w / 2 - push d - couple w. `force` is the
-// sum of what pulls at the vertices, times h^2.
+// The minimum over all below a vertex, as a function of the vertex's displacement d and the
+// rotation w of the segment that ends there: d moving d / 2 + d coupling w + w turning w / 2 - push
+// d - couple w. `force` is the sum of the forces on the vertices, times h^2.
 struct BendBelow {
     Symmetric moving;
     mat3 coupling;
@@ -95,31 +95,32 @@ BendBelow nothingBelow() {
     return BendBelow(none, mat3(0.0), none, vec3(0.0), vec3(0.0), vec3(0.0));
 }
 
-// How the segment below a joint turns: kept w + past (axis w) - by_move d + by_itself, with d and w
-// of the vertex and the segment above.
+// Rotation of the segment below a joint: kept w + past (axis w) - by_move d + by_itself, with d and
+// w of the vertex and the segment above.
 struct BendJoint {
     Symmetric kept;
     mat3 by_move;
     vec3 by_itself;
-    vec3 past;  // what turns about the axis goes past the joint
+    vec3 past;  // the part of a rotation about the axis that passes the joint
 };
 
-// A vertex in a substep.
+// The loads of a vertex in a substep.
 struct BendLoad {
     vec3 push;     // b, m
-    float along;   // what air would pull along the strand if it did, which turns with it, m
-    vec3 tangent;  // across which air brakes it
+    float along;   // what air would pull along the strand; it turns with the strand, m
+    vec3 tangent;  // air brakes the vertex across this tangent
     float brake;
 };
 
 const BendLoad kNoLoad = BendLoad(vec3(0.0), 0.0, vec3(0.0), 0.0);
 
-// `moved`: where all but the pull toward the rest position and air would take the vertex; `pull`:
-// that pull's acceleration times h^2.
+// `moved`: displacement by everything but air and the pull toward the rest position; `pull`: that
+// pull's acceleration times h^2.
 BendLoad freeLoad(vec3 moved, vec3 pull) { return BendLoad(moved + pull, 0.0, vec3(0.0), 0.0); }
 
-// Drag with the coefficient of the substep's start and the velocity of its end: air_drag.glsl. It
-// stays across a strand that turns, which is as if along it there were a force of air as well.
+// Adds drag with the coefficient at the substep's start and the velocity at its end: air_drag.glsl.
+// The drag stays perpendicular to a turning strand. This is equivalent to an additional force of
+// air along it.
 void addAir(
     inout BendLoad load, vec3 tangent, float brake, vec3 air, vec3 velocity, float substep) {
     load.push += brake * substep * (air - dot(tangent, air) * tangent);
@@ -128,7 +129,7 @@ void addAir(
     load.brake = brake;
 }
 
-// `mass`: over a vertex's own, without air. `root_moved`: how far the root moves.
+// `mass`: relative to a vertex's own, without air. `root_moved`: displacement of the root.
 void addVertex(inout BendBelow below, BendLoad load, float mass, vec3 root_moved) {
     Symmetric heavy = acrossOf(load.brake, load.tangent);
     heavy.diagonal += mass;
@@ -137,8 +138,8 @@ void addVertex(inout BendBelow below, BendLoad load, float mass, vec3 root_moved
     below.force += load.push + load.along * load.tangent - times(heavy, root_moved);
 }
 
-// Goes on to the vertex above: `edge` is the segment's, `goal` what it is drawn to, `axis` that of
-// its joint. `stiffness`: h^2 K, and k / l^2.
+// Continues to the vertex above. `edge` is the segment's edge, `goal` its target edge and `axis`
+// the axis of its joint. `stiffness`: h^2 K, and k / l^2.
 BendJoint addJoint(inout BendBelow below, vec3 edge, vec3 goal, vec3 axis, vec2 stiffness) {
     float square = dot(edge, edge);
     float len = sqrt(square);
@@ -146,7 +147,8 @@ BendJoint addJoint(inout BendBelow below, vec3 edge, vec3 goal, vec3 axis, vec2 
     below.turning =
         plus(below.turning, acrossOf(len * max(dot(below.force, direction), 0.0), direction));
 
-    // From the vertex at the segment's end to that at its start: d = d_above - edge x w.
+    // Moves the reference from the vertex at the segment's end to that at its start: d = d_above -
+    // edge x w.
     mat3 lever =
         mat3(vec3(0.0, edge.z, -edge.y), vec3(-edge.z, 0.0, edge.x), vec3(edge.y, -edge.x, 0.0));
     mat3 coupling = below.coupling;
@@ -156,7 +158,8 @@ BendJoint addJoint(inout BendBelow below, vec3 edge, vec3 goal, vec3 axis, vec2 
     Symmetric turning = plus(below.turning, twiceSymmetric(raised));
     vec3 couple = below.couple + cross(edge, below.push);
 
-    // The inverse of k + turning among rotations across the axis: [s] H [s]^T / (s adj(H) s).
+    // The inverse of k + turning for rotations perpendicular to the axis: [s] H [s]^T / (s adj(H)
+    // s).
     float joint = stiffness.y * square;
     Symmetric held = Symmetric(turning.diagonal + joint, turning.beside);
     vec3 d = held.diagonal;
@@ -179,7 +182,7 @@ BendJoint addJoint(inout BendBelow below, vec3 edge, vec3 goal, vec3 axis, vec2 
         mat3(times(yields, by_turn[0]), times(yields, by_turn[1]), times(yields, by_turn[2]));
     BendJoint answer = BendJoint(scaled(joint, yields), by_move, times(yields, drive), past);
 
-    // What is left for the vertex above.
+    // The remainder for the vertex above.
     below.moving.diagonal -=
         vec3(dot(by_move[0], by_turn[0]), dot(by_move[1], by_turn[1]), dot(by_move[2], by_turn[2]));
     below.moving.beside -=
@@ -193,26 +196,26 @@ BendJoint addJoint(inout BendBelow below, vec3 edge, vec3 goal, vec3 axis, vec2 
     return answer;
 }
 
-// What a walk down the strand hands on.
+// State that a walk down the strand passes on.
 struct BendAbove {
     vec3 place;
     vec3 moved;  // d
     vec3 turned;  // w
 };
 
-// Takes the vertex where its segment turns to.
+// Moves the vertex with the rotation of its segment.
 void turnSegment(inout BendAbove above, BendJoint joint, vec3 edge, vec3 axis, float rest_length) {
     vec3 by_move = joint.by_move * above.moved;
     above.turned = times(joint.kept, above.turned) - by_move + joint.by_itself +
                    dot(axis, above.turned) * joint.past;
     above.moved += cross(above.turned, edge);
-    // Of second order, so that a hair that nothing holds goes on as it turned.
+    // Second order, so that a free hair continues its rotation.
     vec3 turn = above.turned / max(length(above.turned) / kMostTurned, 1.0);
     vec3 gain = cross(turn, edge);
     above.place += rest_length * normalize(edge + gain + 0.5 * cross(turn, gain));
 }
 
-// The axis of the joint between unit tangents: along the lower one where they are opposite.
+// The axis of the joint between unit tangents. It is the lower tangent if they are opposite.
 vec3 jointAxis(vec3 above, vec3 below) {
     vec3 sum = above + below;
     float len = length(sum);

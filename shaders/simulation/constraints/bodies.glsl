@@ -7,49 +7,49 @@
 #include "simulation/constraints/friction.glsl"
 #include "simulation/guides.glsl"
 
-// Whether a vertex's way in the substep counts, and not where it ends alone.
+// True if a vertex's path in the substep counts, and not only its end.
 layout(constant_id = kContinuousCollisionConstant) const bool kContinuousCollision = false;
 
 const float kFar = 1.0e9;  // m
 
 const float kTouchesNone = -1.0;
 
-// What a vertex has met. `plane`: the tangent plane of the last body that it touches, otherwise of
-// the nearest: dot(plane.xyz, x) >= plane.w outside; 0 where there is no body.
+// The contact of a vertex. `plane`: the tangent plane of the last body that it touches, otherwise
+// of the nearest body. dot(plane.xyz, x) >= plane.w outside; 0 if there is no body.
 struct Met {
     vec4 plane;
-    float held;  // share of its motion along the body that friction takes back, or kTouchesNone
+    float held;  // share of its motion along the body that friction cancels, or kTouchesNone
 };
 
-// A vertex in the world and as the head sees it, now and at the start of the substep, and what it
-// has met.
+// A vertex in the world frame and in the head's frame, now and at the start of the substep, and its
+// contact.
 struct MovingVertex {
     vec3 position;
     vec3 before;
     vec3 position_on_head;
     vec3 before_on_head;
     vec4 plane;
-    float gap;  // to it; 0 where it touches
-    float share;  // that friction takes back of its motion along the body
+    float gap;  // distance to the plane; 0 where it touches
+    float share;  // share of its motion along the body that friction cancels
 };
 
-// A way into a body is followed by spheres in which there is nothing of it (Hart 1996, Sphere
-// tracing), and near it by Newton's steps, which go no farther where the body is convex.
+// A path into a body is followed by sphere tracing (Hart 1996, Sphere tracing). Near the body,
+// Newton steps are used; they do not overshoot a convex body.
 const uint kMostSteps = 32u;
 const float kNearBody = 2.0e-3;  // m
 const float kTouch = 1.0e-6;  // m
-const float kGrazing = 0.02;  // sine of the least angle that Newton's steps reckon with
+const float kGrazing = 0.02;  // sine of the smallest angle that Newton steps assume
 
-// Whether the way from a point outside of a body to another, in the body's frame, enters it, margin
-// apart: then the outward normal there, and by how much the way's end lies behind the plane there.
-// `end_gap`: how far the way's end is outside of the body.
+// Tells whether the path from a point outside of a body to another, in the body's frame, enters the
+// body without its margin. If so, gives the outward normal there, and how far the path's end lies
+// behind the plane there. `end_gap`: distance from the path's end to the body.
 bool entersBody(Bodies bodies, uint body, vec3 from, vec3 to, float end_gap, out vec3 normal,
                 out float behind) {
     float whole = distance(from, to);
     vec3 direction = (to - from) / whole;
     float gap = gapToBody(bodies, body, 0.0, from, normal);
-    // What starts inside is pushed out the shortest way, and what is farther from the body at both
-    // ends together than its way is long can't have met it.
+    // A start inside is left to pushing out along the shortest way. If the distances at both ends
+    // together exceed the path's length, the path cannot meet the body.
     if (gap < kTouch || gap + end_gap >= whole) return false;
     float at = 0.0;
     for (uint i = 0; i < kMostSteps; ++i) {
@@ -65,11 +65,11 @@ bool entersBody(Bodies bodies, uint body, vec3 from, vec3 to, float end_gap, out
     return false;
 }
 
-// Takes the vertex out of a body the shortest way, and lets it slide on the body: what slides is
-// the motion relative to it. Where kContinuousCollision, a vertex whose way in the substep leads into
-// the body goes no farther in than where it enters, however thin the body and however far it came.
+// Moves the vertex out of a body along the shortest way and lets it slide on the body. The sliding
+// motion is relative to the body. With kContinuousCollision, a vertex with a path into the body
+// stops at the entry point, however thin the body and however long the path.
 //
-// `gap`, `normal`: of the vertex, in the body's frame, margin included.
+// `gap`, `normal`: of the vertex, in the body's frame, including the margin.
 void meet(inout MovingVertex vertex, Bodies bodies, uint body, float gap, vec3 normal, bool on_head,
           RigidFrame frame) {
     vec3 here = on_head ? vertex.position_on_head : vertex.position;
@@ -84,7 +84,7 @@ void meet(inout MovingVertex vertex, Bodies bodies, uint body, float gap, vec3 n
         vertex.position = on_head ? toWorld(frame, here) : here;
         vertex.position_on_head = on_head ? here : fromWorld(frame, here);
         gap = gapToBody(bodies, body, bodies.margin, here, normal);
-        vertex.gap = kFar;  // of where it would have been
+        vertex.gap = kFar;  // the old gap belongs to the position without the contact
     }
     if (gap >= vertex.gap) return;
     vec3 facing = on_head ? rotate(frame.rotation, normal) : normal;
@@ -98,24 +98,25 @@ void meet(inout MovingVertex vertex, Bodies bodies, uint body, float gap, vec3 n
     vertex.position_on_head = on_head ? pushed : fromWorld(frame, pushed);
 }
 
-// The bodies as a vertex of [strand][vertex] meets them, which may keep less of their margin.
+// The bodies with the margin for a vertex of [strand][vertex], which may be smaller than theirs.
 Bodies bodiesAt(GuideParameters guides, uint vertex) {
-    // Mesa 22's llvmpipe reads x where the last component alone is read: hence the whole vector.
+    // Mesa 22's llvmpipe reads x where only the last component is read, so the whole vector is
+    // read.
     vec4 rest = Vectors(guides.rest_positions).at[vertex];
     Bodies bodies = guides.bodies;
     bodies.margin = rest.w;
     return bodies;
 }
 
-// Takes a vertex out of every body, one after the other. `before` is where it was at the start of
-// the substep. Returns where it is then.
+// Moves a vertex out of every body in turn. `before` is its position at the start of the substep.
+// Returns its new position.
 vec3 pushOutOfBodies(
     vec3 position, vec3 before, Bodies bodies, RigidFrame frame, RigidFrame frame_before,
     out Met met) {
     MovingVertex vertex = MovingVertex(
         position, before, fromWorld(frame, position), fromWorld(frame_before, before), vec4(0.0),
         kFar, 0.0);
-    // One loop over both kinds takes a quarter longer on llvmpipe.
+    // A single loop over both kinds takes a quarter longer on llvmpipe.
     vec3 normal;
     for (uint i = 0; i < bodies.capsule_count; ++i) {
         Capsule capsule = Capsules(bodies.capsules).at[i];

@@ -1,4 +1,4 @@
-// The bodies of a list by their numbers: capsules, then distance fields.
+// Access to bodies by number: first the capsules, then the distance fields.
 #ifndef HAIRBENCH_CONSTRAINT_BODY_GLSL
 #define HAIRBENCH_CONSTRAINT_BODY_GLSL
 
@@ -13,7 +13,7 @@ bool isOnHead(Bodies bodies, uint body) {
     return BodyFields(bodies.fields).at[body - bodies.capsule_count].follows == kFollowsHead;
 }
 
-// As gapTo() of the capsule or the field, in the body's own frame.
+// Like gapTo() for the capsule or the field, in the body's own frame.
 float gapToBody(Bodies bodies, uint body, float margin, vec3 position, out vec3 normal) {
     if (body < bodies.capsule_count)
         return gapTo(Capsules(bodies.capsules).at[body], margin, position, normal);

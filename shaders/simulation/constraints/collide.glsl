@@ -8,8 +8,8 @@
 
 layout(buffer_reference, scalar) readonly buffer Capsules { Capsule at[]; };
 
-// How far a point is outside of the capsule and its margin; negative inside. `normal`: the unit
-// vector away from the axis; from a point on the axis perpendicular(axis).
+// Distance of a point from the capsule with its margin; negative inside. `normal`: the unit vector
+// away from the axis; perpendicular(axis) for a point on the axis.
 float gapTo(Capsule capsule, float margin, vec3 position, out vec3 normal) {
     vec3 axis = capsule.b - capsule.a;
     float size = dot(axis, axis);

@@ -8,12 +8,12 @@
 layout(buffer_reference, scalar) readonly buffer FieldDistances { float at[]; };
 layout(buffer_reference, scalar) readonly buffer BodyFields { BodyField at[]; };
 
-// A shorter gradient is that of surfaces equally near on opposite sides: it has no direction.
+// A shorter gradient lies between surfaces equally near on opposite sides: it has no direction.
 const float kFlatField = 1.0e-3;
 
-// The trilinear interpolant of the field at p and its exact gradient, which is of unit length only
-// about. Outside the grid: the value at the nearest point of the grid plus the distance to it, and
-// the gradient of that; no less than the grid's padding.
+// The trilinear interpolant of the field at p and its exact gradient, which has only approximately
+// unit length. Outside the grid, it is the value at the nearest point of the grid plus the distance
+// to that point, with the gradient of this sum. The value there is at least the grid's padding.
 float sampleDistance(DistanceField field, vec3 p, out vec3 gradient) {
     precise vec3 scaled = (p - field.origin) * field.cells_per_metre;
     vec3 last = vec3(field.points - 1u);
@@ -45,8 +45,8 @@ float sampleDistance(DistanceField field, vec3 p, out vec3 gradient) {
     return mix(along_y.x, along_y.y, t.z) + gap;
 }
 
-// How far a point is outside of the surface and its margin; negative inside. `normal`: the unit
-// gradient; +y where it has no direction. All in the field's frame.
+// Distance of a point from the surface with its margin; negative inside. `normal`: the unit
+// gradient, or +y where the gradient has no direction. All in the field's frame.
 float gapTo(DistanceField field, float margin, vec3 position, out vec3 normal) {
     vec3 gradient;
     float gap = sampleDistance(field, position, gradient) - margin;

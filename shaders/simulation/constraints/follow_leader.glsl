@@ -4,7 +4,7 @@
 #include "shared/distance_field_structs.h"
 #include "shared/simulation_structs.h"
 
-// The point at the rest length from the leader, toward the follower; +y where they coincide.
+// The point at the rest length from the leader, towards the follower; along +y if they coincide.
 // Mueller, Kim and Chentanez 2012, Fast simulation of inextensible hair and fur, section 3.2.
 vec3 followLeader(vec3 leader, vec3 follower, float rest_length) {
     vec3 edge = follower - leader;

@@ -4,8 +4,8 @@
 #include "shared/distance_field_structs.h"
 #include "shared/simulation_structs.h"
 
-// Distance projection, thesis eq. 12; Mueller et al. 2007, Position Based Dynamics.
-// w are inverse masses. Points that coincide are parted along +y.
+// Distance projection, thesis eq. 12; Mueller et al. 2007, Position Based Dynamics. w are inverse
+// masses. Coincident points are separated along +y.
 void projectLength(inout vec4 a, inout vec4 b, float rest_length) {
     float mass = a.w + b.w;
     if (mass == 0.0) return;  // both pinned
@@ -17,61 +17,64 @@ void projectLength(inout vec4 a, inout vec4 b, float rest_length) {
     b.xyz -= b.w * correction;
 }
 
-// The places nearest to the predicted ones p, in the metric of the masses 1 / w, whose segments
-// have their rest lengths: x_i / w_i + q_i (x_i - x_(i-1)) - q_(i+1) (x_(i+1) - x_i) = p_i / w_i
-// with the force densities q_i = tension_i / L_i. A pass finds, along the segments' directions d,
-// the tensions whose corrections give every segment its length along d,
+// Finds the positions nearest to the predicted positions p, in the metric of the masses 1 / w, with
+// segments of their rest lengths:
+//     x_i / w_i + q_i (x_i - x_(i-1)) - q_(i+1) (x_(i+1) - x_i) = p_i / w_i
+// with the force densities q_i = tension_i / L_i. A pass first finds the tensions along the
+// segments' directions d with corrections that give every segment its length along d,
 //     (w_(i-1) + w_i) T_i - w_(i-1) d_(i-1).d_i T_(i-1) - w_i d_i.d_(i+1) T_(i+1)
-//         = d_i.(p_i - p_(i-1)) - L_i,
-// which is Han and Harada 2013, Tridiagonal matrix formulation for inextensible hair strand
-// simulation, eq. 9, and then the places by the equation above, in which the tensions turn with the
-// segments: placed along fixed d, hair under tension grows unstable. Schek 1974, The force density
-// method for form finding and computation of general networks. Each system is eliminated on the way
-// that the other is solved on, so that a pass is one walk down and one up.
+//         = d_i.(p_i - p_(i-1)) - L_i:
+// Han and Harada 2013, Tridiagonal matrix formulation for inextensible hair strand simulation, eq.
+// 9. It then finds the positions by the equation above, where tensions turn with the segments. If
+// they were placed along fixed d, hair under tension would become unstable. Schek 1974, The force
+// density method for form finding and computation of general networks. Each system is eliminated on
+// the walk that solves the other, so a pass is one walk down and one walk up.
 
-// Beside a body a vertex has a plane, dot(n, x) >= plane.w, which the walk down keeps it out of as
-// far as the vertex above lets it. Where it touches, tensions find it as heavy as can be across the
-// plane, w (1 - kHeld n n^T) in place of w, and as heavy all ways where it sticks; in between by the
-// share of its motion that friction takes back.
+// Near a body a vertex has a plane, dot(n, x) >= plane.w. The walk down keeps the vertex outside of
+// it as far as the vertex above permits. Where it touches, the tensions treat it as nearly
+// infinitely heavy across the plane, with w (1 - kHeld n n^T) instead of w. Where it sticks, it is
+// as heavy in all directions. In between, the share of its motion that friction cancels
+// interpolates.
 
-// So much of a segment's stretch or, the other way, compression is pushed apart in a pass, the
-// rest by the walk down. It keeps the system of places diagonally dominant, every pivot >= 1 / 5.
+// The largest part of a segment's compression that a pass pushes apart. The walk down does the
+// rest. The limit keeps the system of positions diagonally dominant, with every pivot >= 1 / 5.
 const float kMostPush = 0.2;
-const uint kContactPasses = 1;  // once bodies have pushed
-// Less than 1: surfaces can face each other.
+const uint kContactPasses = 1;  // after bodies have pushed
+// Less than 1, because surfaces can face each other.
 const float kHeld = 0.99;
 
-// What a walk down the strand hands on from vertex to vertex.
+// State that a walk down the strand passes from vertex to vertex.
 struct LengthsAbove {
     vec3 place;
     vec3 direction;     // of the segment that ends there; 0 at the root
     vec3 normal;        // of its plane
-    float held;         // as in its row
+    float held;         // as in LengthRow
     float yield;        // 1 / pivot of that segment's row
-    float tension;      // of that segment, but for what the segment below adds
+    float tension;      // of that segment, without the contribution of the segment below
 };
 
-// What a walk up hands on: pulls by the segment below.
+// Pull of the segment below that a walk up passes on.
 struct LengthsBelow {
-    vec3 pull;      // q x, but for what the vertex above adds to x
-    float hold;     // and how much less for its being moved
-    float tension;  // what it adds to the tension of the segment above
+    vec3 pull;      // q x, without what the vertex above adds to x
+    float hold;     // reduction of the pull by the vertex's displacement
+    float tension;  // its contribution to the tension of the segment above
 };
 
-// Of a vertex and the segment that ends in it. A place is solved.xyz + solved.w * the place above.
+// Data of a vertex and the segment that ends in it. A position is solved.xyz + solved.w * the
+// position above.
 struct LengthRow {
     vec4 solved;
-    vec2 tension;  // without the segment below; its part of the tension above
-    vec4 plane;    // of a body; 0 where there is none
-    float held;    // how much less it yields across that than along
+    vec2 tension;  // without the segment below; coefficient of the tension above
+    vec4 plane;    // of a body; 0 if there is none
+    float held;    // reduction of its compliance across the plane, relative to along it
 };
 
 LengthRow lengthRow(vec4 predicted, vec4 plane, float held) {
     return LengthRow(vec4(predicted.xyz, 0.0), vec2(0.0), plane, held);
 }
 
-// How much a vertex yields along a body of whose motion friction takes back a share, and how much
-// less across it; both of 1.
+// Compliance of a vertex along a body where friction cancels `share` of the motion, and its
+// reduction across the body; both relative to 1.
 float yieldAlong(float share) { return 1.0 - kHeld * max(share, 0.0); }
 float heldAcross(float share) {
     return share < 0.0 ? 0.0 : kHeld * (1.0 - share) / yieldAlong(share);
@@ -81,9 +84,9 @@ LengthsAbove aboveAll(vec3 root) {
     return LengthsAbove(root, vec3(0.0), vec3(0.0), 0.0, 0.0, 0.0);
 }
 
-// The direction next to `direction` that ends on a plane: `height` is how far that is along the
-// normal, in lengths of the segment. Where the segment stands on the plane it is off by up to half a
-// percent: rounding would turn it otherwise.
+// The direction nearest to `direction` that ends on a plane. `height` is the distance to the plane
+// along the normal, in lengths of the segment. If the segment is perpendicular to the plane, the
+// result is off by up to half a percent; otherwise rounding would turn it.
 vec3 towardPlane(vec3 direction, vec3 normal, float height) {
     height = clamp(height, -1.0, 1.0);
     vec3 across = direction - dot(direction, normal) * normal;
@@ -91,8 +94,8 @@ vec3 towardPlane(vec3 direction, vec3 normal, float height) {
     return normalize(height * normal + across);
 }
 
-// Places the vertex at the segment's length, out of its plane where there are any. A segment without
-// a length at rest has the direction of the one above. w of points are inverse masses.
+// Places the vertex at the segment's length, outside of its plane if there is one. A segment
+// without a rest length takes the direction of the segment above. w of points are inverse masses.
 void walkPlace(
     inout vec3 place, inout vec3 direction, LengthRow row, vec4 point, float rest_length,
     bool planes) {
@@ -137,7 +140,7 @@ void walkDown(
     row.tension = vec2(above.tension, by_above);
 }
 
-// Solves the segment's tension, and eliminates the vertex's place.
+// Solves for the segment's tension and eliminates the vertex's position.
 void walkUp(
     inout LengthsBelow below, inout LengthRow row, vec4 point_above, vec4 point,
     float rest_length) {

@@ -1,10 +1,10 @@
 #ifndef HAIRBENCH_CONSTRAINT_LOCAL_GLSL
 #define HAIRBENCH_CONSTRAINT_LOCAL_GLSL
 
-// Pull a segment from a to b toward its rest edge in the frame of the segment before it, thesis eq.
-// 11; Han and Harada 2012, Real-time Hair Simulation with Efficient Hair Style Preservation. w are
-// inverse masses; a pinned end leaves the whole correction to the other, and one that air makes
-// heavier moves by as much less.
+// Pulls a segment from a to b towards its rest edge in the frame of the segment before it: thesis
+// eq. 11; Han and Harada 2012, Real-time Hair Simulation with Efficient Hair Style Preservation. w
+// are inverse masses. If one end is pinned, the other takes the whole correction. An end that air
+// makes heavier moves proportionally less.
 void pullToShape(inout vec4 a, inout vec4 b, vec3 goal_edge, float stiffness) {
     float free_ends = sign(a.w) + sign(b.w);
     if (free_ends == 0.0) return;  // both pinned

@@ -1,4 +1,4 @@
-// A segment of a strand against bodies.
+// Contact of a strand's segments with bodies.
 #ifndef HAIRBENCH_CONSTRAINT_SEGMENT_GLSL
 #define HAIRBENCH_CONSTRAINT_SEGMENT_GLSL
 
@@ -11,14 +11,16 @@ struct SegmentPlace {
     vec3 normal;  // away from the body
 };
 
-// Of a field the segment is looked at in places at most a cell apart, and round the nearest of them
-// by halving.
+// For a field, the segment is sampled at distances of at most a cell. The nearest sample is then
+// refined by bisection.
 const uint kMostSamples = 32u;
 const uint kHalvings = 8u;
-const float kLeastAcross = 0.3;  // of a unit normal, that has a direction across the segment
+const float kLeastAcross = 0.3;  // shortest part of a unit normal across the segment that has a
+                                 // direction
 
-// The place from `first` on that is nearest to the capsule's axis: Ericson 2005, Real-time collision
-// detection, section 5.1.9. Of parallel axes the middle of the segment, or what is nearest to it.
+// The position from `first` on that is nearest to the capsule's axis: Ericson 2005, Real-time
+// collision detection, section 5.1.9. For parallel axes it is the middle of the segment, or the
+// valid position nearest to it.
 float nearestTo(Capsule capsule, vec3 p, vec3 q, float first) {
     vec3 edge = q - p;
     vec3 axis = capsule.b - capsule.a;
@@ -68,7 +70,7 @@ float nearestTo(DistanceField field, vec3 p, vec3 q, float first) {
     return sampleDistance(field, p + halved * edge, gradient) < least ? halved : at;
 }
 
-// The place of the segment, from `first` on, that is nearest to the body or deepest in it. All in
+// The place on the segment, from `first` on, that is nearest to the body or deepest in it. All in
 // the body's own frame.
 SegmentPlace nearestPlace(Bodies bodies, uint body, vec3 p, vec3 q, float first) {
     SegmentPlace place;
@@ -78,8 +80,9 @@ SegmentPlace nearestPlace(Bodies bodies, uint body, vec3 p, vec3 q, float first)
                          BodyFields(bodies.fields).at[body - bodies.capsule_count].field, p, q,
                          first);
     place.gap = gapToBody(bodies, body, 0.0, mix(p, q, place.at), place.normal);
-    // Between its ends a segment is nearest where it goes along the surface. A field has creases
-    // there, on either side of which its gradient leads along the segment as well.
+    // At a nearest point between its ends, the segment is parallel to the surface. A field has
+    // creases there, and the gradient on either side of a crease also has a component along the
+    // segment.
     vec3 edge = q - p;
     vec3 across = place.normal - dot(place.normal, edge) / dot(edge, edge) * edge;
     float size = length(across);
@@ -93,14 +96,14 @@ struct MovingSegment {
     vec3 b;
     vec3 a_before;
     vec3 b_before;
-    vec4 rest_a;  // on the head at rest; w: the margin that bodies keep from the vertex
+    vec4 rest_a;  // on the head at rest; w: margin between bodies and the vertex
     vec4 rest_b;
-    float first;  // the place that it counts from on
+    float first;  // collisions count from this place on
 };
 
-// How a segment touches a body, in the world.
+// A segment's contact with a body, in the world frame.
 struct SegmentContact {
-    vec3 normal;  // 0: there is no body near
+    vec3 normal;  // 0: no body is near
     float gap;  // negative inside, m
     float at;
     bool on_head;
@@ -109,22 +112,23 @@ struct SegmentContact {
 
 const SegmentContact kNoContact = SegmentContact(vec3(0.0), kFar, 0.0, false, 0u);
 
-// Where a segment entered a body on its way: dot(plane.xyz, x) >= plane.w outside. 0: nowhere.
+// The plane where a segment entered a body on its path: dot(plane.xyz, x) >= plane.w outside. 0:
+// none.
 struct EnteredPlane {
     vec4 plane;
     float at;
     bool on_head;
 };
 
-// What a way has to be longer than to lead past the middle of a body: a capsule's radius, and of a
-// field a cell, as there is nothing thinner than two in it.
+// Shorter paths cannot lead past the middle of a body. The limit is a capsule's radius, and a cell
+// for a field, which has nothing thinner than two cells.
 float halfThickness(Bodies bodies, uint body) {
     if (body < bodies.capsule_count) return Capsules(bodies.capsules).at[body].radius;
     return BodyFields(bodies.fields).at[body - bodies.capsule_count].field.cell;
 }
 
-// Of a segment that hangs on a root, or another vertex that is held, the first quarter does not
-// count: it lies in the skin.
+// The first quarter of a segment that starts at a root, or at another held vertex, is ignored: it
+// lies in the skin.
 const float kInSkin = 0.25;
 const uint kMostAdvances = 16u;
 const float kSameSide = 0.7;  // cosine between normals of the same side of a body
@@ -139,10 +143,10 @@ MovingSegment movingSegment(
         inverse_mass_above > 0.0 ? 0.0 : kInSkin);
 }
 
-// Follows a segment's way from p_before, q_before to p, q in the body's frame by steps in which no
-// place of it can reach the body (Mirtich 1996, Impulse-based dynamic simulation of rigid body
-// systems). Returns the plane where it enters, and in the gap how far the way's end is outside of
-// that; kNoContact's where it enters nowhere.
+// Follows a segment's path from p_before, q_before to p, q in the body's frame, in steps within
+// which no point of it can reach the body (Mirtich 1996, Impulse-based dynamic simulation of rigid
+// body systems). Returns the plane where it enters; the gap is the distance from the path's end to
+// that plane. Returns kNoContact if it enters nowhere.
 SegmentContact enteredOn(
     Bodies bodies, uint body, vec3 p_before, vec3 q_before, vec3 p, vec3 q, float margin,
     float first) {
@@ -165,9 +169,9 @@ SegmentContact enteredOn(
 }
 
 // The contact of the segment that is deepest in one of the bodies from `first_body` up to
-// `end_body`, or nearest to one. With `by_way` it finds planes where the segment enters bodies, by
-// which it is held later too. `keeps_rest`: a body that follows the head pushes it no farther out
-// than it is at rest. `clearance`: no body is nearer to the segment than that.
+// `end_body`, or nearest to one. With `by_way`, it finds planes where the segment enters bodies;
+// they also hold it later. `keeps_rest`: a body that follows the head pushes it no farther out than
+// it is at rest. `clearance`: no body is nearer to the segment than this.
 SegmentContact contactOf(
     MovingSegment segment, Bodies bodies, uint first_body, uint end_body, RigidFrame frame,
     RigidFrame frame_before, bool by_way, bool keeps_rest, inout EnteredPlane entered,
@@ -193,7 +197,8 @@ SegmentContact contactOf(
         vec3 normal;
         float gap = gapToBody(bodies, body, widest, 0.5 * (p + q), normal);
         clearance = min(clearance, gap - half_length);
-        // A loop, since llvmpipe works out both sides of a branch but leaves loops.
+        // A loop instead of a branch, because llvmpipe evaluates both sides of a branch but leaves
+        // loops.
         for (bool near = gap < half_length + reach; near; near = false) {
             SegmentPlace place = nearestPlace(bodies, body, p, q, segment.first);
             float margin = mix(segment.rest_a.w, segment.rest_b.w, place.at);
@@ -219,8 +224,7 @@ SegmentContact contactOf(
             }
         }
     }
-    // A segment that has come past the middle of a body, or past all of it, is taken back the way
-    // that it came.
+    // A segment that has passed the middle of a body, or all of it, is moved back the way it came.
     if (entered.plane.xyz == vec3(0.0) || dot(nearest.normal, entered.plane.xyz) > kSameSide)
         return nearest;
     vec3 place = mix(segment.a, segment.b, entered.at);
@@ -229,7 +233,7 @@ SegmentContact contactOf(
         entered.on_head, nearest.body);
 }
 
-// How far the place of a contact has moved in the substep, as its body sees it.
+// Displacement of the place of a contact in the substep, relative to its body.
 vec3 movedPast(
     MovingSegment segment, SegmentContact contact, RigidFrame frame, RigidFrame frame_before) {
     vec3 before = mix(segment.a_before, segment.b_before, contact.at);

@@ -1,36 +1,36 @@
-// Contact inside the solve of a rod: a vertex that bodies moved in the last substep is held on
-// their surface by a stiff spring and by the force that it was held with before, so that the rod bears
-// what the surface presses with. Friction holds it along the surface in the same way, up to
-// Coulomb's cone; beyond that it slides under the force of the cone's rim. (A vertex that is pushed
-// out after the solve alone is taken back in by it, by N h^2 / m under a force N.) Before it:
-// common/vectors.glsl or common/packed_vectors.glsl, and kScratchRows.
+// Contact inside the solve of a rod. A vertex that bodies moved in the last substep is held on
+// their surface by a stiff spring and by the previous contact force, so that the rod bears the
+// pressure of the surface. Friction holds it along the surface in the same way, up to Coulomb's
+// cone; beyond that it slides under the force at the rim of the cone. (A vertex that is only pushed
+// out after the solve sinks in again by N h^2 / m under a force N.) Include common/vectors.glsl or
+// common/packed_vectors.glsl first, and define kScratchRows.
 #ifndef HAIRBENCH_SIMULATION_ROD_CONTACT_GLSL
 #define HAIRBENCH_SIMULATION_ROD_CONTACT_GLSL
 
 #include "simulation/rod/strand.glsl"
 
-// Share of the cone's rim from which on a vertex slides, and to which the force on one is lowered
-// that has come to rest.
+// kSlides: a vertex slides from this share of the cone's rim on. kRests: when it comes to rest, its
+// force is lowered to this share.
 const float kSlides = 0.999;
 const float kRests = 0.99;
 
-// What of a vertex's motion a body holds back.
+// The part of a vertex's motion that a body holds back.
 const float kHeldWhole = 1.0;
-const float kHeldAcross = 0.0;  // all but the direction that friction acts in: it slides
-const float kHeldOut = -1.0;    // along the normal alone
+const float kHeldAcross = 0.0;  // everything but the direction of friction: it slides
+const float kHeldOut = -1.0;    // only along the normal
 
 // How a body holds a vertex.
 struct Hold {
-    vec3 normal;  // 0: not at all
+    vec3 normal;  // 0: not held
     float what;
-    vec3 offset;  // from where it is held to where the prediction has it
+    vec3 offset;  // from the held position to the predicted one
 };
 
 const Hold kNoHold = Hold(vec3(0.0), 0.0, vec3(0.0));
 
 vec3 along(vec3 normal, vec3 force) { return force - dot(force, normal) * normal; }
 
-// The projection onto what is held back, of a vertex with that force of contact.
+// The projection onto the held directions of a vertex with this contact force.
 mat3 heldBy(Hold hold, vec3 contact) {
     if (hold.what == kHeldOut) return outerProduct(hold.normal, hold.normal);
     if (hold.what == kHeldWhole) return mat3(1.0);
@@ -38,8 +38,8 @@ mat3 heldBy(Hold hold, vec3 contact) {
     return mat3(1.0) - outerProduct(slides, slides);
 }
 
-// How the nearest body holds a vertex that was at `before`, where it pressed on it with `contact`.
-// `predicted`: the way that the prediction moves it, in the strand's unit.
+// How the nearest body holds a vertex that was at `before` and was pressed with `contact`.
+// `predicted`: its predicted displacement, in the strand's unit.
 Hold holdOf(uint i, vec3 before, vec3 contact, vec3 predicted) {
     Bodies bodies = bodiesAt(guides, root + i);
     float nearest = kFar;
@@ -65,8 +65,8 @@ Hold holdOf(uint i, vec3 before, vec3 contact, vec3 predicted) {
     return Hold(facing, what, predicted - anchor);
 }
 
-// The force on a vertex after a substep, within the cone of friction. `slid`: its way from where it
-// was held. What slides the way that friction pushes it has come to rest.
+// The force on a vertex after a substep, within the friction cone. `slid`: its displacement from
+// the held position. A vertex that slides in the direction of its friction has come to rest.
 vec3 withinCone(Hold hold, vec3 force, vec3 slid, float friction) {
     float pressure = dot(force, hold.normal);
     if (pressure <= 0.0) return vec3(0.0);

@@ -1,13 +1,13 @@
-// Rods whose segments stretch and shear, so that vertices and orientations move by themselves. Until
-// finish() the misfits of the strand are whole edges, as the substep found them. Before it:
-// common/vectors.glsl or common/packed_vectors.glsl, kScratchRows, and kMoved, the row of a vertex's
-// displacement in the substep.
+// Rods with segments that stretch and shear, so that vertices and orientations move independently.
+// Until finish(), the misfits of the strand are whole edges at the start of the substep. Include
+// common/vectors.glsl or common/packed_vectors.glsl first, and define kScratchRows and kMoved, the
+// row of a vertex's displacement in the substep.
 #ifndef HAIRBENCH_SIMULATION_ROD_EDGES_GLSL
 #define HAIRBENCH_SIMULATION_ROD_EDGES_GLSL
 
 #include "simulation/rod/strand.glsl"
 
-const float kMostSpring = 1.0e15;  // rigid beside any mass; its square is a float
+const float kMostSpring = 1.0e15;  // rigid compared with any mass; its square is a float
 
 vec3 root_moved;
 float stretching;  // stiffness against stretch and shear
@@ -17,7 +17,7 @@ uint edgeIndex(uint i) { return motionIndex(i, kRodMisfit, guides.strand_count, 
 // A segment's edge at the start of the substep.
 vec3 edgeAt(uint i) { return loadVector(rod.motion, edgeIndex(i)).xyz; }
 
-// The root goes with its follicle.
+// Moves the root with its follicle.
 void takeRoot() {
     stretching = min(rod.stretching / (unit * unit), kMostSpring);
     root_now = toWorld(root_frame, Vectors(guides.rest_positions).at[root].xyz);
@@ -27,9 +27,9 @@ void takeRoot() {
     State(guides.positions).at[root] = vec4(root_now, follicle.w);
 }
 
-// How a vertex moves by all that does not hold the strand together: time is counted in substeps, so
-// that a velocity is a displacement as well. `brake`: how air brakes it, as brakeAt(), not at all
-// where it is pinned. Adds the segment's edge to `edges`, those from the root to here.
+// The displacement of a vertex by everything except the forces of the strand. Time is counted in
+// substeps, so a velocity is also a displacement. `brake`: drag as from brakeAt(), 0 if the vertex
+// is pinned. Adds the segment's edge to `edges`, the sum from the root to here.
 vec3 predictedMove(uint i, RodMotion motion, inout vec3 edges, out vec4 brake) {
     vec3 acceleration = guides.gravity;
     if (push.accelerations != kNoAddress) acceleration += Vectors(push.accelerations).at[root + i].xyz;
@@ -52,7 +52,7 @@ vec3 predictedMove(uint i, RodMotion motion, inout vec3 edges, out vec4 brake) {
     return moved;
 }
 
-// Velocities and positions, and collisions, which leave misfits.
+// Updates velocities and positions, and collides, which leaves misfits.
 void finish() {
     State positions = State(guides.positions);
     vec3 moved_above = root_moved;

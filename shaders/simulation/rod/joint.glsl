@@ -4,26 +4,26 @@
 #include "common/quaternion.glsl"
 #include "shared/options.h"
 
-// Whether cross-sections are ellipses, so that a rod bends round one axis more easily.
+// True if cross-sections are ellipses, so that a rod bends more easily round one axis.
 layout(constant_id = kEllipticSectionConstant) const bool kEllipticSection = false;
 
-// What bends and twists a rod, between two frames that coincide at rest: the discrete elastica of
+// Bending and twisting of a rod between two frames that coincide at rest: the discrete elastica of
 // Bobenko and Suris 1999, Discrete time Lagrangian mechanics on Lie groups, with the energy
 //     -(4 / n^2) K ln cos(n b / 2) + fade K' t^2 / 2
-// for a bend by b between the third axes and a twist by t round the axis between them. n is 1, and
-// 2 at the follicle, where half of a joint and its mirror image bend twice as much. Where n b is
-// beyond 120 degrees the torque of the bend goes on as a straight line; where b is, the twist
-// fades. No trigonometry where it counts: Vulkan only asks 11 bits of it.
+// for a bend by b between the third axes and a twist by t round the axis between them. n is 1. At
+// the follicle it is 2, where half of a joint and its mirror image bend twice as much. Where n b
+// exceeds 120 degrees, the torque of the bend continues linearly; where b does, the twist fades.
+// Accurate parts avoid trigonometry, because Vulkan guarantees only 11 bits of it.
 //
-// Where the section is an ellipse, K is K(p) = K (e cos^2 p + sin^2 p / e), p the direction of the
-// bend's axis in the frame halfway between the two, and e the ellipse's ratio of axes.
+// For an elliptic section, K is K(p) = K (e cos^2 p + sin^2 p / e). p is the direction of the
+// bend's axis in the frame halfway between the two, and e is the ellipse's ratio of axes.
 struct RodJoint {
-    vec3 torque;     // on the second frame, axes of space; the first gets its opposite
+    vec3 torque;     // on the second frame, in world axes; the first gets the opposite
     mat3 stiffness;  // torque per small rotation of the second frame
 };
 
 // 2 atan2(z, w) from the tangent of an eighth of it; c = length of (z, w), w >= 0. The series is
-// off by less than 1e-5 at half a turn and by rounding at small angles.
+// off by less than 1e-5 at half a turn, and only by rounding at small angles.
 float twistAngle(float z, float w, float c) {
     float quarter = z / (c + w);
     float t = quarter / (1.0 + sqrt(1.0 + quarter * quarter));
@@ -33,8 +33,8 @@ float twistAngle(float z, float w, float c) {
     return 8.0 * t * series;
 }
 
-// -ln(1 - x) / x, 0 <= x <= 3/4, by the series of 2 artanh(q) with q = x / (2 - x): off by less
-// than 5e-5, and by rounding at small x.
+// -ln(1 - x) / x, 0 <= x <= 3/4, by the series of 2 artanh(q) with q = x / (2 - x). It is off by
+// less than 5e-5, and only by rounding at small x.
 float logarithmOver(float x) {
     float q = x / (2.0 - x);
     float s = q * q;
@@ -49,18 +49,20 @@ RodJoint bendAndTwist(
     vec4 r = multiply(conjugate(first), second);
     if (r.w < 0.0) r = -r;
     float cosine2 = r.w * r.w + r.z * r.z;  // of half the bend, squared
-    if (cosine2 < 1.0e-12) {  // opposite axes: any twist will do
+    if (cosine2 < 1.0e-12) {  // opposite axes: the twist is arbitrary
         r.zw = vec2(0.0, 1.0e-6);
         cosine2 = 1.0e-12;
     }
     float sine2 = r.x * r.x + r.y * r.y;
-    // The axis that the bend grows round and the one beside it, both of length sine * cosine.
+    // The axis round which the bend grows and the axis perpendicular to it, both of length sine *
+    // cosine.
     vec3 across = vec3(r.w * r.x - r.z * r.y, r.w * r.y + r.z * r.x, 0.0);
     vec3 beside = vec3(across.y, -across.x, 0.0);
 
-    float torque;  // over K times `across`
-    float more;    // what the stiffness round `across` exceeds K by, over K and the square of it
-    float energy = 0.0;  // over K times `sine2`, of an ellipse
+    float torque;  // divided by K and `across`
+    float more;    // excess of the stiffness round `across` over K, divided by K and the square of
+                   // `across`
+    float energy = 0.0;  // divided by K and `sine2`; ellipses only
     float cosine = cosine2 - sine2;  // of the bend
     bool along_line = at_follicle ? cosine < 0.5 : cosine2 < 0.25;
     if (along_line) {
@@ -94,11 +96,11 @@ RodJoint bendAndTwist(
                                        0.5 * twist * twist * fade_slope * across);
 
     if (kEllipticSection) {
-        // The energy's change with p, which grows by half of axis - beside / sine2.
+        // The energy's derivative by p, which grows by half of axis - beside / sine2.
         gradient += bend_stiffness * (1.0 / ellipticity - ellipticity) * energy * r.x * r.y *
                     (axis - beside / max(sine2, 1.0e-30));
-        // As much of the bend as goes along the longer axis grows along `stiff`; what bends along
-        // the shorter one resists twists by that.
+        // The part of the bend along the longer axis grows along `stiff`. The bend along the
+        // shorter axis resists twists accordingly.
         vec3 stiff = rotate(
             first, vec3(r.w, r.z, 0.0) * inversesqrt(cosine2) - r.y * sqrt(0.5 * energy) * axis);
         axis = rotate(first, axis);

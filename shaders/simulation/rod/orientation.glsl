@@ -3,11 +3,12 @@
 
 #include "common/quaternion.glsl"
 
-// The orientation of a segment between what its edge and its neighbours want: Hsu, Wang, Wu and
-// Yuksel 2025, Stable Cosserat rods. hair/reference/stable_cosserat.h has the energies.
+// The orientation of a segment that balances its edge and its neighbours: Hsu, Wang, Wu and Yuksel
+// 2025, Stable Cosserat rods. hair/reference/stable_cosserat.h has the energies.
 
-// Of what a joint's energy loses with r, the rotation from one frame to the other where it is
-// (0, 0, 0, 1) at rest: the coefficients of r, which touch the energy here and are nowhere less.
+// Coefficients of a linear function of r that bounds the loss of a joint's energy. r is the
+// rotation from one frame to the other, (0, 0, 0, 1) at rest. The bound touches the energy at this
+// r and is nowhere smaller.
 vec4 pullOfJoint(vec4 r, float bend_stiffness, float twist_stiffness) {
     float greatest = max(bend_stiffness, twist_stiffness);
     return 4.0 * vec4(
@@ -15,8 +16,8 @@ vec4 pullOfJoint(vec4 r, float bend_stiffness, float twist_stiffness) {
                      r.w < 0.0 ? -greatest : greatest);
 }
 
-// The same by the orientation of the joint's second segment. `half_rotation` is half of the way
-// between the two at rest.
+// The same for the orientation of the joint's second segment. `half_rotation` is half of the rest
+// rotation between the two.
 vec4 pullFromAbove(
     vec4 above, vec4 orientation, vec4 half_rotation, float bend_stiffness,
     float twist_stiffness) {
@@ -26,7 +27,7 @@ vec4 pullFromAbove(
     return multiply(multiply(frame, pull), half_rotation);
 }
 
-// By that of its first segment.
+// The same for the orientation of the joint's first segment.
 vec4 pullFromBelow(
     vec4 orientation, vec4 below, vec4 half_rotation, float bend_stiffness,
     float twist_stiffness) {
@@ -36,14 +37,15 @@ vec4 pullFromBelow(
     return multiply(multiply(frame, conjugate(pull)), conjugate(half_rotation));
 }
 
-// Newton steps of the multiplier; from 1.5 times its value they leave rounding.
+// Newton steps of the multiplier; from 1.5 times its value, they leave only rounding errors.
 const uint kMultiplierSteps = 3u;
 
-// The unit quaternion q with the greatest b . q + edge . d3(q), d3 the third axis of its frame. That
-// is q . P q with the linear map P q = -edge q e3, whose eigenvalues are |edge| and -|edge|, so that
+// The unit quaternion q that maximises b . q + edge . d3(q), where d3 is the third axis of its
+// frame. The last term is q . P q with the linear map P q = -edge q e3, with eigenvalues |edge| and
+// -|edge|, so that
 //     q = with / t + against / (t + 4 |edge|),
-// with what b has along either. Hebden's iteration finds the t > 0 at which that has the length 1:
-// More and Sorensen 1983, Computing a trust region step. b must not be 0.
+// with the parts of b in both eigenspaces. Hebden's iteration finds the t > 0 at which q has unit
+// length: More and Sorensen 1983, Computing a trust region step. b must not be 0.
 vec4 balancedOrientation(vec4 b, vec3 edge) {
     float size = length(edge);
     float gap = 4.0 * size;

@@ -1,5 +1,5 @@
-// The `rod` solver's memory, and rotations of segments. Before it: common/vectors.glsl or
-// common/packed_vectors.glsl.
+// The `rod` solver's memory, and rotations of segments. Include common/vectors.glsl or
+// common/packed_vectors.glsl first.
 #ifndef HAIRBENCH_SIMULATION_ROD_STATE_GLSL
 #define HAIRBENCH_SIMULATION_ROD_STATE_GLSL
 
@@ -9,7 +9,7 @@
 
 layout(buffer_reference, scalar) readonly buffer RodReference { RodParameters parameters; };
 
-// A segment, and how it and the vertex where it ends move: rod_structs.h.
+// A segment, and the motion of it and of the vertex at its end: rod_structs.h.
 struct RodSegment {
     vec4 half_rotation;
     float rest_length;
@@ -23,10 +23,11 @@ struct RodMotion {
     vec3 angular_velocity;
     vec3 velocity;
     vec3 misfit;
-    vec3 contact;  // the force of bodies on the vertex, if that is carried
+    vec3 contact;  // the force of bodies on the vertex, if it is carried
 };
 
-// Where a row of vertex i is in an array of so many rows a vertex and strands a row.
+// The index of a row of vertex i in an array with `rows` rows per vertex and `strands` entries per
+// row.
 uint rodIndex(uint i, uint row, uint rows, uint strands, uint strand) {
     return (i * rows + row) * strands + strand;
 }
@@ -66,14 +67,14 @@ void storeMotion(Address motion, uint i, uint strands, uint strand, RodMotion mo
         motion, motionIndex(i, kRodMisfit, strands, strand), vec4(moves.misfit, moves.contact.z));
 }
 
-// The third axis of the frame that a unit quaternion turns to.
+// The third axis of the frame of a unit quaternion.
 vec3 axisOf(vec4 q) {
     return vec3(
         2.0 * (q.x * q.z + q.w * q.y), 2.0 * (q.y * q.z - q.w * q.x),
         q.w * q.w + q.z * q.z - q.x * q.x - q.y * q.y);
 }
 
-// The rotation as a matrix, whose columns are the three axes.
+// The rotation as a matrix; its columns are the three axes.
 mat3 matrixOf(vec4 q) {
     return mat3(
         q.w * q.w + q.x * q.x - q.y * q.y - q.z * q.z, 2.0 * (q.x * q.y + q.w * q.z),
@@ -81,13 +82,14 @@ mat3 matrixOf(vec4 q) {
         q.w * q.w + q.y * q.y - q.x * q.x - q.z * q.z, 2.0 * (q.y * q.z + q.w * q.x), axisOf(q));
 }
 
-// The orientation turned by a rotation vector, to second order; by less than half a turn however
-// long it is.
+// Turns the orientation by a rotation vector, to second order; by less than half a turn for any
+// length.
 vec4 turned(vec4 orientation, vec3 rotation) {
     return normalize(multiply(vec4(0.5 * rotation, 1.0), orientation));
 }
 
-// What turned() adds to a vector: exact where the difference of the two would be rounding.
+// The change of a vector by turned(). It is exact where the difference of the two would be only
+// rounding.
 vec3 gainOf(vec3 v, vec3 rotation) {
     vec3 t = 0.5 * rotation;
     vec3 swept = cross(t, v);

@@ -1,5 +1,5 @@
-// The strand that an invocation of a solver of rods moves. Before it: common/vectors.glsl or
-// common/packed_vectors.glsl, and kScratchRows, the solver's rows of scratch memory.
+// The strand that an invocation of a rod solver moves. Include common/vectors.glsl or
+// common/packed_vectors.glsl first, and define kScratchRows, the solver's rows of scratch memory.
 #ifndef HAIRBENCH_SIMULATION_ROD_STRAND_GLSL
 #define HAIRBENCH_SIMULATION_ROD_STRAND_GLSL
 
@@ -13,13 +13,13 @@ layout(local_size_x = kRodGroupSize) in;
 
 layout(push_constant, scalar) uniform Push { SubstepPush push; };
 
-const float kLeastLength = 0.1;  // that a segment turns as if it had
+const float kLeastLength = 0.1;  // shorter segments have the inertia of this length
 
 GuideParameters guides;
 GuideParameters from;
 RodParameters rod;
 uint strand;
-uint root;    // of the strand's vertices
+uint root;    // index of the strand's first vertex
 float unit;   // m
 vec3 root_now;
 RigidFrame root_frame;  // at the end of the substep
@@ -49,7 +49,7 @@ void setScratch(uint i, uint row, vec4 value) {
     storeVector(rod.scratch, scratchIndex(i, row), value);
 }
 
-// Mesa 22's llvmpipe reads x where the last component alone is read: hence the whole vector.
+// Mesa 22's llvmpipe reads x where only the last component is read, so the whole vector is read.
 bool isPinned(uint i) {
     vec4 point = State(from.positions).at[root + i];
     return point.w == 0.0;
@@ -62,8 +62,8 @@ vec4 orientationAt(uint i) {
         segmentRow(rod.segments, 0, kRodHalfRotation, guides.strand_count, strand));
 }
 
-// How air brakes a vertex that moves so: the tangent, and brakeOf(). Before the prediction turns
-// the segment that ends there, or the one below.
+// Drag on a vertex with this motion: the tangent, and brakeOf(). Call it before the prediction
+// turns the segment that ends there, or the segment below.
 vec4 brakeAt(uint i, RodMotion motion) {
     vec3 tangent = axisOf(motion.orientation);
     if (i + 1 < guides.vertices_per_strand)
@@ -73,8 +73,8 @@ vec4 brakeAt(uint i, RodMotion motion) {
     return vec4(tangent, brakeOf(push.drag, tangent, u, guides.step.sub));
 }
 
-// Where bodies leave a vertex that comes to `free`; `pushed` is how far from there, in the strand's
-// unit, and `contact` is 1 from the first vertex on that touches one.
+// Moves a vertex out of bodies from `free`. `pushed` is its displacement from there, in the
+// strand's unit. `contact` is 1 from the first vertex on that touches a body.
 vec3 heldByBodies(uint i, vec3 free, vec3 before, inout float contact, inout vec3 pushed) {
     Met met;
     vec3 held = pushOutOfBodies(
@@ -86,7 +86,7 @@ vec3 heldByBodies(uint i, vec3 free, vec3 before, inout float contact, inout vec
     return held;
 }
 
-// False for an invocation without a strand.
+// Returns false for an invocation without a strand.
 bool takeStrand() {
     guides = GuideReference(push.guides).parameters;
     from = GuideReference(push.from).parameters;

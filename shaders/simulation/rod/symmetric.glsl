@@ -4,11 +4,11 @@
 // crossMatrix(a) b = a x b.
 mat3 crossMatrix(vec3 a) { return mat3(0.0, a.z, -a.y, -a.z, 0.0, a.x, a.y, -a.x, 0.0); }
 
-// What rounding made of a symmetric matrix. Left alone, the other part grows from row to row of an
-// elimination.
+// Restores the symmetry that rounding destroys. Otherwise the antisymmetric part grows from row to
+// row of an elimination.
 mat3 symmetric(mat3 m) { return 0.5 * (m + transpose(m)); }
 
-// The inverse of a symmetric positive definite matrix, by L D L^T. Pivots below rounding are lifted
+// The inverse of a symmetric positive definite matrix, by L D L^T. Pivots below rounding are raised
 // to it.
 mat3 inverseOfSymmetric(mat3 m) {
     float least = 1.0e-7 * (m[0][0] + m[1][1] + m[2][2]) + 1.0e-30;

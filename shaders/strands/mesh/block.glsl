@@ -1,5 +1,5 @@
-// Blocks of the back end `mesh`: what a mesh workgroup draws. As many strands of a root triangle as
-// there is room for the points of, or of a longer strand some whole segments.
+// Blocks of the back end `mesh`. A mesh work group draws one block: as many strands of a root
+// triangle as have points that fit, or some whole segments of a longer strand.
 #ifndef HAIRBENCH_STRAND_BLOCK_GLSL
 #define HAIRBENCH_STRAND_BLOCK_GLSL
 
@@ -10,28 +10,27 @@
 layout(constant_id = kMostSegmentsConstant) const uint kSegments = 1;  // of a guide
 layout(constant_id = kMostPiecesConstant) const uint kMostPieces = 1;  // of a segment
 layout(constant_id = kBlockPointsConstant) const uint kBlockPoints = kMeshVertices / 2u;
-layout(constant_id = kTaskGroupConstant) const uint kTaskGroup = 1;  // invocations, a block each
+layout(constant_id = kTaskGroupConstant) const uint kTaskGroup = 1;  // invocations, one block each
 
 layout(push_constant, scalar) uniform Push { StrandMeshPush push; };
 
-// The blocks that a task workgroup hands on.
+// The blocks that a task work group passes on.
 struct TaskPayload {
     uint blocks[kTaskGroup];
 };
 
-// Where the width starts anew in each guide segment, the points between two segments are there
-// twice.
+// If the width restarts in each guide segment, the points between two segments are stored twice.
 const uint kSplitJoints = kTaper == kTaperSegment ? 1u : 0u;
 
 uint pointsOf(uint segments, uint pieces) {
     return segments * (pieces + kSplitJoints) + 1u - kSplitJoints;
 }
 
-// How strands of so many pieces a segment are cut into blocks.
+// The division of strands into blocks, for a number of pieces per segment.
 struct BlockCut {
-    uint strands;   // of a block
-    uint parts;     // blocks of a strand
-    uint segments;  // of a part
+    uint strands;   // per block
+    uint parts;     // blocks per strand
+    uint segments;  // per part
 };
 
 BlockCut blockCut(uint pieces) {
@@ -46,21 +45,21 @@ BlockCut blockCut(uint pieces) {
 struct StrandBlock {
     uint triangle;
     uint first_strand;  // of the triangle
-    uint strands;       // 0: the level of detail draws none of it
+    uint strands;       // 0: the level of detail draws none of the block
     uint first_segment;
     uint segments;
-    uint pieces;  // of a segment that there is room for
+    uint pieces;  // pieces per segment for which there is room
 };
 
-// The patch of a strand's first segment.
+// Returns the patch of a strand's first segment.
 StrandPatch patchOfStrand(PictureParameters picture, uint triangle, uint strand) {
     uint part = triangle * picture.patches_per_triangle + strand / picture.strands_per_patch;
     return strandPatch(picture, part * kSegments);
 }
 
-// Blocks are numbered [triangle][strands][part], as many as at the finest level. At coarser ones,
-// where more strands fit a block, the last ones of a triangle are empty; strands of a groom have
-// levels of their own, and room for the finest.
+// Blocks are numbered [triangle][strands][part], with the count of the finest level. At coarser
+// levels more strands fit a block, so the last blocks of a triangle are empty. Strands of a groom
+// have their own levels, so their blocks have room for the finest level.
 StrandBlock strandBlock(PictureParameters picture, uint index) {
     BlockCut cut = blockCut(kMostPieces);
     uint blocks = (picture.forced_density + cut.strands - 1u) / cut.strands * cut.parts;

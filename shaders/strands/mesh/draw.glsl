@@ -1,7 +1,7 @@
-// A workgroup draws a block of strands: what their roots have, then their control points, then each
-// point once, whose two vertices are shared by the quads of the pieces that meet there. Before it:
-// strands/quad_corner.glsl or shadows/quad_corner.glsl, the layout of outputs, and putCorner(),
-// which writes a vertex.
+// A work group draws a block of strands. It fetches the data of their roots, then their control
+// points, then evaluates each point once. The quads of adjacent pieces share the point's two
+// vertices. Include strands/quad_corner.glsl or shadows/quad_corner.glsl first, and define the
+// layout of the outputs and putCorner(), which writes a vertex.
 #ifndef HAIRBENCH_STRAND_MESH_GLSL
 #define HAIRBENCH_STRAND_MESH_GLSL
 
@@ -17,10 +17,10 @@ struct BlockStrand {
     vec3 weights;
     vec3 lift;
     StrandLod lod;
-    uint drawn;  // 0: the level of detail leaves it out
+    uint drawn;  // 0: the level of detail omits it
 };
 
-// A strand has two points at least, a segment's first point is no other segment's.
+// A strand has at least two points, and segments do not share their first points.
 shared BlockStrand block_strands[kBlockPoints / 2u];
 shared vec3 control_points[4u * kBlockPoints];  // [strand][segment][r(i-1) .. r(i+2)]
 
@@ -37,7 +37,7 @@ void fetchStrand(PictureParameters picture, StrandBlock block, uint number) {
     block_strands[number] = strand;
 }
 
-// `number` is of the block's segments.
+// `number` is an index of the block's segments.
 void fetchSegment(PictureParameters picture, StrandBlock block, uint number) {
     uvec3 guides = block_strands[number / block.segments].guides;
     uint segment = block.first_segment + number % block.segments;
@@ -54,11 +54,12 @@ void fetchSegment(PictureParameters picture, StrandBlock block, uint number) {
     for (uint k = 0u; k < 4u; ++k) control_points[4u * number + k] = r[k];
 }
 
-// `number` is of the block's points, [strand][point].
+// `number` is an index of the block's points, [strand][point].
 void makePoint(PictureParameters picture, StrandBlock block, uint number) {
     uint points = pointsOf(block.segments, block.pieces);
     uint place = number % points;
-    uint ends = block.pieces + kSplitJoints;  // from a segment's first to the next one's
+    uint ends = block.pieces + kSplitJoints;  // points from the first of a segment to the first of
+                                              // the next
     uint segment = min(place / ends, block.segments - 1u);
     BlockStrand block_strand = block_strands[number / points];
 
@@ -86,7 +87,7 @@ void makePoint(PictureParameters picture, StrandBlock block, uint number) {
     }
 }
 
-// `number` is of the block's pieces, [strand][piece].
+// `number` is an index of the block's pieces, [strand][piece].
 void makePiece(StrandBlock block, uint number) {
     uint pieces = block.segments * block.pieces;
     uint place = number % pieces;

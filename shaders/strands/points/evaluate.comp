@@ -1,5 +1,5 @@
 #version 460
-// The points of strands.
+// Evaluates the points of strands.
 #extension GL_GOOGLE_include_directive : require
 #include "common/vectors.glsl"
 

@@ -1,10 +1,11 @@
-// The points of strands, each evaluated once, and the part of the picture that they touch. An
-// invocation has some strands of a root triangle, for which control points slide along its guides.
+// Evaluates each point of the strands once, and finds the part of the picture that they touch. An
+// invocation has some strands of a root triangle and slides a window of control points along its
+// guides.
 #include "strands/outside.glsl"
 #include "strands/points/layout.glsl"
 #include "strands/strand.glsl"
 
-layout(constant_id = kStrandBlockConstant) const uint kBlock = 1;  // strands of an invocation
+layout(constant_id = kStrandBlockConstant) const uint kBlock = 1;  // strands per invocation
 
 layout(push_constant, scalar) uniform Push { PointsPush push; };
 
@@ -13,7 +14,7 @@ layout(push_constant, scalar) uniform Push { PointsPush push; };
 
 layout(local_size_x = kPointsGroup) in;
 
-// Of the corners so far, px.
+// Extent of the corners so far, px.
 struct Extent {
     vec2 low;
     vec2 high;
@@ -29,7 +30,7 @@ void widen(inout Extent extent, PieceEnd end) {
     extent.high = max(extent.high, end.seen.place + abs(end.seen.side));
 }
 
-// Bounds grow seldom: most strands only look.
+// Bounds rarely grow, so most strands only read them.
 void mergeBounds(Extent extent) {
     vec2 size = vec2(push.width, push.height);
     uvec2 low = uvec2(clamp(floor(extent.low), vec2(0.0), size));
@@ -96,7 +97,7 @@ void main() {
                 picture, guides, segment, strand.weights, controls, shares, strand.r);
             uint first = (number + strand.index - begin) * kPointsPerStrand +
                          segment * (pieces + kSplitJoints);
-            // The first of other segments is the last of the one before, but where it is split.
+            // A segment's first point is the last of the segment before, unless joints are split.
             for (uint i = segment == 0u ? 0u : 1u - kSplitJoints; i <= pieces; ++i) {
                 StrandPoint point = drawnPoint(picture, strand_patch, strand, i);
                 float width = point.width;

@@ -1,5 +1,5 @@
 #version 460
-// The points of strands, on devices with 64-bit integers.
+// Evaluates the points of strands, on devices with 64-bit integers.
 #extension GL_GOOGLE_include_directive : require
 #include "common/packed_vectors.glsl"
 

@@ -1,5 +1,6 @@
-// The back end `expanded`: a vertex is a corner of a quad, and fetches its point. Before it:
-// common/vectors.glsl or common/packed_vectors.glsl, and strands/quad.glsl or shadows/quad.glsl.
+// The back end `expanded`: a vertex is a corner of a quad and fetches its point. Include
+// common/vectors.glsl or common/packed_vectors.glsl, and strands/quad.glsl or shadows/quad.glsl,
+// first.
 #ifndef HAIRBENCH_EXPANDED_GLSL
 #define HAIRBENCH_EXPANDED_GLSL
 
@@ -12,7 +13,7 @@ layout(push_constant, scalar) uniform Push { ExpandedPush push; };
 
 layout(buffer_reference, scalar) readonly buffer SeenStrands { uint at[]; };
 
-// What stands in the place along a strand where something else is shown than its shading.
+// The value that replaces the position along a strand when the picture does not show shading.
 float shownAlong(PictureParameters picture, uint strand, float along) {
     if (kShow != kShowLod && kShow != kShowStrands) return along;
     uint triangle = strand / picture.forced_density;
@@ -26,8 +27,8 @@ float shownAlong(PictureParameters picture, uint strand, float along) {
 }
 
 void main() {
-    // Vertices are numbered [strand][point][corner], of all draws with direct arguments by instances
-    // of kExpandedStrands; there are as many points as at the finest level.
+    // Vertices are numbered [strand][point][corner], with the point count of the finest level.
+    // Draws with direct arguments number all strands, with kExpandedStrands per instance.
     uint vertex = uint(gl_InstanceIndex) * kExpandedStrands * kPointsPerStrand * 2u +
                   uint(gl_VertexIndex);
     uint corner = vertex % 2u;
@@ -47,7 +48,7 @@ void main() {
     float along = (float(segment) + float(end) / float(pieces)) / float(kSegments);
     PictureParameters picture = PictureReference(push.picture).parameters;
     uint merged = kTellsHairs ? storedMerged(picture, strand, stored) : 0u;
-    // Points are as wide as what is drawn, gaps and all.
+    // Stored points have the drawn width, including gaps.
     float width = point.width / mergedSpread(merged);
     LineEnd line_end =
         LineEnd(point.position, point.tangent, width, shownAlong(picture, strand, along), merged);

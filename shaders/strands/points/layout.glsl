@@ -1,4 +1,4 @@
-// Strands as points in memory, each there once: where they are.
+// Layout of strands as points in memory, where each point is stored once.
 #ifndef HAIRBENCH_POINTS_LAYOUT_GLSL
 #define HAIRBENCH_POINTS_LAYOUT_GLSL
 
@@ -11,20 +11,19 @@ layout(constant_id = kMostPiecesConstant) const uint kMostPieces = 1;  // of a s
 
 layout(buffer_reference, scalar) buffer StrandPieces { uint at[]; };
 
-// What StrandPieces has of a strand: pieces of a guide segment, and the upper half of its word of
-// strands/merged_word.glsl where these are drawn.
+// Decodes an entry of StrandPieces: the number of pieces of a guide segment and, if merged hairs
+// are drawn, the upper half of the strand's word of strands/merged_word.glsl.
 uint piecesOf(uint word) { return kMergedHairs != 0 ? word & 0xffffu : word; }
 
 layout(buffer_reference, scalar) buffer Bounds { HairBounds bounds; };
 
-// Where the width starts anew in each guide segment, the points between two segments are there
-// twice.
+// If the width restarts in each guide segment, the points between two segments are stored twice.
 const uint kSplitJoints = kTaper == kTaperSegment ? 1u : 0u;
 const uint kPointsPerStrand =
     kSplitJoints == 1u ? kSegments * (kMostPieces + 1u) : kSegments * kMostPieces + 1u;
 const uint kPiecesPerStrand = kSegments * kMostPieces;
 
-// The first point of a strand's piece, of which `pieces` are drawn a segment.
+// Returns the first point of a strand's piece, with `pieces` drawn pieces per segment.
 uint firstPoint(uint strand, uint piece, uint pieces) {
     return strand * kPointsPerStrand + piece + (kSplitJoints == 1u ? piece / pieces : 0u);
 }

@@ -1,5 +1,6 @@
 #version 460
-// The strands that each draw of the back end `expanded` has, and the draws. An invocation a draw.
+// Lists the visible strands of each draw of the back end `expanded`, and writes the draws. One
+// invocation per draw.
 #extension GL_GOOGLE_include_directive : require
 #include "strands/points/layout.glsl"
 

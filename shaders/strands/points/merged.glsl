@@ -1,4 +1,4 @@
-// The hairs that a strand stands for (strands/merged_word.glsl), of strands as points in memory.
+// The hairs that a strand stands for (strands/merged_word.glsl), for strands as points in memory.
 #ifndef HAIRBENCH_POINTS_MERGED_GLSL
 #define HAIRBENCH_POINTS_MERGED_GLSL
 
@@ -7,7 +7,7 @@
 #include "strands/merged_word.glsl"
 #include "strands/points/layout.glsl"
 
-// `stored` is what StrandPieces has of the strand.
+// `stored` is the strand's entry of StrandPieces.
 uint storedMerged(PictureParameters picture, uint strand, uint stored) {
     uint key = hash(picture.seed, strand / picture.forced_density, kRootPurpose);
     uint bits = hash(key, strand % picture.forced_density, kMergedPurpose);

@@ -1,5 +1,5 @@
-// A point of a strand in 16 bytes: its place, and in a word the direction of the strand and its
-// width. Needs common/vectors.glsl or common/packed_vectors.glsl before it.
+// A point of a strand in 16 bytes: its position, and a word with the strand's direction and width.
+// Include common/vectors.glsl or common/packed_vectors.glsl first.
 #ifndef HAIRBENCH_POINTS_GLSL
 #define HAIRBENCH_POINTS_GLSL
 
@@ -13,8 +13,8 @@ struct PackedPoint {
 
 vec2 awayFromZero(vec2 v) { return mix(vec2(-1.0), vec2(1.0), greaterThanEqual(v, vec2(0.0))); }
 
-// A direction on an octahedron, 10 bits a coordinate, to 0.1 degrees: Cigolle et al. 2014, A survey
-// of efficient representations for independent unit vectors, JCGT 3(2).
+// A direction in octahedral encoding, 10 bits per coordinate, accurate to 0.1 degrees: Cigolle et
+// al. 2014, A survey of efficient representations for independent unit vectors, JCGT 3(2).
 uint packDirection(vec3 v) {
     vec2 p = v.xy / max(abs(v.x) + abs(v.y) + abs(v.z), 1e-30);
     if (v.z < 0.0) p = (1.0 - abs(p.yx)) * awayFromZero(p);
@@ -29,7 +29,7 @@ vec3 unpackDirection(uint word) {
     return normalize(v);
 }
 
-// Widths of 60 nm to 1 m in steps of 0.4 %; what is less is 0.
+// Widths of 60 nm to 1 m in steps of 0.4 %; smaller ones are 0.
 const float kWidthsPerOctave = 170.0;
 const float kMostWidth = 4095.0;
 
@@ -47,8 +47,8 @@ void storePoint(Address points, uint index, PackedPoint point) {
     storeVector(points, index, vec4(point.position, uintBitsToFloat(word)));
 }
 
-// Where kPointTexels is defined, points are fetched as texels: a device that takes one element of one
-// invocation at a time from memory, as lavapipe does, has a texel of all of them at once.
+// If kPointTexels is defined, points are fetched as texels. A device that loads one element of one
+// invocation at a time from memory, as lavapipe does, fetches a texel of all invocations at once.
 #ifdef kPointTexels
 #extension GL_EXT_samplerless_texture_functions : require
 layout(binding = kPointTexels) uniform utextureBuffer point_texels;

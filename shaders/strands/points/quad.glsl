@@ -1,5 +1,5 @@
-// The quad that a piece of a strand is on the screen: that of strands/quad.glsl, thesis 2.2. Before
-// it: push constants with points, pieces, width and height.
+// The quad of a piece of a strand on the screen, as in strands/quad.glsl, thesis 2.2. Define push
+// constants with points, pieces, width and height first.
 #ifndef HAIRBENCH_POINTS_QUAD_GLSL
 #define HAIRBENCH_POINTS_QUAD_GLSL
 
@@ -7,12 +7,12 @@
 #include "common/picture.glsl"
 #include "strands/points/points.glsl"
 
-// A place of a strand on the screen: of its middle, and from there to the edge.
+// A point of a strand on the screen: its middle, and the vector from there to the edge.
 struct ScreenEnd {
     vec2 place;  // px
     vec2 side;
     float depth;
-    float side_depth;  // what depth changes by towards the edge
+    float side_depth;  // change of depth from the middle to the edge
     float w;  // of clip space
 };
 
@@ -23,11 +23,11 @@ struct PieceEnd {
     vec3 tangent;  // unit length
     vec4 middle_clip;
     vec4 side_clip;
-    float beyond;  // how far both corners are beyond the near plane, by beyondNear()
-    ScreenEnd seen;  // where both are beyond it
+    float beyond;  // distance of the nearer corner beyond the near plane, by beyondNear()
+    ScreenEnd seen;  // valid if both corners are beyond the near plane
 };
 
-// A middle and an edge in clip space.
+// Projects a middle and an edge from clip space.
 ScreenEnd screenEnd(vec4 middle, vec4 side) {
     vec4 low = middle - side;
     vec4 high = middle + side;
@@ -56,7 +56,7 @@ PieceEnd pieceEnd(PictureParameters picture, PackedPoint point) {
     return end;
 }
 
-// The part of a piece before the near plane. Corners are from -+ side at both ends.
+// The part of a piece beyond the near plane. Corners run from -+ side at both ends.
 struct PieceQuad {
     ScreenEnd from;
     ScreenEnd to;
@@ -88,7 +88,7 @@ vec2 depthRange(PieceQuad quad) {
                 max(quad.from.depth, quad.to.depth) + slack);
 }
 
-// A piece by its number, that of its first point.
+// A piece; its number is that of its first point.
 struct Piece {
     PieceEnd from;
     PieceEnd to;

@@ -1,5 +1,5 @@
-// What the samples within the hair's bounds show before the hair is there: the scene's depth. A
-// workgroup a row of pixels.
+// Initialises the samples within the hair's bounds with the scene's depth. One work group per row
+// of pixels.
 #include "common/depth.glsl"
 #include "strands/software/software.glsl"
 
@@ -11,7 +11,7 @@ layout(binding = 0) uniform texture2DMS scene_depth;
 layout(binding = 0) uniform texture2D scene_depth;
 #endif
 
-// Of one sample a pixel there is level 0, of more there are samples.
+// With one sample per pixel, `index` is the mip level 0; with several it is the sample.
 float sceneDepth(uvec2 pixel, uint index) {
     return texelFetch(scene_depth, ivec2(pixel), int(index)).r;
 }

@@ -1,5 +1,5 @@
 #version 460
-// Samples without hair, several a pixel.
+// Clears samples, with several per pixel.
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_samplerless_texture_functions : require
 #define HAIRBENCH_MULTISAMPLE

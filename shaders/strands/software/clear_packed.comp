@@ -1,5 +1,5 @@
 #version 460
-// Samples without hair, one a pixel, on devices with 64-bit integers.
+// Clears samples, with one per pixel, on devices with 64-bit integers.
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_samplerless_texture_functions : require
 #include "common/packed_vectors.glsl"

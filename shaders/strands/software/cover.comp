@@ -1,5 +1,5 @@
 #version 460
-// The samples of strands.
+// Rasterises the pieces of strands.
 #extension GL_GOOGLE_include_directive : require
 #include "strands/software/offer.glsl"
 

@@ -1,6 +1,6 @@
-// The samples that pieces of strands cover: each keeps the nearest piece, of equally near ones the
-// first. Pieces are drawn by spans across their major axis: each row of samples, or column, meets a
-// thin piece in few. offer() has to be there.
+// Rasterises pieces of strands. Each sample keeps the nearest piece; of equally near pieces, it
+// keeps the first. Pieces are drawn in spans across their major axis, so each row or column of
+// samples meets a thin piece in few samples. Define offer() first.
 #ifdef kSampleTexels
 #include "strands/software/seen.glsl"
 #endif
@@ -10,20 +10,20 @@
 #include "strands/software/place.glsl"
 #include "strands/software/samples.glsl"
 
-// A piece's samples, row by row: where it is nearer to level, column by column.
+// A piece's samples row by row, or column by column if it is nearer to horizontal.
 struct Cover {
     bool columns;
     int begin;  // rows of samples
     int end;
-    vec4 starts;  // of the four edges across the rows, where these are 0
+    vec4 starts;  // positions of the four edges across the rows at row coordinate 0
     vec4 slopes;
     bvec4 lower;  // edges that bound it from below
     float size;  // of the picture along a row, px
-    vec2 origin;  // along and across rows: a place of known depth
+    vec2 origin;  // along and across rows: a point of known depth
     float depth;
     vec2 gradient;  // of depth, along and across rows
     vec2 depth_range;
-    float row_length;  // in the mean, px
+    float row_length;  // mean, px
 };
 
 float least(vec4 v) { return min(min(v.x, v.y), min(v.z, v.w)); }
@@ -39,7 +39,8 @@ void makeEdges(PieceQuad quad, inout Cover cover) {
     vec4 run = down.yzwx - down;
     vec4 rise = across.yzwx - across;
     float area = dot(down, across.yzwx - across.wxyz);
-    // An edge along rows, too, bounds them from the side that it would if it leant a little.
+    // An edge parallel to the rows also bounds them, from the side from which it would if slightly
+    // tilted.
     run = mix(run, vec4(1e-6), lessThan(abs(run), vec4(1e-6)));
     cover.lower = greaterThan(area > 0.0 ? run : -run, vec4(0.0));
     cover.slopes = rise / run;
@@ -71,7 +72,7 @@ void makeDepth(PieceQuad quad, vec2 run, inout Cover cover) {
 
 Cover makeCover(PieceQuad quad) {
     vec2 run = quad.to.place - quad.from.place;
-    // Sides that cross on the screen would make no quad.
+    // Sides that cross on the screen do not form a quad.
     if (cross2(run, quad.from.side) * cross2(run, quad.to.side) < 0.0) {
         quad.to.side = -quad.to.side;
         quad.to.side_depth = -quad.to.side_depth;
@@ -83,17 +84,17 @@ Cover makeCover(PieceQuad quad) {
     return cover;
 }
 
-// Whether it is worth an offer. Others offer meanwhile; whatever the sample had since the last barrier
-// will do, for minima only fall.
+// True if an offer may succeed. Other invocations offer at the same time, but any value since the
+// last barrier is valid here, because minima only decrease.
 bool mayBeNearer(uint index, uint near) {
 #ifdef kSampleTexels
     return near <= fetchSample(index).y;
 #else
-    return true;  // a look would cost as much
+    return true;  // a read would cost as much
 #endif
 }
 
-// Whether a place on the screen, px, is in a gap between the hairs that the piece's strand stands for.
+// True if a screen position, px, is in a gap between the hairs that the piece's strand stands for.
 bool isGap(PictureParameters picture, uint piece, vec2 place) {
     Piece covered = pieceOf(picture, piece);
     PiecePlace seen = piecePlace(covered, place);
@@ -101,8 +102,8 @@ bool isGap(PictureParameters picture, uint piece, vec2 place) {
     return isMergedGap(on_strand.merged, straightAcross(covered, seen), on_strand.along);
 }
 
-// Offers the samples of every `step`-th row from `row` on. The search for the next sample touches no
-// memory, so that invocations which go together are together where they do.
+// Offers the samples of every `step`-th row from `row` on. The search for the next sample does not
+// access memory, so that invocations that run together access memory together.
 void coverRows(PictureParameters picture, Cover cover, int row, int step, uint piece) {
     uint places = cover.columns ? columnPlaces() : rowPlaces();
     uint samples = cover.columns ? columnSamples() : rowSamples();

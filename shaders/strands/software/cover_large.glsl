@@ -1,4 +1,4 @@
-// The samples that listed pieces cover: those with many, of which a workgroup shares the rows.
+// Rasterises the listed large pieces. A work group shares the rows of a piece.
 #include "strands/software/cover.glsl"
 
 layout(local_size_x = kSoftwareStrandGroup) in;

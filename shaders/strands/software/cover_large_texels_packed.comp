@@ -1,5 +1,5 @@
 #version 460
-// The samples of large pieces, on devices with 64-bit atomics, points and samples as texels.
+// Rasterises large pieces, on devices with 64-bit atomics, with points and samples as texels.
 #extension GL_GOOGLE_include_directive : require
 #define kPointTexels 0
 #define kSampleTexels 1

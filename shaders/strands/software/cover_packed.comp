@@ -1,5 +1,5 @@
 #version 460
-// The samples of strands, on devices with 64-bit atomics.
+// Rasterises the pieces of strands, on devices with 64-bit atomics.
 #extension GL_GOOGLE_include_directive : require
 #include "strands/software/offer_packed.glsl"
 

@@ -1,10 +1,10 @@
-// The samples that the listed pieces of a part of the strands cover. Pieces with many samples are left
-// to cover_large.glsl.
+// Rasterises the listed pieces of a part of the strands. Pieces with many samples are left to
+// cover_large.glsl.
 #include "strands/software/cover.glsl"
 
 layout(local_size_x = kSoftwareStrandGroup) in;
 
-// Whether the piece is listed as a large one, to be covered by and by.
+// True if the piece is listed as a large one, which is rasterised later.
 bool isLarge(uint piece) {
     Counts known = Counts(push.counts);
     if (push.choice > 0u) return known.counts.large <= kMostLargePieces;

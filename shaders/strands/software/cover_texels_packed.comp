@@ -1,5 +1,6 @@
 #version 460
-// The samples of strands, on devices with 64-bit atomics, points and samples as texels.
+// Rasterises the pieces of strands, on devices with 64-bit atomics, with points and samples as
+// texels.
 #extension GL_GOOGLE_include_directive : require
 #define kPointTexels 0
 #define kSampleTexels 1

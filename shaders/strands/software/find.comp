@@ -1,5 +1,5 @@
 #version 460
-// The pieces of strands that may be seen.
+// Lists the potentially visible pieces of strands.
 #extension GL_GOOGLE_include_directive : require
 #include "common/vectors.glsl"
 

@@ -1,6 +1,6 @@
-// Lists the pieces of a part of the strands that may be seen, so that what is done for those alone is
-// done by invocations of which none is idle. An invocation has some strands, of which each point is
-// fetched once.
+// Lists the potentially visible pieces of a part of the strands, so that no invocation is idle in
+// the later passes over pieces. An invocation has some strands and fetches each of their points
+// once.
 #include "strands/software/software.glsl"
 
 #include "strands/points/quad.glsl"
@@ -9,7 +9,7 @@ layout(local_size_x = kSoftwareStrandGroup) in;
 
 const uint kWord = 32u;
 
-// How near the farthest sample of the windows is that begin with a tile: a small one, a large one.
+// Nearness of the farthest sample in the windows that begin at a tile: the small and the large one.
 #ifdef kWindowTexels
 layout(binding = kWindowTexels) uniform utextureBuffer window_texels;
 
@@ -18,24 +18,26 @@ uvec2 fetchWindows(uvec2 tile) { return texelFetch(window_texels, int(tileIndex(
 uvec2 fetchWindows(uvec2 tile) { return loadPair(push.windows, tileIndex(tile)); }
 #endif
 
-// Of floats, far above it: those that draw the piece are rounded otherwise than its bounds.
+// Rounding margins, far above that of floats: the passes that draw a piece round differently from
+// its bounds.
 const float kPlaceRounding = 0.01;  // px
-const float kDepthRounding = 1e-5;  // of depth
+const float kDepthRounding = 1e-5;  // relative to depth
 
-// What is drawn of a strand at a point is within a sphere as wide as the strand. Bounds of it, which
-// take much less than pieceEnd().
+// Bounds of a strand at a point. What is drawn there lies within a sphere as wide as the strand.
+// The bounds cost much less than pieceEnd().
 struct PointBounds {
     vec2 low;  // px
     vec2 high;
-    float depth;  // of the nearest
-    float beyond;  // how far the farthest is beyond the near plane, by beyondNear()
-    bool known;  // all of it is in front of the eye, so that the others are bounds
+    float depth;  // of the nearest point
+    float beyond;  // distance of the farthest point beyond the near plane, by beyondNear()
+    bool known;  // true if the whole sphere is in front of the eye, so that the other members are
+                 // bounds
 };
 
-// What is the same for all pieces.
+// Values that are the same for all pieces.
 struct View {
     mat4 view_projection;
-    vec4 row_lengths;  // of it: how far a step of 1 m reaches in each coordinate
+    vec4 row_lengths;  // of its rows: how far a step of 1 m reaches in each coordinate
     uvec2 low_tile;  // of the hair's bounds
     uvec2 high_tile;
 };
@@ -76,7 +78,7 @@ PointBounds pointBounds(View view, uint index) {
     return bounds;
 }
 
-// Whether nothing of a piece can be seen: it is beside the picture, or behind what is around it there.
+// True if nothing of a piece is visible: it is outside the picture or behind its window.
 bool isHidden(View view, PointBounds from, PointBounds to) {
     if (max(from.beyond, to.beyond) <= 0.0) return true;
     if (!from.known || !to.known) return false;
@@ -93,7 +95,7 @@ bool isHidden(View view, PointBounds from, PointBounds to) {
     return tiles <= kLargeWindow && (tiles <= kSmallWindow ? windows.x : windows.y) < near;
 }
 
-// Lists the pieces of a strand from `begin` on whose bits are set.
+// Lists the pieces of a strand from `begin` on that have their bits set.
 void list(uint strand, uint begin, uint pieces, uint bits) {
     if (bits == 0u) return;
     uint place = push.list_begin +

@@ -1,5 +1,5 @@
 #version 460
-// The pieces of strands that may be seen, on devices with 64-bit integers.
+// Lists the potentially visible pieces of strands, on devices with 64-bit integers.
 #extension GL_GOOGLE_include_directive : require
 #include "common/packed_vectors.glsl"
 

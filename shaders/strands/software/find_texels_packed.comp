@@ -1,5 +1,5 @@
 #version 460
-// The pieces of strands that may be seen, points and windows as texels.
+// Lists the potentially visible pieces of strands, with points and windows as texels.
 #extension GL_GOOGLE_include_directive : require
 #define kPointTexels 0
 #define kWindowTexels 1

@@ -1,5 +1,5 @@
-// How a piece is offered to a sample, by 32-bit minima: first how near the nearest piece is, and once
-// that is known of all samples, which it is.
+// Offers a piece to a sample with 32-bit minima: first the nearness of the nearest piece and, once
+// all samples have it, the piece's number.
 #include "common/vectors.glsl"
 
 #include "strands/software/software.glsl"

@@ -1,4 +1,5 @@
-// How a piece is offered to a sample: by a 64-bit minimum, of how near above which piece.
+// Offers a piece to a sample with a 64-bit minimum: the nearness in the high half, the piece in the
+// low half.
 #extension GL_EXT_shader_atomic_int64 : require
 #include "common/packed_vectors.glsl"
 

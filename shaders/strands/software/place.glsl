@@ -1,4 +1,4 @@
-// Which place of a piece a place on the screen shows.
+// The point of a piece that is seen at a screen position.
 #ifndef HAIRBENCH_SOFTWARE_PLACE_GLSL
 #define HAIRBENCH_SOFTWARE_PLACE_GLSL
 
@@ -10,19 +10,20 @@
 struct PiecePlace {
     float t;  // 0 at its first end, 1 at its second
     float across;  // -1 to 1
-    bool second;  // of its triangles
+    bool second;  // true on the second of its triangles
 };
 
-// The factors of two vectors with corner + x.x first + x.y second = 0.
+// Returns the factors of two vectors with corner + x.x first + x.y second = 0.
 vec2 factorsOf(vec2 corner, vec2 first, vec2 second) {
     float area = cross2(first, second);
     return vec2(cross2(second, corner), cross2(corner, first)) / (abs(area) < 1e-30 ? 1e-30 : area);
 }
 
-// The place that is seen at one of the screen, px: on one of the two triangles that other back ends
-// draw, from -+ side at its first end to - side at its second, and the rest.
+// Returns the point that is seen at a screen position, px. It is on one of the two triangles that
+// other back ends draw: the first from -+ side at the first end to - side at the second, the other
+// the rest.
 PiecePlace piecePlace(Piece piece, vec2 place) {
-    // In clip space, with what is seen at the place at 0.
+    // In clip space, with the point that is seen at the position at 0.
     vec2 clip = 2.0 * place / vec2(push.width, push.height) - 1.0;
     vec2 from = piece.from.middle_clip.xy - clip * piece.from.middle_clip.w;
     vec2 from_side = piece.from.side_clip.xy - clip * piece.from.side_clip.w;
@@ -40,7 +41,7 @@ PiecePlace piecePlace(Piece piece, vec2 place) {
     return seen;
 }
 
-// The place across where a piece that narrows is straight: that of a length, not of a triangle.
+// The position across, corrected for a piece that narrows: in terms of length, not of a triangle.
 float straightAcross(Piece piece, PiecePlace seen) {
     float from = length(piece.from.side);
     float to = length(piece.to.side);
@@ -49,7 +50,7 @@ float straightAcross(Piece piece, PiecePlace seen) {
     return clamp(offset / max(mix(from, to, seen.t), 1e-12), -1.0, 1.0);
 }
 
-// The strand of a piece, by its number: the hairs that it stands for, and the place along it.
+// The strand of a piece by its number: the hairs that it stands for, and the position along it.
 struct PlaceOnStrand {
     uint merged;
     float along;  // 0 at the root, 1 at the tip

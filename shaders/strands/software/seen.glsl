@@ -1,4 +1,4 @@
-// What a sample shows. With kSampleTexels, of eight invocations at once where lavapipe runs it.
+// Reads a sample. With kSampleTexels, lavapipe reads those of eight invocations at once.
 #ifndef HAIRBENCH_SEEN_GLSL
 #define HAIRBENCH_SEEN_GLSL
 

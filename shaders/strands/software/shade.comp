@@ -1,5 +1,5 @@
 #version 460
-// The colors of samples.
+// Shades samples.
 #extension GL_GOOGLE_include_directive : require
 #include "common/vectors.glsl"
 

@@ -1,4 +1,4 @@
-// The color of each sample that shows a strand. A workgroup a row of pixels, or one of several.
+// Shades each sample that shows a strand. One or several work groups per row of pixels.
 #include "shading/strand_shading.glsl"
 #include "strands/software/seen.glsl"
 
@@ -9,7 +9,7 @@
 
 layout(local_size_x_id = kPixelGroupConstant) in;
 
-// The point of a piece that a place on the screen shows, px.
+// Returns the point of a piece that is seen at a screen position, px.
 StrandFragment seenPoint(PictureParameters picture, uint number, vec2 place, out uint merged) {
     Piece piece = pieceOf(picture, number);
     PiecePlace seen = piecePlace(piece, place);
@@ -23,7 +23,7 @@ StrandFragment seenPoint(PictureParameters picture, uint number, vec2 place, out
     vec3 tangent = mix(piece.from.tangent, piece.to.tangent, seen.t);
     fragment.tangent = tangent * inversesqrt(max(dot(tangent, tangent), 1e-30));
     fragment.to_eye = normalize(picture.eye - fragment.position);
-    fragment.along = 0.0;  // what a strand's texture would need
+    fragment.along = 0.0;  // only a strand's texture would need it
     fragment.width = 2.0 * length(mix(piece.from.side, piece.to.side, seen.t));
     fragment.fiber_width = fragment.width;
     merged = 0u;

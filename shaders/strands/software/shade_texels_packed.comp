@@ -1,5 +1,5 @@
 #version 460
-// The colors of samples, on devices with 64-bit integers, points and samples as texels.
+// Shades samples, on devices with 64-bit integers, with points and samples as texels.
 #extension GL_GOOGLE_include_directive : require
 #define kPointTexels 4
 #define kSampleTexels 5

@@ -1,5 +1,5 @@
 #version 460
-// Samples' colors and depths.
+// Outputs samples' colours and depths.
 #extension GL_GOOGLE_include_directive : require
 #include "common/vectors.glsl"
 

@@ -1,4 +1,4 @@
-// A sample's color and depth, where it shows a strand.
+// Outputs a sample's colour and depth if it shows a strand.
 #include "common/depth.glsl"
 #include "shading/options.glsl"
 #include "strands/software/seen.glsl"
@@ -13,7 +13,7 @@ void main() {
     uvec2 seen = fetchSample(index);
     if (seen.x == kNoPiece) discard;
     gl_FragDepth = depthOf(seen.y);
-    gl_SampleMask[0] = 1 << push.choice;  // 0 of one sample a pixel
+    gl_SampleMask[0] = 1 << push.choice;  // choice is 0 with one sample per pixel
     if (kLinearLight == 1u) {
         uvec2 light = loadPair(push.colors, index);
         color = vec4(unpackHalf2x16(light.x), unpackHalf2x16(light.y).x, 1.0);

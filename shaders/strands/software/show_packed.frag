@@ -1,5 +1,5 @@
 #version 460
-// Samples' colors and depths, on devices with 64-bit integers.
+// Outputs samples' colours and depths, on devices with 64-bit integers.
 #extension GL_GOOGLE_include_directive : require
 #include "common/packed_vectors.glsl"
 

@@ -1,5 +1,5 @@
-// What the stages of the back end `software` share: their push constants, and a buffer of what each
-// sample of the picture shows.
+// Common code of the stages of the back end `software`: their push constants, and a buffer of what
+// each sample of the picture shows.
 #ifndef HAIRBENCH_SOFTWARE_GLSL
 #define HAIRBENCH_SOFTWARE_GLSL
 
@@ -8,7 +8,7 @@
 #include "strands/pixel_samples.glsl"
 #include "strands/points/layout.glsl"
 
-layout(constant_id = kStrandBlockConstant) const uint kBlock = 1;  // strands of an invocation
+layout(constant_id = kStrandBlockConstant) const uint kBlock = 1;  // strands per invocation
 
 layout(push_constant, scalar) uniform Push { SoftwarePush push; };
 
@@ -16,7 +16,7 @@ layout(buffer_reference, scalar) buffer Counts { PieceCounts counts; };
 
 layout(buffer_reference, scalar) buffer PieceList { uint at[]; };
 
-// Of the hair on the screen, px.
+// Bounds of the hair on the screen, px.
 void hairBounds(out uvec2 low, out uvec2 high) {
     HairBounds bounds = Bounds(push.bounds).bounds;
     low = uvec2(push.width - bounds.from_right, push.height - bounds.from_bottom);

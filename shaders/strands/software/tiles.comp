@@ -1,5 +1,5 @@
 #version 460
-// The depth of tiles.
+// Computes the depths of tiles.
 #extension GL_GOOGLE_include_directive : require
 #include "common/vectors.glsl"
 

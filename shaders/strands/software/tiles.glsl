@@ -1,5 +1,5 @@
-// How near the farthest sample of each tile is: what is farther is not seen there. A workgroup a row
-// of tiles.
+// Computes the nearness of the farthest sample of each tile: anything farther is hidden there. One
+// work group per row of tiles.
 #include "strands/software/seen.glsl"
 
 layout(local_size_x_id = kPixelGroupConstant) in;

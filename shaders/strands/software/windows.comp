@@ -1,5 +1,5 @@
 #version 460
-// The depth of windows.
+// Computes the depths of windows.
 #extension GL_GOOGLE_include_directive : require
 #include "common/vectors.glsl"
 

@@ -1,5 +1,5 @@
-// How near the farthest sample of each window of tiles is, by the tile that it begins with: of a small
-// window and of a large one. A workgroup a row of windows.
+// Computes the nearness of the farthest sample of each window of tiles, for the small and the large
+// window that begin at each tile. One work group per row of windows.
 #include "strands/software/software.glsl"
 
 #ifdef kTileTexels
@@ -27,7 +27,7 @@ void main() {
         for (uint i = 0u; i < kLargeWindow * kLargeWindow; ++i) {
             uvec2 from_first = uvec2(i % kLargeWindow, i / kLargeWindow);
             uvec2 tile = first + from_first;
-            // Beside the bounds there is no hair.
+            // There is no hair outside the bounds.
             uint depth = all(lessThan(tile, high)) ? fetchTile(tile) : 0u;
             far.y = max(far.y, depth);
             if (all(lessThan(from_first, uvec2(kSmallWindow)))) far.x = max(far.x, depth);

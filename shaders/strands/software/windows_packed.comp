@@ -1,5 +1,5 @@
 #version 460
-// The depth of windows, on devices with 64-bit integers.
+// Computes the depths of windows, on devices with 64-bit integers.
 #extension GL_GOOGLE_include_directive : require
 #include "common/packed_vectors.glsl"
 

@@ -1,5 +1,5 @@
 #version 460
-// The depth of windows, on devices with 64-bit integers, tiles as texels.
+// Computes the depths of windows, on devices with 64-bit integers, with tiles as texels.
 #extension GL_GOOGLE_include_directive : require
 #define kTileTexels 0
 #include "common/packed_vectors.glsl"

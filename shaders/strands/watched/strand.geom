@@ -1,5 +1,5 @@
 #version 460
-// strands/strand.geom with its stage watched: strands/watch.glsl.
+// strands/strand.geom as a watched stage: strands/watch.glsl.
 #extension GL_GOOGLE_include_directive : require
 #include "strands/geometry_lines.glsl"
 #include "strands/quad.glsl"

@@ -1,12 +1,12 @@
 #version 460
-// strands/tessellation.tese with its stage watched: strands/watch.glsl.
+// strands/tessellation.tese as a watched stage: strands/watch.glsl.
 #extension GL_GOOGLE_include_directive : require
 #include "strands/evaluation.glsl"
 #include "strands/watch.glsl"
 
 layout(location = 0) out vec4 position_and_width;
 layout(location = 1) out vec4 tangent_and_along;
-layout(location = 2) out uint merged_hairs;  // where kTellsHairs
+layout(location = 2) out uint merged_hairs;  // set if kTellsHairs
 
 void main() {
     StrandPoint point = evaluatedPoint(PictureReference(push.picture).parameters);

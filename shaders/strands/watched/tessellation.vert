@@ -1,5 +1,5 @@
 #version 460
-// strands/tessellation.vert with its stage watched: strands/watch.glsl.
+// strands/tessellation.vert as a watched stage: strands/watch.glsl.
 #extension GL_GOOGLE_include_directive : require
 #include "strands/patch_number.glsl"
 #include "strands/watch.glsl"
@@ -8,6 +8,6 @@ layout(location = 0) out uint patch_index;
 
 void main() {
     patch_index = patchNumber(PictureReference(push.picture).parameters);
-    gl_PointSize = 1.0;  // where it is the last stage, vertices are points
+    gl_PointSize = 1.0;  // if it is the last stage, vertices are points
     see(patch_index);
 }
