@@ -15,7 +15,7 @@ namespace benchmarks::measure {
 
 namespace {
 
-// 262,144 invocations fill the largest GPUs; 64 groups are shared evenly by any processor's
+// 262,144 invocations fill the largest GPUs. 64 work groups are shared evenly by any processor's
 // threads.
 constexpr std::uint32_t kGroups = 4096;
 constexpr std::uint32_t kProcessorGroups = 64;

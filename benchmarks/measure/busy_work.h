@@ -9,28 +9,28 @@
 #include "engine/frame_loop.h"
 #include "engine/pipeline.h"
 
-// Work that slows down one pass by a known amount, to test what finds slowdowns.
+// Work that slows down one pass by a known amount, to test the detection of slowdowns.
 namespace benchmarks::measure {
 
-// Steps of work that nobody needs and no driver can leave out: what it makes is written to a
-// buffer. The work is proportional to the number of steps.
+// Steps of work that nobody needs. No driver can leave them out, because the results are written to
+// a buffer. The work is proportional to the number of steps.
 class BusyWork {
 public:
     BusyWork(const engine::Device& device, std::uint32_t steps);
 
-    // Records the steps after all that was recorded before and before all that comes after, as if
-    // what came before had taken longer. Nothing for 0 steps.
+    // Records the steps after all earlier commands and before all later ones, as if the earlier
+    // ones had taken longer. Does nothing for 0 steps.
     void record(engine::Commands& commands) const;
 
-    // At most so many groups share the steps: enough to fill the device, and on a processor, where
-    // beginning a group costs more than a step, few.
+    // Number of work groups that share the steps: enough to fill a GPU. It is small on a processor,
+    // where starting a group costs more than a step.
     std::uint32_t groups() const { return groups_; }
 
-    // What was done since it was made. Waits for the device.
+    // Results since construction. Waits for the device.
     struct Done {
         std::uint32_t steps;  // modulo 2^32
         std::vector<std::uint32_t>
-            numbers;  // [group], exclusive or of all that its invocations made
+            numbers;  // [group], exclusive or of all numbers of its invocations
     };
     Done done() const;
 
@@ -42,12 +42,12 @@ private:
     engine::Buffer results_;
 };
 
-// One pass that is to be slowed down, and which passes there were.
+// The pass that is slowed down, and the names of the passes that ran.
 class BusyPass {
 public:
     BusyPass(const engine::Device& device, std::string name, std::uint32_t steps);
 
-    // Throws engine::Error that lists the passes if none of those so far had the name.
+    // Throws engine::Error with the list of passes if none so far had the name.
     void checkThatItRan() const;
 
     const BusyWork& work() const { return work_; }
@@ -59,8 +59,8 @@ private:
     std::vector<std::string> seen_;  // names, in order of appearance
 };
 
-// Hands on a frame's passes, the busy one with its work after its own: inside the pass, so that
-// the pass's timer, label and metric have it.
+// Forwards a frame's passes and appends the work to the busy one. The work is inside the pass, so
+// the pass's timer, label and metric include it.
 class BusyPasses : public engine::Passes {
 public:
     BusyPasses(engine::Passes& passes, BusyPass& busy);

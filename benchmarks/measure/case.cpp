@@ -122,7 +122,7 @@ void Case::simulate(engine::Passes& passes) {
     }
 }
 
-// Drawing reads one of two copies of the guides: the next step may write the other meanwhile.
+// Drawing reads one of two copies of the guides, so the next step may write the other meanwhile.
 void Case::frame(engine::Passes& passes) {
     passes.beside(1, [&] { simulate(passes); });
     draw(passes);
@@ -243,7 +243,7 @@ hair::groom::StrandSet drawnStrands(const hair::rendering::StrandPoints& points)
     for (std::uint32_t triangle = 0; triangle < plan.triangles; ++triangle) {
         for (std::uint32_t strand = 0; strand < plan.forced_density; ++strand) {
             for (std::uint32_t segment = 0; segment < plan.segments; ++segment) {
-                // The first point of a segment is the last of the one before.
+                // The first point of a segment is the last of the previous segment.
                 for (std::uint32_t i = segment == 0 ? 0 : 1; i <= plan.forced_tessellation; ++i) {
                     const auto& point = points.at(triangle, strand, segment, i);
                     if (point.width < 0.0f) break;

@@ -22,47 +22,47 @@
 #include "hair/simulation/head_motion.h"
 #include "hair/simulation/simulation.h"
 
-// One set of settings, ready to play.
+// A case: one set of settings, ready to play.
 namespace benchmarks::measure {
 
 class HairCache;
 
-// One set of settings, ready to play: the groom, its simulation and its renderer. Owns every GPU
-// object that it uses; leaving its scope frees them.
+// One set of settings, ready to play: the groom, its simulation and its renderer. Owns all GPU
+// objects that it uses; its destructor frees them.
 class Case {
 public:
-    // `directory` is what file names in the settings are relative to. Throws engine::Error for
-    // files that can't be used, engine::Unsupported for what the device lacks. What `cache` knows
-    // is not made again, and what it does not is left there; null: there is none.
+    // File names in the settings are relative to `directory`. Data in `cache` is reused, and new
+    // data is added to it; null: no cache. Throws engine::Error for files that can't be used,
+    // engine::Unsupported if the device lacks a feature.
     Case(
         const engine::Device& device, const hair::Settings& settings,
         const std::filesystem::path& directory, HairCache* cache = nullptr);
 
-    // Records the next frame: simulated time advances by /run/frame_time, then a picture is drawn.
+    // Records the next frame: advances simulated time by /run/frame_time, then draws a picture.
     void frame(engine::Passes& passes);
 
-    // Records the simulation of the next frame and no picture: what frame() does first.
+    // Records only the simulation of the next frame: the first part of frame().
     void simulate(engine::Passes& passes);
 
-    // Records a picture of the frame as it is: what frame() does last.
+    // Records only a picture of the current frame: the last part of frame().
     void draw(engine::Passes& passes);
 
-    // Draws the same hair otherwise from now on: `settings` may differ from the case's in anything
-    // but /groom, /simulation, /seed and /run. The device must be done with what was submitted. As
-    // the constructor throws; nothing has changed then.
+    // Draws the same hair with other settings from now on. `settings` may differ from the case's in
+    // everything except /groom, /simulation, /seed and /run. The device must have finished all
+    // submitted work. Throws like the constructor and then changes nothing.
     void setDrawing(const hair::Settings& settings);
-    // Sets /camera alone, at no cost.
+    // Sets only /camera, at no cost.
     void setCamera(const hair::CameraSettings& camera);
 
-    // Goes on from here with the wind, colliders, motion and pulls of `settings`, which are the
-    // same in everything else. What is shown from now on is no frame of these settings until the
-    // case is made anew. The device must be done with what was submitted. As the constructor
-    // throws.
+    // Continues from here with the wind, colliders, motion and pulls of `settings`; all other
+    // settings must be the same. From now on the frames do not belong to these settings, until the
+    // case is recreated. The device must have finished all submitted work. Throws like the
+    // constructor.
     void carryOn(const hair::SimulationSettings& settings);
 
-    // Records the way back to the first frame, after all that was recorded or submitted before.
+    // Records a reset to the first frame, after all recorded and submitted work.
     void recordReset(engine::Passes& passes);
-    // The same at once. The device must be done with what was submitted.
+    // Resets at once. The device must have finished all submitted work.
     void reset();
 
     // The picture of the last frame on the device, in TRANSFER_SRC_OPTIMAL.
@@ -70,8 +70,8 @@ public:
     // The picture of the last frame, [row][column] RGBA, top row first.
     std::vector<std::uint8_t> picture() const;
     std::string pictureHash() const;
-    // The picture's linear light, [row][column] RGB: before exposure and tone map, or, where there
-    // is no tone map, what a display shows.
+    // The picture's linear light, [row][column] RGB: before exposure and tone map. Without a tone
+    // map, it is the light of the display colours.
     std::vector<float> radiance() const;
     // Hash of the guides' positions.
     std::string stateHash() const;
@@ -81,26 +81,26 @@ public:
     // The guides of the last frame, [guide][vertex], m. Waits for the device.
     std::vector<glm::vec3> guides() const { return simulation_.readPositions(); }
     const hair::groom::Groom& groom() const { return groom_; }
-    // What is odd about what the case was given, though it can be played.
+    // Oddities of the input that do not prevent playing.
     std::vector<std::string> warnings() const { return simulation_.bodyWarnings(); }
-    // Where the head is in the last frame; where an animation deforms it, where its scalp is on
-    // average.
+    // Pose of the head in the last frame. If an animation deforms the head, it is the average pose
+    // of its scalp.
     hair::simulation::RigidMotion head() const { return simulation_.pose(); }
-    // What takes the mesh under the hair to where the last frame has it: deform() where an
-    // animation does so, then this.
+    // Motion that takes the mesh under the hair to its pose in the last frame. If an animation
+    // deforms the mesh, call deform() first.
     hair::simulation::RigidMotion carried() const { return simulation_.carried(); }
-    // `mesh` is the one under the hair.
+    // Deforms `mesh`, the mesh under the hair, to the last frame.
     void deform(hair::groom::Mesh& mesh) const;
 
     const hair::Settings& settings() const { return settings_; }
 
-    // How the guides are in the last frame, and what /simulation/rest made of them. Wait for the
-    // device.
+    // Condition of the guides in the last frame, and the result of /simulation/rest. Both wait for
+    // the device.
     hair::simulation::GuideCondition condition() const { return simulation_.condition(); }
     const hair::simulation::RestBalance* balance() const { return simulation_.balance(); }
 
-    // For other pictures of the same hair: `settings` may differ from the case's in how it is lit,
-    // seen and drawn, but not in what /groom, /simulation, /seed and /strands make of it.
+    // For other pictures of the same hair. `settings` may differ from the case's in lighting, view
+    // and drawing, but not in the effects of /groom, /simulation, /seed and /strands.
     hair::rendering::Renderer rendererOf(const hair::Settings& settings) const;
     hair::rendering::StrandView view() const;
 
@@ -109,9 +109,10 @@ public:
         return renderer_->expected();
     }
     std::vector<std::pair<std::string, std::uint64_t>> counts() const;
-    // What draws the strands, and why; absent where no hair is drawn.
+    // The back end that draws the strands, and the reason for the choice. Absent if no hair is
+    // drawn.
     std::optional<hair::rendering::BackendChoice> backend() const;
-    // What becomes of the strands' fragments, and what of the last frame's.
+    // Handling of the strands' fragments, and counts of the last frame.
     const hair::rendering::StrandBlend& blend() const { return renderer_->blend(); }
 
 private:
@@ -130,16 +131,16 @@ private:
     std::unique_ptr<hair::rendering::Renderer> renderer_;
 };
 
-// What the last picture lacks for want of room in its lists of fragments; empty: nothing. Waits for
-// the device.
+// Describes fragments missing from the last picture because its fragment lists were full; empty if
+// none. Waits for the device.
 std::string droppedFragments(const Case& test_case);
 
-// What a simulation leaves, as strands for a file; lengths in m.
+// Results of a simulation as strands for a file; lengths in m.
 
-// Strands as they are drawn: joints of segments once, without what is not drawn.
+// Strands as they are drawn. Joints of segments appear once, and undrawn points are omitted.
 hair::groom::StrandSet drawnStrands(const hair::rendering::StrandPoints& points);
 
-// The guides, at `positions`, [guide][vertex].
+// The guides at `positions`, [guide][vertex].
 hair::groom::StrandSet
 guideStrands(const hair::groom::Groom& groom, std::vector<glm::vec3> positions);
 

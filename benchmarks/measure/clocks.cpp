@@ -57,7 +57,7 @@ struct ClockLevels {
     std::optional<double> greatest;  // MHz
 };
 
-// Lines such as "1: 1500Mhz *".
+// Parses lines of the form "1: 1500Mhz *".
 ClockLevels readLevels(const std::filesystem::path& path) {
     ClockLevels levels;
     std::ifstream file(path);
@@ -74,7 +74,7 @@ ClockLevels readLevels(const std::filesystem::path& path) {
     return levels;
 }
 
-// One number; absent where the file is not there or holds none.
+// Reads one number; absent if the file does not exist or holds none.
 std::optional<double> readNumber(const std::filesystem::path& path) {
     std::ifstream file(path);
     double number = 0.0;
@@ -82,10 +82,10 @@ std::optional<double> readNumber(const std::filesystem::path& path) {
     return number;
 }
 
-// Why the clock is held back, by the metrics table that firmware writes (Linux, amdgpu's
-// gpu_metrics; struct gpu_metrics_v1_3 of kgd_pp_interface.h, discrete boards): 64 bits from byte
-// 112 on, of which 0 to 15 are power limits, 16 to 31 current limits and 32 to 55 temperatures.
-// Nothing of a table of another version.
+// Reads the reasons for a lowered clock from the metrics table that the firmware writes (Linux,
+// amdgpu's gpu_metrics; struct gpu_metrics_v1_3 of kgd_pp_interface.h, discrete boards). 64 bits
+// from byte 112 on: 0 to 15 are power limits, 16 to 31 current limits and 32 to 55 temperatures.
+// Returns nothing for other versions of the table.
 std::vector<std::string> readThrottling(const std::filesystem::path& path) {
     constexpr std::size_t kSize = 120, kStatus = 112;
     std::ifstream file(path, std::ios::binary);
@@ -107,7 +107,7 @@ class Amdgpu : public ClockSource {
 public:
     explicit Amdgpu(std::filesystem::path device) : device_(std::move(device)) {
         std::error_code none;
-        // One folder, hwmon0 or with another number.
+        // The folder is hwmon0, or has another number.
         for (const auto& entry : std::filesystem::directory_iterator(device_ / "hwmon", none))
             monitor_ = entry.path();
     }
@@ -159,7 +159,7 @@ public:
 private:
     static constexpr const char* kLocked = "profile_standard";
 
-    // Drivers refuse what they can't do as the text is handed over.
+    // Drivers refuse unsupported levels when the text is flushed.
     bool write(const std::string& level) const {
         std::ofstream file(level_);
         file << level << std::flush;
@@ -185,8 +185,8 @@ namespace {
 
 // ---- NVIDIA: NVML -------------------------------------------------------------------------------
 
-// NVML's C interface as far as it is used here, after the NVML API Reference: results and enums
-// are ints, a device is an opaque pointer.
+// The part of NVML's C interface that is used here, after the NVML API Reference. Results and enums
+// are ints; a device is an opaque pointer.
 constexpr int kSuccess = 0;  // NVML_SUCCESS
 constexpr int kShaderClock = 1;  // NVML_CLOCK_SM
 constexpr int kMemoryClock = 2;  // NVML_CLOCK_MEM
@@ -234,7 +234,7 @@ public:
         if (handle_) dlclose(handle_);
     }
 
-    // Null where the library lacks it.
+    // Returns null if the library lacks the function.
     template <class Function>
     Function find(const char* name) const {
         return handle_ ? reinterpret_cast<Function>(dlsym(handle_, name)) : nullptr;
@@ -321,7 +321,8 @@ public:
     }
 
 private:
-    // What one of NVML's functions says; absent where there is none, it fails, or it says 0.
+    // Returns the result of an NVML function; absent if the function is missing, fails or returns
+    // 0.
     template <class Function>
     std::optional<double> value(Function function, int what) const {
         unsigned int number = 0;

@@ -9,45 +9,45 @@
 
 #include "engine/instance.h"
 
-// Clocks and temperature of a device, as its driver tells them, and how they are locked.
+// Clocks and temperature of a device as its driver reports them, and locking of the clocks.
 namespace benchmarks::measure {
 
-// What a device says of its clocks at one moment; what it does not say is absent.
+// The state of a device's clocks at one moment. Unknown values are absent.
 struct ClockReading {
     std::optional<double> clock_mhz;  // of the shaders
-    // What the shaders are meant to run at; absent where they are held at an administrator's choice
-    // too: there is nothing then to hold a slow clock against.
+    // The intended shader clock. Absent also if an administrator holds the clock at another value:
+    // then nothing tells whether the clock is slow.
     std::optional<double> base_clock_mhz;
     std::optional<double> memory_clock_mhz;
     std::optional<double> temperature;  // degrees Celsius
-    std::optional<double> power_w;  // that the board draws
-    std::optional<double> load;  // share of the time in which the device had work, 0 to 1
-    std::optional<double> age;  // s since it was so; absent: now
-    bool idle = false;  // nothing ran just then: its clocks say nothing of a measurement
+    std::optional<double> power_w;  // power draw of the board
+    std::optional<double> load;  // share of the time with work on the device, 0 to 1
+    std::optional<double> age;  // age of the reading, s; absent: 0
+    bool idle = false;  // the device was idle, so its clocks do not apply to a measurement
     bool held = false;  // an administrator set the clocks
-    std::vector<std::string> throttle_reasons;  // why the clocks are lower than they might be
+    std::vector<std::string> throttle_reasons;  // reasons why the clocks are lower than possible
 };
 
-// The throttle reason of a board that draws as much power as it may.
+// The throttle reason of a board that draws its maximum power.
 inline constexpr const char* kPowerCap = "power cap";
 
-// A driver's way of telling clocks, and of locking them.
+// A driver interface that reads clocks and locks them.
 class ClockSource {
 public:
     virtual ~ClockSource() = default;
     // Changes no setting.
     virtual ClockReading read() = 0;
 
-    // Locks the shaders' clock at what the board sustains under load, until unlock() or the
-    // source's end. Whether the driver did; where not, nothing has changed.
+    // Locks the shaders' clock at the board's sustained clock under load, until unlock() or
+    // destruction. Returns false if the driver refuses; then nothing has changed.
     virtual bool lock() { return false; }
-    // Takes its own lock off; without one nothing happens.
+    // Removes this object's lock, if there is one.
     virtual void unlock() {}
-    // The command by which an administrator does what lock() does.
+    // The command with which an administrator does the same as lock().
     virtual std::string lockCommand() const { return {}; }
 };
 
-// Where a device is on the PCI bus.
+// Address of a device on the PCI bus.
 struct PciAddress {
     std::uint32_t domain = 0;
     std::uint32_t bus = 0;
@@ -55,28 +55,29 @@ struct PciAddress {
     std::uint32_t function = 0;
 };
 
-// "0000:65:00.0", as sysfs and NVML write it.
+// "0000:65:00.0", the form of sysfs and NVML.
 std::string addressText(const PciAddress& address);
 
-// By VK_EXT_pci_bus_info; absent where the device is on no such bus or does not say.
+// Uses VK_EXT_pci_bus_info. Absent if the device is not on a PCI bus or does not report its
+// address.
 std::optional<PciAddress> pciAddress(const engine::DeviceInfo& device);
 
-// The Linux driver amdgpu's files in sysfs (Linux documentation, "GPU Power/Thermal Controls and
-// Monitoring"): pp_dpm_sclk and pp_dpm_mclk list the levels of a clock, a '*' behind the present
-// one; hwmon has the temperature and, on newer kernels, the shaders' measured clock. Null where the
-// device has no pp_dpm_sclk. No file says what clock the board is rated for, so the base clock is
-// the highest level's. It is locked as power_dpm_force_performance_level "profile_standard", and
-// unlocked as what was there.
+// Reads the sysfs files of the Linux driver amdgpu (Linux documentation, "GPU Power/Thermal
+// Controls and Monitoring"). pp_dpm_sclk and pp_dpm_mclk list the levels of a clock, with a '*'
+// after the current one. hwmon has the temperature and, on newer kernels, the shaders' measured
+// clock. Returns null if the device has no pp_dpm_sclk. No file has the board's rated clock, so the
+// base clock is that of the highest level. lock() sets power_dpm_force_performance_level to
+// "profile_standard"; unlock() restores the previous value.
 std::unique_ptr<ClockSource> openAmdgpu(
     const PciAddress& address, const std::filesystem::path& devices = "/sys/bus/pci/devices");
 
-// The NVIDIA Management Library of the installed driver, found at run time: nothing of it is needed
-// to build. Null where there is no such library, it cannot be used, or it does not know the device.
-// The base clock is the applications clock: what the board is rated to run at under load, or what
-// an administrator chose instead. Boards without one (GeForce) have their greatest clock there,
-// as nvbench takes it. It is absent while the driver says that clocks are as they were set.
-// Locked is at the clock of the board's design power (NVML_CLOCK_LIMIT_ID_TDP), as nvbench locks
-// it; unlocking is a reset, which takes off an administrator's lock too.
+// Uses the NVIDIA Management Library of the installed driver, which is loaded at run time and not
+// needed to build. Returns null if the library is missing or unusable, or does not know the device.
+// The base clock is the applications clock: the board's rated clock under load, or an
+// administrator's choice. Boards without one (GeForce) use their maximum clock, as nvbench does.
+// The base clock is absent while the driver reports that clocks follow a setting. lock() locks the
+// clock of the board's design power (NVML_CLOCK_LIMIT_ID_TDP), as nvbench does. unlock() is a
+// reset, which also removes an administrator's lock.
 std::unique_ptr<ClockSource>
 openNvml(const PciAddress& address, const std::string& library = "libnvidia-ml.so.1");
 

@@ -23,13 +23,13 @@ namespace fs = std::filesystem;
 constexpr std::string_view kMagic = "hairbench-cache 1\n";
 constexpr std::string_view kExtension = ".entry";
 
-// What a process that was killed left of writing an entry is older than this.
+// Partial files older than this were left by a process that was killed while writing.
 constexpr std::chrono::hours kStale{1};
 
 struct Header {
     std::uint64_t key_size = 0;
     std::uint64_t size = 0;
-    std::array<char, 16> hash{};  // report::hashText() of key and bytes
+    std::array<char, 16> hash{};  // report::hashText() of the key and the bytes
 };
 
 Header headerOf(const std::string& key, const std::string& bytes) {
@@ -59,7 +59,7 @@ std::optional<std::string> DiskCache::load(const std::string& key) const {
     const fs::path path = fileOf(key);
     std::error_code error;
     const std::uintmax_t size = fs::file_size(path, error);
-    if (error) return std::nullopt;  // nothing, or no regular file
+    if (error) return std::nullopt;  // missing, or not a regular file
     const auto unusable = [&](const char* reason) {
         warn(key, reason);
         return std::nullopt;
@@ -71,7 +71,7 @@ std::optional<std::string> DiskCache::load(const std::string& key) const {
     file.read(magic.data(), static_cast<std::streamsize>(magic.size()));
     file.read(reinterpret_cast<char*>(&header), sizeof header);
     if (!file || magic != kMagic) return unusable("no entry of this cache");
-    if (size > options_.most_bytes) return unusable("damaged");  // larger than all that is kept
+    if (size > options_.most_bytes) return unusable("damaged");  // larger than the whole cache
     const std::uintmax_t body = size - kMagic.size() - sizeof header;
     if (header.key_size > body || header.size != body - header.key_size) return unusable("damaged");
     std::string found(header.key_size, '\0');
@@ -80,7 +80,7 @@ std::optional<std::string> DiskCache::load(const std::string& key) const {
     file.read(bytes.data(), static_cast<std::streamsize>(bytes.size()));
     if (!file || headerOf(found, bytes).hash != header.hash) return unusable("damaged");
     if (found != key) return unusable("of something else");
-    fs::last_write_time(path, fs::file_time_type::clock::now(), error);  // it was used
+    fs::last_write_time(path, fs::file_time_type::clock::now(), error);  // marks it as used
     return bytes;
 }
 

@@ -5,7 +5,7 @@
 
 #include "engine/device_address.h"
 
-// What the shaders of measuring and C++ share: see hair/gpu_structs.h.
+// Structs that the measuring shaders and C++ share: see hair/gpu_structs.h.
 namespace benchmarks::measure::gpu {
 
 using Address = engine::DeviceAddress;

@@ -31,7 +31,7 @@ std::string hashOf(const std::vector<Value>& values) {
            report::hashBytes(std::as_bytes(std::span(values)));
 }
 
-// Lines of a name and a value.
+// A key: lines with a name and a value.
 class Key {
 public:
     explicit Key(const char* kind) : text_(std::string(kind) + '\n') {}
@@ -46,7 +46,7 @@ private:
     std::string text_;
 };
 
-// What decides the last bit of what a device computes.
+// Everything that can change the bits of a device's results.
 std::string deviceText(const engine::Device& device) {
     const engine::DeviceInfo& info = device.info();
     VkPhysicalDeviceSubgroupProperties subgroups{
@@ -90,7 +90,7 @@ std::string fieldKey(
 std::string stateKey(
     const std::string& basis, const hair::groom::Groom& groom, const hair::Settings& settings,
     const std::vector<std::string>& meshes) {
-    // A force that the scene brings along does not act while hair settles.
+    // A force from the scene does not act while hair settles.
     scene::Json simulation = scene::writeFields(settings.simulation);
     simulation.erase("force");
     simulation.erase("force_parameters");
@@ -111,7 +111,7 @@ void append(std::string& bytes, const Value& value) {
     bytes.append(reinterpret_cast<const char*>(&value), sizeof value);
 }
 
-// Takes values off the front of bytes.
+// Reads values from the front of a byte sequence.
 class Reader {
 public:
     explicit Reader(std::string_view bytes) : bytes_(bytes) {}
@@ -255,7 +255,7 @@ hair::simulation::Simulation HairCache::simulation(
         fields.push_back(field(field_keys.back()));
     }
     if (deforming) meshes.push_back("deformed " + hashOf(deforming->positions(0.0)));
-    // What was not settled is there at once.
+    // A state without settling needs no cache.
     const bool settles = settings.simulation.settle_steps > 0;
     const std::string state_key = stateKey(basis, groom, settings, meshes);
     const SettledState* const state = settles ? settled(state_key) : nullptr;

@@ -14,19 +14,19 @@
 #include "hair/settings.h"
 #include "hair/simulation/simulation.h"
 
-// What cases have in common.
+// Data that cases share.
 namespace benchmarks::measure {
 
-// What cases that differ only in how they are drawn have in common, each made once: mesh and groom,
-// and of their simulations the baked distance fields and the settled state, the latter two also on
-// disk. All of it lies on the host: a case owns its device's objects, and they are to the bit what
-// they are without the cache.
+// Data that is common to cases that differ only in drawing, made once: mesh, groom, and the
+// simulations' baked distance fields and settled states. The last two are also kept on disk. All
+// data is on the host. Each case owns its objects on the device, and results are identical to the
+// bit with and without the cache.
 //
-// Fields are known by the content of their mesh, states by that of the groom, the fields'
-// meshes and where an animation has the head's mesh at first, and both by the settings that decide
-// them, the device, its driver and features, on a software device the processor, and the program:
-// only what the very same program file has made is taken from disk, so a changed build never takes
-// another's, and where the file is not known nothing is.
+// Fields are identified by the content of their mesh. States are identified by the content of the
+// groom, the fields' meshes and, with an animation, the initial head mesh. Keys of both also hold
+// the relevant settings, the device with its driver and features, the processor for a software
+// device, and the program. Entries on disk are used only by the same program file, so a changed
+// build never uses another's. If the program file is unknown, nothing is used.
 class HairCache {
 public:
     explicit HairCache(DiskCache disk = DiskCache({})) : disk_(std::move(disk)) {}
@@ -34,13 +34,13 @@ public:
     // Meshes and grooms.
     scene::AssetStore& assets() { return assets_; }
 
-    // As Simulation's constructor, which it is but for what is known.
+    // Constructs a Simulation and reuses known data.
     hair::simulation::Simulation simulation(
         const engine::Device& device, const hair::groom::Groom& groom,
         const hair::Settings& settings, std::span<const hair::groom::Mesh> field_meshes,
         const hair::groom::DeformingMesh* deforming = nullptr);
 
-    // Fields that were baked and states that were settled for want of a known one.
+    // Number of fields baked and states settled because they were not in the cache.
     std::size_t made() const { return made_; }
 
 private:
@@ -51,18 +51,18 @@ private:
     void keep(const std::string& key, Value value, scene::Recent<Value>& values);
     const hair::simulation::BakedField* field(const std::string& key);
     const hair::simulation::SettledState* settled(const std::string& key);
-    // The program's file, where entries outlive the process, and what of its shaders was replaced.
+    // Identifies the program's file, if entries outlive the process, and its replaced shaders.
     std::string program(const engine::Device& device);
 
     DiskCache disk_;
     scene::AssetStore assets_;
     scene::Recent<hair::simulation::BakedField> fields_{kMostFields};
     scene::Recent<hair::simulation::SettledState> states_{kMostStates};
-    std::string program_;  // hash of its file; empty: not asked for
+    std::string program_;  // hash of its file; empty: not computed
     std::size_t made_ = 0;
 };
 
-// With the user's folder, or none on disk; faults of entries are told on stderr.
+// Creates a cache in the user's folder, or in memory only. Faults of entries are printed to stderr.
 HairCache userHairCache(bool on_disk);
 
 }  // namespace benchmarks::measure

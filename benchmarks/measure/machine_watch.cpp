@@ -21,7 +21,7 @@ namespace {
 
 // ---- Medians of readings and rounds -------------------------------------------------------------
 
-// The median of one member over those that know it; absent where none does.
+// The median of one member over the items that have it; absent if none has.
 template <class Thing>
 std::optional<double>
 medianOf(const std::vector<Thing>& things, std::optional<double> Thing::* member) {
@@ -32,7 +32,7 @@ medianOf(const std::vector<Thing>& things, std::optional<double> Thing::* member
     return report::summarize(known).median;
 }
 
-// Every throttle reason, each once, in the order in which they were first seen.
+// All throttle reasons without repetition, in order of appearance.
 template <class Thing>
 std::vector<std::string> everyReason(const std::vector<Thing>& things) {
     std::vector<std::string> reasons;
@@ -44,7 +44,7 @@ std::vector<std::string> everyReason(const std::vector<Thing>& things) {
 
 // ---- Sampling of clocks -------------------------------------------------------------------------
 
-// A round is tenths of a second long; drivers renew what they say about as often as this.
+// A round lasts tenths of a second; drivers update their values about this often.
 constexpr std::chrono::milliseconds kPeriod{50};
 
 }  // namespace
@@ -137,7 +137,7 @@ std::optional<ProcessorTicks> readProcessorTicks(const std::filesystem::path& pa
     std::array<std::uint64_t, fields> ticks{};
     for (std::uint64_t& each : ticks)
         if (!(words >> each)) return std::nullopt;
-    // The guests' time that follows is in user and nice already.
+    // The guest time that follows is already part of user and nice.
     const std::uint64_t busy =
         ticks[user] + ticks[nice] + ticks[system] + ticks[interrupts] + ticks[soft_interrupts];
     return ProcessorTicks{
@@ -148,7 +148,7 @@ std::optional<ProcessorTicks> readProcessorTicks(const std::filesystem::path& pa
 
 std::optional<ProcessorLoad>
 loadBetween(const ProcessorTicks& before, const ProcessorTicks& after, double own) {
-    // Idle time is known to step back by a tick now and then.
+    // The idle time is known to step back by a tick sometimes.
     if (after.total <= before.total) return std::nullopt;
     const auto between = [](std::uint64_t from, std::uint64_t to) {
         return to > from ? static_cast<double>(to - from) : 0.0;
@@ -240,9 +240,9 @@ ClockHold::ClockHold(
 struct MachineWatch::Sources {
     std::optional<ClockSampler> clocks;
     std::optional<ProcessorTicks> ticks;  // at begin()
-    double own = 0.0;  // ms of this process, at begin()
+    double own = 0.0;  // CPU time of this process at begin(), ms
     bool is_processor = false;
-    std::vector<EnergyCounter> energy;  // at begin(); of processors that are the device
+    std::vector<EnergyCounter> energy;  // at begin(); used if the device is a processor
     std::chrono::steady_clock::time_point energy_time;
 };
 
@@ -270,7 +270,7 @@ std::vector<EnergyCounter> readEnergyCounters(const std::filesystem::path& folde
         return file >> number ? std::optional(number) : std::nullopt;
     };
     std::vector<EnergyCounter> counters;
-    // Packages alone: a second number, as in intel-rapl:0:1, is a part of one.
+    // Packages only: a second number, as in intel-rapl:0:1, denotes a part of a package.
     for (int package = 0;; ++package) {
         const std::filesystem::path place = folder / ("intel-rapl:" + std::to_string(package));
         const auto now = read(place / "energy_uj");

@@ -19,9 +19,9 @@
 // Conditions of a measurement: clocks, throttling, steal time, load by other processes.
 namespace benchmarks::measure {
 
-// Reads a clock source again and again while frames are played: before and after the device is
-// idle, and its clocks with it. A reading takes some tens of microseconds of one processor, in a
-// thread that sleeps otherwise.
+// Samples a clock source while frames are played, because before and after that the device and its
+// clocks are idle. A reading takes some tens of microseconds of one processor, in a thread that
+// otherwise sleeps.
 class ClockSampler {
 public:
     explicit ClockSampler(std::unique_ptr<ClockSource> source);
@@ -29,9 +29,10 @@ public:
     ClockSampler(const ClockSampler&) = delete;
     ClockSampler& operator=(const ClockSampler&) = delete;
 
-    // From now on, and anew. The first reading is one period away: the device has work by then.
+    // Starts sampling, or restarts it. The first reading is one period later, when the device has
+    // work.
     void begin();
-    // The readings since begin() or the last take(), of that time alone. Takes none itself.
+    // Returns the readings from the time since begin() or the last take(). Makes no reading itself.
     std::vector<ClockReading> take();
 
 private:
@@ -44,69 +45,69 @@ private:
     bool restarted_ = false;
     bool stopped_ = false;
     std::vector<ClockReading> readings_;
-    std::chrono::steady_clock::time_point since_;  // what the readings may tell of
+    std::chrono::steady_clock::time_point since_;  // start of the time that readings may cover
     std::thread thread_;
 };
 
-// A device that had work for less of the time than this was idle.
+// A device with less load than this counts as idle.
 inline constexpr double kIdleLoad = 0.2;
 
-// Those of a device at work; others tell nothing. Where the driver calls the device idle in all of
-// them, those whose load says otherwise.
+// Returns the readings taken while the device was at work. If the driver reports idle in all of
+// them, it returns those with a load.
 std::vector<ClockReading> readingsAtWork(const std::vector<ClockReading>& readings);
 
-// Medians of what the readings know that were taken at work, the lowest clock among them, and every
-// throttle reason of theirs, each once.
+// Sets the medians over the readings taken at work, their lowest clock, and all their throttle
+// reasons without repetition.
 void addClocks(const std::vector<ClockReading>& readings, report::Conditions& conditions);
 
-// Whether a driver's throttle reason is heat or power; others, as a clock that somebody set, are no
-// throttling.
+// True if a driver's throttle reason is heat or power. Others, like a clock that somebody set, are
+// not throttling.
 bool isHeatOrPower(std::string_view reason);
 
-// Whether the device says that it had hardly a moment without work.
+// True if the device reports that it almost always had work.
 bool isFullyLoaded(const report::Conditions& round);
 
-// Rounds of one mode give the device the same work, so a clock below this share of what it held in
-// another is held back.
+// The rounds of a mode give the device the same work. A clock below this share of the highest in
+// any round is throttled.
 inline constexpr double kHeldShare = 0.9;
-// Other cases may draw more power and hold another clock: below this share of what the device held
-// in any of them, under full load, it is held back (nvbench's share).
+// Other cases may draw more power and reach another clock. A clock under full load below this share
+// of the highest in any case is throttled (nvbench's share).
 inline constexpr double kThrottledShare = 0.75;
 
-// A board at its power limit is at work as it is meant to be while its clock is steady: with that
-// reason a clock below this share of what it held is held back.
+// A board at its power limit works as intended while its clock is steady. With this reason, a clock
+// below this share of the highest is throttled.
 inline constexpr double kCappedShare = 0.97;
 
-// Whether heat or power held the device back in a round: its driver says so, or its lowest clock
-// under load does. `held` is the highest clock of the mode's rounds, `held_before` that of other
-// cases of the run, MHz; 0: unknown. The board's base clock is no measure: locked clocks may be
-// below it.
+// True if heat or power lowered the device's clock in a round, by its driver's reasons or its
+// lowest clock under load. `held` is the highest clock of the mode's rounds, `held_before` that of
+// other cases of the run, MHz; 0: unknown. The board's base clock is not used, because locked
+// clocks may be below it.
 bool isThrottled(const report::Conditions& round, double held, double held_before);
 
-// Medians of all rounds' numbers, and every throttle reason.
+// Medians of all rounds' numbers, and all throttle reasons.
 report::Conditions medianConditions(const std::vector<report::Conditions>& rounds);
 
-// What tells this device's clocks: NVML (NVIDIA) or sysfs (amdgpu). Null on a software device, and
-// where nothing tells them.
+// Opens the source for this device's clocks: NVML (NVIDIA) or sysfs (amdgpu). Returns null on a
+// software device and if there is no source.
 std::unique_ptr<ClockSource> openClockSource(const engine::DeviceInfo& device);
 
-// Clocks as /run/clocks asks for, until it goes. Throws engine::Unsupported, with what to do about
-// it, where they can't be had: on a software device, where nothing tells the device's clocks, where
-// the user may not lock them, and for free ones where an administrator holds them.
+// Holds the clocks as /run/clocks requires, until destruction. Throws engine::Unsupported with a
+// remedy if that is impossible: on a software device, without a clock source, if the user may not
+// lock clocks, and for free clocks if an administrator holds them.
 class ClockHold {
 public:
     ClockHold(const engine::DeviceInfo& device, hair::Clocks clocks);
-    // `source` null: nothing tells the device's clocks.
+    // `source` null: the device's clocks are unknown.
     ClockHold(
         const engine::DeviceInfo& device, hair::Clocks clocks, std::unique_ptr<ClockSource> source);
 
 private:
-    std::unique_ptr<ClockSource> source_;  // unlocks at its end
+    std::unique_ptr<ClockSource> source_;  // unlocks on destruction
 };
 
-// Watches the machine while rounds are played: the device's clocks where something tells them, and
-// steal time and what other processes use of the processors (/proc/stat), which on a software
-// device is what the frames are made with and on others what records them. Changes no setting.
+// Watches the machine while rounds are played: the device's clocks if they are known, steal time,
+// and the processor use of other processes (/proc/stat). On a software device the processors make
+// the frames; with other devices they record them. Changes no setting.
 class MachineWatch {
 public:
     explicit MachineWatch(const engine::Device& device);
@@ -115,7 +116,7 @@ public:
     MachineWatch& operator=(const MachineWatch&) = delete;
 
     void begin();
-    // Since begin() or the last take().
+    // Conditions since begin() or the last take().
     report::Conditions take();
 
 private:
@@ -123,40 +124,40 @@ private:
     std::unique_ptr<Sources> sources_;
 };
 
-// What all processors did since the machine started, in ticks (of 10 ms on most machines), by the
-// first line of Linux's /proc/stat (proc_stat(5)).
+// Processor time since the machine started, in ticks (10 ms on most machines), from the first line
+// of Linux's /proc/stat (proc_stat(5)).
 struct ProcessorTicks {
     std::uint64_t busy = 0;  // in processes and in the kernel
-    std::uint64_t steal = 0;  // that a hypervisor gave to others
-    std::uint64_t total = 0;  // with what was idle
+    std::uint64_t steal = 0;  // given to others by a hypervisor
+    std::uint64_t total = 0;  // including idle time
 };
 
-// Absent where there is no such file or it is not understood.
+// Absent if the file is missing or not understood.
 std::optional<ProcessorTicks> readProcessorTicks(const std::filesystem::path& path = "/proc/stat");
 
-// What a package of processors has used since some moment (Linux, powercap's intel-rapl; often for
-// the administrator alone to read).
+// Energy that a processor package has used since some moment (Linux, powercap's intel-rapl; often
+// readable only by the administrator).
 struct EnergyCounter {
     std::uint64_t microjoules = 0;
-    std::uint64_t range = 0;  // at which it begins anew
+    std::uint64_t range = 0;  // the counter wraps at this value
 };
 
-// Of every package; none where they can't be read.
+// Reads the counters of all packages; empty if they are unreadable.
 std::vector<EnergyCounter>
 readEnergyCounters(const std::filesystem::path& folder = "/sys/class/powercap");
 
-// J; absent where one of them is unknown. Counters may have begun anew once.
+// Energy in J; absent if a counter is unknown. A counter may have wrapped once.
 std::optional<double>
 joulesBetween(const std::vector<EnergyCounter>& before, const std::vector<EnergyCounter>& after);
 
 // Shares of all processors' time.
 struct ProcessorLoad {
     double steal = 0.0;
-    double others = 0.0;  // what other processes used; ticks are coarse, so it is cut off at 0
+    double others = 0.0;  // used by other processes; clamped at 0 because ticks are coarse
 };
 
-// Between two readings, in which this process used `own` ms of processor time. Absent where no tick
-// passed.
+// Load between two readings. This process used `own` ms of processor time between them. Absent if
+// no tick passed.
 std::optional<ProcessorLoad>
 loadBetween(const ProcessorTicks& before, const ProcessorTicks& after, double own);
 

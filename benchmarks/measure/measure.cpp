@@ -20,10 +20,10 @@ namespace {
 using engine::FrameRecord;
 using engine::Timing;
 
-// Share of /run/max_time for wall-clock rounds that give nothing but the passes' use of the CPU.
+// Share of /run/max_time for wall-clock rounds that measure only the passes' CPU use.
 constexpr double kUseShare = 1.0 / 3.0;
 
-// Share of it for the check of the timestamps.
+// Share of /run/max_time for the check of the timestamps.
 constexpr double kCheckShare = 0.1;
 
 template <class Get>
@@ -40,7 +40,7 @@ void checkEnds(const RoundEnd& overlapped, const RoundEnd& isolated, report::Cas
         result.trust.warnings.push_back("overlapped and isolated frames made different states");
 }
 
-// Says in the report what is known of the timestamps.
+// Reports the verdict on the timestamps.
 void tellJudgement(const TimestampJudgement& judgement, report::CaseResult& result) {
     using Verdict = TimestampJudgement::Verdict;
     report::Trust& trust = result.trust;
@@ -57,8 +57,8 @@ void tellJudgement(const TimestampJudgement& judgement, report::CaseResult& resu
     std::ranges::copy(judgement.faults, std::back_inserter(trust.warnings));
 }
 
-// Adds the passes' times, by timestamps if they can be trusted and else by the CPU's clock; on a
-// software device also what they used of the CPU, which only the latter tells. Returns the
+// Adds the passes' times: by timestamps if they can be trusted, otherwise by the CPU's clock. On a
+// software device it also adds their CPU use, which only wall-clock rounds tell. Returns the
 // conditions of the rounds that it played.
 std::vector<report::Conditions> addPasses(
     Stage& stage, const SampledMode& isolated, const hair::RunSettings& run,
@@ -78,7 +78,7 @@ std::vector<report::Conditions> addPasses(
     if (judgement.verdict != TimestampJudgement::Verdict::wrong) {
         addPassTimes(isolated.frames, report::Mode::isolated, result);
     } else {
-        // What was played for the passes' use is too little for their times.
+        // The rounds for the passes' CPU use are too few for their times.
         if (clocked && rule.max_time > 0.0) {
             clocked.reset();
             result.sampling.pop_back();
@@ -123,13 +123,13 @@ std::vector<std::uint8_t> measureFrames(
         measureEmptySubmission(
             stage, medianOf(isolated.frames, [](auto& f) { return f.device.value_or(f.wall); })),
         stage.isProcessor(), result);
-    // Of whatever else the device does meanwhile too, which is nothing on a machine of one's own.
+    // Includes other work on the device; on an otherwise idle machine there is none.
     if (const auto watts = medianConditions(overlapped.conditions).power_w)
         result.metrics.push_back(
             {report::ofFrame(report::Measured::energy),
              {*watts * 1e-3 * medianOf(overlapped.frames, [](auto& f) { return f.interval; })},
              report::Mode::overlapped});
-    // What a processor's passes cost is its CPU time; its clock is not the device's to tell.
+    // A processor's passes cost CPU time, and its clock is not reported by the device.
     if (!stage.isProcessor())
         addCycles(
             overlapped.frames, overlapped.clock_mhz, isolated.frames, isolated.clock_mhz, result);
@@ -141,7 +141,7 @@ std::vector<std::uint8_t> measureFrames(
     result.conditions = medianConditions(conditions);
     addIsolatedMetrics(isolated.frames, result);
     if (stage.isProcessor()) addFrameUse(isolated.frames, result);
-    // What passing side by side saves: the isolated passes' sum less the overlapped frame.
+    // The time saved by overlap: the sum of the isolated passes less the overlapped frame.
     if (!passNames(isolated.frames).empty()) {
         const double sum = medianOf(isolated.frames, passSum);
         const double frame = medianOf(overlapped.frames, [](auto& f) { return f.interval; });

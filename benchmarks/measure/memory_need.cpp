@@ -30,16 +30,16 @@ namespace fs = std::filesystem;
 
 // ---- What files hold ----------------------------------------------------------------------------
 
-// Vertices and triangles take no more on a device than in a file, and a picture in it, as PNG or
-// JPEG, up to eight times as much.
+// Ratio of device memory to file size. Vertices and triangles take no more on a device than in a
+// file; a picture in it, as PNG or JPEG, takes up to eight times as much.
 constexpr std::uint64_t kMeshGrowth = 8;
-// B while a distance field of it is baked: its part of the tree, its corners and normals.
+// B per triangle while its distance field is baked: its part of the tree, its corners and normals.
 constexpr std::uint64_t kBakedTriangle = 160;
-// Pictures of few colours.
+// For pictures of few colours.
 constexpr std::uint64_t kPictureGrowth = 32;
 constexpr std::uint64_t kEnvironmentGrowth = 16;
 
-// 0 where there is no such file: what is missing is said by who reads it.
+// Returns 0 if the file is missing; whoever reads it reports that.
 std::uint64_t fileBytes(const fs::path& directory, const std::string& name) {
     if (name.empty()) return 0;
     const auto size = [](const fs::path& path) -> std::uint64_t {
@@ -52,7 +52,7 @@ std::uint64_t fileBytes(const fs::path& directory, const std::string& name) {
     return size(path) + size(fs::path(path).replace_extension(".bin"));
 }
 
-// The mesh that hair grows on.
+// The mesh that the hair grows on.
 const std::string& grownOn(const hair::Settings& settings) {
     const hair::GroomSettings& groom = settings.groom;
     return groom.file.empty() ? groom.grow.mesh : groom.mesh;
@@ -60,22 +60,22 @@ const std::string& grownOn(const hair::Settings& settings) {
 
 // ---- The parts of a case ------------------------------------------------------------------------
 
-// Buffers of parameters and tables, and what drivers make of images' and buffers' sizes.
+// Buffers of parameters and tables, and the driver's padding of images and buffers.
 constexpr std::uint64_t kSmallBuffers = std::uint64_t{512} << 10;
 constexpr double kPadding = 1.1;
 
-// The program, its libraries and pipelines; a software device compiles shaders itself.
+// The program, its libraries and pipelines. A software device compiles shaders itself.
 constexpr std::uint64_t kProgram = std::uint64_t{128} << 20;
 constexpr std::uint64_t kSoftwareDevice = std::uint64_t{192} << 20;
 
-// B of the host's memory: a case's and the cache's copies, what they are made of and from, and what
-// is uploaded.
-constexpr std::uint64_t kHostVertex = 96;  // of a guide
-constexpr std::uint64_t kHostBalancedVertex = 256;  // where its rest shape is balanced in double
-constexpr std::uint64_t kHostStrand = 224;  // bound to guides
-constexpr std::uint64_t kHostPoint = 96;  // of such a strand
-constexpr std::uint64_t kHostPixel = 32;  // of the picture
-constexpr std::uint64_t kHostComparedPixel = 256;  // in double, by FLIP
+// Host memory in B: the copies of a case and of the cache, their sources, and uploads.
+constexpr std::uint64_t kHostVertex = 96;  // per guide vertex
+constexpr std::uint64_t kHostBalancedVertex = 256;  // per vertex if its rest shape is balanced in
+                                                    // double precision
+constexpr std::uint64_t kHostStrand = 224;  // per strand bound to guides
+constexpr std::uint64_t kHostPoint = 96;  // per point of such a strand
+constexpr std::uint64_t kHostPixel = 32;  // per pixel of the picture
+constexpr std::uint64_t kHostComparedPixel = 256;  // per pixel, in double precision, for FLIP
 constexpr std::uint64_t kFileCopies = 3;  // text, values, strands
 
 hair::groom::GroomSize groomSize(
@@ -83,7 +83,7 @@ hair::groom::GroomSize groomSize(
     if (known) return sizeOf(*known);
     hair::groom::GroomSize size =
         hair::groom::expectedSize(settings.groom, fileBytes(directory, settings.groom.file));
-    // Strands that follow the head.
+    // Strands that follow only the head.
     if (!settings.groom.fixed.empty() && size.bound_strands > 0) {
         hair::GroomSettings fixed;
         fixed.file = settings.groom.fixed;
@@ -110,7 +110,7 @@ hair::rendering::StrandPlan planOf(
         static_cast<std::uint32_t>(size.vertices_per_guide - 1), strands, settings.lod, limit);
 }
 
-// Of the pictures that /run/compare_backends holds a case's against: backends.cpp.
+// Bytes of the comparison pictures of /run/compare_backends: backends.cpp.
 std::uint64_t comparedBytes(hair::Settings settings, const hair::rendering::StrandPlan& plan) {
     settings.strands.backend = hair::Backend::tessellation;
     settings.render.msaa = 4;
@@ -121,7 +121,7 @@ std::uint64_t comparedBytes(hair::Settings settings, const hair::rendering::Stra
     return std::max(covered, hair::rendering::rendererBytes(settings, plan));
 }
 
-// The largest buffer that goes to the device, or picture that comes from it, at a time.
+// The largest buffer that is uploaded, or picture that is downloaded, at a time.
 std::uint64_t stagingBytes(
     const hair::Settings& settings, const hair::groom::GroomSize& size, std::uint64_t mesh) {
     const std::uint64_t pixels = std::uint64_t{settings.render.width} * settings.render.height;
@@ -163,7 +163,7 @@ report::MemoryNeed memoryNeed(
         assets += engine::FrameLoop::kMaxSlots *
                   (mesh && *mesh ? (*mesh)->positions.size() * 2 * sizeof(glm::vec3) : mesh_file);
     std::uint64_t fields = 0;
-    std::uint64_t baking = 0;  // of one after another
+    std::uint64_t baking = 0;  // the largest, since fields are baked one after another
     for (const hair::DistanceFieldSettings& each : settings.simulation.distance_fields) {
         fields += hair::simulation::fieldBytes(each.resolution);
         const bool is_known =
@@ -179,7 +179,7 @@ report::MemoryNeed memoryNeed(
         hair::rendering::groomBufferBytes(settings, size) +
         hair::rendering::rendererBytes(drawn, plan) + assets;
     if (settings.run.compare_backends) all += comparedBytes(drawn, plan);
-    // Fields are baked before there is anything else.
+    // Fields are baked before anything else is allocated.
     all = std::max(all + stagingBytes(settings, size, head), fields + baking);
     report::MemoryNeed need;
     need.device = kSmallBuffers + static_cast<std::uint64_t>(kPadding * static_cast<double>(all));
@@ -200,7 +200,7 @@ report::MemoryNeed memoryNeed(
 
 namespace {
 
-// Absent where there is no such file, or no number in it: "max".
+// Absent if the file is missing or holds no number, as for "max".
 std::optional<std::uint64_t> numberIn(const fs::path& path) {
     std::ifstream file(path);
     std::uint64_t number = 0;
@@ -208,7 +208,7 @@ std::optional<std::uint64_t> numberIn(const fs::path& path) {
     return number;
 }
 
-// The value behind a key of a file of lines "key value ...".
+// Returns the value after a key, from a file of lines "key value ...".
 std::optional<std::uint64_t> valueIn(const fs::path& path, const std::string& key) {
     std::ifstream file(path);
     for (std::string line; std::getline(file, line);) {
@@ -220,10 +220,10 @@ std::optional<std::uint64_t> valueIn(const fs::path& path, const std::string& ke
     return std::nullopt;
 }
 
-// What version 1 says instead of no limit: 2^63 rounded to pages.
+// Version 1 uses 2^63 rounded to pages for no limit.
 constexpr std::uint64_t kNoLimit = std::uint64_t{1} << 62;
 
-// How one version of control groups calls its files.
+// File names of one version of control groups.
 struct GroupFiles {
     const char* limit;
     const char* use;
@@ -233,8 +233,8 @@ constexpr GroupFiles kVersion1{
     "memory.limit_in_bytes", "memory.usage_in_bytes", "total_inactive_file"};
 constexpr GroupFiles kVersion2{"memory.max", "memory.current", "inactive_file"};
 
-// The least that is left by a group and those that it is in. Within a container the path that the
-// process has outside of it is not there, and its own group is the root.
+// The least memory left by a group and its ancestors. Inside a container, the process's outer path
+// does not exist, and its own group is the root.
 std::optional<std::uint64_t>
 leastLeft(const fs::path& mount, const std::string& group, const GroupFiles& files) {
     std::optional<std::uint64_t> least;
@@ -261,7 +261,7 @@ std::optional<std::uint64_t> freeInControlGroup(const fs::path& root) {
     const fs::path mounts = root / "sys/fs/cgroup";
     std::optional<std::uint64_t> least;
     std::ifstream groups(root / "proc/self/cgroup");
-    // "4:memory:/path", or of version 2 "0::/path".
+    // "4:memory:/path", or "0::/path" for version 2.
     for (std::string line; std::getline(groups, line);) {
         const std::size_t first = line.find(':');
         const std::size_t second = line.find(':', first + 1);

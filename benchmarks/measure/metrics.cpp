@@ -168,8 +168,8 @@ namespace {
 
 // ---- Isolated and wall-clock frames -------------------------------------------------------------
 
-// CPU time and instructions of what `metric_of` makes metrics of. A count that some of the frames
-// lack is left out: samples of different frames would be none of one quantity.
+// Adds CPU time and instructions as metrics from `metric_of`. If some frames have no instruction
+// count, that count is omitted, because samples of different frames would not be comparable.
 template <class MakeId>
 void addUse(
     MakeId metric_of, const std::vector<engine::ProcessUse>& uses, report::Mode mode,
@@ -283,7 +283,7 @@ std::vector<double> collect(std::span<const engine::FrameRecord> frames, Get get
     return values;
 }
 
-// By the three definitions.
+// Metrics of the three definitions of low rates.
 struct LowMetrics {
     report::Measured percentile;
     report::Measured mean;
@@ -335,8 +335,8 @@ void addOverlappedMetrics(std::span<const engine::FrameRecord> frames, report::C
     addTimes(report::ofCpu(report::Measured::wait_time), [](auto& f) { return f.wait; });
     if (std::ranges::all_of(frames, [](auto& f) { return f.host.has_value(); }))
         addTimes(report::ofCpu(report::Measured::host_time), [](auto& f) { return *f.host; });
-    // A frame whose work began before the last one's was done takes the device longer than its
-    // interval, and then the device waited for nobody.
+    // If a frame's work began before the previous frame's was done, its device time exceeds its
+    // interval. The device then did not wait.
     if (stamped)
         addTimes(report::ofGpu(report::Measured::wait_time), [](auto& f) {
             return std::max(f.interval - *f.device, 0.0);
@@ -348,11 +348,11 @@ namespace {
 // ---- Device memory ------------------------------------------------------------------------------
 
 struct Row {
-    std::string_view beginning;  // of the names
+    std::string_view beginning;  // of the name
     std::string_view purpose;
 };
 
-// The first row that fits counts. A new buffer needs a row only if no family of names fits.
+// The first matching row counts. A new buffer needs a row only if no row matches its name.
 constexpr Row kPurposes[] = {
     {"guide normals", "groom"},
     {"guide turns", "groom"},

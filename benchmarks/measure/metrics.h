@@ -62,20 +62,20 @@ std::optional<std::string> missedCount(
     std::string_view statistic, std::uint64_t measured, std::optional<std::uint64_t> expected,
     const engine::DeviceInfo& device);
 
-// Adds the statistics of a frame that was played with Timing::statistics, and holds them against
-// the counts that follow from the settings. Nothing where it has no strands.
+// Adds the statistics of a frame played with Timing::statistics, and compares them with the counts
+// expected from the settings. Does nothing for a frame without strands.
 void addStatistics(
     const engine::FrameRecord& frame, const engine::Device& device, const Case& test_case,
     report::CaseResult& result);
 
-// What blended fragments took and how many lists had no room for, of the last frame that was
-// played.
+// Adds the memory of blended fragments and the number that did not fit the lists, for the last
+// frame.
 void addTransparency(const Case& test_case, report::CaseResult& result);
 
-// The metrics that frames of each mode give; docs/measuring.md says what each is.
+// The metrics from frames of each mode; docs/measuring.md defines them.
 
-// Fewest frames of which a share of `fraction` is one frame: with fewer, all three lows would be
-// the slowest frame's rate.
+// Smallest number of frames in which a share of `fraction` is one frame. With fewer, all three lows
+// would be the slowest frame's rate.
 std::size_t fewestForLow(double fraction);
 
 // fps, fps.low_*, frame.time, frame.device.time, cpu.*.time, gpu.wait.time.
@@ -84,37 +84,37 @@ void addOverlappedMetrics(std::span<const engine::FrameRecord> frames, report::C
 // frame.isolated.time.
 void addIsolatedMetrics(std::span<const engine::FrameRecord> frames, report::CaseResult& result);
 
-// pass.*.time, in the mode that they were timed in.
+// pass.*.time, in the mode in which they were timed.
 void addPassTimes(
     std::span<const engine::FrameRecord> frames, report::Mode mode, report::CaseResult& result);
 
 // frame.cycles and pass.*.cycles: the device's times of overlapped frames and of isolated passes,
-// in cycles of its shaders' clock in those rounds. Nothing where the clock is unknown. A change of
-// time without one of cycles is the clock's.
+// in cycles of its shaders' clock in those rounds. Adds nothing if the clock is unknown. If the
+// time changes but the cycles do not, the clock has changed.
 void addCycles(
     std::span<const engine::FrameRecord> overlapped, std::optional<double> overlapped_mhz,
     std::span<const engine::FrameRecord> isolated, std::optional<double> isolated_mhz,
     report::CaseResult& result);
 
-// trust.pass_sum_over_*, and a warning where passes are not the whole of the frame. On a processor
-// that is where they are not the wall clock.
+// trust.pass_sum_over_*, and a warning if the passes do not cover the whole frame. On a processor
+// they are compared with the wall clock.
 void addPassSum(
     std::span<const engine::FrameRecord> isolated, const EmptySubmission& empty, bool processor,
     report::CaseResult& result);
 
-// What whole frames used of the CPU, by the isolated frames: frame.cpu.time and, where
-// instructions are counted, frame.instructions.
+// CPU use of whole isolated frames: frame.cpu.time and, if instructions are counted,
+// frame.instructions.
 void addFrameUse(std::span<const engine::FrameRecord> isolated, report::CaseResult& result);
 
-// What passes used of the CPU, by the wall-clock frames: pass.*.cpu.time, pass.*.instructions.
+// CPU use of passes in wall-clock frames: pass.*.cpu.time, pass.*.instructions.
 void addPassUse(std::span<const engine::FrameRecord> wall_clock, report::CaseResult& result);
 
-// What a buffer or image of this name is for: "simulation", "groom", "targets", ...; "other" if its
-// name is in no row of the table.
+// The purpose of a buffer or image with this name: "simulation", "groom", "targets", ...; "other"
+// if no row of the table matches.
 std::string_view memoryPurpose(std::string_view name);
 
-// Device memory, B, each with one sample: "memory.heap.<index>" for each heap that holds something
-// and "memory.purpose.<purpose>" for each purpose that does. Both add up to all that is allocated.
+// Device memory, B, each with one sample: "memory.heap.<index>" for each heap in use and
+// "memory.purpose.<purpose>" for each purpose in use. Both sum to all allocated memory.
 std::vector<report::Metric> memoryMetrics(const engine::MemoryLedger& ledger);
 
 }  // namespace benchmarks::measure

@@ -17,8 +17,8 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 constexpr std::chrono::milliseconds kLook{500};
-constexpr std::chrono::seconds kLong{2};  // or a step is not shown
-constexpr std::chrono::seconds kPlainPeriod{10};  // between lines where it is no terminal
+constexpr std::chrono::seconds kLong{2};  // minimum duration of a step that is shown
+constexpr std::chrono::seconds kPlainPeriod{10};  // between lines if stderr is not a terminal
 
 std::string clockText(double seconds) {
     char text[48];
@@ -31,7 +31,7 @@ std::string clockText(double seconds) {
     return text;
 }
 
-// A line that wraps could not be rewritten.
+// Cuts the line to the terminal's width, because a wrapped line could not be rewritten.
 std::string fitting(std::string line) {
     winsize size{};
     if (ioctl(STDERR_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 1 &&
@@ -80,7 +80,7 @@ void ProgressLine::run() {
     while (!ends_.wait_for(lock, kLook, [this] { return over_; })) show();
 }
 
-// Steps that end meanwhile wait until the line is written, and then it is cleared.
+// Steps that end meanwhile wait until the line is written; then it is cleared.
 void ProgressLine::show() {
     const std::lock_guard lock(writing_);
     const Clock::time_point now = Clock::now();

@@ -15,9 +15,9 @@ namespace benchmarks::measure {
 
 struct SamplingState;  // measure.h
 
-// Shows which steps (engine/process.h) are under way: on a terminal once they are for two seconds,
-// in one line that is rewritten, elsewhere in a line of its own every ten seconds. A program has
-// one, for as long as it works; a thread of its own looks twice a second.
+// Shows the current steps (engine/process.h). On a terminal they appear after two seconds, in one
+// line that is rewritten; elsewhere a new line appears every ten seconds. A program has one of
+// these while it works; its own thread checks twice a second.
 class ProgressLine {
 public:
     ProgressLine();
@@ -33,25 +33,26 @@ private:
     bool terminal_;
     std::mutex writing_;
     bool shown_ = false;  // on the terminal
-    std::optional<std::chrono::steady_clock::time_point> written_;  // last, where it is no terminal
+    std::optional<std::chrono::steady_clock::time_point> written_;  // time of the last line, if not
+                                                                    // a terminal
     std::mutex mutex_;
     std::condition_variable ends_;
     bool over_ = false;
     std::thread thread_;
 };
 
-// Pieces of work, of which it is counted how many are done: a step whose words are
-// "[3/12] 0:41, about 1:50 left  thesis/density:16  overlapped 12.3 ms +-2.1 %".
+// Counts finished pieces of work. It is a step with the text "[3/12] 0:41, about 1:50 left
+// thesis/density:16  overlapped 12.3 ms +-2.1 %".
 class Progress {
 public:
-    // `done` of the pieces are there already, from an earlier run.
+    // `done` pieces exist already from an earlier run.
     explicit Progress(std::size_t total, std::size_t done = 0);
 
     void begin(const std::string& name);
-    // What is known of the piece that has begun.
+    // Sets the text about the current piece.
     void update(const std::string& state);
     void update(const SamplingState& state);
-    // None is under way: others may write to the terminal.
+    // Ends the step, so that others may write to the terminal.
     void clear();
 
 private:
@@ -61,7 +62,7 @@ private:
     std::size_t first_;  // index of this run's first piece
     std::chrono::steady_clock::time_point start_;
     mutable std::mutex mutex_;
-    std::size_t index_;  // of the piece that is played; none before the first begin()
+    std::size_t index_;  // of the current piece; none before the first begin()
     bool begun_ = false;
     std::string name_;
     std::string state_;
@@ -71,8 +72,9 @@ private:
 // "overlapped 12.3 ms +-2.1 %"
 std::string samplingText(const SamplingState& state);
 
-// "[3/12] 0:41, about 1:50 left": pieces counted from 1; the rest is taken to last as long as the
-// pieces `done` in this run did, which took `seconds`; nothing is said while there are none.
+// "[3/12] 0:41, about 1:50 left": pieces are counted from 1. The estimate assumes that the rest
+// take as long as the `done` pieces of this run, which took `seconds`. There is no estimate while
+// `done` is 0.
 std::string progressText(std::size_t number, std::size_t total, std::size_t done, double seconds);
 
 }  // namespace benchmarks::measure

@@ -33,25 +33,25 @@ namespace {
 
 // ---- The strands' work --------------------------------------------------------------------------
 
-// Floating-point operations, as shaders/strands/ and shaders/shading/ have them: a product, sum,
-// comparison, quotient, root or power is one. Whole numbers, offsets, levels of detail, shadows and
-// textures are left out, so that these are the least.
+// Floating-point operations, counted in shaders/strands/ and shaders/shading/: a product, sum,
+// comparison, quotient, root or power is one. Integer operations, offsets, levels of detail,
+// shadows and textures are omitted, so these are lower bounds.
 constexpr double kMix = 81.0;  // root weights, root lift and four control points of three guides
-constexpr double kPoint = 84.0;  // a spline's weights and slopes, place, tangent and width
+constexpr double kPoint = 84.0;  // a spline's weights and slopes, position, tangent and width
 constexpr double kEnd = 22.0;  // the direction across, at an end of a piece
 constexpr double kCorner = 34.0;  // a corner, and its projection
-constexpr double kScreenEnd = 100.0;  // an end on the screen: both sides, and projections
+constexpr double kScreenEnd = 100.0;  // an end on the screen: both sides and their projections
 constexpr double kPiece = 60.0;  // edges and depth of a piece's quad
-constexpr double kSample = 8.0;  // a sample's place and depth
-constexpr double kSeenPoint = 60.0;  // which point of a piece a sample shows
+constexpr double kSample = 8.0;  // a sample's position and depth
+constexpr double kSeenPoint = 60.0;  // the point of a piece that a sample shows
 constexpr double kFragment = 75.0;  // normal and direction to the eye
-constexpr double kLight = 60.0;  // Phong's terms of a light; other models take more
+constexpr double kLight = 60.0;  // Phong's terms of a light; other models need more
 
 // Bytes of memory.
 constexpr double kGuideBytes = 16.0;  // a guide's vertex
 constexpr double kTriangleBytes = 12.0;  // three guides
 constexpr double kPointBytes = 16.0;
-constexpr double kNumberBytes = 4.0;  // of a strand's pieces, or a strand in a list
+constexpr double kNumberBytes = 4.0;  // of a strand's pieces, or of a strand in a list
 constexpr double kDepthBytes = 4.0;
 constexpr double kPairBytes = 8.0;  // a sample of the back end software
 
@@ -59,8 +59,8 @@ double asDouble(std::uint64_t count) { return static_cast<double>(count); }
 
 double shading(const StrandCounts& counts) { return kFragment + kLight * asDouble(counts.lights); }
 
-// Of back ends that draw triangles or lines: each covered sample is tested and written, each
-// covered pixel shaded, once.
+// For back ends that draw triangles or lines: each covered sample is tested and written once, and
+// each covered pixel is shaded once.
 StrandWork rasterised(const StrandCounts& counts, double vertex_operations) {
     StrandWork work;
     work.bytes =
@@ -72,7 +72,7 @@ StrandWork rasterised(const StrandCounts& counts, double vertex_operations) {
     return work;
 }
 
-// Drawn pieces, and points of them where each segment has its own.
+// Number of drawn pieces, and of their points if each segment has its own.
 double piecesOf(const StrandCounts& counts) {
     return asDouble(counts.strands * counts.segments * counts.pieces);
 }
@@ -98,7 +98,7 @@ StrandWork pullingWork(const StrandCounts& counts) {
     return rasterised(counts, 2.0 * segmentPoints(counts) * (kMix + kPoint + kEnd + kCorner));
 }
 
-// The pass points: control points once for a strand's segment.
+// The pass `points`: control points are computed once per segment of a strand.
 double evaluation(const StrandCounts& counts) {
     return asDouble(counts.strands * counts.segments) * kMix +
            asDouble(counts.points()) * (kPoint + kScreenEnd);
@@ -107,13 +107,14 @@ double evaluation(const StrandCounts& counts) {
 StrandWork expandedWork(const StrandCounts& counts) {
     StrandWork work = rasterised(counts, 2.0 * asDouble(counts.points()) * (kEnd + kCorner));
     work.operations[StageKind::compute] = evaluation(counts);
-    // Points are written and read once, pieces written and read twice, the list written and read.
+    // Points are written and read once, pieces written once and read twice, and the list written
+    // and read.
     work.bytes += 2.0 * kPointBytes * asDouble(counts.points()) +
                   5.0 * kNumberBytes * asDouble(counts.strands);
     return work;
 }
 
-// Its stages are compute's in all but what follows them.
+// Its stages count as compute up to the rasteriser.
 StrandWork meshWork(const StrandCounts& counts) {
     StrandWork work = rasterised(counts, 0.0);
     work.operations[StageKind::compute] =
@@ -129,7 +130,7 @@ StrandWork softwareWork(const StrandCounts& counts) {
     work.operations[StageKind::compute] =
         evaluation(counts) + points * kScreenEnd + piecesOf(counts) * kPiece + samples * kSample +
         samples * (2.0 * kScreenEnd + kSeenPoint + shading(counts));
-    // Samples are cleared by the scene's depth, covered, shaded and shown.
+    // Samples are cleared with the scene's depth, covered, shaded and shown.
     work.bytes =
         kGuideBytes * asDouble(counts.guide_vertices) +
         kTriangleBytes * asDouble(counts.root_triangles) + 2.0 * kPointBytes * points +
@@ -174,14 +175,14 @@ constexpr double kMostAmount = 1 << 20;
 constexpr int kMeasurements = 5;
 constexpr std::uint32_t kRounds = 256;  // of an invocation
 constexpr double kInvocationOperations = double{kRounds} * gpu::kRoundOperations;
-constexpr std::size_t kCopied = std::size_t{128} << 20;  // B: more than caches hold
-constexpr std::uint32_t kSide = 512;  // px, of the picture that is filled
-constexpr std::uint32_t kInvocations = 1 << 14;  // at once, in compute and the vertex stage
+constexpr std::size_t kCopied = std::size_t{128} << 20;  // B: exceeds the caches
+constexpr std::uint32_t kSide = 512;  // px, of the rendered picture
+constexpr std::uint32_t kInvocations = 1 << 14;  // in parallel, in compute and in the vertex stage
 
-// Records work as often as it is told.
+// Records work the given number of times.
 using LimitLoad = std::function<void(engine::Commands&, std::uint32_t times)>;
 
-// ms that a load takes the device; by the host's clock where it has no timestamps.
+// Device time of a load, ms; by the host's clock if there are no timestamps.
 double loadTime(
     const engine::Device& device, engine::PassKind kind, const LimitLoad& load,
     std::uint32_t times) {
@@ -193,8 +194,8 @@ double loadTime(
     return frame.passes.empty() ? frame.wall : frame.passes.front().milliseconds;
 }
 
-// Giga-units a second of a load that has `units` each time. What is long enough also has the
-// device's clock up.
+// Rates in giga-units per second of a load with `units` per repetition. The search for a long
+// enough load also raises the device's clock.
 std::vector<double>
 ratesOf(const engine::Device& device, engine::PassKind kind, double units, const LimitLoad& load) {
     std::uint32_t times = 1;
@@ -219,7 +220,7 @@ gpu::LimitPush limitPush(std::uint64_t results) {
 std::vector<double> copyBandwidth(const engine::Device& device) {
     const engine::Buffer from(device, {.size = kCopied, .name = "limits' source"});
     const engine::Buffer to(device, {.size = kCopied, .name = "limits' copy"});
-    // Pages that nobody has written may all be one.
+    // Unwritten pages may share the same physical page.
     loadTime(
         device, engine::PassKind::compute,
         [&](engine::Commands& commands, std::uint32_t) {

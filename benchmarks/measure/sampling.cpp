@@ -37,7 +37,7 @@ std::vector<FrameRecord> RoundPlayer::round() {
         next = 0;
     }
     const bool counts = plays_ == 0 && counts_ == Counts::last_frame;
-    // The interval of the last frame contains the wait for it: one more frame is drawn than
+    // The interval of the last frame contains the wait for it, so one more frame is drawn than
     // measured.
     const std::uint32_t timed = warmup_ + frames_ + (counts ? 0 : 1);
     for (std::uint32_t i = next; i < timed; ++i) player_->frame();
@@ -47,7 +47,7 @@ std::vector<FrameRecord> RoundPlayer::round() {
     else
         frames.pop_back();
     ++plays_;
-    // What finish() returned for the first frame of all is not among them.
+    // The return value excludes the very first frame, which an earlier finish() returned.
     return {frames.end() - frames_, frames.end()};
 }
 
@@ -58,7 +58,7 @@ std::vector<FrameRecord> RoundPlayer::more() {
 
 void RoundPlayer::play() {
     player_->reset();
-    // As many frames as round() plays, so that all plays end with the same one.
+    // As many frames as in round(), so that all plays end with the same frame.
     for (std::uint32_t i = 0; i < warmup_ + frames_ + 1; ++i) player_->frame();
     std::ranges::move(player_->completed(), std::back_inserter(complete_));
     ++plays_;
@@ -92,7 +92,8 @@ namespace {
 
 // ---- Rounds until the median is known -----------------------------------------------------------
 
-// Times are looked at again when there is a twentieth more of them: looking takes time too.
+// Assesses the times again when their number has grown by a twentieth, because an assessment takes
+// time too.
 constexpr std::size_t kLookShare = 20;
 
 class Series {
@@ -100,7 +101,7 @@ public:
     explicit Series(const SamplingRule& rule, double held_before)
         : rule_(rule), held_before_(held_before) {}
 
-    // Whether the round was throttled by what is known so far.
+    // Returns true if the round was throttled, by the knowledge so far.
     bool add(std::vector<FrameRecord> frames, report::Conditions conditions) {
         std::vector<double> times;
         for (const FrameRecord& frame : frames) times.push_back(frame.*rule_.time);
@@ -120,7 +121,7 @@ public:
         return clean;
     }
 
-    // Of the rounds that were looked at last; null before the first look has ended.
+    // The last assessment; null before the first one has finished.
     const Assessment* assessment() {
         if (looking_.valid() &&
             looking_.wait_for(std::chrono::seconds(0)) == std::future_status::ready)
@@ -128,7 +129,7 @@ public:
         return assessment_ ? &*assessment_ : nullptr;
     }
 
-    // Looked at as a whole, and its frames moved out.
+    // Assesses the whole series and moves its frames out.
     SampledRounds take() {
         if (looking_.valid()) looking_.wait();
         std::vector<std::size_t> counted = cleanRounds();
@@ -154,7 +155,7 @@ public:
         return result;
     }
 
-    // MHz; 0: no clock is known.
+    // MHz; 0: the clock is unknown.
     double held() const { return held_; }
 
 private:
@@ -166,7 +167,7 @@ private:
 
     void look() {
         assessment();
-        if (looking_.valid()) return;  // the last look is not done
+        if (looking_.valid()) return;  // the last assessment is still running
         const std::vector<std::size_t> clean = cleanRounds();
         looked_at_ = clean.size();
         if (rule_.looks_beside) {
@@ -185,7 +186,7 @@ private:
     std::vector<report::Conditions> conditions_;  // [round]
     std::optional<Assessment> assessment_;
     std::future<Assessment> looking_;
-    std::size_t looked_at_ = 0;  // clean rounds that were looked at last
+    std::size_t looked_at_ = 0;  // number of clean rounds in the last assessment
 };
 
 }  // namespace
@@ -243,8 +244,8 @@ WarmUp
 warmUp(RoundPlayer& player, Stage& stage, double FrameRecord::* time, double least, double most) {
     const double begin = stage.seconds();
     WarmUp result;
-    // ms, of the last window: the time that is judged, and the device's. Where the host is slower,
-    // the first is steady long before the clock is.
+    // ms, in the last window: the judged time and the device's time. If the host is slower, the
+    // judged time is steady long before the clock is.
     double before = 0.0;
     double device_before = 0.0;
     while (!result.steady && result.seconds < most) {
@@ -278,9 +279,9 @@ namespace {
 
 // ---- A mode of a case ---------------------------------------------------------------------------
 
-// Overlapped frames that are begun before an interval is as long as a frame: until slots are used
-// again nothing waits. A wait for one frame of lavapipe's ends when all are done that were
-// submitted, so its first wait is for two of them where two may be in flight.
+// Number of overlapped frames to start before an interval is as long as a frame: nothing waits
+// until slots are reused. On lavapipe, a wait for one frame ends only when all submitted frames are
+// done. If two frames may be in flight, its first wait is therefore for both.
 std::uint32_t queueOf(const Stage& stage, engine::Timing timing, const hair::RunSettings& run) {
     if (timing != engine::Timing::overlapped) return 0;
     return run.frames_in_flight + (stage.isProcessor() ? 1 : 0);
@@ -300,11 +301,12 @@ report::Mode modeOf(engine::Timing timing) {
     return report::Mode::other;
 }
 
-// Share of max_time that a warm-up may take, and a round.
+// Largest shares of max_time for a warm-up and for a round.
 constexpr double kMostWarmUp = 0.25;
 constexpr double kMostRound = 0.125;
 
-// Plays that measure for /run/round_time, a little more as the device's clock may still rise.
+// Plays that measure for /run/round_time, and a little longer because the device's clock may still
+// rise.
 std::uint32_t playsOfRound(const WarmUp& found, const hair::RunSettings& run) {
     const double measured = found.counted * 1e-3;
     const double wanted = 1.05 * double{run.round_time} / std::max(measured, 1e-9);
@@ -334,7 +336,7 @@ SampledMode sampleMode(
     const bool streams = !stage.isProcessor() && rule.max_time > 0.0 && run.round_time > 0.0f;
     SamplingRule this_rule = rule;
     this_rule.looks_beside = streams && stage.runsBesideThought();
-    std::optional<std::uint32_t> plays;  // of a round in a stream
+    std::optional<std::uint32_t> plays;  // per round, in a stream
     if (streams) {
         player.round();
         player.firstEnd();

@@ -16,38 +16,40 @@
 // Rounds of one mode of a case, until its median frame time is known.
 namespace benchmarks::measure {
 
-// Plays a case in one mode again and again from its first frame on: /run/warmup frames, then
-// /run/frames frames that count. So all plays of all modes show the same frames, and must end with
-// the same picture and state.
+// Plays a case in one mode repeatedly from its first frame: /run/warmup frames, then /run/frames
+// frames that count. All plays of all modes show the same frames, and must end with the same
+// picture and state.
 class RoundPlayer {
 public:
-    // Whether the frame that ends the first round, which no sample is of, is counted
-    // (Player::count()). Not where frames overlap: it ends the interval of the one before.
+    // Whether the frame that ends the first round, which gives no sample, is used for counting
+    // (Player::count()). It cannot be if frames overlap, because it ends the interval of the
+    // previous frame.
     enum class Counts { nothing, last_frame };
 
-    // `queue`: how many frames have to be begun, without a wait for all between them, before the
-    // first that counts; where fewer are to warm up, others are played first.
+    // `queue`: number of frames to start, without waiting for all of them, before the first that
+    // counts. If the warm-up has fewer, extra frames are played first.
     RoundPlayer(
         std::unique_ptr<Player> player, const hair::RunSettings& run,
         Counts counts = Counts::nothing, std::uint32_t queue = 0);
 
-    // One play, waited for: the frames that count.
+    // Makes one play and waits for it. Returns the frames that count.
     std::vector<engine::FrameRecord> round();
 
-    // As many frames as count in a round, from where the case is: no play, as it begins nowhere.
+    // Plays as many frames as count in a round, continuing from the current frame. This is not a
+    // play, because it does not start at the first frame.
     std::vector<engine::FrameRecord> more();
 
-    // Plays without a pause, one after the other, and nothing read between them: the frames that
-    // count of the next so many plays. What is in flight when this returns is of the play after.
+    // Plays without pauses and without reading anything back between plays. Returns the counted
+    // frames of the next `plays` plays. Frames in flight on return belong to a later play.
     std::vector<engine::FrameRecord> stream(std::uint32_t plays);
-    // Ends a stream: waits for what is in flight and drops it.
+    // Ends a stream: waits for frames in flight and drops them.
     void drain();
 
-    // CPU ms from the start of recording the very first frame until it was complete.
+    // CPU ms from the start of recording the very first frame until its completion.
     double firstFrame() const { return first_frame_; }
 
     // Picture and state of the first play, and of the last one so far. Reading them back takes
-    // time, so it is done between plays and for these two only. Nothing may be in flight.
+    // time, so it is done between plays and only for these two. Nothing may be in flight.
     const RoundEnd& firstEnd();
     RoundEnd lastEnd();
 
@@ -61,29 +63,30 @@ private:
     std::uint32_t queue_;
     std::uint64_t plays_ = 0;
     double first_frame_ = 0.0;
-    std::vector<engine::FrameRecord> complete_;  // of a stream, from the first frame of a play on
+    std::vector<engine::FrameRecord> complete_;  // of a stream, from the first frame of a play
     std::optional<RoundEnd> first_end_;
 };
 
 struct SamplingRule {
     std::string mode;  // "overlapped", "isolated", "wall_clock"
-    double engine::FrameRecord::* time = nullptr;  // of a frame, ms: what has to be known
-    double precision = 0.01;  // half the median's interval over it; 0: until max_time
-    double max_time = 10.0;  // s, after which no round is begun; 0: one round
+    double engine::FrameRecord::* time = nullptr;  // time of a frame, ms, that has to be known
+    double precision = 0.01;  // of half the median's interval, relative to it; 0: until max_time
+    double max_time = 10.0;  // s, after which no new round begins; 0: one round
     std::uint32_t most_rounds = std::numeric_limits<std::uint32_t>::max();
-    // Whether the first round's last frame is counted.
+    // True if the first round's last frame is used for counting.
     bool counts = false;
-    // Whether the samples are looked at while the next round is played, so that the device is never
-    // left without work.
+    // True if samples are assessed while the next round is played, so that the device always has
+    // work.
     bool looks_beside = false;
 };
 
-// What a series of rounds is played with.
+// Functions for playing a series of rounds.
 struct SamplingTools {
-    std::function<std::vector<engine::FrameRecord>()> play;  // a round; as many frames each time
+    std::function<std::vector<engine::FrameRecord>()> play;  // plays a round; the number of frames
+                                                             // is the same each time
     std::function<void()> begin{};  // before the first round and after a pause; may be empty
-    std::function<report::Conditions()> conditions;  // of the round that was just played
-    std::function<double()> seconds;  // of a clock
+    std::function<report::Conditions()> conditions;  // of the round just played
+    std::function<double()> seconds;  // reads a clock
     std::function<void(double)> pause;  // s
     std::function<void(const SamplingState&)> progress{};  // after each round; may be empty
 };
@@ -92,54 +95,54 @@ struct SampledRounds {
     std::vector<engine::FrameRecord> frames;  // of the rounds that count, in order
     report::Sampling sampling;
     std::vector<report::Conditions> conditions;  // of all rounds
-    // Whether all rounds were throttled: the frames are of those then.
+    // True if all rounds were throttled; `frames` is then from throttled rounds.
     bool all_throttled = false;
-    std::optional<double> clock_mhz;  // of the shaders, median over the rounds that count
+    std::optional<double> clock_mhz;  // of the shaders, median over the counted rounds
 };
 
-inline constexpr double kThrottlePause = 0.05;  // s (nvbench's)
+inline constexpr double kThrottlePause = 0.05;  // s (as in nvbench)
 
-// Rounds that are tried at least before a case is given up as throttled.
+// Least number of rounds before a case is given up as throttled.
 inline constexpr std::uint32_t kThrottledTries = 10;
 
 // Plays rounds until the median time is known to the precision and the last times were steady
-// (steady_state.h), until there are most_rounds, or until max_time has passed. `held_mhz` is what
-// the device's clock held before under as much load, and is raised to what it holds here; it may be
-// null. Throttled rounds (isThrottled(); a round is judged again when a later one holds a higher
-// clock) are left out, each followed by a pause; so are the first rounds while times settle. If all
-// were throttled, kThrottledTries and until max_time, those are the result.
+// (steady_state.h), until there are most_rounds, or until max_time has passed. `held_mhz` is the
+// highest device clock so far under such a load, and is raised to the highest here; it may be null.
+// Throttled rounds (isThrottled()) are left out, and each is followed by a pause. A round is judged
+// again when a later one has a higher clock. The first rounds are also left out while times settle.
+// If all rounds were throttled, after at least kThrottledTries and max_time, they are the result.
 SampledRounds
 sampleRounds(const SamplingRule& rule, const SamplingTools& tools, double* held_mhz = nullptr);
 
-// A mode of a case, sampled.
+// The samples of a mode of a case.
 struct SampledMode : SampledRounds {
-    double first_frame = 0.0;  // ms, from recording to completion, of the mode's first
-    RoundEnd end;  // of the last round; empty where frames follow on others
+    double first_frame = 0.0;  // ms, from recording to completion of the mode's first frame
+    RoundEnd end;  // of the last round; empty if the frames continue earlier ones
 };
 
-// The rule of a mode by a scene's settings: the overlapped mode is judged by its intervals, the
+// The rule of a mode for a scene's settings. The overlapped mode is judged by its intervals, the
 // others by their wall clock.
 SamplingRule samplingRule(engine::Timing timing, const hair::RunSettings& run);
 
-// Plays the mode's rounds: on a processor each is one play, on other devices as many as take
-// /run/round_time, after the clock was driven up (warmUp()). Enters its sampling, and warns in
-// `result` if its first and last plays made different pictures or states. Where there is no time,
-// wall-clock frames are those that follow on what was played before.
+// Plays the mode's rounds. On a processor each round is one play. On other devices it is as many
+// plays as take /run/round_time, after a warm-up that raises the clock (warmUp()). Adds the
+// sampling to `result`, and warns there if the first and last plays made different pictures or
+// states. If there is no time, wall-clock frames continue from the frames played before.
 SampledMode sampleMode(
     Stage& stage, engine::Timing timing, const SamplingRule& rule, const hair::RunSettings& run,
     const MeasureHooks& hooks, report::CaseResult& result);
 
-// What a device's warm-up found.
+// Result of a device's warm-up.
 struct WarmUp {
     double seconds = 0.0;
-    double play = 0.0;  // s, of a play at its end
-    double counted = 0.0;  // ms of the rule's time in the frames of a play that count
+    double play = 0.0;  // s, of a play at the end of the warm-up
+    double counted = 0.0;  // ms of the rule's time in the counted frames of a play
     bool steady = false;
 };
 
-// Plays for at least /run/warmup_time and until two windows of 50 ms differ by less than a
-// hundredth in their median frame, by `time` and by the device's own, but no longer than `most`
-// seconds: what a clock needs to rise.
+// Plays for at least `least` seconds, and until the median frame of two windows of 50 ms differs by
+// less than one percent, both by `time` and by the device's own time. Stops after `most` seconds.
+// This gives the clock time to rise.
 WarmUp warmUp(
     RoundPlayer& player, Stage& stage, double engine::FrameRecord::* time, double least,
     double most);

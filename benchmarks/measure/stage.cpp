@@ -81,7 +81,7 @@ private:
     bool reset_ = false;
 };
 
-// Frames of no pass of the case leave no picture.
+// Plays frames without the case's passes; they leave no picture.
 class EmptyPlayer : public Player {
 public:
     EmptyPlayer(
@@ -117,8 +117,8 @@ constexpr double kLongestWait = 2.0;  // ms
 constexpr std::uint32_t kFewestSteps = 256;
 constexpr std::uint32_t kMostSteps = 1u << 30;
 
-// Steps of work that take the device about so many ms; 0 without timestamps. Where these stand
-// still the host's clock ends the search.
+// Returns the steps of work that take the device about `wanted` ms; 0 without timestamps. If
+// timestamps stand still, the host's clock ends the search.
 std::uint32_t stepsThatTake(Stage& stage, double wanted) {
     std::uint32_t steps = kFewestSteps;
     while (steps < kMostSteps) {
@@ -129,7 +129,7 @@ std::uint32_t stepsThatTake(Stage& stage, double wanted) {
         if (!last.device) return 0;
         const double time = *last.device;
         if (time >= 0.8 * wanted || last.wall >= 4.0 * kLongestWait) break;
-        // What is long enough to be told from a barrier says how much more is needed.
+        // A time well above that of a barrier tells how much more is needed.
         const double factor = time > 0.25 * wanted ? wanted / time : 4.0;
         steps = static_cast<std::uint32_t>(factor * steps) + 1;
     }

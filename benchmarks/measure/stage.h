@@ -17,7 +17,8 @@
 #include "benchmarks/report/report.h"
 #include "engine/frame_loop.h"
 
-// What frames are played on and timed by: a device and the machine's clock, or a model of both.
+// The stage on which frames are played and timed: a device and the machine's clock, or a model of
+// both.
 namespace benchmarks::measure {
 
 // How far a mode of a case is, for who waits.
@@ -49,85 +50,86 @@ struct MeasureHooks {
     DeviceKnowledge* known = nullptr;  // of the run; null: each case learns for itself
 };
 
-// What a play of frames ends with.
+// The result at the end of a play of frames.
 struct RoundEnd {
     std::vector<std::uint8_t> picture;  // [row][column] RGBA, top row first
     std::string picture_hash;
     std::string state_hash;
 };
 
-// Frames in one timing mode, one after another.
+// Plays frames in one timing mode, one after another.
 class Player {
 public:
     virtual ~Player() = default;
 
-    // The next frame will be the first one again, after all frames so far and without waiting for
+    // Makes the next frame the first one again, after all frames so far and without waiting for
     // them.
     virtual void reset() = 0;
-    // Plays the next frame. Throws Interrupted where the user asks to stop.
+    // Plays the next frame. Throws Interrupted if the user asks to stop.
     virtual void frame() = 0;
-    // Plays the next frame untimed, without planted work, and has the stage count what it does. All
+    // Plays the next frame untimed and without planted work, and counts its work in the stage. All
     // frames must be finished.
     virtual void count() = 0;
-    // As engine::FrameLoop's: what is known of complete frames without waiting, and all the rest.
+    // Like engine::FrameLoop's: the complete frames without waiting, and all remaining frames.
     virtual std::vector<engine::FrameRecord> completed() = 0;
     virtual std::vector<engine::FrameRecord> finish() = 0;
     // Picture and state of the last frame. All frames must be finished.
     virtual RoundEnd end() = 0;
 };
 
-// Steps of BusyWork in the pass of a name.
+// Steps of BusyWork in the named pass.
 struct PlantedWork {
     std::string pass;
     std::uint32_t steps = 0;
 };
 
-// s that Stage::timestampRate() watches both clocks.
+// Duration for which Stage::timestampRate() watches both clocks, s.
 inline constexpr double kRateTime = 0.1;
 
-// What measure() plays a case's frames on.
+// The stage of a case's frames for measure().
 class Stage {
 public:
     virtual ~Stage() = default;
 
-    // The case's frames, with the scene's own planted work.
+    // Plays the case's frames with the scene's own planted work.
     virtual std::unique_ptr<Player> player(engine::Timing timing) = 0;
-    // The case's frames with this work and no other.
+    // Plays the case's frames with only this work.
     virtual std::unique_ptr<Player> player(engine::Timing timing, const PlantedWork& planted) = 0;
-    // Frames of nothing but a pass of so many steps of BusyWork; of 0 without a pass.
+    // Plays frames with nothing but a pass of `steps` steps of BusyWork; with 0 steps there is no
+    // pass.
     virtual std::unique_ptr<Player> emptyPlayer(engine::Timing timing, std::uint32_t steps) = 0;
 
-    // Whether frames are made by the processors that also record them: there no clock has to be
-    // driven up, and a frame takes so long that what is between frames does not matter.
+    // True if the processors that record frames also make them. Then no clock has to be raised, and
+    // frames are so long that the time between frames is irrelevant.
     virtual bool isProcessor() const = 0;
 
-    // Whether time passes while samples are looked at, as it does outside a model.
+    // True if time passes while samples are assessed; false for a model.
     virtual bool runsBesideThought() const { return true; }
 
     // The machine's clock, s.
     virtual double seconds() = 0;
     virtual void pause(double seconds) = 0;
 
-    // Of the device's timestamps: how much faster they run than they should, by a clock that
-    // device and host can both read. Absent where there is no such clock. Takes kRateTime.
+    // Ratio of the device's timestamp rate to its nominal rate, by a clock that device and host can
+    // both read. Absent without such a clock. Takes kRateTime.
     virtual std::optional<double> timestampRate() = 0;
 
-    // ms by timestamps of a pass that records nothing: two barriers and two stamps. Absent where
-    // there are none.
+    // Time in ms, by timestamps, of an empty pass: two barriers and two stamps. Absent without
+    // timestamps.
     virtual std::optional<double> emptyPass() = 0;
 
-    // Begins to watch the machine.
+    // Starts watching the machine.
     virtual void beginWatch() = 0;
-    // What went on since beginWatch() or the last conditions(). Doesn't ask the device.
+    // Conditions since beginWatch() or the last conditions(). Does not query the device.
     virtual report::Conditions conditions() = 0;
 };
 
-// Plays frames without a pass. On a GPU with timestamps they have work that is as long as a frame
-// of the case, `frame` ms, or 2 ms where that is longer: whoever has waited for a millisecond wakes
-// up later than who has for some microseconds.
+// Plays frames without a pass and measures their submission. On a GPU with timestamps they contain
+// work as long as a frame of the case, `frame` ms, or 2 ms if that is shorter: a thread wakes up
+// later after a millisecond's wait than after some microseconds.
 EmptySubmission measureEmptySubmission(Stage& stage, double frame);
 
-// A case on a device. All must outlive it, and it its players.
+// A case on a device. All arguments must outlive it, and it must outlive its players.
 class DeviceStage : public Stage {
 public:
     // Throws engine::Unsupported for /run/async_compute on a device with one queue.
@@ -135,8 +137,8 @@ public:
         const engine::Device& device, Case& test_case, const hair::RunSettings& run,
         const MeasureHooks& hooks);
 
-    // Throw engine::Error, at the end of the first frames, where no pass has the planted work's
-    // name.
+    // Throw engine::Error, at the end of the first frames, if no pass has the name of the planted
+    // work.
     std::unique_ptr<Player> player(engine::Timing timing) override;
     std::unique_ptr<Player> player(engine::Timing timing, const PlantedWork& planted) override;
     std::unique_ptr<Player> emptyPlayer(engine::Timing timing, std::uint32_t steps) override;
@@ -148,7 +150,7 @@ public:
     void beginWatch() override { watch_.begin(); }
     report::Conditions conditions() override { return watch_.take(); }
 
-    // Statistics, transparency and warnings of the last frame that was counted.
+    // Statistics, transparency and warnings of the last counted frame.
     report::CaseResult takeCounted() { return std::move(counted_); }
 
 private:

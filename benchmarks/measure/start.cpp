@@ -49,7 +49,7 @@ StartInspection judgeStart(
             .speed = recordOf(condition.speed)}};
     std::vector<std::string>& warnings = start.warnings;
     const ConditionLimits limits;
-    // The thesis's iterations stretch hair: who asks for them gets the figure, and no warning.
+    // The thesis's iterations stretch hair. Scenes that select them get the value but no warning.
     const bool keeps_lengths = simulation.solver != hair::Solver::shape ||
                                (simulation.length.method == hair::LengthMethod::tridiagonal &&
                                 simulation.length.iterations > 0);

@@ -7,7 +7,7 @@
 #include "benchmarks/report/report.h"
 #include "hair/settings.h"
 
-// What the hair is like before the first frame, and what is wrong with it.
+// The state of the hair before the first frame, and its faults.
 namespace benchmarks::measure {
 
 struct StartInspection {
@@ -15,10 +15,10 @@ struct StartInspection {
     std::vector<std::string> warnings;
 };
 
-// Of a case that has played no frame. Waits for the device.
+// For a case that has played no frame. Waits for the device.
 StartInspection inspectStart(const Case& test_case);
 
-// The same of what was found.
+// Judges the given state in the same way.
 StartInspection judgeStart(
     const hair::simulation::GuideCondition& condition, const hair::simulation::RestBalance* balance,
     const hair::Settings& settings);

@@ -17,8 +17,8 @@ namespace {
 
 constexpr std::size_t kMostExact = 33;
 
-// P(so many inversions) of a random order of n, counted from 0: the n-th thing may stand before
-// 0 ... n - 1 of the others.
+// Probabilities of the number of inversions of a random order of n, from 0 up. The n-th item may
+// stand before 0 ... n - 1 of the others.
 std::vector<double> inversionProbabilities(std::size_t n) {
     std::vector<double> probabilities{1.0};
     for (std::size_t i = 2; i <= n; ++i) {
@@ -101,7 +101,7 @@ std::vector<double> withoutProfile(const RoundTimes& rounds) {
         std::vector<double> same;
         for (const std::vector<double>& round : rounds) same.push_back(round[frame]);
         const double usual = report::quantile(same, 0.5);
-        // Times of 0 are below the clock's resolution, and like each other.
+        // Times of 0 are below the clock's resolution and count as equal.
         for (std::size_t i = frame; i < relative.size(); i += frames)
             relative[i] = usual > 0.0 ? relative[i] / usual : 1.0;
     }
@@ -130,7 +130,7 @@ namespace {
 // ---- Rounds that still settle -------------------------------------------------------------------
 
 constexpr std::size_t kShortest = 8;  // 2 / 8! is below any share of the level
-constexpr std::size_t kMostBlocks = 64;  // the tests take time with the cube of it
+constexpr std::size_t kMostBlocks = 64;  // the tests take time cubic in this
 constexpr std::size_t kHeads[] = {2, 3, 4};
 
 using Levels = std::span<const double>;
@@ -180,7 +180,7 @@ bool settles(Levels levels, const SettlingRule& rule) {
 }  // namespace
 
 std::size_t settlingRounds(std::span<const double> levels, const SettlingRule& rule) {
-    const std::size_t size = (levels.size() + kMostBlocks - 1) / kMostBlocks;  // rounds to a block
+    const std::size_t size = (levels.size() + kMostBlocks - 1) / kMostBlocks;  // rounds per block
     std::vector<double> blocks;
     for (std::size_t i = 0; size > 0 && i + size <= levels.size(); i += size)
         blocks.push_back(report::quantile(levels.subspan(i, size), 0.5));
@@ -205,7 +205,8 @@ Assessment assess(const RoundTimes& rounds) {
     const std::vector<double> times = allTimes(kept);
     const std::vector<double> relative = withoutProfile(kept);
     const SteadyRule rule;
-    const bool comparable = kept.size() > 1;  // a single round has nothing to compare frames with
+    const bool comparable = kept.size() > 1;  // with a single round, frames have no counterpart to
+                                              // compare with
     if (comparable && relative.size() >= rule.window) result.steady = isSteady(relative, rule);
     result.median = report::quantile(times, 0.5);
     const double width = report::relativeHalfWidth(report::medianInterval(

@@ -27,7 +27,7 @@ std::vector<std::string> timestampFaults(
         const std::vector<double> stamped_times = passTimes(isolated, pass);
         const std::vector<double> clocked_times = passTimes(wall_clock, pass);
         if (clocked_times.empty()) continue;
-        // A busy machine only ever adds time, so the fastest frames are the ones to compare.
+        // A busy machine only adds time, so the fastest frames are compared.
         const double stamped = std::ranges::min(stamped_times);
         const double clocked = std::ranges::min(clocked_times);
         const bool too_long = stamped > clocked * (1.0 + kTrustTolerance) + slack;
@@ -45,16 +45,16 @@ std::vector<std::string> timestampFaults(
 
 namespace {
 
-constexpr std::uint32_t kPairs = 2;  // between two looks
+constexpr std::uint32_t kPairs = 2;  // between two checks
 constexpr std::uint32_t kMostPairs = 16;
-// Of fewer a disturbance can't be told from a fault.
+// With fewer pairs, a disturbance cannot be told from a fault.
 constexpr std::uint32_t kFewestPairs = 4;
 
-// Work that is planted in one pass after another: many times what submitting it may take.
+// Work that is planted in one pass after another: many times the possible cost of its submission.
 constexpr double kPlantedTime = 10.0;  // ms
 constexpr double kMostPlantedSteps = 1u << 30;
 
-// Clocks of a device and its host drift apart by some 1e-5; what is wrong is wrong by much.
+// Clocks of a device and its host drift apart by some 1e-5; real faults are large.
 constexpr double kRateTolerance = 0.01;
 
 }  // namespace
@@ -112,13 +112,13 @@ std::uint32_t stepsToSee(Stage& stage, const std::string& pass, double without) 
             stage.player(engine::Timing::wall_clock, {pass, static_cast<std::uint32_t>(steps)});
         const double planted = timeOf(playTwice(*player), pass) - without;
         if (planted >= kPlantedTime) break;
-        // What is long enough to be told from a submission says how much more is needed.
+        // A time well above that of a submission tells how much more is needed.
         steps *= planted > 0.2 * kPlantedTime ? 1.2 * kPlantedTime / planted : 4.0;
     }
     return static_cast<std::uint32_t>(std::min(steps, kMostPlantedSteps));
 }
 
-// Faults that are not in the list yet.
+// Adds faults that are not in the list yet.
 void addPlantedFaults(
     Stage& stage, const PlantedWork& planted, const std::function<bool()>& is_time,
     std::vector<std::string>& faults) {
@@ -179,7 +179,7 @@ TimestampJudgement judgeByPlantedWork(
     DeviceKnowledge& known) {
     const std::vector<std::string> passes = passNames(isolated);
     const double frame = medianWall(isolated);
-    // s, of the pairs between two looks; the work may take a half more than it is to.
+    // s, of the pairs between two checks; the work may take half as long again as planned.
     const double look = 2.0 * kPairs * (1.5 * kPlantedTime + frame) * 1e-3;
     // s, of the frames in which the work grows to its size.
     const double growth = (5.0 * kPlantedTime + 24.0 * frame) * 1e-3;
