@@ -21,24 +21,24 @@ namespace {
 
 // ---- Deflection by wind -------------------------------------------------------------------------
 
-// Hanging hairs of several lengths in a steady wind across them. Nothing but the air brings them to
-// rest, so that no friction of the solver's is in what is measured. Only where theory has them
-// rest: in 8 m/s the elastica's steady state is unstable from some length between 5 and 10 cm on,
-// and hair flutters. docs/physics.md has the growth rates.
+// Hanging hairs of several lengths in a steady wind across them. Only the air brings them to rest,
+// so the measurement does not depend on the solver's friction. The check covers only cases with a
+// stable rest in theory: in 8 m/s, the elastica's steady state is unstable from some length between
+// 5 and 10 cm on, and hair flutters. docs/physics.md has the growth rates.
 
 constexpr std::uint32_t kWindSegments = 64;
 constexpr std::array kWindLengths = {0.05, 0.1, 0.2};  // m
 struct SteadyWind {
     double speed;  // m/s
-    std::size_t lengths;  // the first of kWindLengths, which come to rest
+    std::size_t lengths;  // the first of kWindLengths, those that come to rest
 };
 constexpr SteadyWind kSteadyWinds[] = {{0.5, 3}, {2.0, 3}, {8.0, 1}};
 // Time steps, 1/s. Substeps of rods are the same in all but the last.
 constexpr std::array kWindRates = {30.0, 60.0, 480.0, 1920.0};
 constexpr double kWindPatience = 20.0;  // s
 constexpr double kWindStill = 1e-6;  // m in a tenth of a second
-constexpr double kDeflectionTolerance = 0.02;  // of the length, promised of `rod`
-constexpr double kRestTolerance = 0.01;  // of the length, promised of `rod` and of an energy
+constexpr double kDeflectionTolerance = 0.02;  // of the length, promised for `rod`
+constexpr double kRestTolerance = 0.01;  // of the length, promised for `rod` and for an energy
 
 hair::SimulationSettings inWind(hair::Solver solver, double speed) {
     hair::SimulationSettings settings = freeHair(solver);
@@ -47,9 +47,9 @@ hair::SimulationSettings inWind(hair::Solver solver, double speed) {
     return settings;
 }
 
-// The same hair with the local constraint of `shape` that has an energy, as stiff as the material,
-// so that theory has it rest where it has rods: K = EI / (lambda l^4), which
-// hair/simulation/stiffness.h has as -4 * 10 ln(1 - k) / (2 h0^2) at segments of l0.
+// The same hair with the energy method for the local constraint of `shape`. The stiffness is that
+// of the material, so that theory predicts the same rest as for rods: K = EI / (lambda l^4).
+// hair/simulation/stiffness.h has it as -4 * 10 ln(1 - k) / (2 h0^2) at segments of l0.
 hair::SimulationSettings withEnergy(hair::SimulationSettings settings) {
     const double square = std::pow(hair::simulation::kReferenceStep, 2.0);
     const double stiffness = bendingStiffness(settings.material) / lineDensity(settings.material) /
@@ -86,7 +86,7 @@ std::vector<InWind> restAtEveryStep(
     return rests;
 }
 
-// How far apart these have the tips of strands.
+// Reports the greatest distances between the tips of strands at rest.
 void findApart(
     std::span<const InWind> rests, std::span<const double> lengths, double speed,
     const std::string& metric, std::optional<double> tolerance, Findings& findings) {
@@ -158,20 +158,20 @@ namespace {
 
 // ---- Terminal speed -----------------------------------------------------------------------------
 
-// A level hair on a head that sinks through still air: where the air bears the weight it stays
-// level, whatever its stiffness; slower it droops, faster it rises. That speed is looked for by
-// the secant through the tip's rise relative to the head at two speeds near it.
+// A level hair on a head that sinks through still air. When the air bears the weight, the hair
+// stays level, whatever its stiffness. At a lower speed it droops, at a higher one it rises. The
+// speed is found with the secant through the tip's rise relative to the head at two nearby speeds.
 
 constexpr std::uint32_t kSinkingSegments = 32;
 constexpr double kSinkingLength = 0.1;  // m
-constexpr double kSinkingInterval = 0.1;  // of keyframes; the head speeds up during the first, s
+constexpr double kSinkingInterval = 0.1;  // of keyframes; the head accelerates during the first, s
 constexpr int kSinkingKeyframes = 6;
 constexpr double kSinkingTime = 0.2;  // s
 constexpr double kSinkingBracket = 0.01;  // of the speed, to both sides
-// The secant is off by a fraction of the bracket's square; the rest is rounding of positions.
+// The secant's error is a fraction of the bracket's square; the rest is rounding of positions.
 constexpr double kSinkingTolerance = 1e-3;
 
-// How far the tip has risen, m.
+// Rise of the tip, m.
 double riseOf(const engine::Device& device, hair::Solver solver, double speed) {
     hair::SimulationSettings settings = inWind(solver, 0.0);
     for (int i = 0; i < kSinkingKeyframes; ++i)

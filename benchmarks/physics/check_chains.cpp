@@ -16,8 +16,8 @@ namespace {
 constexpr std::uint32_t kCatenarySegments = 32;
 constexpr double kCatenaryLength = 0.2;  // m
 constexpr double kCatenarySpan = 0.1;  // m
-// 32 links instead of a chain differ by l^2 / (8 a L) at the lowest point, 0.04 %; the rest is for
-// the solver's stretch, and a rod's stiffness at its clamp.
+// 32 links differ from a chain by l^2 / (8 a L) at the lowest point, 0.04 %. The rest is for the
+// solver's stretch and for a rod's stiffness at its clamp.
 constexpr double kCatenaryTolerance = 0.01;
 
 // Two straight halves from pin to pin.
@@ -49,7 +49,7 @@ void checkCatenary(const engine::Device& device, hair::Solver solver, Findings& 
     for (std::uint32_t i = 0; i <= kCatenarySegments; ++i)
         expected.emplace_back(catenary.at(kCatenaryLength * i / kCatenarySegments), 0.0);
     std::optional<double> tolerance;
-    // Springs against bending and torsion hold the kink that the strand has at rest.
+    // Springs against bending and torsion keep the kink of the strand's rest shape.
     if (solver != hair::Solver::position_based_rod && solver != hair::Solver::augmented_mass_spring)
         tolerance = kCatenaryTolerance;
     Outcome& outcome = findings.deviation(
@@ -65,18 +65,17 @@ namespace {
 
 // ---- Free fall ----------------------------------------------------------------------------------
 
-// By the equivalence principle nothing acts on hair that falls together with its head. The head
-// goes along a true parabola, with a keyframe at every step: in between, the harmonic mean of
-// slopes v and v + dv is off by dv^2 / 4 v, which moves substeps by less than 1e-6 m at the speeds
-// below.
+// By the equivalence principle, nothing acts on hair that falls together with its head. The head
+// follows a true parabola, with a keyframe at every step. In between, the harmonic mean of slopes v
+// and v + dv is off by dv^2 / 4 v, which moves substeps by less than 1e-6 m at the speeds below.
 
 constexpr double kFallLength = 0.15;  // m
 constexpr double kFallInterval = 1.0 / 240.0;  // of a step, s
 constexpr int kKeyframes = 145;  // to 0.6 s
 constexpr double kFallStart = 0.1;  // s
 constexpr double kFallEnd = 0.5;  // s
-// Rounding of positions in single precision, 1.2e-7 m at 1 m, taken for motion in each of 96 steps:
-// at most 96^2 / 2 times that, which is 0.4 % of the length, and a tenth of it by chance.
+// Positions are rounded in single precision by 1.2e-7 m at 1 m, which acts as motion in each of 96
+// steps. The sum is at most 96^2 / 2 times that, 0.4 % of the length, and typically a tenth of it.
 constexpr double kFallTolerance = 1e-3;
 
 glm::dvec3 fallen(double time) {
@@ -92,7 +91,7 @@ std::vector<glm::dvec3> moved(std::vector<glm::dvec3> points, const glm::dvec3& 
 
 void checkFreeFall(const engine::Device& device, hair::Solver solver, Findings& findings) {
     hair::SimulationSettings settings = defaultHair(solver);
-    settings.friction = 0.0f;  // against the air, which does not fall
+    settings.friction = 0.0f;  // drag, because the air does not fall
     settings.time_step = static_cast<float>(kFallInterval);
     for (int i = 0; i < kKeyframes; ++i)
         settings.motion.keyframes.push_back(
@@ -130,7 +129,7 @@ constexpr float kHangingTimeSteps[] = {0.001f, 1.0f / 60.0f};  // s
 constexpr glm::dvec3 kHangingDown{0.0, -1.0, 0.0};
 constexpr glm::dvec3 kHangingSideways{1.0, 0.0, 0.0};
 
-// 64 equal masses swing 0.4 % slower than a chain does; a rod of Gamma = 10^6 swings 0.1 % faster.
+// 64 equal masses swing 0.4 % slower than a chain; a rod of Gamma = 10^6 swings 0.1 % faster.
 // Implicit Euler at 1/60 s swings slower by (w h)^2 / 3, 0.4 %.
 constexpr double kHangingTolerance = 0.01;
 
@@ -173,7 +172,7 @@ namespace {
 
 // ---- Length -------------------------------------------------------------------------------------
 
-constexpr double kStretchTolerance = 0.01;  // of the worst segment, promised of all but `ftl`
+constexpr double kStretchTolerance = 0.01;  // of the worst segment, promised for all but `ftl`
 
 }  // namespace
 
@@ -215,11 +214,10 @@ namespace {
 
 constexpr double kPendulumLink = 0.05;  // m
 // w h. Projection along the predicted links lowers the frequency by (w h)^2 / 3, 8e-4. A much
-// smaller step would measure single precision instead: of a correction along a hanging link, the
-// part down the link is lost when it is below the rounding of the position, while the part across
-// still counts.
+// smaller step would measure single precision instead. For a hanging link, the part of a correction
+// along the link is lost below the rounding of the position, while the part across it still counts.
 constexpr double kPhasePerStep = 0.05;
-// The above, the amplitude (6e-5), and rounding for as much again.
+// The above, the amplitude (6e-5), and about as much again for rounding.
 constexpr double kPendulumTolerance = 0.005;
 
 constexpr glm::dvec3 kPendulumDown{0.0, -1.0, 0.0};
@@ -264,8 +262,8 @@ namespace {
 
 // ---- Projectile ---------------------------------------------------------------------------------
 
-// n steps of Verlet in single precision at up to 4 m add up to about 1.5e-4 m of rounding, or 3e-5
-// of the drop (a random walk of velocity, 0.3 ulp a step); three times that.
+// n steps of Verlet in single precision at up to 4 m sum to about 1.5e-4 m of rounding, or 3e-5 of
+// the drop (a random walk of velocity, 0.3 ulp a step). The tolerance is three times that.
 constexpr double kProjectileTolerance = 1e-4;
 
 }  // namespace

@@ -20,21 +20,21 @@
 namespace benchmarks::physics {
 namespace {
 
-// Two bundles that cross, far from their roots, and nothing else acts: what one gives the other it
-// loses. Where they lie between the grid's cells is varied, for it is what repulsion's error
-// depends on.
+// Two bundles that cross far from their roots, without other forces: the momentum that one gains,
+// the other loses. Their position relative to the grid's cells is varied, because the error of
+// repulsion depends on it.
 
 constexpr std::uint32_t kAcross = 5;  // strands of a bundle, each way
 constexpr std::uint32_t kCrossingVertices = 33;
 constexpr double kCrossingLength = 0.2;  // m
 constexpr double kCrossingSpacing = 0.004;  // m
 constexpr int kPlacements = 8;
-constexpr double kClosing = 0.5;  // m/s, of each bundle toward the other
-// Positions are rounded to 3e-8 m, a part in 10^5 of what friction changes in a step; the grids'
-// integers leave less.
+constexpr double kClosing = 0.5;  // m/s, of each bundle towards the other
+// Positions are rounded to 3e-8 m, a part in 10^5 of the change by friction in a step. The error of
+// the grids' integers is smaller.
 constexpr double kFrictionTolerance = 1e-4;
 
-// One along x and one along z, that meet at their middles.
+// One along x and one along z, meeting at their middles.
 hair::groom::Groom crossing(double offset) {
     hair::groom::Groom groom{.vertices_per_strand = kCrossingVertices};
     for (int bundle = 0; bundle < 2; ++bundle)
@@ -56,7 +56,7 @@ hair::groom::Groom crossing(double offset) {
     return groom;
 }
 
-// What all vertices but the roots gain in a step, over what they gain without regard to direction.
+// The momentum gained in a step by all vertices except the roots, over the sum of its magnitudes.
 double momentumLost(
     const engine::Device& device, const hair::SimulationSettings& settings, double offset,
     double closing) {
@@ -82,7 +82,8 @@ double momentumLost(
 
 double worstPlacement(
     const engine::Device& device, const hair::SimulationSettings& settings, double closing) {
-    // Over one cell of a grid of this resolution, which is 1.1 lengths larger on every side.
+    // Covers one cell of a grid of this resolution. The grid extends 1.1 lengths beyond the strand
+    // on every side.
     const double cell = 3.2 * kCrossingLength / settings.hair_hair.resolution;
     double lost = 0.0;
     for (int i = 0; i < kPlacements; ++i)
@@ -116,45 +117,45 @@ namespace {
 
 // ---- Stick and slip -----------------------------------------------------------------------------
 
-// The set-up of the stick-slip test of Romero et al. 2021, after Sano, Yamaguchi and Wada 2017: a
-// hair without weight, clamped straight down over the ground, is pressed onto it. It buckles, its
-// tip sticks, and it slips when the ground's forces leave the cone of friction. The ground is a
-// capsule along the direction that the hair buckles in.
+// The set-up of the stick-slip test of Romero et al. 2021, after Sano, Yamaguchi and Wada 2017. A
+// weightless hair, clamped straight down above the ground, is pressed onto it. It buckles, its tip
+// sticks, and it slips when the ground's force leaves the friction cone. The ground is a capsule
+// along the buckling direction.
 
 constexpr std::uint32_t kPressedSegments = 32;
 constexpr double kPressedLength = 0.05;  // m
 constexpr double kGroundRadius = 0.5;  // m
 constexpr double kGroundLength = 0.2;  // m
-constexpr double kPressingSpeed = 0.12;  // of the length a second; its slowest period is 1/30 s
-// Amplitude of the shape that the hair begins in, rad: Euler's of the column that buckles, for a
-// straight hair does not know which way to go. The ground's force is 0.033 off the vertical then.
+constexpr double kPressingSpeed = 0.12;  // of the length per second; its slowest period is 1/30 s
+// Amplitude of the initial shape, rad. It is Euler's shape of the buckling column, because a
+// straight hair has no preferred direction. The ground's force is then 0.033 off the vertical.
 constexpr double kBuckledBy = 0.15;
-// Critical for the slowest mode of the hair between clamp and hinge, 15.4 sqrt(EI / lambda) / L^2.
+// Critical damping for the slowest mode of the hair between clamp and hinge, 15.4 sqrt(EI / lambda)
+// / L^2.
 constexpr double kPressedFriction = 400.0;  // 1/s
 constexpr float kPressedStep = 1.0f / 480.0f;  // s
-// In the first substep no force holds the tip, which slides by what a substep's square is
-// proportional to: at 1/480 s 1 % of the length, which would be 16 % of the compression at which it
-// slips next.
+// In the first substep no force holds the tip. It slides in proportion to the substep's square: at
+// 1/480 s by 1 % of the length. That would be 16 % of the compression at the next slip.
 constexpr std::uint32_t kPressedSubsteps = 4;
-// What counts as slip, over the length: rounding moves a tip that sticks by less.
+// Distance that counts as slip, over the length. Rounding moves a sticking tip by less.
 constexpr double kSlipped = 2e-3;
-// Coefficients of friction. From some 0.35 on the hair lies on the ground beside its tip before it
-// slips.
+// Coefficients of friction. From about 0.35 on, the hair lies on the ground beside its tip before
+// it slips.
 constexpr double kPressedFrictions[] = {0.1, 0.2, 0.3};
-constexpr double kSticking = 1.0;  // coefficient at which it never slips
-// 32 segments are within 0.3 % of a rod's statics. Slip is seen after a step more, and the
-// compression is measured at it: 5 % of the compression is 2 % of the ratio of the forces.
+constexpr double kSticking = 1.0;  // coefficient without slip
+// 32 segments are within 0.3 % of a rod's statics. The slip is seen one step late, and the
+// compression is measured then: 5 % of the compression is 2 % of the ratio of the forces.
 constexpr double kSlipTolerance = 0.05;
 constexpr double kPressedTolerance = 0.02;  // of the length
 
 struct Pressed {
     double compression;
-    double slid;  // how far the tip is from where the first step left it, over the length
-    glm::dvec2 middle;  // as PressedRod has it
+    double slid;  // distance of the tip from its position after the first step, over the length
+    glm::dvec2 middle;  // as in PressedRod
 };
 
-// A hair that has just buckled between a clamp at (0, -compression) and its tip on the ground at
-// (0, -1): psi = c (cos k z - cos k), tan k = k, z from the tip. Over its length.
+// A hair that has just buckled, between a clamp at (0, -compression) and its tip on the ground at
+// (0, -1): psi = c (cos k z - cos k), tan k = k, with z from the tip. In units of its length.
 std::vector<glm::dvec3> buckledColumn() {
     constexpr double kRoot = 4.493409457909064;
     std::vector<glm::dvec3> points{{0.0, -1.0, 0.0}};
@@ -169,13 +170,14 @@ std::vector<glm::dvec3> buckledColumn() {
     return points;
 }
 
-// Presses a hair until `ends` says so of how it is, or it is pressed by 0.35 of its length.
+// Presses a hair until `ends` returns true for its state, or until it is compressed by 0.35 of its
+// length.
 template <class Ends>
 std::vector<Pressed> press(
     const engine::Device& device, hair::SimulationSettings settings, double friction,
     const Ends& ends) {
     std::vector<glm::dvec3> start = buckledColumn();
-    // The tip of a shape to first order is off by the third, and the clamp is over it by that.
+    // The shape is of first order, so its tip is off in third order. The clamp is moved above it.
     for (glm::dvec3& point : start) point.x -= start.front().x * (point.y + 1.0);
     constexpr double kMostCompression = 0.35;
     const double least = -start.front().y;
@@ -222,26 +224,26 @@ std::vector<Pressed> press(
 
 // ---- Friction -----------------------------------------------------------------------------------
 
-// Two bundles that lie in each other and slide along themselves. Every cell has as much of either,
-// so that friction with the rate r, exp(-r / 60 s) = 1 - setting, brakes each toward the mean of
-// both: where nothing else acts the difference of their velocities dies as exp(-r t), and where one
-// is held and the other falls, that one falls at 2 g / r. Ends stick out and are left out: what
-// differs there reaches some cells far.
+// Two bundles that interpenetrate and slide lengthwise. Every cell has equal shares of both, so
+// friction with the rate r, exp(-r / 60 s) = 1 - setting, drags each towards the mean velocity.
+// Without other forces, the velocity difference decays as exp(-r t). If one bundle is held and the
+// other falls, it falls at 2 g / r. The ends stick out and are omitted; their influence extends
+// over some cells.
 
-constexpr std::uint32_t kSlidingStrands = 3;  // of a bundle
+constexpr std::uint32_t kSlidingStrands = 3;  // per bundle
 constexpr std::uint32_t kSlidingVertices = 65;
 constexpr double kSlidingLength = 0.2;  // m
 constexpr double kSlidingSpeed = 0.05;  // m/s, of each bundle
 constexpr double kSlidingTime = 1.0 / 15.0;  // s
 constexpr float kSlidingFriction = 0.5f;
 constexpr double kSlidingRates[] = {30.0, 60.0, 120.0, 480.0};  // time steps, 1/s
-// Settings of friction at which hair comes down, and its weight: slow, so that it ends where it
-// began but for some cells.
+// Friction settings for the falling hair, and its weight. It is slow, so that it moves only some
+// cells.
 constexpr float kFallingFrictions[] = {0.5f, 0.8f};
 constexpr double kFallingWeight = 1.0;  // m/s^2
-constexpr double kFallingTime = 0.5;  // s; more than ten times what it takes to come to its speed
-// Floats of 0.1 m are rounded to 4e-9 m, which at 1/480 s is 1e-3 of the least speed; vertices lie
-// less than half a cell apart, and what their splines miss of a constant density is 2e-3.
+constexpr double kFallingTime = 0.5;  // s; over ten times the time to reach the final speed
+// Floats of 0.1 m are rounded to 4e-9 m, which at 1/480 s is 1e-3 of the lowest speed. Vertices are
+// less than half a cell apart, and their splines deviate from a constant density by 2e-3.
 constexpr double kSlidingTolerance = 5e-3;
 
 hair::SimulationSettings slidingHair(hair::Solver solver, float friction, double rate) {
@@ -265,7 +267,7 @@ hair::groom::Groom slidingGroom() {
     return groom;
 }
 
-// Mean velocities of the two bundles' middle thirds along y, over the experiment's next step.
+// Mean velocities along y of the two bundles' middle thirds, over the experiment's next step.
 std::array<double, 2> slidingVelocities(Experiment& experiment) {
     const std::vector<glm::dvec3> before = experiment.positions();
     experiment.advance(1);
@@ -315,7 +317,7 @@ void checkStickSlip(const engine::Device& device, hair::Solver solver, Findings&
         "compression at which it slips", {{"friction", "1"}, {"measured", "1"}, {"theory", "1"}},
         std::move(rows));
 
-    // With enough friction the same hair goes on along the same branch.
+    // With enough friction, the same hair continues along the same branch.
     const std::vector<Pressed> states =
         press(device, settings, kSticking, [](const Pressed&) { return false; });
     double slid = 0.0;
@@ -348,7 +350,7 @@ void checkFrictionInvariance(
         std::vector<glm::dvec3> velocities(points.size(), {0.0, kSlidingSpeed, 0.0});
         for (std::size_t i = half; i < points.size(); ++i) velocities[i] *= -1.0;
         experiment.launch(points, velocities);
-        // What a vertex moves in the last step is its velocity at that step's end.
+        // The displacement of a vertex in the last step is its velocity at that step's end.
         experiment.advance(experiment.stepsIn(kSlidingTime) - 1);
         const auto [up, down] = slidingVelocities(experiment);
         findings.compare(

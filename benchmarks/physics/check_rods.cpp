@@ -17,20 +17,22 @@ namespace {
 
 // ---- Bend-twist ---------------------------------------------------------------------------------
 
-// The set-up of the bend-twist test of Romero et al. 2021: a curl that hangs from a clamp stays in
-// its plane where its weight rules, and winds out of it where its curvature does; cbrt(Gamma) /
-// (curvature times length) tells which. The boundary is where Kirchhoff's equations, linearised
-// about the curl in its plane, have a solution out of it.
+// The set-up of the bend-twist test of Romero et al. 2021. A curl that hangs from a clamp stays in
+// its plane if its weight dominates, and winds out of the plane if its curvature does. The ratio
+// cbrt(Gamma) / (curvature times length) decides. At the boundary, Kirchhoff's equations,
+// linearised about the planar curl, have a solution out of the plane.
 
 constexpr std::uint32_t kBendTwistSegments = 64;
 constexpr double kBendTwistGamma = 100.0;
 constexpr double kBendTwistPush = 0.05;  // out of the plane at the tip, m/s
 constexpr double kBoundaryGammas[] = {10.0, 100.0};
-// Of the boundary's curvature, to both sides: promised of `rod`.
+// As a share of the boundary's curvature, to both sides; promised for `rod`.
 constexpr double kBoundaryBracket = 0.02;
-// At the boundary the slowest mode stands still: friction that lets it settle soon on both sides.
+// At the boundary the slowest mode has zero frequency. This friction lets it settle soon on both
+// sides.
 constexpr double kBoundaryFriction = 4.0;  // 1/s
-// Beyond the boundary the distance grows as a root, to a sixth of the length and more within 2 %.
+// Beyond the boundary the distance grows like a square root, to at least a sixth of the length
+// within 2 %.
 constexpr double kStays = 0.01;  // of the length
 constexpr double kLeaves = 0.05;
 
@@ -54,7 +56,7 @@ Wound windOut(
     return wound;
 }
 
-// Between which curvatures hair begins to leave its plane, against theory's.
+// Brackets the curvature at which hair leaves its plane, against theory.
 void checkBoundary(
     const engine::Device& device, hair::SimulationSettings settings, Findings& findings) {
     settings.friction = frictionOf(kBoundaryFriction);
@@ -113,7 +115,7 @@ void checkBendTwist(const engine::Device& device, hair::Solver solver, Findings&
     findings.curve(
         "distance from its plane, gamma 100",
         {{"cbrt(gamma) / (curvature * length)", "1"}, {"distance / length", "1"}}, std::move(rows));
-    // A minute in the many substeps of the others would take longer than all other checks.
+    // A minute in the many substeps of the other solvers would take longer than all other checks.
     if (solver == hair::Solver::rod) checkBoundary(device, settings, findings);
 }
 
@@ -121,24 +123,24 @@ namespace {
 
 // ---- Lateral buckling ---------------------------------------------------------------------------
 
-// Romero et al. 2021: what is deep and thin, clamped level on its edge, falls over sideways from
-// some length on. Hairs whose section is an ellipse, of the ratio that the flattest people's have
-// and of a greater one, just below and above the length at which theory has them leave their plane,
-// and well beyond it. All get a push out of it.
+// Romero et al. 2021: a deep and thin beam, clamped level on its edge, buckles sideways from some
+// length on. The hairs have elliptic sections, with the ratio of the flattest human hair and with a
+// greater one. Their lengths are just below and above the theoretical buckling length, and well
+// beyond it. All get a push out of the plane.
 
 constexpr std::uint32_t kBucklingSegments = 64;
 constexpr double kEllipticities[] = {1.8, 4.0};
-// Weights over that at which the hair buckles. Weight times length cubed is what counts, so that
-// lengths are as their cube roots.
+// Weights relative to the buckling weight. Only weight times length cubed matters, so lengths vary
+// as the cube roots.
 constexpr double kBucklingWeights[] = {0.97, 1.02, 1.04, 1.2, 1.5};
 constexpr double kBucklingPush = 0.02;  // out of the plane at the tip, m/s
-// Near the weight w at which it buckles the hair's slowest mode has the frequency w0 sqrt(|1 - w|),
-// w0 of some 10/s: friction of twice 10/s sqrt(0.04) lets it come to rest soonest.
+// Near the buckling weight w, the hair's slowest mode has the frequency w0 sqrt(|1 - w|) with w0 of
+// some 10/s. Friction of twice 10/s sqrt(0.04) brings it to rest soonest.
 constexpr double kBucklingFriction = 4.0;  // 1/s
 constexpr double kBucklingPatience = 60.0;  // s
 // 64 segments are within 0.1 % of a rod's statics.
 constexpr double kBucklingTolerance = 0.01;  // of the weight, and of the length below it
-constexpr double kBuckledTolerance = 0.02;  // of the length, as promised of the rod's statics
+constexpr double kBuckledTolerance = 0.02;  // of the length, as promised for the rod's statics
 
 }  // namespace
 
@@ -174,7 +176,7 @@ void checkLateralBuckling(const engine::Device& device, hair::Solver solver, Fin
         const std::vector<glm::dvec3> points = experiment.positions();
 
         const Parameter section{"ellipticity", ellipticity, "1"};
-        std::vector<double> squares;  // of the distances from the plane over the length
+        std::vector<double> squares;  // of the distances from the plane, relative to the length
         const auto remark = [&](Outcome& outcome) {
             if (!still && outcome.reason.empty()) outcome.reason = "still moving after 60 s";
         };
@@ -201,9 +203,9 @@ void checkLateralBuckling(const engine::Device& device, hair::Solver solver, Fin
                 {"tip's distance from the buckled rod / length", "1", parameters},
                 glm::distance({tip.x, tip.y, std::abs(tip.z)}, theory), kBuckledTolerance));
         }
-        // Beyond the critical weight the square of the distance grows in proportion to what the
-        // weight is more: a straight line through two of them, which theory's own two are within
-        // 0.1 % of.
+        // Beyond the critical weight, the square of the distance grows in proportion to the excess
+        // weight. The critical weight is found with a straight line through two of them; with
+        // theory's own two values it is within 0.1 %.
         const double slope =
             (squares[2] - squares[1]) / (kBucklingWeights[2] - kBucklingWeights[1]);
         remark(findings.compare(
@@ -229,8 +231,8 @@ namespace {
 
 constexpr std::uint32_t kBendingSegments = 32;
 constexpr double kBendingLength = 0.1;  // m
-constexpr float kBendingTimeStep = 0.0005f;  // s; implicit steps damp by w h / 2 = 0.3 % a radian
-constexpr double kBendingTolerance = 0.02;  // promised of rods that are solved, not corrected
+constexpr float kBendingTimeStep = 0.0005f;  // s; implicit steps damp by w h / 2 = 0.3 % per radian
+constexpr double kBendingTolerance = 0.02;  // promised for rods that are solved, not corrected
 
 constexpr glm::dvec3 kBendingAlong{1.0, 0.0, 0.0};
 constexpr glm::dvec3 kBendingSideways{0.0, 1.0, 0.0};
@@ -272,17 +274,16 @@ namespace {
 
 // ---- Bending decay ------------------------------------------------------------------------------
 
-// The damping of Kelvin and Voigt takes w^2 damping / 2 per second from a mode of w rad/s. A
-// substep changes that by w^2 substep damping / 4 at most, 0.8 %, and 32 segments swing 0.1 % too
-// slowly.
+// Kelvin-Voigt damping takes w^2 damping / 2 per second from a mode of w rad/s. A substep changes
+// that by at most w^2 substep damping / 4, 0.8 %, and 32 segments swing 0.1 % too slowly.
 constexpr double kDecayTolerance = 0.03;
 constexpr double kHalfLives[] = {0.25, 2.0};  // s
 constexpr float kDecayRates[] = {60.0f, 240.0f, 480.0f};  // steps per second
 constexpr double kDecaySpeed = 0.02;  // of the tip, m/s
 constexpr int kDecaySamples = 12;  // a quarter of a period apart
 
-// 1/s, of what swings freely, by least squares of y[k + 1] = s y[k] - d y[k - 1]: d is
-// exp(-2 rate interval).
+// Decay rate of a free oscillation, 1/s, by least squares of y[k + 1] = s y[k] - d y[k - 1], where
+// d is exp(-2 rate interval).
 double decayRateOf(std::span<const double> samples, double interval) {
     double yy = 0.0;
     double yz = 0.0;
@@ -349,20 +350,20 @@ namespace {
 // ---- Cantilever and its convergence -------------------------------------------------------------
 
 // Romero et al. 2021, Physical validation of simulators in computer graphics, section 4.1: a
-// straight hair, clamped horizontally, under its weight.
+// straight hair, clamped horizontally, sags under its weight.
 
 constexpr std::uint32_t kCantileverSegments = 64;
 constexpr std::uint32_t kThesisSegments = 7;
 constexpr double kCantileverPatience = 20.0;  // s
 
 struct Sag {
-    double ratio;  // H / W: drop over reach; not a number if it hangs straight down
+    double ratio;  // H / W: drop over reach; NaN if it hangs straight down
     bool hangs;
     bool still;
 };
 
-// Damped critically at the first frequency, which stiffness and weight make together, to come to
-// rest soon.
+// Friction is critical at the first frequency, which combines stiffness and weight, so that the
+// hair comes to rest soon.
 Sag sagOf(
     const engine::Device& device, hair::SimulationSettings settings, std::uint32_t segments,
     double length) {
@@ -386,7 +387,7 @@ void remark(const Sag& sag, Outcome& outcome) {
         outcome.reason = "still moving after 20 s";
 }
 
-// Promised of `rod` alone, with 64 segments. At Gamma = 1000 nearly all of the bend is within three
+// Promised only for `rod`, with 64 segments. At Gamma = 1000, nearly the whole bend is within three
 // segments of the clamp.
 std::optional<double> toleranceOf(hair::Solver solver, double gamma) {
     if (solver != hair::Solver::rod) return {};
@@ -400,7 +401,8 @@ void checkCantilever(
     Findings& findings) {
     if (const auto why = lack(solver, Need::bending)) return findings.skip(*why);
     const hair::SimulationSettings settings = freeHair(solver);
-    // The thesis's stiffness is for its own few segments; with more, iterations don't get far.
+    // The thesis's stiffness is meant for its own few segments; with more, iterations converge too
+    // slowly.
     std::vector<std::uint32_t> segment_counts{kCantileverSegments};
     if (lack(solver, Need::material)) segment_counts.push_back(kThesisSegments);
     for (const std::uint32_t segments : segment_counts) {
@@ -425,15 +427,15 @@ void checkCantilever(
     }
 }
 
-// Second-order methods quarter the error with every doubling; what is asked is that it falls, down
-// to what single precision and the settling leave.
+// Second-order methods quarter the error with every doubling. The check requires only that the
+// error falls, down to the limits of single precision and settling.
 void checkConvergence(const engine::Device& device, hair::Solver solver, Findings& findings) {
     if (const auto why = lack(solver, Need::material)) return findings.skip(*why);
     constexpr double kGamma = 10.0;
     constexpr double kFloor = 2e-4;
     const hair::SimulationSettings settings = freeHair(solver);
     const double expected = cantileverRatio(kGamma);
-    std::optional<double> tolerance;  // the coarsest has nothing to be better than
+    std::optional<double> tolerance;  // none for the coarsest
     std::vector<std::vector<double>> rows;
     for (const std::uint32_t segments : {8u, 16u, 32u, 64u, 128u}) {
         const Sag sag = sagOf(device, settings, segments, lengthOf(settings.material, kGamma));
@@ -455,14 +457,14 @@ namespace {
 
 // ---- Clamp twist --------------------------------------------------------------------------------
 
-// Nothing holds a curl's free end, so in the end there is no torque and no twist in it: it must
-// turn as far as its root does about its own axis.
+// Nothing holds a curl's free end, so at rest there is no torque and no twist in it. It must turn
+// by the angle by which its root turns about its own axis.
 
 constexpr std::uint32_t kTwistSegments = 32;
 constexpr double kTwistLength = 0.1;  // m
 constexpr double kTwistCurvature = 15.0;  // 1/m
 constexpr double kTwistTurn = 90.0;  // deg, within 0.5 s
-constexpr double kTwistTolerance = 0.02;  // as promised of the rod's statics
+constexpr double kTwistTolerance = 0.02;  // as promised for the rod's statics
 
 }  // namespace
 

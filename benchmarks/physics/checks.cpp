@@ -22,7 +22,7 @@ namespace {
 // ---- All checks ---------------------------------------------------------------------------------
 
 constexpr unsigned kMasses[] = {1, 2, 3, 5};
-// The ratios at which Romero et al. 2021 and the tables of docs/physics.md are read.
+// The ratios at which Romero et al. 2021 and the tables of docs/physics.md are evaluated.
 constexpr double kGammas[] = {0.1, 1.0, 5.0, 10.0, 50.0, 100.0, 1000.0};
 
 constexpr Check kChecks[] = {
@@ -124,14 +124,14 @@ namespace {
 
 // ---- Energy -------------------------------------------------------------------------------------
 
-// A hair let go from the horizontal. What its energy is compared with is the weight's at half its
-// length: what it loses from there to hanging down.
+// A hair released from the horizontal. Its energy is relative to the weight's at half its length,
+// which it loses from there to hanging down.
 
 constexpr std::uint32_t kEnergySegments = 16;
 constexpr double kEnergyLength = 0.15;  // m
 constexpr double kEnergyWindow = 0.25;  // s
-// The sampled energy of one window may pass that of the one before by rounding and by what the
-// samples miss of the true maximum.
+// The greatest sampled energy of a window may exceed that of the previous window by rounding and by
+// the samples' distance from the true maximum.
 constexpr double kEnergyTolerance = 1e-3;
 
 std::vector<double>
@@ -151,7 +151,7 @@ energies(const engine::Device& device, const hair::SimulationSettings& settings,
     return samples;
 }
 
-// Slope of the straight line through the samples (least squares), per interval.
+// Slope of the least-squares line through the samples, per interval.
 double slopeOf(std::span<const double> samples) {
     const double middle = static_cast<double>(samples.size() - 1) / 2.0;
     double products = 0.0;
@@ -164,7 +164,7 @@ double slopeOf(std::span<const double> samples) {
     return products / squares;
 }
 
-// By how much the greatest energy of a window passes that of the window before.
+// Greatest increase of the maximum energy from one window to the next.
 double greatestGrowth(std::span<const double> samples, std::size_t window) {
     double growth = 0.0;
     double before = std::numeric_limits<double>::infinity();
@@ -181,11 +181,11 @@ double greatestGrowth(std::span<const double> samples, std::size_t window) {
 }  // namespace
 
 void checkEnergy(const engine::Device& device, hair::Solver solver, Findings& findings) {
-    // A solver step at a time, or what happens between two looks would be averaged.
+    // Uses one solver step per time step; otherwise the energy would be averaged over several.
     hair::SimulationSettings settings = freeHair(solver);
     settings.time_step = hair::simulation::stepOf(settings).sub;
     settings.substeps = 1;
-    // Shape constraints have no energy that could be counted, and a ghost's is not.
+    // Shape constraints have no countable energy, and a ghost's energy is not counted.
     settings.local.stiffness = 0.0f;
     settings.augmented_mass_spring.integrity = 0.0f;
     settings.augmented_mass_spring.angular_stiffness = 0.0f;
@@ -228,16 +228,16 @@ namespace {
 
 // ---- Invariance to step, substeps, segments, iterations -----------------------------------------
 
-// Does hair move the same whatever the step, the number of segments and of iterations? Default hair
-// let go from the horizontal; the finest run is the reference.
+// Checks whether hair moves the same for all steps, numbers of segments and numbers of iterations.
+// Default hair is released from the horizontal; the finest run is the reference.
 
-constexpr double kInvarianceTolerance = 0.02;  // between 1/60 s and 1/480 s, promised of rods
+constexpr double kInvarianceTolerance = 0.02;  // between 1/60 s and 1/480 s, promised for rods
 constexpr std::uint32_t kInvarianceSegments = 16;
-// Of generalized_alpha from 8 substeps on: the reference in double has 0.0023 at 8, which halving
-// the substep quarters; as much again for 32 bits and what it depends on them by.
+// For generalized_alpha from 8 substeps on. The reference in double precision has 0.0023 at 8, and
+// halving the substep quarters that. The tolerance adds as much again for 32 bits.
 constexpr double kSecondOrderTolerance = 0.005;
 
-// Differences from the last run, as a curve and a value each.
+// Reports differences from the last run, as a curve and as single values.
 void reportDifferences(
     Findings& findings, const Parameter& varied, const std::vector<double>& values,
     const std::vector<Trajectory>& runs) {
@@ -277,7 +277,7 @@ void checkStepInvariance(const engine::Device& device, hair::Solver solver, Find
          {{"time_step", steps[1], "s"}, {"other time_step", steps[4], "s"}}},
         differenceOf(runs[1], runs[4]), tolerance);
 
-    // Air that brakes acts in every substep, so that the same promise holds in it.
+    // Drag acts in every substep, so the same promise holds with it.
     const auto playInAir = [&](double step) {
         hair::SimulationSettings settings = defaultHair(solver);
         settings.time_step = static_cast<float>(step);
@@ -291,7 +291,7 @@ void checkStepInvariance(const engine::Device& device, hair::Solver solver, Find
         differenceOf(playInAir(steps[1]), playInAir(steps[4])), tolerance);
 }
 
-// What the length of a substep does by itself: numerical damping.
+// The effect of the substep's length alone: numerical damping.
 void checkSubstepInvariance(const engine::Device& device, hair::Solver solver, Findings& findings) {
     std::vector<double> counts;
     std::vector<Trajectory> runs;
@@ -304,7 +304,7 @@ void checkSubstepInvariance(const engine::Device& device, hair::Solver solver, F
     reportDifferences(findings, {.name = "substeps", .unit = "count"}, counts, runs);
     if (solver != hair::Solver::rod) return;
 
-    // A method of second order has less of that: its own finest run is the reference.
+    // A second-order method has less numerical damping. Its own finest run is the reference.
     const auto play = [&](std::uint32_t substeps) {
         hair::SimulationSettings settings = defaultHair(solver);
         settings.rod.integrator = hair::RodIntegrator::generalized_alpha;
@@ -353,7 +353,8 @@ namespace {
 std::vector<glm::vec3> play(const engine::Device& device, hair::Solver solver) {
     Experiment experiment(device, livelyGroom(), livelyHair(solver));
     experiment.advance(experiment.stepsIn(2.0));
-    const std::vector<glm::dvec3> points = experiment.positions();  // exactly what was read
+    const std::vector<glm::dvec3> points = experiment.positions();  // exactly the values that were
+                                                                    // read
     return {points.begin(), points.end()};
 }
 

@@ -8,9 +8,8 @@
 #include "engine/device.h"
 #include "hair/settings.h"
 
-// The validation suite: docs/physics.md says what each check does and where its theory is from.
-// Each plays one solver on the device, and throws engine::Interrupted when the user asks to
-// stop.
+// The validation suite. docs/physics.md describes each check and the source of its theory. Each
+// check plays one solver on the device, and throws engine::Interrupted if the user asks to stop.
 namespace benchmarks::physics {
 
 struct Check {
@@ -20,28 +19,28 @@ struct Check {
 
 std::span<const Check> allChecks();
 
-// The solvers of these names; all that can be checked where there are none. Throws engine::Error
-// "--solver <name>: ..." for one that is unknown.
+// Returns the solvers of these names, or all that can be checked if there are none. Throws
+// engine::Error "--solver <name>: ..." for an unknown name.
 std::vector<hair::Solver> chosenSolvers(const std::vector<std::string>& names);
 
-// The checks whose names match. Throws engine::Error "--check <regex>: ..." for what is no regular
-// expression.
+// Returns the checks with matching names. Throws engine::Error "--check <regex>: ..." for an
+// invalid regular expression.
 std::vector<Check> chosenChecks(const std::string& regex);
 
-// Adds what each check finds out about each solver to the report, with progress on stderr. A check
-// that can't be carried out is part of the result, and the others follow. Where the user stops it,
-// what was found until then is kept and `report.interrupted` set.
+// Adds the results of each check for each solver to the report, with progress on stderr. A check
+// that cannot be carried out is part of the result, and the others follow. If the user stops it,
+// the results so far are kept and `report.interrupted` is set.
 void runChecks(
     const engine::Device& device, std::span<const Check> checks,
     std::span<const hair::Solver> solvers, PhysicsReport& report);
 
 // ---- Against theory -----------------------------------------------------------------------------
 
-// A free vertex against Verlet's exact parabola.
+// Compares a free vertex with Verlet's exact parabola.
 void checkProjectile(const engine::Device&, hair::Solver, Findings&);
-// Hair on a head that falls freely is not deformed.
+// Checks that hair on a freely falling head is not deformed.
 void checkFreeFall(const engine::Device&, hair::Solver, Findings&);
-// Frequencies of all modes of pendulums with so many equal masses.
+// Frequencies of all modes of pendulums with these numbers of equal masses.
 void checkPendulum(
     const engine::Device&, hair::Solver, std::span<const unsigned> masses, Findings&);
 // First period of a hanging chain.
@@ -55,24 +54,24 @@ void checkCantilever(
 void checkConvergence(const engine::Device&, hair::Solver, Findings&);
 // First frequency of a clamped hair without weight.
 void checkBendingFrequency(const engine::Device&, hair::Solver, Findings&);
-// Half-life of that vibration against the material's damping.
+// Half-life of the same vibration against the material's damping.
 void checkBendingDecay(const engine::Device&, hair::Solver, Findings&);
-// A curl follows its root's turn about its own axis.
+// Checks that a curl follows its root's rotation about its own axis.
 void checkClampTwist(const engine::Device&, hair::Solver, Findings&);
-// How far a hanging curl leaves its plane, and from which curvature on.
+// Distance of a hanging curl from its plane, and the curvature at which it leaves the plane.
 void checkBendTwist(const engine::Device&, hair::Solver, Findings&);
-// The length at which a level hair of an elliptic section leaves its plane, and where to.
+// The length at which a level hair of elliptic section leaves its plane, and its buckled shape.
 void checkLateralBuckling(const engine::Device&, hair::Solver, Findings&);
-// Where wind holds hanging hair, at any time step.
+// Rest position of hanging hair in wind, at any time step.
 void checkDragDeflection(const engine::Device&, hair::Solver, Findings&);
-// The speed at which hair that falls is borne by the air.
+// The speed at which the air bears falling hair.
 void checkTerminalSpeed(const engine::Device&, hair::Solver, Findings&);
 
-// When a hair that is pressed onto the ground slips.
+// Compression at which a hair pressed onto the ground slips.
 void checkStickSlip(const engine::Device&, hair::Solver, Findings&);
-// Momentum that contact of hair with hair loses.
+// Momentum lost by contact of hair with hair.
 void checkContactMomentum(const engine::Device&, hair::Solver, Findings&);
-// How fast hair slides past hair, at any time step.
+// Sliding speed of hair past hair, at any time step.
 void checkFrictionInvariance(const engine::Device&, hair::Solver, Findings&);
 
 // ---- Against itself -----------------------------------------------------------------------------
@@ -83,7 +82,7 @@ void checkStepInvariance(const engine::Device&, hair::Solver, Findings&);
 void checkSubstepInvariance(const engine::Device&, hair::Solver, Findings&);
 void checkSegmentInvariance(const engine::Device&, hair::Solver, Findings&);
 void checkIterationInvariance(const engine::Device&, hair::Solver, Findings&);
-// Two equal runs end in the same bits.
+// Checks that two equal runs end with the same bits.
 void checkStateHash(const engine::Device&, hair::Solver, Findings&);
 
 }  // namespace benchmarks::physics

@@ -78,7 +78,7 @@ Experiment::Experiment(
       simulation_(device, groom, settings, kSeed) {}
 
 void Experiment::advance(std::uint32_t steps) {
-    // Contact of hair with hair adds to what the air does.
+    // Hair-hair contact adds to the accelerations of the air.
     const bool wind = hasWind(settings_.wind) || simulation_.hasVolume();
     while (steps > 0) {
         engine::checkInterrupted();
@@ -141,8 +141,8 @@ namespace {
 
 // ---- Settings of the solvers --------------------------------------------------------------------
 
-// Weight over stiffness of a rod that is to hang like a chain: it bends within L / sqrt(Gamma) of
-// the clamp, a thousandth of its length.
+// Weight over stiffness of a rod that hangs like a chain: it bends within L / sqrt(Gamma) of the
+// clamp, a thousandth of its length.
 constexpr double kChainGamma = 1e6;
 
 struct Lack {
@@ -183,7 +183,7 @@ constexpr Lack kLacks[] = {
     {hair::Solver::ftl, Need::iterations, "it has no iterations"},
 };
 
-// The Gamma of a hair that is so long: lengthOf() has what that is.
+// The Gamma of a hair of this length; see lengthOf().
 double gammaOf(const hair::MaterialSettings& material, double length) {
     return lineDensity(material) * kGravity * std::pow(length, 3.0) / bendingStiffness(material);
 }
@@ -281,7 +281,7 @@ constexpr int kSamples = 60;
 constexpr double kInterval = 1.0 / 30.0;  // s
 constexpr std::uint32_t kPoints = 8;
 
-// Fraction of a step up to which a number of steps counts as whole: the step's length is rounded.
+// Tolerance, as a fraction of a step, for an integer number of steps: the step's length is rounded.
 constexpr double kNoFraction = 1e-3;
 
 std::vector<glm::dvec3> every(const std::vector<glm::dvec3>& points, std::uint32_t stride) {

@@ -23,16 +23,16 @@ inline constexpr double kPi = 3.14159265358979323846;
 hair::groom::Groom
 straightStrand(std::uint32_t segments, double length, const glm::dvec3& direction);
 
-// As many strands from the origin along a unit vector, of these lengths. m
+// Strands of these lengths from the origin along a unit vector. m
 hair::groom::Groom straightStrands(
     std::uint32_t segments, std::span<const double> lengths, const glm::dvec3& direction);
 
-// A strand that is `length` long and constantly curved (1/m) from -y toward +x. Its vertices lie on
+// A strand of length `length` with constant curvature (1/m) from -y towards +x. Its vertices lie on
 // the circle.
 hair::groom::Groom curvedStrand(std::uint32_t segments, double length, double curvature);
 
 // A groom in a simulation that is played step by step. Throws engine::Interrupted between
-// submissions when the user asked to stop. Borrows the device.
+// submissions if the user asked to stop. Borrows the device.
 class Experiment {
 public:
     Experiment(
@@ -41,13 +41,13 @@ public:
 
     void advance(std::uint32_t steps);
 
-    // Steps until no vertex moves by more than `distance` in a tenth of a second; false if that
-    // takes longer than `seconds`.
+    // Plays steps until no vertex moves by more than `distance` in a tenth of a second. Returns
+    // false if that takes longer than `seconds`.
     bool settle(double distance, double seconds);
 
     // Sets the positions, without velocity.
     void place(std::span<const glm::dvec3> positions);
-    // Sets positions and velocities, both of one substep ago. m/s
+    // Sets positions and velocities, both at one substep ago. m/s
     void launch(std::span<const glm::dvec3> positions, std::span<const glm::dvec3> velocities);
     void pin(std::span<const std::uint32_t> vertices);
 
@@ -55,7 +55,7 @@ public:
 
     double timeStep() const { return settings_.time_step; }
     double substep() const { return substep_; }
-    // Steps in this time, at least one.
+    // Number of steps in this time, at least one.
     std::uint32_t stepsIn(double seconds) const;
 
 private:
@@ -68,8 +68,8 @@ private:
 // Greatest distance between points of the same index, m.
 double greatestDistance(std::span<const glm::dvec3> a, std::span<const glm::dvec3> b);
 
-// Where n steps of Verlet's integration take a point that came with `velocity`: n v h + n (n + 1) /
-// 2 a h^2, the sum of the displacements (v + m a h) h. Exact, where the true parabola has n^2.
+// Displacement after n steps of Verlet's integration with the initial `velocity`: n v h + n (n + 1)
+// / 2 a h^2, the sum of the displacements (v + m a h) h. This is exact; the true parabola has n^2.
 inline glm::dvec3
 verletFlight(double n, const glm::dvec3& velocity, const glm::dvec3& acceleration, double step) {
     return n * step * velocity + 0.5 * n * (n + 1.0) * step * step * acceleration;
@@ -83,45 +83,46 @@ hair::SimulationSettings livelyHair(hair::Solver solver);
 // Sixteen hanging strands of the thesis's 8 vertices, 1 cm apart.
 hair::groom::Groom livelyGroom();
 
-// How each solver is set up to be compared with theory, and what it can't be asked.
+// The set-up of each solver for comparison with theory, and its limits.
 
 inline constexpr double kGravity = 9.81;  // m/s^2, down -y
 
-// A hair as a user gets it, but for this gravity.
+// A hair with the default settings except for this gravity.
 hair::SimulationSettings defaultHair(hair::Solver solver);
 
-// The hair with nothing but its stiffness and weight: neither friction nor a pull to rest.
+// The hair with only its stiffness and weight: neither friction nor a pull to rest.
 hair::SimulationSettings freeHair(hair::Solver solver);
 
 // A chain: segments keep their length, as well as the solver can, and do not resist bending. Rods
-// always do; their modulus is so small that strands up to `length` bend by their weight at once.
+// always resist; their modulus is so small that strands up to `length` bend under their weight at
+// once.
 hair::SimulationSettings chain(hair::Solver solver, double length);
 
-// Friction that takes exp(-rate) of the velocity in 1 s. `rate` in 1/s.
+// Friction that reduces the velocity to exp(-rate) in 1 s. `rate` in 1/s.
 float frictionOf(double rate);
 
-// The length of a hair with this Gamma = rho g S L^3 / EI = 4 rho g L^3 / (E R^2), weight over
-// stiffness: Romero et al. 2021, Physical validation of simulators in computer graphics. m
+// The length, m, of a hair with this Gamma = rho g S L^3 / EI = 4 rho g L^3 / (E R^2), weight over
+// stiffness: Romero et al. 2021, Physical validation of simulators in computer graphics.
 double lengthOf(const hair::MaterialSettings& material, double gamma);
 
 double bendingStiffness(const hair::MaterialSettings& material);  // EI, N m^2
 double lineDensity(const hair::MaterialSettings& material);  // kg/m
 
-// What a check may need of a solver.
+// Capabilities that a check may need from a solver.
 enum class Need {
-    free_vertices,  // that fly where nothing holds them
+    free_vertices,  // that fly freely without constraints
     pinned_tip,
     equal_masses,  // in vertices
-    bending,  // stiffness against it
-    material,  // bending stiffness by a modulus
-    sections,  // that are not round
+    bending,  // bending stiffness
+    material,  // bending stiffness from a modulus
+    sections,  // non-circular sections
     iterations
 };
 
-// Why a solver can't give what a check needs; absent where it can.
+// Returns why a solver lacks what a check needs; absent if it does not.
 std::optional<std::string> lack(hair::Solver solver, Need need);
 
-// Sets the number of iterations of a solver that has one.
+// Sets the number of iterations, for a solver that has one.
 void setIterations(hair::SimulationSettings& settings, std::uint32_t iterations);
 
 inline constexpr double kTrajectoryLength = 0.15;  // m
@@ -129,15 +130,15 @@ inline constexpr double kTrajectoryLength = 0.15;  // m
 // Points at eighths of the strand from the root, [sample][point], m.
 using Trajectory = std::vector<std::vector<glm::dvec3>>;
 
-// A strand let go from the horizontal: 2 s, sampled every 1/30 s. A time that is no whole number of
-// steps is interpolated linearly between the steps around it. `segments` is a multiple of 8.
+// A strand released from the horizontal: 2 s, sampled every 1/30 s. A time between two steps is
+// interpolated linearly between them. `segments` is a multiple of 8.
 Trajectory playRelease(
     const engine::Device& device, const hair::SimulationSettings& settings, std::uint32_t segments);
 
-// Greatest distance of a point at any time / strand length.
+// Greatest distance of a point at any time, relative to the strand's length.
 double differenceOf(const Trajectory& a, const Trajectory& b);
 
-// The greater of two errors; what is not a number is the greatest of all, and stays.
+// The greater of two errors. NaN is greater than any number, and stays.
 inline double worst(double a, double b) { return std::isnan(a) || b <= a ? a : b; }
 
 }  // namespace benchmarks::physics

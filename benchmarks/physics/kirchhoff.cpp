@@ -19,8 +19,8 @@ namespace {
 
 constexpr int kRodSteps = 500;
 
-// Runge and Kutta's fourth order from the tip of a rod of length 1 to its clamp, by the distance z
-// from the tip.
+// Integrates with fourth-order Runge-Kutta from the tip of a rod of length 1 to its clamp, by the
+// distance z from the tip.
 template <std::size_t kSize, class Slope>
 std::array<double, kSize> integrate(std::array<double, kSize> at, const Slope& slope) {
     constexpr double h = 1.0 / kRodSteps;
@@ -42,8 +42,8 @@ std::array<double, kSize> integrate(std::array<double, kSize> at, const Slope& s
     return at;
 }
 
-// The root of a function by Newton's method with a derivative by differences, from nearby. Steps
-// are at most `most` long. Not a number where it is not found.
+// Finds a root near `at` by Newton's method with finite differences. Steps are at most `most` long.
+// NaN if it is not found.
 template <class Function>
 double rootNear(double at, double most, const Function& function) {
     constexpr double kStep = 1e-6;
@@ -56,7 +56,7 @@ double rootNear(double at, double most, const Function& function) {
     return std::nan("");
 }
 
-// The same of as many functions of as many variables.
+// The same for a system of equations.
 template <class Vector, class Matrix, class Function>
 std::optional<Vector> rootsNear(Vector at, double most, const Function& function) {
     constexpr double kStep = 1e-6;
@@ -98,7 +98,8 @@ UnitRod unitRod(const ClampedRod& rod) {
         .turn = rod.turn};
 }
 
-// Angle from -y and its change with s, then a2, a3, M2 and M3 of two states that begin at the tip.
+// Angle from -y and its derivative by s, then a2, a3, M2 and M3 of two states that begin at the
+// tip.
 using PlanarState = std::array<double, 10>;
 
 PlanarState fromTip(const UnitRod& rod, double tip) {
@@ -124,7 +125,7 @@ PlanarState fromTip(const UnitRod& rod, double tip) {
     return integrate<10>({tip, rod.turn, 1.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0}, slope);
 }
 
-// The tip's angle of the rod at rest in its plane, from that of a slightly different one.
+// The tip's angle of the rod at rest in its plane, starting from that of a slightly different rod.
 double tipNear(const UnitRod& rod, double tip) {
     return rootNear(tip, 0.2, [&](double angle) { return fromTip(rod, angle)[0] - rod.clamp; });
 }
@@ -134,7 +135,7 @@ double stabilityOf(const UnitRod& rod, double tip) {
     return at[2] * at[7] - at[3] * at[6];
 }
 
-// Goes along the states in the plane as the weight grows from 0.
+// Follows the planar states as the weight grows from 0.
 class GrowingWeight {
 public:
     explicit GrowingWeight(const UnitRod& rod) : rod_(rod), tip_(rod.clamp + rod.turn) {
@@ -148,8 +149,8 @@ public:
         }
     }
 
-    // A weight that the state in the plane is followed to at once, and within which the rod leaves
-    // its plane at most once: it does at more than 12 sqrt(B C).
+    // The next weight, to which the planar state can be followed in one step. On the way the rod
+    // leaves its plane at most once: it does so above 12 sqrt(B C).
     double next() const {
         return std::max(
             1.03 * rod_.weight, rod_.weight + 0.2 * std::sqrt(rod_.weak * rod_.twisting));
@@ -164,7 +165,7 @@ private:
     double tip_;
 };
 
-// The state at which the rod leaves its plane, up to the weight that it has.
+// The state in which the rod leaves its plane, up to its own weight.
 std::optional<GrowingWeight> leavingPlane(const UnitRod& rod) {
     GrowingWeight growing(rod);
     GrowingWeight before = growing;
@@ -232,14 +233,14 @@ namespace {
 
 // ---- A rod out of its plane ---------------------------------------------------------------------
 
-// Where the clamp is and how it is turned if the tip is at the origin and turned like that, seen
-// from the tip's place. Frames' third axis is the tangent; they bend strongly round the first.
+// Position and orientation of the clamp if the tip is at the origin with the given orientation. The
+// third axis of frames is the tangent; strong bending is round the first.
 struct FromTip {
     glm::dvec3 clamp;
     glm::dquat frame;
 };
 
-// Position, frame and moment by the distance z from the tip: m' = -t x n, the frame turns with the
+// Position, frame and moment by the distance z from the tip: m' = -t x n. The frame turns with the
 // curvature m.d1 + turn, m.d2 / B, m.d3 / C.
 FromTip spaceFromTip(const UnitRod& rod, const glm::dquat& tip) {
     using SpaceState = std::array<double, 10>;
@@ -259,7 +260,7 @@ FromTip spaceFromTip(const UnitRod& rod, const glm::dquat& tip) {
     return {{at[0], at[1], at[2]}, glm::normalize(glm::dquat(at[3], at[4], at[5], at[6]))};
 }
 
-// The frame of a section in the plane: its first axis is +z.
+// The frame of a section in the plane; its first axis is +z.
 glm::dquat planarFrame(double angle) {
     const glm::dvec3 tangent(std::sin(angle), -std::cos(angle), 0.0);
     const glm::dvec3 out(0.0, 0.0, 1.0);
@@ -280,16 +281,16 @@ std::optional<glm::dvec3> buckledTip(const ClampedRod& rod) {
     if (!leaving) return {};
     const glm::dquat planar_tip = planarFrame(leaving->tip());
     const glm::dquat clamp = planarFrame(unit.clamp);
-    // By how much the clamp is turned from where it ought to be.
+    // Rotation from the clamp's required orientation to the computed one.
     const auto missed = [&](const glm::dvec3& turn, double with_weight) {
         unit.weight = with_weight;
         const FromTip end = spaceFromTip(unit, planar_tip * rotationBy(turn));
         const glm::dquat off = glm::conjugate(clamp) * end.frame;
         return glm::dvec3(off.x, off.y, off.z) * (off.w < 0.0 ? -2.0 : 2.0);
     };
-    // Along the branch by the tip's turn round its second axis, the weight being unknown, up to the
-    // rod's own weight.
-    glm::dvec3 at(0.0, 0.0, leaving->rod().weight);  // turns round the other axes, and weight
+    // Follows the branch by the tip's rotation round its second axis, with the weight as an
+    // unknown, up to the rod's own weight.
+    glm::dvec3 at(0.0, 0.0, leaving->rod().weight);  // rotations round the other axes, and weight
     double sideways = 0.0;
     while (at.z < weight) {
         sideways += 0.05;
@@ -324,7 +325,7 @@ std::array<double, 4> pressedFromTip(double tip, const glm::dvec2& forces, doubl
 }  // namespace
 
 std::optional<PressedRod> pressedRod(double force_ratio) {
-    // Where the straight rod buckles Q / P is 0.1785 of the tip's angle: psi = c (cos k z - cos k)
+    // Where the straight rod buckles, Q / P is 0.1785 of the tip's angle: psi = c (cos k z - cos k)
     // with tan k = k.
     constexpr double kBuckling = 4.493409457909064;
     glm::dvec2 forces(0.0, kBuckling * kBuckling);

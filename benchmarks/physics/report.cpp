@@ -94,7 +94,7 @@ void Findings::curve(
     curves_.push_back({check_, solver_, std::move(name), std::move(columns), std::move(rows)});
 }
 
-// What can't be measured has no error, and does not pass.
+// A quantity that cannot be measured has no error and does not pass.
 Outcome& Findings::add(Outcome outcome) {
     outcome.check = check_;
     outcome.solver = solver_;
@@ -150,7 +150,7 @@ std::string physicsReportText(const PhysicsReport& report) {
     for (const Outcome& outcome : report.outcomes) outcomes.push_back(toJson(outcome));
     scene::Json& curves = object["curves"] = scene::Json::array();
     for (const Curve& curve : report.curves) curves.push_back(toJson(curve));
-    // What drivers and commands say need not be UTF-8.
+    // Output of drivers and commands need not be UTF-8.
     return object.dump(2, ' ', false, scene::Json::error_handler_t::replace) + '\n';
 }
 
@@ -158,7 +158,7 @@ namespace {
 
 // ---- Table for a terminal -----------------------------------------------------------------------
 
-// Errors range from 1e-8 to 1: three digits whatever their size.
+// Errors range from 1e-8 to 1, so three significant digits are shown for any size.
 std::string figure(std::optional<double> number) {
     if (!number || !std::isfinite(*number)) return "-";
     char text[32];

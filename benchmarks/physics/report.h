@@ -9,12 +9,12 @@
 #include "hair/fields.h"
 #include "hair/settings.h"
 
-// What the validation suite found out, as plain values, and its report, which
-// results/physics.schema.json describes.
+// The results of the validation suite as plain values, and its report. results/physics.schema.json
+// describes the report.
 namespace benchmarks::physics {
 
-// Only what a solver promises is gated, and passes or fails. Anything else that could be measured
-// is reported: how far a solver is from theory is a result too. Skipped: it can't be measured.
+// Only a solver's promises are gated and pass or fail. Other measurements are reported, because a
+// solver's distance from theory is a result too. Skipped: it cannot be measured.
 enum class Verdict { pass, fail, reported, skipped };
 
 const char* verdictName(Verdict verdict);
@@ -25,7 +25,7 @@ struct Parameter {
     std::string unit;
 };
 
-// What is measured, and under which circumstances.
+// A measured quantity and its circumstances.
 struct Quantity {
     std::string name;
     std::string unit;
@@ -35,14 +35,15 @@ struct Quantity {
 struct Outcome {
     std::string check;
     std::string solver;
-    Quantity quantity;  // of a skipped check: no name
-    // Not finite: it could not be measured, for `reason`.
+    Quantity quantity;  // a skipped check has no name
+    // Not finite if it could not be measured; `reason` tells why.
     double measured = std::numeric_limits<double>::quiet_NaN();
     std::optional<double> expected;
-    std::optional<double> error;  // |measured / expected - 1|, or measured where that is an error
+    std::optional<double> error;  // |measured / expected - 1|, or `measured` if that is itself an
+                                  // error
     std::optional<double> tolerance;  // the greatest error that passes
     Verdict verdict = Verdict::reported;
-    std::string reason;  // why it was skipped or not measured
+    std::string reason;  // reason for skipping or for a missing measurement
     std::string state_hash;
 };
 
@@ -61,32 +62,32 @@ struct Curve {
     std::vector<std::vector<double>> rows;
 };
 
-// The names of the solvers that can be checked: all but `none`, in the order of the settings.
+// The names of the solvers that can be checked: all except `none`, in the order of the settings.
 const std::vector<hair::Named<hair::Solver>>& checkedSolvers();
 std::string nameOf(hair::Solver solver);
 
-// What one check finds out about one solver. A tolerance makes a gate of an outcome. The returned
-// outcome may be given a reason or a hash.
+// The results of one check for one solver. An outcome with a tolerance is a gate. Callers may add a
+// reason or a hash to the returned outcome.
 class Findings {
 public:
     Findings(std::string check, hair::Solver solver)
         : check_(std::move(check)), solver_(nameOf(solver)) {}
 
-    // Against a value from theory; the error is relative to it.
+    // Compares with a value from theory; the error is relative to it.
     Outcome& compare(
         Quantity quantity, double measured, double expected, std::optional<double> tolerance = {});
 
-    // A quantity that is an error itself.
+    // Adds a quantity that is itself an error.
     Outcome& deviation(Quantity quantity, double measured, std::optional<double> tolerance = {});
 
-    // A quantity that theory says nothing of.
+    // Adds a quantity without a theoretical value.
     Outcome& value(Quantity quantity, double measured);
 
     void skip(std::string reason);
-    // The check itself could not be carried out.
+    // Records that the check itself could not be carried out.
     void fail(std::string reason);
 
-    // Rows with a number that is not finite are left out.
+    // Omits rows with a number that is not finite.
     void
     curve(std::string name, std::vector<Series> columns, std::vector<std::vector<double>> rows);
 
@@ -111,13 +112,13 @@ struct PhysicsReport {
     bool interrupted = false;  // the last check may be missing
 };
 
-// Indented JSON. What is not known is absent.
+// Indented JSON. Unknown values are absent.
 std::string physicsReportText(const PhysicsReport& report);
 
-// For a terminal: a line on the device, then the outcomes by check, and how many passed.
+// Text for a terminal: a line on the device, the outcomes by check, and the number of passes.
 std::string physicsTable(const PhysicsReport& report);
 
-// kCheckFailed where a check failed, kNothingRan where none could be carried out, kInterrupted.
+// kCheckFailed if a check failed, kNothingRan if none could be carried out, kInterrupted, or kOk.
 int exitStatus(const PhysicsReport& report);
 
 }  // namespace benchmarks::physics

@@ -15,7 +15,8 @@ namespace {
 
 // ---- Catenary -----------------------------------------------------------------------------------
 
-// a with 2 a sinh(span / 2 a) = length: bisection on u = span / 2 a, where sinh(u) / u rises.
+// Solves 2 a sinh(span / 2 a) = length for a by bisection on u = span / 2 a; sinh(u) / u is
+// increasing.
 double solveParameter(double span, double length) {
     double low = 1e-9;
     double high = 700.0;
@@ -43,13 +44,13 @@ namespace {
 
 // ---- Small deflections of a strand --------------------------------------------------------------
 
-// The greatest slope of a strand in a small vibration: 0.03^2 / 16 is its effect on a pendulum's
-// frequency, 6e-5.
+// The greatest slope of a strand in a small vibration. Its effect on a pendulum's frequency is
+// 0.03^2 / 16, 6e-5.
 inline constexpr double kSmallSlope = 0.03;
 
-// A strand from the origin along `direction` whose vertices are displaced along `sideways` in
-// proportion to `shape` (root first), so that its steepest segment has kSmallSlope; segments keep
-// their length. Both vectors are unit vectors, perpendicular. m
+// A strand from the origin along `direction` with vertices displaced along `sideways` in proportion
+// to `shape` (root first). Its steepest segment has kSmallSlope, and segments keep their length.
+// Both vectors are unit vectors, perpendicular to each other. m
 std::vector<glm::dvec3> deflected(
     std::span<const double> shape, double segment, const glm::dvec3& direction,
     const glm::dvec3& sideways) {
@@ -66,7 +67,7 @@ std::vector<glm::dvec3> deflected(
     return points;
 }
 
-// Sum of displacement along `sideways` times shape: how much of the shape there is, at any scale.
+// Sum of displacement along `sideways` times shape: the amplitude of the shape, in arbitrary scale.
 double amountOf(
     std::span<const double> shape, std::span<const glm::dvec3> positions,
     const glm::dvec3& sideways) {
@@ -78,7 +79,7 @@ double amountOf(
 
 // ---- Energy -------------------------------------------------------------------------------------
 
-// The clamp's joint is half a segment long: the other half would be in the skin.
+// The clamp's joint is half a segment long; the other half would be in the skin.
 double bendingEnergy(
     std::span<const glm::dvec3> points, double stiffness, double segment,
     const glm::dvec3& clamp_tangent) {
@@ -107,7 +108,7 @@ double energyOf(
     for (std::size_t i = 1; i < count; ++i) {
         points.push_back(0.5 * (before[i] + after[i]));
         const glm::dvec3 velocity = (after[i] - before[i]) / double{settings.time_step};
-        // Only one segment ends at the tip of what is made of heavy segments.
+        // In a solver with heavy segments, only one segment ends at the tip.
         const bool half = lack(settings.solver, Need::equal_masses) && i + 1 == count;
         const double mass = lineDensity(settings.material) * segment * (half ? 0.5 : 1.0);
         energy += mass * (0.5 * glm::dot(velocity, velocity) + kGravity * points[i].y);
@@ -146,8 +147,8 @@ struct Hanging {
     double drop, reach;
 };
 
-// Runge and Kutta's fourth order from the tip, where the angle from the vertical is `angle`, to the
-// clamp: phi = pi / 2 - theta and z = 1 - s give phi'' = gamma z sin phi.
+// Integrates with fourth-order Runge-Kutta from the tip, where the angle from the vertical is
+// `angle`, to the clamp: phi = pi / 2 - theta and z = 1 - s give phi'' = gamma z sin phi.
 Hanging hangFromTip(double gamma, double natural_turn, double angle) {
     const double h = 1.0 / kSteps;
     double slope = natural_turn;
@@ -164,7 +165,7 @@ Hanging hangFromTip(double gamma, double natural_turn, double angle) {
         const double k4 = bend(z + h, p4);
         const double next = angle + h * slope + h * h / 6.0 * (k1 + k2 + k3);
         slope += h / 6.0 * (k1 + 2.0 * k2 + 2.0 * k3 + k4);
-        // Simpson's rule, with the angle in the middle between its two estimates.
+        // Simpson's rule; the angle in the middle is the mean of its two estimates.
         const double middle = (p2 + p3) / 2.0;
         hanging.drop += h / 6.0 * (std::cos(angle) + 4.0 * std::cos(middle) + std::cos(next));
         hanging.reach += h / 6.0 * (std::sin(angle) + 4.0 * std::sin(middle) + std::sin(next));
@@ -178,8 +179,8 @@ Hanging hangFromTip(double gamma, double natural_turn, double angle) {
 }  // namespace
 
 double cantileverRatio(double gamma, double natural_turn) {
-    // Bisection over the tip's angle, which is exponentially near the vertical for a long rod: in
-    // steps of its logarithm, for either sign.
+    // Bisection over the tip's angle. For a long rod it is exponentially close to the vertical, so
+    // steps are logarithmic, for either sign.
     constexpr double kNearest = 1e-40;
     const auto tip = [](double y) { return kNearest * std::sinh(y); };
     double high = std::asinh(kPi / kNearest);
@@ -225,7 +226,7 @@ Section operator*(double h, const Section& a) {
     return {h * a.angle, h * a.curvature, h * a.shear, h * a.tension, h * a.reach, h * a.drop};
 }
 
-// By the length z from the tip.
+// The derivative by the length z from the tip.
 Section slopeAt(const DraggedRod& rod, const Section& at) {
     const double sine = std::sin(at.angle);
     const double cosine = std::cos(at.angle);
@@ -240,7 +241,7 @@ Section slopeAt(const DraggedRod& rod, const Section& at) {
         .drop = sine};
 }
 
-// Runge and Kutta's fourth order from the tip, where the angle is `angle`, to the clamp.
+// Integrates with fourth-order Runge-Kutta from the tip, where the angle is `angle`, to the clamp.
 Section draggedFromTip(const DraggedRod& rod, double length, double angle) {
     const double h = length / kDragSteps;
     Section at{.angle = angle};
@@ -277,8 +278,8 @@ double terminalSpeed(const hair::SimulationSettings& settings) {
     return slow;
 }
 
-// Bisection over the tip's angle from the wind, which is tiny for a long rod without weight: in
-// steps of its logarithm.
+// Bisection over the tip's angle from the wind. For a long rod without weight it is tiny, so steps
+// are logarithmic.
 glm::dvec2 draggedTip(const hair::SimulationSettings& settings, double speed, double length) {
     const DraggedRod rod{
         .stiffness = bendingStiffness(settings.material),
@@ -338,7 +339,7 @@ double laguerre(unsigned n, double x) {
     return value;
 }
 
-// The root of L_n between two points where it has different signs.
+// The root of L_n between two points where its signs differ.
 double bisect(unsigned n, double low, double high) {
     const bool rising = laguerre(n, low) < 0.0;
     for (int i = 0; i < 100; ++i) {
@@ -350,7 +351,7 @@ double bisect(unsigned n, double low, double high) {
 
 }  // namespace
 
-// The roots of L_(m-1) part those of L_m, which all lie below 4 m.
+// The roots of L_(m-1) separate those of L_m, which are all below 4 m.
 std::vector<double> laguerreRoots(unsigned n) {
     std::vector<double> roots;
     for (unsigned m = 1; m <= n; ++m) {

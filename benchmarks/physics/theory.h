@@ -10,8 +10,7 @@
 #include "benchmarks/physics/experiment.h"
 #include "hair/settings.h"
 
-// What theory says of hanging, bending and swinging strands, and how simulations are measured
-// against it.
+// Theory of hanging, bending and swinging strands, and the measurements of simulations against it.
 namespace benchmarks::physics {
 
 // A chain of `length` that hangs between pins at (0, 0) and (span, 0): y = a cosh((x - x0) / a) +
@@ -32,51 +31,50 @@ private:
     double parameter_;
 };
 
-// Kinetic energy, weight's and, for a solver with a material, that of bending, of a strand that is
-// straight along +x at rest, in the middle of a substep that began and ended so, J. Segments' spin
-// is left out: it is of the order of (segment / length)^2.
+// Energy of a strand that is straight along +x at rest, J: kinetic, of the weight and, for a solver
+// with a material, of bending. It is taken in the middle of a substep with the given start and end.
+// The spin of segments is omitted: it is of the order of (segment / length)^2.
 double energyOf(
     std::span<const glm::dvec3> before, std::span<const glm::dvec3> after,
     const hair::SimulationSettings& settings, double length);
 
-// Frequency of what swings about 0, from the times between its first and last zero crossing, which
-// damping does not move; Hz. Samples are `interval` s apart. Absent with fewer than three
+// Frequency of an oscillation about 0, Hz, from the times of its first and last zero crossing,
+// which damping does not shift. Samples are `interval` s apart. Absent with fewer than three
 // crossings.
 std::optional<double> frequencyOf(std::span<const double> samples, double interval);
 
-// What elastic rods do in theory, for simulations to be held against.
+// Theory of elastic rods, for comparison with simulations.
 
 // Drop over reach, H/W, of an inextensible rod that is clamped horizontally and hangs under its own
 // weight: Romero et al. 2021, Physical validation of simulators in computer graphics. gamma =
 // weight * length^2 / (E I), which is 4 rho g L^3 / (E R^2) for a round rod. Without weight the rod
 // is a circular arc that turns down by `natural_turn` rad.
 //   theta'' = -gamma (1 - s) cos theta,  theta(0) = 0,  theta'(1) = natural_turn
-// Good to 7 digits for gamma up to 10^4.
+// Accurate to 7 digits for gamma up to 10^4.
 double cantileverRatio(double gamma, double natural_turn = 0.0);
 
-// What air does to hair, by the material and the air of the settings.
+// Effects of air on hair, for the material and the air of the settings.
 
-// Force on a cylinder of a hair's radius that air flows across at `speed` >= 0: 1/2 rho C_D d U^2
-// with C_D = 1 + 10 Re^(-2/3), Re = rho U d / mu: White 1974, Viscous fluid flow. N/m
+// Force per length, N/m, on a cylinder with a hair's radius, in a cross flow of `speed` >= 0: 1/2
+// rho C_D d U^2 with C_D = 1 + 10 Re^(-2/3), Re = rho U d / mu: White 1974, Viscous fluid flow.
 double dragPerLength(const hair::SimulationSettings& settings, double speed);
 
-// The speed across a hair at which that is its weight. m/s
+// The speed across a hair at which the drag equals its weight, m/s.
 double terminalSpeed(const hair::SimulationSettings& settings);
 
-// The tip of an inextensible rod of that material that hangs from a clamp at the origin, straight
-// down -y but for the wind along +x, m. With theta the angle of the tangent t from the vertical and
-// n across it, the wind's part across is U cos theta; it presses with f = dragPerLength() of it
-// along n, air along the rod does nothing, and the force F = T t + N n through a section bears what
-// hangs below it:
+// The tip of an inextensible rod of this material, m. It hangs straight down -y from a clamp at the
+// origin, deflected by the wind along +x. theta is the angle of the tangent t from the vertical,
+// and n is perpendicular to t. The wind's part across the rod is U cos theta; it presses with the
+// force f = dragPerLength() along n. Flow along the rod has no effect. The force F = T t + N n
+// through a section supports everything below it:
 //   EI theta'' = -N,  N' = -f - T theta' + w sin theta,  T' = N theta' - w cos theta,
 //   theta(0) = 0,  theta'(L) = N(L) = T(L) = 0,
-// w the weight per length. Good to 6 digits where the weight is less than 1,000 EI / L^2: shooting
-// from the tip loses exp(2/3 sqrt(w L^3 / EI)).
+// w is the weight per length. Accurate to 6 digits for weights below 1,000 EI / L^2: shooting from
+// the tip loses a factor exp(2/3 sqrt(w L^3 / EI)).
 glm::dvec2 draggedTip(const hair::SimulationSettings& settings, double speed, double length);
 
-// Releases a strand that is deflected along `sideways` and measures the frequency
-// with which it swings through five of the periods that theory expects. Absent if it does not
-// swing.
+// Releases a strand that is deflected along `sideways` and measures its frequency over five
+// expected periods. Absent if it does not swing.
 struct Vibration {
     std::span<const double> shape;  // [vertex], root first
     double segment;  // m
@@ -86,31 +84,32 @@ struct Vibration {
 };
 std::optional<double> measureFrequency(Experiment& experiment, const Vibration& vibration);
 
-// Small vibrations of what hangs or sticks out.
+// Small vibrations of hanging or protruding strands.
 
 // The n roots of Laguerre's polynomial L_n, ascending.
 std::vector<double> laguerreRoots(unsigned n);
 
 // A pendulum of n equal masses on links of equal length. Mass k above the lowest one (k = 0) obeys
 //     l u''_k / g = (k + 1) (u_(k+1) - u_k) - k (u_k - u_(k-1)),
-// Laguerre's recurrence for u_k = L_k(x) with w^2 = x g / l; L_n(x) = 0 holds the upper end.
+// Laguerre's recurrence for u_k = L_k(x) with w^2 = x g / l; L_n(x) = 0 fixes the upper end.
 struct PendulumMode {
     double frequency;  // Hz
-    std::vector<double> shape;  // horizontal, of each mass from the upper end down; the greatest 1
+    std::vector<double> shape;  // horizontal, of each mass from the upper end down; the greatest is
+                                // 1
 };
 
 // All n modes, the slowest first.
 std::vector<PendulumMode> pendulumModes(unsigned n, double link, double gravity);
 
-// First period of a hanging chain, 2 pi / (j / 2) sqrt(L / g), j the first root of Bessel's J0
-// (D. Bernoulli 1738; Rayleigh 1894, Theory of sound). s
+// First period of a hanging chain, s: 2 pi / (j / 2) sqrt(L / g), where j is the first root of
+// Bessel's J0 (D. Bernoulli 1738; Rayleigh 1894, Theory of sound).
 double hangingChainPeriod(double length, double gravity);
 
-// First frequency of a clamped beam without weight, z^2 / (2 pi) sqrt(EI / (lambda L^4)) with
-// cos z cosh z = -1. Stiffness EI in N m^2, line density in kg/m. Hz
+// First frequency of a clamped beam without weight, Hz: z^2 / (2 pi) sqrt(EI / (lambda L^4)) with
+// cos z cosh z = -1. Stiffness EI in N m^2, line density in kg/m.
 double cantileverFrequency(double stiffness, double line_density, double length);
 
-// Shape of that beam at its first frequency, at s in [0, 1]; 1 at the tip.
+// Shape of the same beam at its first frequency, at s in [0, 1]; 1 at the tip.
 double cantileverShape(double s);
 
 }  // namespace benchmarks::physics
