@@ -33,7 +33,7 @@ std::string joined(const std::vector<std::string>& parts, std::string_view betwe
 
 // ---- The machine --------------------------------------------------------------------------------
 
-// Shares of all processors' time from which others disturb, and from which they rule.
+// Shares of all processors' time from which other load disturbs, and from which it dominates.
 constexpr double kLittleLoad = 0.05;
 constexpr double kMuchLoad = 0.25;
 constexpr double kLittleSteal = 0.01;
@@ -41,7 +41,7 @@ constexpr double kMuchSteal = 0.1;
 
 bool isSoftware(const Facts& facts) { return facts.device.type == "cpu"; }
 
-// "1.2 % more", "0.3 % less" of shares of 0.012 and -0.003.
+// "1.2 % more", "0.3 % less" for shares of 0.012 and -0.003.
 std::string changeText(double share) {
     if (!std::isfinite(share)) return "any amount";
     return shareText(std::abs(share)) + (share < 0.0 ? " less" : " more");
@@ -67,7 +67,7 @@ std::string clockText(const ClockFacts& clocks) {
     return text;
 }
 
-// What disturbs a software device's frames disturbs only the recording of others'.
+// On a software device, this load disturbs the frames; on others, it disturbs only their recording.
 Health disturbance(const Facts& facts, double share, double little, double much) {
     if (share <= little) return Health::ok;
     return share > much && isSoftware(facts) ? Health::bad : Health::warn;
@@ -150,7 +150,7 @@ bool contains(const std::string& text, const char* part) {
     return text.find(part) != std::string::npos;
 }
 
-// Picks a device and takes no part in what is submitted to it.
+// This layer only selects a device and does not touch submissions.
 bool isHarmless(const std::string& layer) { return contains(layer, "MESA_device_select"); }
 
 Judgement judgeDevice(const Facts& facts) {
@@ -193,16 +193,18 @@ Judgement judgeLayers(const Facts& facts) {
 
 // ---- Timings ------------------------------------------------------------------------------------
 
-// A pass is known to 1 % only if it takes a hundred steps: a tenth of a millisecond of these.
+// A pass is known to 1 % only if it takes a hundred steps. For a step of this length, that is a
+// tenth of a millisecond.
 constexpr double kCoarseStep = 1000.0;  // ns
-// Level of the test whether two equal runs differ: one doctor in a hundred may wrongly say so.
+// Level of the test whether two equal runs differ: a false alarm in one of a hundred runs of the
+// doctor.
 constexpr double kRepeatAlpha = 0.01;
-// What gates and comparisons call a change if nobody says otherwise.
+// The default threshold of gates and comparisons for a change.
 constexpr double kThreshold = 0.02;
-// A pair that scatters by more hides what most optimisations gain.
+// Pairs with a larger scatter hide the gain of most optimisations.
 constexpr double kNoisy = 0.1;
 
-// What a single pair can be off by: three standard deviations.
+// Possible error of a single pair: three standard deviations.
 double scatter(const std::vector<double>& differences) {
     return report::decisiveChange(0.0, differences);
 }
@@ -232,7 +234,7 @@ Judgement judgePassSum(const Facts& facts) {
     const measure::PassSum& sum = facts.passes.sum;
     if (!sum.over_wall) return {Health::unknown, "no frame had timestamps"};
     std::string seen = "isolated passes add up to " + shareText(*sum.over_wall) + " of wall clock";
-    // A submission takes longer than a frame of a fast device.
+    // On a fast device, a submission takes longer than a frame.
     if (!isSoftware(facts) && sum.over_device)
         seen += ", " + shareText(*sum.over_device) + " of the device's own time";
     const bool whole = isSoftware(facts)

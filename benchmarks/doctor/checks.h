@@ -7,14 +7,14 @@
 
 #include "benchmarks/doctor/facts.h"
 
-// Judges facts about the machine: whether timings can be trusted, and what to do where not.
+// Judges facts about the machine: whether timings can be trusted, and what to do if not.
 namespace benchmarks::doctor {
 
 enum class Health {
     ok,
-    unknown,  // the machine does not say
-    warn,     // timings can be used, with care
-    bad,      // they can't be trusted
+    unknown,  // the machine does not tell
+    warn,     // timings can be used with care
+    bad,      // timings can't be trusted
 };
 
 // "ok", "unknown", "warn", "bad".
@@ -24,7 +24,7 @@ struct Finding {
     std::string check;  // name of the row
     Health health = Health::ok;
     std::string seen;
-    std::string advice;  // what to do about it; empty: nothing
+    std::string advice;  // remedy; empty: none needed
 };
 
 struct Judgement {
@@ -39,13 +39,13 @@ struct DoctorCheck {
     Judgement (*judge)(const Facts& facts);
 };
 
-// Every check, in the order in which they are shown. A new one is a row of the table in checks.cpp.
+// All checks in display order. A new check is a row of the table in checks.cpp.
 std::span<const DoctorCheck> doctorChecks();
 
-// What every check says of the facts.
+// The findings of all checks for the facts.
 std::vector<Finding> judgeAll(const Facts& facts);
 
-// "12.3 %" of a share of 0.123.
+// "12.3 %" for a share of 0.123.
 std::string shareText(double share);
 
 }  // namespace benchmarks::doctor

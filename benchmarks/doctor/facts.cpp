@@ -27,7 +27,7 @@ namespace fs = std::filesystem;
 
 // ---- Vulkan layers in this process --------------------------------------------------------------
 
-// Most follow the convention of the first; the others are widely installed and do not.
+// Most names follow the convention of the first; the others are common layers that do not.
 constexpr std::array<std::string_view, 6> kMarks{"VkLayer",   "vkLayer",  "MangoHud",
                                                  "renderdoc", "vkbasalt", "overlayvulkanlayer"};
 
@@ -61,14 +61,14 @@ namespace {
 
 // ---- How Linux runs the processors --------------------------------------------------------------
 
-// The first word; empty where there is no such file.
+// Returns the first word; empty if there is no such file.
 std::string wordIn(const fs::path& path) {
     std::string word;
     std::ifstream(path) >> word;
     return word;
 }
 
-// Folders of a folder; none where it is missing.
+// Returns the entries of a folder; empty if the folder is missing.
 std::vector<fs::path> entriesOf(const fs::path& folder) {
     std::vector<fs::path> entries;
     std::error_code missing;
@@ -99,7 +99,7 @@ std::optional<double> processorQuota(const fs::path& root) {
     double quota = 0.0, period = 0.0;
     if (std::ifstream file(groups / "cpu.max"); file >> quota >> period)
         return ratio(quota, period);
-    // Version 1: a quota of -1 is none.
+    // Version 1: a quota of -1 means no quota.
     std::ifstream(groups / "cpu/cpu.cfs_quota_us") >> quota;
     std::ifstream(groups / "cpu/cpu.cfs_period_us") >> period;
     return ratio(quota, period);
@@ -112,7 +112,7 @@ std::optional<bool> onBattery(const fs::path& root) {
         if (type == "Mains" || type.starts_with("USB")) {
             if (wordIn(supply / "online") == "1") return false;
         } else if (type == "Battery" && wordIn(supply / "scope") != "Device") {
-            // A scope of Device is a mouse's or keyboard's.
+            // A scope of Device is the battery of a mouse or keyboard.
             battery = battery.value_or(false) || wordIn(supply / "status") == "Discharging";
         }
     }
@@ -140,7 +140,7 @@ std::optional<TimestampSteps> timestampSteps(const engine::Device& device) {
     runOnce(device, [&](engine::Commands& commands) {
         for (std::uint32_t i = 0; i < kStamps; ++i) stamps.write(commands);
     });
-    // Whole ticks again: so few that a double holds them.
+    // Converts back to whole ticks; a double holds numbers of this size exactly.
     const double tick = double{device.info().limits.timestampPeriod} * 1e-6;  // ms
     std::vector<std::uint64_t> ticks;
     for (const double milliseconds : stamps.read())
@@ -152,7 +152,7 @@ namespace {
 
 // ---- All facts ----------------------------------------------------------------------------------
 
-// The load that others make, measured for a second in which this process does nothing.
+// The load of other processes, measured for a second in which this process does nothing.
 LoadFacts loadNow() {
     const auto before = measure::readProcessorTicks();
     const double own = engine::processUse().cpu;

@@ -13,28 +13,29 @@
 #include "benchmarks/report/report.h"
 #include "engine/device.h"
 
-// What the doctor looked at, before anyone judges it. What could not be seen is absent.
+// The facts that the doctor judges. Unknown facts are absent.
 namespace benchmarks::doctor {
 
 struct TimestampFacts {
     std::uint32_t valid_bits = 0;  // 0: the device has no timestamps
-    double period_ns = 0.0;        // of a tick, as the driver says
-    std::optional<double> step_ns;  // that differences of stamps are multiples of
-    std::optional<double> gap_ns;   // between two stamps with nothing between them, at least
+    double period_ns = 0.0;        // of a tick, as reported by the driver
+    std::optional<double> step_ns;  // all differences of stamps are multiples of this
+    std::optional<double> gap_ns;   // smallest difference between adjacent stamps
 };
 
 struct ClockFacts {
     std::optional<double> lowest_mhz;  // of the shaders, while frames were drawn
     std::optional<double> highest_mhz;
-    bool held = false;  // an administrator set them
-    bool taken_for_idle = false;  // by the driver, whatever was drawn, so that nothing is known
+    bool held = false;  // an administrator set the clocks
+    bool taken_for_idle = false;  // the driver always reported idle, whatever was drawn, so the
+                                  // clocks are unknown
     report::Conditions conditions;
 };
 
 struct ProcessorFacts {
-    std::vector<std::string> governors;  // of frequency scaling, each once
+    std::vector<std::string> governors;  // of frequency scaling, without repetition
     std::optional<std::uint32_t> count;
-    std::optional<double> quota;  // processors' worth of time that this process may use
+    std::optional<double> quota;  // processor time that this process may use, in processors
 };
 
 struct LoadFacts {
@@ -43,7 +44,7 @@ struct LoadFacts {
 };
 
 struct LayerFacts {
-    bool validation = false;          // this program's own
+    bool validation = false;          // this program's own validation
     std::vector<std::string> loaded;  // libraries of Vulkan layers in this process
 };
 
@@ -59,49 +60,49 @@ struct Facts {
     TimestampFacts timestamps;
     PassFacts passes;
     RepeatFacts repeat;
-    std::optional<ClockFacts> clocks;  // absent where nothing tells them
+    std::optional<ClockFacts> clocks;  // absent if there is no clock source
     ProcessorFacts processor;
     LoadFacts load;
     std::optional<bool> on_battery;
 };
 
-// Looks at everything: a second of the idle machine, then some seconds of the doctor's scene.
-// Throws Interrupted where the hooks say so.
+// Gathers all facts: watches the idle machine for a second, then plays the doctor's scene for some
+// seconds. Throws Interrupted if the hooks request it.
 Facts gatherFacts(
     const engine::Device& device, engine::Validation validation,
     const measure::MeasureHooks& hooks);
 
-// Whether a library of this path is a Vulkan layer, by the names that layers' libraries have.
+// True if the path's file name is that of a Vulkan layer's library.
 bool isLayerLibrary(std::string_view path);
 
-// File names of the Vulkan layers in this process, explicit and implicit: the loader does not tell
-// which are active, but it loads the libraries of those alone.
+// File names of the Vulkan layers in this process, explicit and implicit. The loader does not
+// report the active ones, but it loads only their libraries.
 std::vector<std::string> loadedLayers();
 
-// What Linux tells of how processors are run. `root` is where its file systems are.
+// Linux's settings for the processors. `root` is the root of its file systems.
 
-// Governors of frequency scaling of all processors, each once, sorted; empty where there is none,
-// as in most virtual machines.
+// Frequency scaling governors of all processors, sorted and without repetition; empty if there is
+// none, as in most virtual machines.
 std::vector<std::string> scalingGovernors(const std::filesystem::path& root = "/");
 
-// How many processors' worth of time the control group may use; absent where there is no limit.
+// Processor time that the control group may use, in processors; absent without a limit.
 std::optional<double> processorQuota(const std::filesystem::path& root = "/");
 
-// Whether the machine runs on its battery; absent where no power supply tells.
+// True if the machine runs on battery; absent if no power supply is listed.
 std::optional<bool> onBattery(const std::filesystem::path& root = "/");
 
-// How finely stamps divide time, in ticks.
+// Resolution of timestamps, in ticks.
 struct TimestampSteps {
-    std::uint64_t step = 0;  // that all differences are multiples of: the counter may advance by
+    std::uint64_t step = 0;  // all differences are multiples of this; the counter may advance by
                              // more than a tick
-    std::uint64_t gap = 0;  // smallest difference between successive stamps that differ: what an
-                            // empty pass would seem to take
+    std::uint64_t gap = 0;  // smallest difference between successive different stamps: the apparent
+                            // duration of an empty pass
 };
 
-// Steps of stamps in the order in which they were taken; absent where none differ.
+// Resolution from stamps in the order in which they were taken; absent if none differ.
 std::optional<TimestampSteps> timestampSteps(std::span<const std::uint64_t> ticks);
 
-// Steps of the device's timestamps, taken one after another with nothing between them.
+// Resolution of the device's timestamps, from stamps with nothing between them.
 std::optional<TimestampSteps> timestampSteps(const engine::Device& device);
 
 }  // namespace benchmarks::doctor

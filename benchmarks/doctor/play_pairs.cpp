@@ -27,13 +27,13 @@ constexpr std::uint32_t kGuides = 48;
 constexpr std::uint32_t kVertices = 8;  // of a guide
 constexpr double kDisc = 0.08;  // m, its radius
 constexpr double kLength = 0.2;  // m, of a guide
-constexpr double kLean = 0.6;  // how far the outermost guides lean outward, per metre down
+constexpr double kLean = 0.6;  // outward lean of the outermost guides per metre down
 
 }  // namespace
 
 hair::groom::StrandSet doctorStrands() {
-    // Seeds turn by the golden angle, and as many lie on every part of the disc (Vogel 1979, A
-    // better way to construct the sunflower head).
+    // Successive roots turn by the golden angle, which gives a uniform density on the disc (Vogel
+    // 1979, A better way to construct the sunflower head).
     const double golden_angle = std::numbers::pi * (3.0 - std::sqrt(5.0));
     hair::groom::StrandSet strands;
     strands.metres_per_unit = 1.0;
@@ -83,7 +83,7 @@ namespace {
 constexpr int kPairs = 12;
 constexpr int kRounds = 3;  // of isolated frames
 
-// What a round took.
+// The cost of a round.
 struct Cost {
     double frame;  // ms, median from one frame's start to the next one's
     double cpu;  // ms, of all threads of this process
@@ -105,8 +105,8 @@ PassFacts examinePasses(const engine::Device& device, const measure::MeasureHook
     measure::Case test_case(device, settings, folder.path());
     measure::DeviceStage stage(device, test_case, settings.run, hooks);
     measure::RoundPlayer player(stage.player(engine::Timing::isolated), settings.run);
-    // A busy machine only ever adds time outside the passes or between them: the round whose sum is
-    // nearest to the wall clock tells most of the device.
+    // A busy machine only adds time outside the passes or between them. The round with the sum
+    // nearest to the wall clock therefore tells most about the device.
     PassFacts facts;
     std::optional<measure::EmptySubmission> empty;
     double nearest = INFINITY;
@@ -135,7 +135,7 @@ RepeatFacts examineRepeat(const engine::Device& device, const measure::MeasureHo
     measure::DeviceStage stage_b(device, case_b, settings.run, hooks);
     measure::RoundPlayer a(stage_a.player(engine::Timing::overlapped), settings.run);
     measure::RoundPlayer b(stage_b.player(engine::Timing::overlapped), settings.run);
-    // Pipelines and caches warm up.
+    // Warms up pipelines and caches.
     a.round();
     b.round();
     RepeatFacts facts;

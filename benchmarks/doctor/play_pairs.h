@@ -10,24 +10,24 @@
 #include "hair/groom/groom.h"
 #include "hair/settings.h"
 
-// A small scene that needs no file but one that it writes itself: a mop of hair in a gusty wind, a
-// frame of which takes milliseconds on a software device and has every pass of the thesis's frame.
+// A small scene that needs only the file that it writes itself: a mop of hair in a gusty wind. A
+// frame takes milliseconds on a software device and has every pass of the thesis's frame.
 namespace benchmarks::doctor {
 
-// The scene's settings; /groom/file is kDoctorStrands, relative to the folder that
+// The scene's settings. /groom/file is kDoctorStrands, relative to the folder that
 // writeDoctorScene() fills.
 hair::Settings doctorSettings();
 
 inline constexpr const char* kDoctorStrands = "doctor.hair";
 
-// The guides that kDoctorStrands holds: hanging from a disc, spread like a sunflower's seeds.
+// The guides in kDoctorStrands: they hang from a disc, arranged like a sunflower's seeds.
 hair::groom::StrandSet doctorStrands();
 
-// Writes the strands and the scene, "doctor.json", into the folder, which exists. Returns the
-// scene's path. Throws engine::Error.
+// Writes the strands and the scene, "doctor.json", into an existing folder. Returns the scene's
+// path. Throws engine::Error.
 std::filesystem::path writeDoctorScene(const std::filesystem::path& folder);
 
-// Plays the doctor's scene. Throws Interrupted where the hooks say so.
+// These play the doctor's scene. They throw Interrupted if the hooks request it.
 
 // How times of passes add up in the doctor's scene.
 struct PassFacts {
@@ -46,8 +46,9 @@ struct RepeatFacts {
 // How the passes add up, and whether timestamps say what the CPU's clock does.
 PassFacts examinePasses(const engine::Device& device, const measure::MeasureHooks& hooks);
 
-// Two cases of the same settings in turns, A B, B A, A B ..., so that a drift of the machine raises
-// as many differences as it lowers: 12 pairs, of rounds that each play the same frames.
+// Alternates two cases with the same settings, A B, B A, A B ..., so that a drift of the machine
+// raises as many differences as it lowers. It plays 12 pairs of rounds, which all have the same
+// frames.
 RepeatFacts examineRepeat(const engine::Device& device, const measure::MeasureHooks& hooks);
 
 }  // namespace benchmarks::doctor

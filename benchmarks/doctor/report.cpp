@@ -74,7 +74,7 @@ std::string doctorReportText(const DoctorReport& report) {
     object["findings"] = listOf(report.findings);
     if (!report.sensitivities.empty()) object["sensitivities"] = listOf(report.sensitivities);
     if (!report.planted.empty()) object["planted"] = listOf(report.planted);
-    // What drivers and commands say need not be UTF-8.
+    // Output of drivers and commands need not be UTF-8.
     return object.dump(2, ' ', false, scene::Json::error_handler_t::replace) + '\n';
 }
 
@@ -123,7 +123,7 @@ std::string plantedTable(const std::vector<PlantedGate>& gates) {
     return tableOf(columns, gates.size());
 }
 
-// The bad ones first.
+// Lists bad findings first.
 std::string toFix(const std::vector<Finding>& findings) {
     std::string text;
     for (const Health health : {Health::bad, Health::warn, Health::unknown})

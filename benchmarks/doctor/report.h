@@ -20,14 +20,14 @@ struct DoctorReport {
     bool interrupted = false;
 };
 
-// What the planted slowdowns say, as a row of the table: bad unless each was found, and in its own
-// pass alone.
+// The result of the planted slowdowns as a row of the table. It is bad unless each was found, and
+// only in its own pass.
 Finding judgePlanted(const std::vector<PlantedGate>& gates);
 
-// Whether nothing is bad.
+// True if no finding is bad.
 bool isTrusted(const DoctorReport& report);
 
-// A table of the findings, a list of what to do about them, and what could be found here.
+// A table of the findings, the list of remedies, and the detectable slowdowns.
 std::string doctorText(const DoctorReport& report);
 
 // Indented JSON, described by results/doctor.schema.json.

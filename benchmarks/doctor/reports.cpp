@@ -25,7 +25,7 @@ using scene::Json;
 
 // ---- Kinds --------------------------------------------------------------------------------------
 
-// Kinds of reports, by what their schemas are called: "hairbench-report/1.5.0".
+// Kinds of reports, as in the names of their schemas: "hairbench-report/1.5.0".
 constexpr std::array kKinds{"report", "physics", "lod", "gate", "ablation", "doctor"};
 constexpr const char* kRun = "report";
 
@@ -37,10 +37,10 @@ std::optional<std::string> kindOf(const Json& report) {
     return std::nullopt;
 }
 
-// ---- What a report knows of what the doctor looks at --------------------------------------------
+// ---- A report's facts for the doctor ------------------------------------------------------------
 
-// The checks that a report has something for. It does not know of the processor's governors, of
-// power, nor whether the same case twice is the same.
+// The checks that a report has facts for. A report has no governors and no power supply, and does
+// not tell whether a repeated case is the same.
 constexpr std::array kAsked{"build",  "layers",     "pass sum", "pass times",
                             "clocks", "other load", "steal"};
 
@@ -61,7 +61,7 @@ Facts factsOfBuild(const Json& report) {
     return facts;
 }
 
-// Since 1.3 a verdict on timestamps, before only a sentence.
+// Since 1.3 there is a verdict on timestamps; before, there was only a sentence.
 bool areStampsWrong(const Json& result) {
     if (scene::textAt(result, "/trust/timestamps") == "wrong") return true;
     const Json::json_pointer warnings("/trust/warnings");
@@ -73,7 +73,7 @@ bool areStampsWrong(const Json& result) {
 }
 
 void addCaseFacts(Facts& facts, const Json& result) {
-    facts.timestamps.valid_bits = 1;  // the checks ask only whether there are any
+    facts.timestamps.valid_bits = 1;  // the checks only test whether there are any
     measure::PassSum& sum = facts.passes.sum;
     sum.over_wall = numberIn(result, "/trust/pass_sum_over_wall");
     sum.over_device = numberIn(result, "/trust/pass_sum_over_device");
@@ -83,7 +83,7 @@ void addCaseFacts(Facts& facts, const Json& result) {
     facts.load.others = numberIn(result, "/conditions/other_load");
     if (const auto clock = numberIn(result, "/conditions/clock_mhz")) {
         ClockFacts& clocks = facts.clocks.emplace();
-        clocks.held = true;  // not known, and nothing that the report's times hang on
+        clocks.held = true;  // unknown, and irrelevant to the report's times
         clocks.highest_mhz = clock;
         clocks.lowest_mhz = numberIn(result, "/conditions/lowest_clock_mhz");
         clocks.conditions.clock_mhz = clock;
@@ -95,7 +95,7 @@ void addCaseFacts(Facts& facts, const Json& result) {
 
 // ---- Judging ------------------------------------------------------------------------------------
 
-// The worst that one check says of all facts, where that is worth a word.
+// The worst judgement of one check over all facts, if it is at least a warning.
 std::optional<Finding> worstOf(const DoctorCheck& check, const std::vector<Facts>& all) {
     std::optional<Finding> worst;
     std::size_t count = 0;
@@ -141,10 +141,10 @@ ReportExamination examineReport(const std::filesystem::path& file) {
         .schema_errors = report::schemaErrors(
             engine::readFile(engine::programFile("results/" + *kind + ".schema.json")), text),
         .mark = scene::textAt(report, "/untrusted")};
-    if (!examination.schema_errors.empty()) return examination;  // nothing else is sure
+    if (!examination.schema_errors.empty()) return examination;  // nothing else is reliable
     std::vector<Facts> all;
     if (*kind == kRun) {
-        report = report::readReport(file);  // with the samples that lie beside it
+        report = report::readReport(file);  // with the samples stored beside it
         examination.cases = report.at("cases").size();
         for (const Json& result : report.at("cases"))
             if (result.value("status", "") == "ok")
@@ -163,7 +163,7 @@ bool isAccepted(const ReportExamination& examination) {
 
 std::string examinationText(const ReportExamination& examination) {
     if (const auto& errors = examination.schema_errors; !errors.empty()) {
-        // The deepest place: what holds it is at fault for it alone.
+        // The deepest place: its parents are at fault only because of it.
         const auto depth = [](const std::string& error) { return error.find(": "); };
         return *std::ranges::max_element(errors, {}, depth) +
                (errors.size() > 1 ? " (" + report::countText(errors.size(), "fault") + ')' : "");

@@ -6,29 +6,29 @@
 
 #include "benchmarks/doctor/checks.h"
 
-// Whether a report may be kept beside others: of a form of ours, and of times that the doctor would
-// trust. One that is kept all the same is marked: its member "untrusted" says why.
+// Decides whether a report may be kept beside others: it must have a valid form, and its times must
+// be trusted by the doctor. A report that is kept anyway is marked: its member "untrusted" gives
+// the reason.
 namespace benchmarks::doctor {
 
 struct ReportExamination {
-    std::string schema;  // as the report has it: "hairbench-report/1.5.0"
+    std::string schema;  // as in the report: "hairbench-report/1.5.0"
     std::string device;  // may be empty
-    std::size_t cases = 0;  // 0: of a kind that has none
+    std::size_t cases = 0;  // 0: this kind of report has none
     std::vector<std::string> schema_errors;  // "/cases/0/status: ..."
-    // What the doctor's checks say of what the report knows of its build, its layers and, over all
-    // cases that ran, of passes, timestamps, clocks and others' load: of each check the worst,
-    // where it is `warn` or `bad`.
+    // The worst judgement of each check that is `warn` or `bad`, for the facts in the report: its
+    // build, its layers and, over all cases that ran, passes, timestamps, clocks and other load.
     std::vector<Finding> findings;
     std::string mark;  // why its times are not to be trusted; empty: it is not marked
 };
 
-// Looks at a report of any kind. Throws engine::Error for a file that is none, or is damaged.
+// Examines a report of any kind. Throws engine::Error if the file is not a report or is damaged.
 ReportExamination examineReport(const std::filesystem::path& file);
 
-// Whether it has the form that its schema says, and nothing is bad or it is marked.
+// True if it conforms to its schema, and nothing is bad or it is marked.
 bool isAccepted(const ReportExamination& examination);
 
-// One line: "ok, 16 cases on llvmpipe", or why it is refused.
+// One line: "ok, 16 cases on llvmpipe", or the reason for refusal.
 std::string examinationText(const ReportExamination& examination);
 
 }  // namespace benchmarks::doctor

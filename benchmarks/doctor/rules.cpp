@@ -19,7 +19,7 @@ namespace {
 using report::countText;
 using scene::Json;
 
-// A report, and what several rules ask of it.
+// A report, with queries that several rules need.
 class Judged {
 public:
     explicit Judged(const Json& report) : report_(report) {
@@ -44,7 +44,7 @@ public:
                    : std::string();
     }
 
-    // Whether the command that made it has one of these options.
+    // True if the command that made the report has one of these options.
     bool hasOption(std::initializer_list<const char*> options) const {
         const Json command = report_.at("environment").value("command", Json::array());
         return std::ranges::any_of(command, [&](const Json& word) {
@@ -55,7 +55,8 @@ public:
         });
     }
 
-    // Times of measured cases that were sampled more than once, and how many of them `lack`.
+    // Number of times of measured cases with more than one sample, and the number of these that
+    // `lack`.
     std::pair<std::size_t, std::size_t>
     sampledTimes(const std::function<bool(const Json& metric)>& lack) const {
         std::size_t all = 0, lacking = 0;
@@ -100,7 +101,7 @@ RuleFinding subsets(const Judged& judged) {
         " measured, the others with their reasons");
 }
 
-// Frames over the time that they took together is the harmonic mean of their rates.
+// Frames over their total time is the harmonic mean of their rates.
 RuleFinding means(const Judged& judged) {
     for (const Json* result : judged.measured()) {
         const Json& metrics = result->at("metrics");

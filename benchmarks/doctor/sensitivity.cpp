@@ -29,8 +29,8 @@ class OwnGate {
 public:
     explicit OwnGate(const engine::DeviceOptions& device);
 
-    // `b_sets`: "POINTER=VALUE" for B's runs alone. Blocks are of one round, some tenths of a
-    // second on a software device.
+    // `b_sets`: "POINTER=VALUE" for B's runs only. A block has one round, some tenths of a second
+    // on a software device.
     gate::GateOptions options(std::vector<std::string> b_sets = {}) const;
 
 private:
@@ -39,7 +39,7 @@ private:
     std::filesystem::path scene_;
 };
 
-// This program, even where its file was replaced since it was started.
+// This program, even if its file was replaced since its start.
 constexpr const char* kThisProgram = "/proc/self/exe";
 
 OwnGate::OwnGate(const engine::DeviceOptions& device)
@@ -57,14 +57,14 @@ gate::GateOptions OwnGate::options(std::vector<std::string> b_sets) const {
 
 // ---- Busy work for a wanted slowdown ------------------------------------------------------------
 
-// How much of /run/busy_work makes a pass slower by how much.
+// The amount of /run/busy_work in a pass and the slowdown that it causes.
 struct PlantedWork {
     std::string pass;
     std::uint32_t work = 0;
-    double planted = 0.0;  // share of the pass's cost that it adds, as measured
+    double planted = 0.0;  // added share of the pass's cost, as measured
 };
 
-// "POINTER=VALUE" that plant it.
+// The "POINTER=VALUE" settings that plant it.
 std::vector<std::string> busySets(const std::string& pass, std::uint32_t work);
 
 constexpr std::uint32_t kFirstWork = 64;
@@ -72,10 +72,10 @@ constexpr std::uint32_t kMostWork = 1u << 28;
 constexpr std::uint32_t kGrowth = 8;
 constexpr std::size_t kRoughPairs = 3;
 constexpr std::size_t kMeasuredPairs = 12;
-// What is measured to find the scale: well above the noise of any machine.
+// Slowdown measured to find the scale: well above the noise of any machine.
 constexpr double kPlain = 1.0;
 
-// The share that the work adds to the metric, the median over pairs of processes.
+// The share that the work adds to the metric, as the median over pairs of processes.
 double measureShare(
     const OwnGate& own, const report::MetricId& metric, std::uint32_t work, std::size_t pairs) {
     const gate::GateOptions options = own.options(busySets(metric.pass(), work));
@@ -106,8 +106,8 @@ std::vector<std::string> busySets(const std::string& pass, std::uint32_t work) {
     return {"/run/busy_pass=" + pass, "/run/busy_work=" + std::to_string(work)};
 }
 
-// Finds the work that adds this share to a pass's metric, by pairs of processes with and without.
-// Throws engine::Error where no amount of it shows, Interrupted.
+// Finds the work that adds this share to a pass's metric, with pairs of processes with and without
+// it. Throws engine::Error if no amount of it shows, and Interrupted.
 PlantedWork findBusyWork(const OwnGate& own, const report::MetricId& metric, double share) {
     const double plain = std::max(kPlain, 2.0 * share);
     std::uint32_t work = kFirstWork;
@@ -119,8 +119,8 @@ PlantedWork findBusyWork(const OwnGate& own, const report::MetricId& metric, dou
     if (found < plain)
         throw engine::Error("planted slowdown", "busy work does not show in " + metric.name());
     found = measureShare(own, metric, work, kRoughPairs);
-    // It is proportional but for what starting it costs, so near the end a second estimate is
-    // needed.
+    // The cost is proportional except for a constant start-up cost, so a second estimate near the
+    // target is needed.
     PlantedWork busy{.pass = metric.pass(), .work = clampedWork(work * share / found)};
     const double near = measureShare(own, metric, busy.work, kMeasuredPairs);
     const double slope =
@@ -132,7 +132,7 @@ PlantedWork findBusyWork(const OwnGate& own, const report::MetricId& metric, dou
 
 // ---- Smallest slowdown that a gate finds --------------------------------------------------------
 
-constexpr int kGates = 1000;  // 90 % of them are known to a percent
+constexpr int kGates = 1000;  // 90 % of them are known to one percent
 constexpr double kFound = 0.9;
 constexpr std::uint32_t kSeed = 1;
 
@@ -143,7 +143,7 @@ smallestSlowdown(std::span<const double> differences, double decisive_change, st
     if (differences.size() < 2) throw engine::Error("calibration", "two pairs are needed");
     const double level =
         report::stageLevel(report::VerdictRule{}.alpha) / static_cast<double>(metrics);
-    std::mt19937 random(kSeed);  // whose numbers the standard fixes
+    std::mt19937 random(kSeed);  // the standard defines its numbers
     std::vector<double> missing;  // ln of the slowdown that each gate needs, less ln(1 + tau)
     std::vector<double> drawn(*std::rbegin(report::kStages));
     for (int gate = 0; gate < kGates; ++gate) {
@@ -175,8 +175,8 @@ measureSensitivity(const engine::DeviceOptions& device, std::uint32_t pairs) {
     const std::vector<gate::GateTime>& times = session.run().times;
     std::vector<Sensitivity> found;
     for (const gate::GateTime& time : times) {
-        if (time.calibration.size() < 2) continue;  // not known in some process
-        // A gate judges either by the wall clock or by the processor's.
+        if (time.calibration.size() < 2) continue;  // unknown in some process
+        // A gate judges either by wall-clock time or by CPU time.
         const auto metrics = static_cast<std::size_t>(std::ranges::count(
             times, report::isOfProcessor(time.metric.id),
             [](const gate::GateTime& each) { return report::isOfProcessor(each.metric.id); }));
@@ -194,9 +194,9 @@ namespace {
 
 // ---- Gates with a planted slowdown --------------------------------------------------------------
 
-constexpr double kMargin = 1.5;  // what is planted over what can be found
+constexpr double kMargin = 1.5;  // planted slowdown over the smallest detectable one
 
-// Passes that can be slowed down alone: others share what they draw into with these.
+// Passes that can be slowed down on their own; others share render targets with these.
 bool canBeBusy(const std::string& pass) { return pass == "strands" || pass == "simulate"; }
 
 const Sensitivity& mostPrecise(const std::vector<Sensitivity>& all) {
