@@ -43,7 +43,7 @@ BlockCase readCase(const scene::Json& result) {
     return read;
 }
 
-// Throws engine::Error where there is no report, or none of this kind.
+// Throws engine::Error if there is no report, or none of this kind.
 BlockReport readBlock(const std::filesystem::path& path) {
     const scene::Json report = report::readReport(path);
     try {
@@ -99,17 +99,17 @@ namespace {
 
 // How a process ended.
 struct ChildEnd {
-    int status = 0;  // of its exit; 128 + signal where one ended it, as shells count
+    int status = 0;  // exit status; 128 + signal if a signal ended it, as shells count
     bool signaled = false;
 };
 
 using Clock = std::chrono::steady_clock;
 
-// How long to look away while a child runs: looking costs microseconds, which is nothing beside
-// what a long one measures, and short ones are not waited for longer than they take.
+// Polling intervals while a child runs. Polling costs microseconds, which is negligible for a long
+// measurement, and a short run is not waited for much longer than it takes.
 constexpr std::chrono::milliseconds kShortestLook{1};
 constexpr std::chrono::milliseconds kLongestLook{20};
-// A run that waits for its device ends within a second; this program is to end within two.
+// A run that waits for its device ends within a second; this program should end within two.
 constexpr std::chrono::milliseconds kGrace{1700};
 constexpr int kNotFound = 127;
 
@@ -121,7 +121,7 @@ std::vector<std::string> environmentWith(const std::filesystem::path& temporary)
     return all;
 }
 
-// As posix_spawn wants them.
+// Converts words to the form for posix_spawn.
 std::vector<char*> pointersTo(const std::vector<std::string>& words) {
     std::vector<char*> pointers;
     for (const std::string& each : words) pointers.push_back(const_cast<char*>(each.c_str()));
@@ -129,7 +129,7 @@ std::vector<char*> pointersTo(const std::vector<std::string>& words) {
     return pointers;
 }
 
-// A child that is gone in any case.
+// A child process that is always gone after destruction.
 class Child {
 public:
     Child(
@@ -165,7 +165,7 @@ public:
 
     void signal(int number) const { kill(-id_, number); }
 
-    // How it ended, once it has.
+    // How it ended, if it has ended.
     std::optional<ChildEnd> end() {
         int status = 0;
         const pid_t ended = waitpid(id_, &status, WNOHANG);
@@ -181,10 +181,10 @@ private:
     int error_ = 0;
 };
 
-// Runs a program to its end, found as the shell finds it, with nothing to read, all that it says in
-// the file `output` and its temporary files in the folder `temporary`. It has a process group of
-// its own: where this program is interrupted, the group is interrupted, killed if it goes on
-// for 1.7 s more, and Interrupted thrown. Status 127 where there is no such program.
+// Runs a program, found like the shell finds it, to its end. It has no input; its output goes to
+// the file `output` and its temporary files to the folder `temporary`. It has its own process
+// group. If this program is interrupted, the group is interrupted, killed if it runs for 1.7 s
+// more, and Interrupted is thrown. The status is 127 if there is no such program.
 ChildEnd runChild(
     const std::vector<std::string>& command, const std::filesystem::path& output,
     const std::filesystem::path& temporary) {
@@ -222,12 +222,12 @@ fs::path programOfBuild(const fs::path& folder, const std::string& context) {
     throw engine::Error(context, "holds no benchmarks/hairbench, bin/hairbench or hairbench");
 }
 
-// A file name without a slash would be looked for in PATH.
+// A file name without a slash would be searched in PATH.
 std::string runnable(const fs::path& program) {
     return program.has_parent_path() ? program.string() : "./" + program.string();
 }
 
-// A command line of the shell that takes arguments after those it has.
+// A shell command line that accepts arguments after its own.
 std::vector<std::string> shellProgram(const std::string& text) {
     return {"/bin/sh", "-c", text + " \"$@\"", "hairbench gate"};
 }
@@ -237,7 +237,7 @@ void addRepeated(
     for (const std::string& value : values) options.insert(options.end(), {option, value});
 }
 
-// What the user asked for of the runs of this side.
+// The user's options for the runs of this side.
 std::vector<std::string> runOptions(char name, const GateOptions& options) {
     std::vector<std::string> all;
     const scene::SceneOptions& scene = options.scene;
@@ -246,7 +246,7 @@ std::vector<std::string> runOptions(char name, const GateOptions& options) {
     addRepeated(all, "--set", name == 'A' ? options.a_sets : options.b_sets);
     if (!options.filter.empty()) addRepeated(all, "--filter", {options.filter});
     if (!scene.device.wanted.empty()) addRepeated(all, "--device", {scene.device.wanted});
-    // Where they are asked for alone: programs of before these options do not know them.
+    // Passed only if requested, because older programs do not know these options.
     if (!scene.cache) all.emplace_back("--no-cache");
     if (scene.outside == scene::Outside::allowed) all.emplace_back("--allow-outside");
     if (scene.frames) addRepeated(all, "--frames", {std::to_string(*scene.frames)});
@@ -321,7 +321,7 @@ namespace {
 
 // ---- Run of a block -----------------------------------------------------------------------------
 
-constexpr std::size_t kMostLines = 12;  // of a failed process that are shown
+constexpr std::size_t kMostLines = 12;  // shown lines of a failed process
 constexpr std::size_t kMostBytes = 4000;
 
 std::string lastLines(const std::filesystem::path& file) {
@@ -346,7 +346,7 @@ int exitStatusFor(int status) {
     return passes_on ? status : report::kInternalError;
 }
 
-// Runs of which every case was skipped or failed write a report too.
+// Runs also write a report if every case was skipped or failed.
 bool wroteReport(const ChildEnd& end) {
     return !end.signaled && (end.status == report::kOk || end.status == report::kNothingRan);
 }
@@ -368,7 +368,7 @@ BlockReport BlockRunner::run(const Side& side, std::uint32_t seed) {
     const fs::path folder = scratch_.path() / "block";
     std::error_code ignored;
     fs::remove_all(folder, ignored);
-    // Within the block's folder, so that what a run leaves that had to be killed goes with it.
+    // It is in the block's folder, so that the leftovers of a killed run are removed with it.
     const fs::path temporary = folder / "temporary";
     fs::create_directories(temporary);
     const fs::path report = folder / "report.json";

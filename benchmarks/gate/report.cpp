@@ -41,7 +41,7 @@ const char* endName(GateRun::End end) {
     return "failed";
 }
 
-// What is not a number is null in lists, where leaving it out would move the others.
+// Numbers that are not finite become null in lists, because omitting them would shift the others.
 scene::Json numbers(const std::vector<double>& values) {
     scene::Json list = scene::Json::array();
     for (const double value : values)
@@ -162,7 +162,7 @@ std::string sideText(const Side& side, const std::optional<BlockReport>& first) 
     return text + '\n';
 }
 
-// What two builds on one machine share is left out: of the scenes only cases and results count.
+// Omits what two builds on one machine share. Of the scenes, only cases and results count.
 std::string differencesText(const GateRun& run) {
     if (!run.first_a || !run.first_b) return {};
     std::string text;

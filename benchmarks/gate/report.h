@@ -11,14 +11,13 @@ namespace benchmarks::gate {
 
 inline constexpr const char* kGateSchema = "hairbench-gate/1.1.0";
 
-// All of a gate, as results/gate.schema.json describes it: verdicts can be worked out again from
-// it. What is not known is absent.
+// The complete gate, as described by results/gate.schema.json; verdicts can be recomputed from it.
+// Unknown values are absent.
 scene::Json gateReport(
     const GateRun& run, const report::VerdictOptions& options,
     const std::vector<std::string>& command);
 
-// The gate for a terminal: what was compared, what differs, a row for each metric, the verdicts'
-// counts.
+// Text for a terminal: the sides, the differences, a row per metric, and the counts of verdicts.
 std::string gateText(const GateRun& run);
 
 }  // namespace benchmarks::gate

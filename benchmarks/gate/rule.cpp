@@ -15,7 +15,7 @@ namespace {
 constexpr report::Comparison kNothingKnown{
     .verdict = report::Verdict::inconclusive,
     .change = std::numeric_limits<double>::quiet_NaN(),
-    .lower = -1.0,  // a share: infinitely much faster
+    .lower = -1.0,  // a share: infinitely faster
     .upper = std::numeric_limits<double>::infinity(),
     .decisive_change = 0.0,
     .p = 1.0};
@@ -44,7 +44,7 @@ Gate::Step Gate::next() const {
             const report::Verdict verdict = decided_[i].verdict;
             open |= comparable_[i] && verdict == report::Verdict::inconclusive;
             if (verdict != report::Verdict::regressed || isClockChange(i)) continue;
-            // Whose doing it is may not be known yet.
+            // The cause of the change may not be known yet.
             const auto cycles = metrics_[i].cycles;
             const bool known = !cycles || !comparable_[*cycles] ||
                                decided_[*cycles].verdict != report::Verdict::inconclusive;
@@ -120,7 +120,7 @@ std::vector<report::Comparison> Gate::comparisons() const {
 
 std::vector<report::Comparison> Gate::compareNow() const {
     std::vector<report::Comparison> comparisons(metrics_.size(), kNothingKnown);
-    // What decides nothing does not weigh on the rest's level.
+    // Metrics that do not decide do not affect the level of the others.
     for (const bool decides : {true, false}) {
         std::vector<std::size_t> which;
         std::vector<std::vector<double>> differences;

@@ -11,48 +11,49 @@ namespace benchmarks::gate {
 
 struct GateMetric {
     std::vector<double> calibration{};  // ln(A2/A1) of pairs of one build; may be empty
-    bool decides = true;  // false: it is judged, and nothing waits for it
-    // Index of the metric that has this one's time in cycles: where that is the same, a change of
-    // time is the clock's, and decides nothing.
+    bool decides = true;  // false: the metric is judged, but the gate does not wait for it
+    // Index of the metric that has this time in cycles. If the cycles stay the same, a change of
+    // the time is due to the clock and decides nothing.
     std::optional<std::size_t> cycles{};
 };
 
-// Says which build to run next and when enough is known, and judges: whoever has it runs processes.
-// Pairs of blocks go A B, B A, A B ..., so that a drift of the machine raises as many differences
-// as it lowers. After 12, 24 and 48 pairs (from the rule's first_pairs on) verdicts are passed; one
-// that is not "inconclusive" stays, as each try has its share of the level. It is over if no metric
-// that decides is inconclusive, or if one has regressed and not all are wanted; at 48 whatever is
-// inconclusive stays so. It takes all blocks to be of the same work: whoever has it ends where
-// pictures or states differ.
+// Tells which build to run next and when enough is known, and passes verdicts; its owner runs the
+// processes. Pairs of blocks go A B, B A, A B ..., so that a drift of the machine raises as many
+// differences as it lowers. Verdicts are passed after 12, 24 and 48 pairs (from the rule's
+// first_pairs on). A verdict other than "inconclusive" is final, as each stage has its share of the
+// level. The gate ends when no deciding metric is inconclusive, or when one has regressed and `all`
+// is false. After 48 pairs, inconclusive metrics stay inconclusive. All blocks must do the same
+// work: the owner must stop if pictures or states differ.
 class Gate {
 public:
     enum class Step { run_a, run_b, decided };
 
-    // `all`: a regression does not end it while others are inconclusive.
+    // `all`: a regression does not end the gate while other metrics are inconclusive.
     explicit Gate(
         std::vector<GateMetric> metrics, const report::VerdictRule& rule = {}, bool all = false);
 
     Step next() const;
 
-    // A block of the build that next() asked for: the median of each metric's samples, larger is
-    // worse. Another number of medians than of metrics is an engine::Error.
+    // Adds a block of the build that next() requested: the median of each metric's samples, where
+    // larger is worse. Throws engine::Error if there are more or fewer medians than metrics.
     void add(std::vector<double> medians);
 
     std::size_t pairs() const { return pairs_; }
 
-    // Pairs at which there is something to decide next; the last number of pairs at the end.
+    // Number of pairs at the next decision; at the end, the last number of pairs.
     std::size_t nextDecision() const;
 
-    // Whether the metric's time changed and its cycles did not.
+    // True if the metric's time changed but its cycles did not.
     bool isClockChange(std::size_t metric) const;
 
-    // Pairs at which verdicts were passed last; 0: none were.
+    // Number of pairs at the last verdicts; 0: none yet.
     std::size_t decidedAt() const { return decided_at_; }
 
-    // One for each metric: as of decidedAt(), so that stopping at a lucky moment decides nothing,
-    // or, where a verdict was passed before that, as of then. Before the first time what is known
-    // so far, all inconclusive. A metric with a median that is not above 0 in some block cannot be
-    // compared: it is inconclusive, asks for no more pairs and leaves the rest alone.
+    // One comparison per metric, as of decidedAt(), so that stopping at a lucky moment decides
+    // nothing. A metric with an earlier verdict keeps the comparison of that time. Before the first
+    // verdicts, the current knowledge, all inconclusive. A metric with a median that is not above 0
+    // in some block cannot be compared: it is inconclusive, requests no more pairs and does not
+    // affect the others.
     std::vector<report::Comparison> comparisons() const;
 
 private:

@@ -17,7 +17,7 @@ namespace {
 
 // ---- Verdicts and differences of a run ----------------------------------------------------------
 
-// The two blocks of a pair, as they came.
+// The two blocks of a pair, in order.
 struct PairOfBlocks {
     const BlockRecord* first;
     const BlockRecord* second;
@@ -73,8 +73,8 @@ namespace {
 
 constexpr double kNotMeasured = std::numeric_limits<double>::quiet_NaN();
 
-// A metric that is timed in another way this time, as where a device's timestamps were not trusted
-// in one process, is not comparable.
+// A metric is not comparable if it was timed differently in this process, for example if timestamps
+// were not trusted in one process.
 std::vector<double> mediansOf(const std::vector<GateTime>& times, const BlockReport& block) {
     std::vector<double> medians;
     for (const GateTime& time : times) {
@@ -124,7 +124,7 @@ GateSession::GateSession(const GateOptions& options, report::MetricChoice judged
     run_.rule.threshold = options.verdict.threshold;
     run_.rule.first_pairs = options.pairs;
     if (!judged_)
-        judged_ = report::metricsNamed(regex_);  // a malformed one ends it before anything runs
+        judged_ = report::metricsNamed(regex_);  // throws for a malformed expression
 }
 
 GateSession::~GateSession() {
@@ -150,7 +150,7 @@ bool GateSession::warmUp() {
 
 namespace {
 
-// What a pass is of all passes of its case by the same clock; absent of what is no pass.
+// Share of a pass in all passes of its case by the same clock; absent if it is not a pass.
 std::optional<double> shareOf(const report::MetricReading& metric, const BlockCase& block_case) {
     if (metric.id.of != report::MetricOf::pass) return std::nullopt;
     double sum = 0.0;
@@ -188,7 +188,7 @@ void GateSession::chooseTimes() {
         throw engine::Error("--metrics", "'" + regex_ + "' is in no metric's name");
 }
 
-// Beside each time that is judged the same in cycles, where both sides know it.
+// For each judged time, adds the same in cycles if both sides have it.
 void GateSession::addCycles(const std::vector<CommonMetric>& common) {
     const std::size_t times = run_.times.size();
     for (std::size_t i = 0; i < times; ++i) {
