@@ -147,7 +147,7 @@ std::string ablationText(const AblationReport& report) {
     scene::Json cases = scene::Json::array();
     for (const CaseAblation& each : report.cases) cases.push_back(toJson(each));
     object["cases"] = std::move(cases);
-    // What drivers and commands say need not be UTF-8.
+    // Output of drivers and commands need not be UTF-8.
     return object.dump(2, ' ', false, scene::Json::error_handler_t::replace) + '\n';
 }
 
@@ -189,7 +189,7 @@ std::string unitCell(const UnitCost* cost) {
     return cost ? report::shortNumber(cost->nanoseconds) : "-";
 }
 
-// Per what the stage handles one by one.
+// Cost per item of the stage's own kind of work.
 std::string ownUnitCell(const CaseAblation& ablation, Stop rung) {
     for (const UnitCost& each : ablation.unit_costs) {
         if (each.rung != rung || each.unit == "strand" || each.unit == "segment") continue;

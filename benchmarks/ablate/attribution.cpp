@@ -10,11 +10,11 @@
 namespace benchmarks::ablate {
 namespace {
 
-// ---- Marginal costs and what they leave open ----------------------------------------------------
+// ---- Marginal costs and residuals ---------------------------------------------------------------
 
 constexpr double kAlpha = 0.05;
 
-// A stop's times, each with a factor.
+// A stop's times with a factor.
 struct Term {
     Stop stop;
     double factor;
@@ -91,11 +91,12 @@ namespace {
 // ---- Warnings -----------------------------------------------------------------------------------
 
 constexpr double kDiscardTolerance = 0.1;  // of the geometry rung
-constexpr double kClosureTolerance = 0.02;  // of the pass: a change of this share matters to nobody
-constexpr double kWatchTolerance = 0.1;  // of what its stage costs
-constexpr double kWatchShare = 0.01;  // of the pass: with many comparisons some are off by chance
+constexpr double kClosureTolerance = 0.02;  // of the pass; a smaller change is irrelevant
+constexpr double kWatchTolerance = 0.1;  // of the cost of the stage
+constexpr double kWatchShare = 0.01;  // of the pass: with many comparisons, some exceed the limit
+                                      // by chance
 
-// Whether all of the interval is beyond -limit ... limit; never with too few laps for one.
+// True if the whole interval is outside -limit ... limit; false with too few laps for an interval.
 bool isBeyond(const Cost& cost, double limit) {
     return cost.interval && (cost.interval->lower > limit || cost.interval->upper < -limit);
 }

@@ -9,7 +9,7 @@
 
 #include "benchmarks/ablate/stops.h"
 
-// From times to costs; docs/measuring.md says what they mean.
+// Derives costs from times; docs/ablation.md defines the costs.
 namespace benchmarks::ablate {
 
 // A difference of times, ms: the Hodges-Lehmann estimate over the laps' differences and its exact
@@ -19,7 +19,7 @@ struct Cost {
     struct Interval {
         double lower;
         double upper;
-        double confidence;  // achieved, at least 95 %
+        double confidence;  // achieved level, at least 95 %
     };
     std::optional<Interval> interval;  // absent: fewer than 6 laps
 };
@@ -28,16 +28,17 @@ Cost costOf(std::span<const double> differences);
 struct RungCost {
     Stop stop = Stop::empty;
     double time = 0.0;  // ms, median of the laps
-    Cost marginal;  // less the rung below; of the lowest all of it
+    Cost marginal;  // less the rung below; the lowest rung has its whole time
     double share = 0.0;  // of the whole pass
 };
 
-// What the marginal costs leave open. All are sums of times of the same lap.
+// Differences that the marginal costs do not explain. All are sums of times of the same lap.
 struct Residual {
     Cost closure;  // the renderer's own pass less all marginal costs
-    Cost discard;  // clipped less geometry: two ways to end before the rasteriser
-    std::optional<Cost> multisampling;  // what samples cost with a fragment shader less without
-    Cost interaction;  // the sum of these: the pass less costs measured in another order
+    Cost discard;  // clipped less geometry: two ways to stop before the rasteriser
+    std::optional<Cost> multisampling;  // the samples' cost with a fragment shader, less that
+                                        // without
+    Cost interaction;  // the sum of these: the pass less the costs measured in another order
 };
 
 struct Attribution {
@@ -45,29 +46,29 @@ struct Attribution {
     double pass_time = 0.0;  // ms, median, of the renderer's own
     double clipped_time = 0.0;
     Residual residual;
-    std::vector<std::pair<Stop, Cost>> watching;  // what it costs that a stage is watched
+    std::vector<std::pair<Stop, Cost>> watching;  // cost of watching a stage
 };
 
-// `stops` are those of planStops(), with as many laps each, at least one.
+// `stops` are those of planStops(), each with the same number of laps, at least one.
 Attribution attribute(std::span<const StopTimes> stops);
 
-// Warnings about an attribution that is not to be believed.
+// Warnings that an attribution cannot be trusted.
 std::vector<std::string> attributionWarnings(const Attribution& attribution);
 
-// Counts of work in one picture. What is not known is absent.
+// Counts of work in one picture. Unknown counts are absent.
 struct WorkCounts {
     std::optional<std::uint64_t> patches;
     std::optional<std::uint64_t> strands;
     std::optional<std::uint64_t> segments;  // drawn
-    std::optional<std::uint64_t> evaluations_1;  // at one segment a guide segment
+    std::optional<std::uint64_t> evaluations_1;  // with one drawn segment per guide segment
     std::optional<std::uint64_t> evaluations;
-    std::optional<std::uint64_t> fragments;  // at one sample
-    std::optional<std::uint64_t> samples;  // with the case's, above 1
+    std::optional<std::uint64_t> fragments;  // with one sample
+    std::optional<std::uint64_t> samples;  // with the case's sample count, if above 1
     std::string fragments_note;  // empty: exact
 };
 
-// A rung's marginal cost per thing that it does more than the rung below, or over which it is
-// spread.
+// A rung's marginal cost per item of work: per item that it adds to the rung below, or per item
+// over which it is spread.
 struct UnitCost {
     Stop rung = Stop::empty;
     std::string unit;  // "strand", "segment", "patch", "evaluation", "fragment", "sample"
@@ -76,7 +77,7 @@ struct UnitCost {
     std::string note;  // empty: the count is exact
 };
 
-// Per strand and segment for all but the empty rung, and per what the stage handles.
+// Per strand and segment for all but the empty rung, and per item of the stage's own kind.
 std::vector<UnitCost> unitCosts(const std::vector<RungCost>& rungs, const WorkCounts& work);
 
 }  // namespace benchmarks::ablate

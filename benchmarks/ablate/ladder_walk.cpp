@@ -98,7 +98,7 @@ std::vector<double> StopView::visit(engine::FrameLoop& loop, std::uint32_t frame
     return measure::passTimes(loop.finish(), kPass);
 }
 
-// In frames of their own each: no count is spoilt by another query.
+// Each count uses its own frame, so that no query disturbs another.
 StopCounts StopView::count(hair::rendering::StageWatch& watch) {
     StopCounts counts;
     counts.statistics = countStatistics();
@@ -143,11 +143,11 @@ namespace {
 
 // ---- All stops of a case, up and down -----------------------------------------------------------
 
-// All stops of a case, counted when they are made, then timed.
+// All stops of a case. They are counted when they are created, then timed.
 class LadderWalk {
 public:
-    // Fills in result.stops but for times, result.image_hash, and what is odd about the counts.
-    // Throws engine::Unsupported for what the device can't do, and Interrupted.
+    // Fills in result.stops except for their times, result.image_hash, and warnings about the
+    // counts. Throws engine::Unsupported if the device lacks a feature, and Interrupted.
     LadderWalk(
         const engine::Device& device, const StillHair& hair, const hair::Settings& settings,
         CaseAblation& result);
@@ -155,7 +155,7 @@ public:
     // The plan of the case itself.
     const hair::rendering::StrandPlan& plan() const { return pass().plan(); }
 
-    // Up and down so many times. Throws Interrupted; a lap that isn't done is left out.
+    // Walks up and down `laps` times. Throws Interrupted; an incomplete lap is dropped.
     void walk(std::uint32_t laps, const std::function<void(const std::string&)>& progress);
 
 private:
@@ -168,10 +168,10 @@ private:
     std::vector<std::unique_ptr<StopView>> views_;
 };
 
-constexpr std::uint32_t kVisitFrames = 3;  // their median is the visit's time
-constexpr std::uint32_t kWarmUps = 2;  // frames of a pipeline before it is timed
+constexpr std::uint32_t kVisitFrames = 3;  // the visit's time is their median
+constexpr std::uint32_t kWarmUps = 2;  // frames per pipeline before timing
 
-// Isolated, or by the CPU's clock where timestamps are wrong.
+// Isolated timing, or the CPU's clock if timestamps are wrong.
 engine::Timing
 trustedTiming(const engine::Device& device, StopView& pass, std::vector<std::string>& warnings) {
     engine::FrameLoop stamped(device, engine::Timing::isolated);

@@ -23,25 +23,24 @@
 // Measures the strands pass of a case at every stop of the ladder.
 namespace benchmarks::ablate {
 
-// Plays a case to the last frame that `run` measures of it and draws its hair, which then stands
-// still, `laps` times up and down the ladder. What the device or the case can't do is in the
-// result. Throws Interrupted where the user stopped the program; `result` then has the laps that
-// were done.
+// Plays a case up to the last frame that `run` measures, freezes its hair and draws it at every
+// stop, `laps` times up and down the ladder. If the device or the case lacks something, the result
+// says so. Throws Interrupted if the user stopped the program; `result` then has the complete laps.
 void ablateCase(
     const engine::Device& device, const scene::CaseSpec& spec,
     const std::filesystem::path& directory, std::uint32_t laps,
     const std::function<void(const std::string&)>& progress, measure::HairCache& cache,
     CaseAblation& result);
 
-// Where a stop without a fragment shader does not cover what the same one with it does. Not for
-// shaders that discard fragments.
+// Warns if a stop without a fragment shader covers other samples than the same stop with one. Does
+// not apply to shaders that discard fragments.
 std::vector<std::string> coverageWarnings(std::span<const StopRecord> stops);
 
-// The hair of a case at a frame, and what else its pictures need.
+// The hair of a case at one frame, and the other assets of its pictures.
 class StillHair {
 public:
-    // Simulates up to the frame, which is counted from 0, without pictures. Throws as Case does,
-    // and Interrupted.
+    // Simulates up to the frame, counted from 0, without pictures. Throws like Case, and
+    // Interrupted.
     StillHair(
         const engine::Device& device, const hair::Settings& settings,
         const std::filesystem::path& directory, std::uint32_t frame, measure::HairCache& cache);
@@ -56,10 +55,10 @@ private:
     hair::rendering::RenderAssets assets_;
 };
 
-// Hair that stands still, drawn as one stop has it.
+// Frozen hair, drawn with the settings of one stop.
 class StopView {
 public:
-    // Throws engine::Unsupported for what the device can't do.
+    // Throws engine::Unsupported if the device lacks a feature.
     StopView(
         const engine::Device& device, StopPlan stop, const hair::rendering::StrandView& hair,
         const hair::rendering::RenderAssets& assets);
@@ -67,13 +66,13 @@ public:
     const StopPlan& stop() const { return stop_; }
     const hair::rendering::StrandPlan& plan() const { return renderer_.plan(); }
 
-    // Throws Interrupted where the user stopped the program.
+    // Throws Interrupted if the user stopped the program.
     void draw(engine::FrameLoop& loop);
 
-    // The strands pass of so many frames, after one that isn't timed, ms.
+    // Times of the strands pass in `frames` frames, after one untimed frame, ms.
     std::vector<double> visit(engine::FrameLoop& loop, std::uint32_t frames);
 
-    // Counts in frames of their own. Leaves `watch` seeing next to none.
+    // Counts in separate frames. Afterwards `watch` sees almost nothing.
     StopCounts count(hair::rendering::StageWatch& watch);
 
     // The last frame, [row][column] RGBA, top row first. Waits for the device.

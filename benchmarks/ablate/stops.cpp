@@ -38,7 +38,7 @@ hair::Settings withPieces(hair::Settings settings, std::uint32_t pieces) {
     return settings;
 }
 
-// Drawn segments per guide segment, at most.
+// Most drawn segments per guide segment.
 std::uint32_t drawnPieces(const hair::Settings& settings) {
     if (settings.lod.mode == hair::LodMode::distance) return settings.strands.tessellation;
     return hair::rendering::drawnPieces(
@@ -46,7 +46,7 @@ std::uint32_t drawnPieces(const hair::Settings& settings) {
         .count;
 }
 
-// Where the camera is stays: quads face it and levels of detail go by it.
+// The camera keeps its position, because quads face it and levels of detail depend on it.
 hair::Settings clipped(hair::Settings settings) {
     settings.camera.near_plane = 1e6f;  // m
     settings.camera.far_plane = 2e6f;
@@ -177,7 +177,7 @@ std::optional<std::uint64_t> expectedInvocations(
     }
 }
 
-// The statistic that counts what a watched stage counts itself.
+// The statistic with the same count as a watched stage.
 std::string_view countOf(hair::rendering::StrandStage stage) {
     switch (stage) {
     case hair::rendering::StrandStage::vertex:

@@ -13,24 +13,24 @@
 #include "hair/rendering/strand_plan.h"
 #include "hair/settings.h"
 
-// The pictures of one case from whose times the cost of the strands' stages comes.
+// The pictures of one case for the costs of the strands' stages.
 namespace benchmarks::ablate {
 
 enum class Stop {
-    // The ladder: each with one stage's work more than the one before.
+    // The ladder: each rung adds the work of one stage to the rung below.
     empty,  // the pass without a draw
     vertex,
-    tessellation_1,  // one drawn segment a guide segment
-    tessellation,  // as many as the case has
+    tessellation_1,  // one drawn segment per guide segment
+    tessellation,  // the case's number of segments
     geometry,
-    raster,  // without a fragment shader; up to here primitives are discarded
+    raster,  // without a fragment shader; the rungs below this one discard primitives
     fragment,
-    msaa,  // up to here with one sample a pixel
-    // Others, that the ladder is checked with.
-    pass,  // the case's own, as it always is
-    clipped,  // fragment, but every primitive is nearer than the near plane
-    raster_msaa,  // raster, with the case's samples
-    watched_vertex,  // fragment, with the stage watched
+    msaa,  // the rungs below have one sample per pixel
+    // Other stops, which check the ladder.
+    pass,  // the case's own, unmodified
+    clipped,  // like fragment, but every primitive is in front of the near plane
+    raster_msaa,  // like raster, with the case's sample count
+    watched_vertex,  // like fragment, with the stage watched
     watched_evaluation,
     watched_geometry,
 };
@@ -45,23 +45,23 @@ struct StopPlan {
     hair::rendering::StrandStages stages;
 };
 
-// Rungs from the bottom up, then the others. Those that a case doesn't tell apart are left out:
-// tessellation_1 where it draws one segment a guide segment, msaa and raster_msaa where it has one
+// Rungs from the bottom up, then the others. Stops that are the same in a case are omitted:
+// tessellation_1 if it draws one segment per guide segment, msaa and raster_msaa if it has one
 // sample. `watch` is a StageWatch's address.
 std::vector<StopPlan> planStops(const hair::Settings& settings, std::uint64_t watch);
 
-// Why the stages of such a case can't be taken apart: "<JSON pointer>: <reason>"; empty if they
+// Returns why the stages of a case can't be separated, "<JSON pointer>: <reason>"; empty if they
 // can.
 std::string ablationObstacle(const hair::Settings& settings);
 
-// The strands pass at one stop in one walk up the ladder and down again; ms of each frame.
+// Times of the strands pass at one stop in one walk up and down the ladder; ms per frame.
 struct Lap {
     std::vector<double> up;
     std::vector<double> down;
 };
 
-// The mean of both visits' medians, ms. What drifts evenly adds as much to every stop: they are
-// visited evenly round the same moment, the top of the ladder.
+// The mean of both visits' medians, ms. A linear drift adds the same to every stop, because the two
+// visits of each stop are symmetric about the same moment, the top of the ladder.
 double lapTime(const Lap& lap);
 
 struct StopTimes {
@@ -69,11 +69,11 @@ struct StopTimes {
     std::vector<Lap> laps;
 };
 
-// Times of a stop, which must be among `stops`, one for each lap.
+// Times of a stop, one per lap. The stop must be among `stops`.
 std::vector<double> lapTimes(std::span<const StopTimes> stops, Stop stop);
 bool hasStop(std::span<const StopTimes> stops, Stop stop);
 
-// Passes of which one's samples are counted. Borrows all.
+// Forwards passes and counts the samples of one of them. Borrows all its arguments.
 class SampledPasses : public engine::Passes {
 public:
     SampledPasses(engine::Passes& passes, std::string counted, engine::SamplesQuery& query)
@@ -97,22 +97,22 @@ private:
     engine::SamplesQuery& query_;
 };
 
-// What the strands pass of a stop did in untimed frames. Absent where the device doesn't count.
+// Counts of a stop's strands pass in untimed frames. Absent if the device does not count.
 struct StopCounts {
     std::optional<engine::StatisticCounts> statistics;
-    std::optional<std::uint64_t> samples_passed;  // the depth test
+    std::optional<std::uint64_t> samples_passed;  // samples that passed the depth test
     std::optional<std::uint64_t> seen;  // invocations of the watched stage, by its own count
 };
 
-// What was counted, with what the plan implies where it implies something: of stages that the stop
-// has; counters of absent stages are undefined, so that only what is expected is listed.
+// The counts, with the expected values where the plan implies them. Only stages of the stop are
+// listed, because counters of absent stages are undefined.
 std::vector<report::Statistic> stopStatistics(
     const StopPlan& stop, const hair::rendering::StrandPlan& plan, const StopCounts& counts,
     bool approximate_fragments);
 
-// Counts that are not what is expected (measure::missedCount()): a driver that left out a stage
-// that it should have run, or ran one that it shouldn't. "geometry: geometry_invocations: 0,
-// expected 243712".
+// Counts that differ from the expected ones (measure::missedCount()): a driver skipped a stage that
+// it should have run, or ran one that it should not. "geometry: geometry_invocations: 0, expected
+// 243712".
 std::vector<std::string> countWarnings(
     const StopPlan& stop, std::span<const report::Statistic> statistics,
     const engine::DeviceInfo& device);
