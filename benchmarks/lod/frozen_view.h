@@ -8,7 +8,7 @@
 #include "engine/frame_loop.h"
 #include "hair/rendering/renderer.h"
 
-// Pictures of the hair of one frame, drawn with other settings than its case's.
+// Pictures of the hair of one frame, drawn with settings other than the case's.
 namespace benchmarks::lod {
 
 // [row][column] RGBA, display values.
@@ -35,18 +35,19 @@ struct LodTimes {
     double frame = 0.0;    // from submission to completion
 };
 
-// The settings at a forced level of detail.
+// Returns the settings with a forced level of detail.
 hair::Settings atLevel(hair::Settings settings, float level);
 
-// White hair alone on black, opaque, 16 samples a pixel: its mean is what the hair hides.
+// White hair alone on black, opaque, with 16 samples per pixel. Its mean is the area that the hair
+// covers.
 hair::Settings coverageOf(hair::Settings settings);
 
-// The camera zooms in so that the square is as large as what the hair can't leave: the measure does
-// not get coarser with the distance.
+// Zooms the camera in so that the square just contains the hair's bounding sphere. The resolution
+// of the measure then does not depend on the distance.
 hair::CameraSettings
 zoomedOn(const hair::rendering::StrandView& view, const hair::CameraSettings& camera);
 
-// What is drawn of the frozen hair with one set of settings.
+// Pictures of the frozen hair with one set of settings.
 class FrozenView {
 public:
     FrozenView(
@@ -63,7 +64,7 @@ public:
 
     Picture picture();
 
-    // Linear light, [row][column] RGB; the settings have a tone map.
+    // Linear light, [row][column] RGB; requires a tone map in the settings.
     std::vector<float> radiance();
 
 private:

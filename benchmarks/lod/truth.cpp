@@ -21,7 +21,7 @@
 namespace benchmarks::lod {
 namespace {
 
-// ---- What is compared ---------------------------------------------------------------------------
+// ---- Errors of a level --------------------------------------------------------------------------
 
 Picture
 pictureOf(const engine::Device& device, const measure::Case& hair, const hair::Settings& settings) {

@@ -10,57 +10,59 @@
 #include "benchmarks/scene/json.h"
 #include "benchmarks/scene/scene.h"
 
-// Levels of detail against what a path tracer makes of level 0, lit from round about.
+// Compares levels of detail with a path-traced level 0, lit from several directions.
 namespace benchmarks::measure {
 class HairCache;
 }  // namespace benchmarks::measure
 
 namespace benchmarks::lod {
 
-// Degrees from the camera's direction to the light's, about the camera's target and up: 0 lights
-// what is seen, 180 comes through the hair.
+// Degrees from the camera's direction to the light's, about the camera's target and up vector. At 0
+// the light comes from the camera; at 180 it comes through the hair.
 inline constexpr std::array kLightAngles{0.0, 45.0, 90.0, 180.0};
 
-// A level is compared with what it is a little finer; what that changes is popping.
+// A level is compared with a slightly finer one; the difference is the popping.
 inline constexpr float kLevelStep = 0.05f;
 
-// How far a level's picture is from the path-traced one of level 0: docs/rendering.md.
+// Differences between a level's picture and the path-traced picture of level 0: docs/references.md.
 struct LightErrors {
     double angle = 0.0;  // of kLightAngles
     double flip = 0.0;
     double rmse = 0.0;
-    std::optional<double> light_ratio;  // absent where the reference is black
+    std::optional<double> light_ratio;  // absent if the reference is black
 };
 
 struct LevelErrors {
     double level = 0.0;
     std::uint64_t strands = 0;  // drawn
-    double coverage = 0.0;      // what hair hides of a square round it
+    double coverage = 0.0;  // part of a square round the hair that it covers
     double full_coverage = 0.0;
-    std::optional<double> popping;    // since kLevelStep before; of level 0 there is none
-    std::vector<LightErrors> lights;  // those that were done
+    std::optional<double> popping;  // relative to the level finer by kLevelStep; absent at level
+                                    // 0
+    std::vector<LightErrors> lights;  // those that are complete
 };
 
 struct LodTruth {
-    std::uint32_t samples = 0;  // of the path tracer, a pixel
+    std::uint32_t samples = 0;  // of the path tracer, per pixel
     std::vector<LevelErrors> levels;
 };
 
-// The settings with one directional light at this angle, white, of strength 1, in front of black
-// and in linear light: what is the same for a path tracer.
+// The settings with one directional light at this angle, white and of strength 1, a black
+// background and linear light. A path tracer can reproduce this exactly.
 hair::Settings litFrom(hair::Settings settings, double angle);
 
-// Whole levels from 0 on, up to /lod/maximum_level or the next one.
+// Integer levels from 0 up to /lod/maximum_level, rounded up.
 std::vector<float> comparedLevels(const hair::LodSettings& lod);
 
-// How a frame is path-traced.
+// Options for path-tracing a frame.
 struct TruthOptions {
     std::uint32_t frame = 0;
-    std::uint32_t samples = 64;  // of a pixel
+    std::uint32_t samples = 64;  // per pixel
 };
 
-// Fills `truth` from the frozen hair of the case, whose frame is that of the options. Needs the
-// environment of references. Throws engine::Error, Interrupted; `truth` then has what was done.
+// Fills `truth` from the frozen hair of the case, at the frame of the options. Needs the Python
+// environment for references. Throws engine::Error and Interrupted; `truth` then has what was
+// complete.
 void compareWithTruth(
     const engine::Device& device, const scene::Scene& scene, const measure::Case& hair,
     const hair::Settings& settings, const TruthOptions& options, measure::HairCache& cache,
@@ -68,7 +70,7 @@ void compareWithTruth(
 
 scene::Json truthJson(const LodTruth& truth);
 
-// For a terminal: a row per level and light.
+// Text for a terminal: a row per level and light.
 std::string truthTable(const LodTruth& truth);
 
 }  // namespace benchmarks::lod

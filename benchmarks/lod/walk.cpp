@@ -84,7 +84,7 @@ std::string lodReportText(const LodReport& report) {
     for (const LodStep& step : report.steps) steps.push_back(toJson(step));
     if (!report.steps.empty()) object["totals"] = toJson(totalsOf(report.steps));
     if (report.truth) object["reference"] = truthJson(*report.truth);
-    // What drivers and commands say need not be UTF-8.
+    // Output of drivers and commands need not be UTF-8.
     return object.dump(2, ' ', false, scene::Json::error_handler_t::replace) + '\n';
 }
 
@@ -100,7 +100,7 @@ std::string fixed(double number, const char* format) {
 
 std::string percent(double ratio) { return fixed(100.0 * ratio, "%+.2f"); }
 
-// Pictures' errors are small beside 1: thousandths of the range.
+// Errors of pictures are small, so they are shown in thousandths of the range.
 std::string thousandths(std::optional<double> value) {
     return value ? fixed(1000.0 * *value, "%.2f") : "-";
 }
@@ -152,8 +152,8 @@ namespace {
 
 // ---- Walk along the camera path -----------------------------------------------------------------
 
-constexpr std::uint32_t kWarmUps = 2;  // frames of a pipeline before it is timed
-constexpr std::uint32_t kRepeats = 5;  // timed frames of a step
+constexpr std::uint32_t kWarmUps = 2;  // frames per pipeline before timing
+constexpr std::uint32_t kRepeats = 5;  // timed frames per step
 
 }  // namespace
 
@@ -199,7 +199,7 @@ void walk(
             for (FrozenView* each : {&lod, &full}) each->draw();
         lod.times();
         full.times();
-        for (std::uint32_t i = 0; i < kRepeats; ++i)  // in turns: a disturbance meets both
+        for (std::uint32_t i = 0; i < kRepeats; ++i)  // alternately: disturbances affect both
             for (FrozenView* each : {&lod, &full}) each->draw();
 
         const hair::rendering::DistanceLod state =

@@ -11,21 +11,21 @@
 #include "benchmarks/measure/case.h"
 #include "benchmarks/report/report.h"
 
-// What level of detail costs and saves along a camera path, and its report, which
+// Costs and savings of level of detail along a camera path, and their report, which
 // results/lod.schema.json describes.
 namespace benchmarks::lod {
 
 inline constexpr const char* kLodSchema = "hairbench-lod/1.0.0";
 
-// One place of the camera: level of detail by distance against level 0.
+// One camera position: level of detail by distance, compared with level 0.
 struct LodStep {
-    double distance = 0.0;    // of the camera from what it looks at, m
+    double distance = 0.0;  // of the camera from its target, m
     double mean_level = 0.0;  // over root triangles
     std::optional<std::uint64_t> strands;  // drawn with level of detail
     std::uint64_t full_strands = 0;
-    double error = 0.0;             // rootMeanSquare of the two pictures
-    std::optional<double> popping;  // since the step before
-    double coverage = 0.0;  // what hair hides of a square round it
+    double error = 0.0;  // rootMeanSquare of the two pictures
+    std::optional<double> popping;  // since the previous step
+    double coverage = 0.0;  // part of a square round the hair that it covers
     double full_coverage = 0.0;
     LodTimes time;
     LodTimes full_time;
@@ -33,9 +33,9 @@ struct LodStep {
 
 struct LodTotals {
     std::optional<double> worst_popping;
-    double mean_coverage_change = 0.0;   // mean of coverage / full_coverage - 1
-    double worst_coverage_change = 0.0;  // the change of the greatest size
-    double strands_speed_up = 0.0;       // of all steps' time
+    double mean_coverage_change = 0.0;  // mean of coverage / full_coverage - 1
+    double worst_coverage_change = 0.0;  // the change of greatest magnitude
+    double strands_speed_up = 0.0;  // from the total times of all steps
     double frame_speed_up = 0.0;
 };
 
@@ -44,35 +44,35 @@ struct LodReport {
     report::SceneRecord scene;
     std::uint32_t frame = 0;
     std::vector<LodStep> steps;
-    std::optional<LodTruth> truth;  // where it was asked for
-    bool interrupted = false;  // stopped by the user: the steps are those that were done
+    std::optional<LodTruth> truth;  // if requested
+    bool interrupted = false;  // stopped by the user: `steps` has those that were complete
 };
 
-// Wants at least one step.
+// Needs at least one step.
 LodTotals totalsOf(const std::vector<LodStep>& steps);
 
-// Indented JSON. What is not known is absent.
+// Indented JSON. Unknown values are absent.
 std::string lodReportText(const LodReport& report);
 
-// For a terminal: a row per step, the totals, then a row per level and light.
+// Text for a terminal: a row per step, the totals, then a row per level and light.
 std::string lodTable(const LodReport& report);
 
-// Away from what the camera looks at, in the direction that it is seen from.
+// A path away from the camera's target, in the direction of the scene's camera.
 struct LodPath {
     double from = 0.5;  // m, distance from /camera/target
     double to = 20.0;
     std::uint32_t steps = 40;
 };
 
-// Distances of the steps, m: each as many times farther as the one before.
+// Distances of the steps, m, in geometric progression.
 std::vector<double> distancesOf(const LodPath& path);
 
-// The scene's camera, at this distance from its target.
+// The scene's camera at this distance from its target.
 hair::CameraSettings cameraAt(const hair::CameraSettings& camera, double distance);
 
-// Draws the hair of one frame of the case, frozen, from every place of the path: by /lod with the
-// mode distance, and at level 0. `settings` are the case's. `begin` is called with each distance.
-// Throws Interrupted between pictures; `steps` then has what was done.
+// Draws the frozen hair of one frame of the case from every position of the path, once by /lod with
+// the mode distance and once at level 0. `settings` are the case's. `begin` is called with each
+// distance. Throws Interrupted between pictures; `steps` then has what was complete.
 void walk(
     const engine::Device& device, measure::Case& hair, const hair::Settings& settings,
     const LodPath& path, const std::function<void(double)>& begin, std::vector<LodStep>& steps);
