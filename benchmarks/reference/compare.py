@@ -1,8 +1,8 @@
 """Compares two pictures, PNG or EXR: compare.py REFERENCE PICTURE [DIFFERENCE.png]
 
-Writes figures as JSON to stdout. All but the ratio of mean linear light are of what a display
-shows: sRGB, 0 to 1, which linear pictures are turned into. Alpha is ignored. DIFFERENCE is FLIP's error map. A failure is one line on
-stderr.
+Writes figures as JSON to stdout. All but the ratio of mean linear light are of display values
+(sRGB, 0 to 1); linear pictures are converted. Alpha is ignored. DIFFERENCE is FLIP's error map. A
+failure is one line on stderr.
 """
 
 import json
@@ -19,7 +19,7 @@ SSIM_WINDOW = 11  # px: a Gaussian of sigma 1.5 as in Wang et al. 2004
 
 
 def read(path):
-    """What a display shows of the picture, and its mean linear light."""
+    """Returns the display values of the picture and its mean linear light."""
     try:
         bitmap = mi.Bitmap(path)
     except Exception:
@@ -30,7 +30,7 @@ def read(path):
 
 
 def compare(reference, picture):
-    """The figures, and FLIP's error map in colour."""
+    """Returns the figures and FLIP's error map in colour."""
     mse = np.mean((reference.astype(np.float64) - picture) ** 2)
     error_map, flip, _ = flip_evaluator.evaluate(reference, picture, "LDR")
     ssim = structural_similarity(

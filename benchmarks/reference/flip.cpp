@@ -20,7 +20,7 @@ namespace {
 
 using std::numbers::pi;
 
-constexpr double kPixelsPerDegree = 3840.0 * pi / 180.0;  // 0.7 m over 0.7 m
+constexpr double kPixelsPerDegree = 3840.0 * pi / 180.0;  // a display 0.7 m wide seen from 0.7 m
 
 // One channel of a picture.
 struct Plane {
@@ -39,7 +39,7 @@ using Planes = std::array<Plane, 3>;
 
 // ---- Colours ------------------------------------------------------------------------------------
 
-// Linear RGB with sRGB's primaries to XYZ over that of white; a row sums to 1.
+// Converts linear RGB with sRGB's primaries to XYZ relative to white; each row sums to 1.
 glm::dmat3 whiteRelative() {
     const glm::dmat3 to_xyz = glm::transpose(glm::dmat3(
         10135552.0 / 24577794, 8788810.0 / 24577794, 4435075.0 / 24577794,  //
@@ -55,8 +55,7 @@ double linearOf(double display) {
     return display <= 0.04045 ? display / 12.92 : std::pow((display + 0.055) / 1.055, 2.4);
 }
 
-// A linear version of CIELAB: brightness, and red to green and blue to yellow as the eye tells them
-// apart.
+// A linear version of CIELAB: brightness, red-green and blue-yellow.
 glm::dvec3 toOpponent(const glm::dvec3& xyz) {
     return {116.0 * xyz.y - 16.0, 500.0 * (xyz.x - xyz.y), 200.0 * (xyz.y - xyz.z)};
 }
@@ -66,7 +65,7 @@ glm::dvec3 fromOpponent(const glm::dvec3& color) {
     return {y + color.y / 500.0, y, y - color.z / 200.0};
 }
 
-// CIELAB, with colours the less apart the darker they are (Hunt's effect).
+// CIELAB with Hunt's effect: darker colours are less different.
 glm::dvec3 huntLab(const glm::dvec3& xyz) {
     constexpr double kDelta = 6.0 / 29.0;
     const auto root = [](double t) {
@@ -118,7 +117,7 @@ double total(const Kernel& kernel) {
     return sum;
 }
 
-// Pixels beyond the edge are as those at it. `step` is {1, 0} along rows, {0, 1} along columns.
+// Pixels beyond the edge repeat the edge pixels. `step` is {1, 0} along rows, {0, 1} along columns.
 Plane filteredAlong(const Plane& plane, const Kernel& kernel, std::array<int, 2> step) {
     const int radius = static_cast<int>(kernel.size()) / 2;
     Plane result{plane.width, plane.height, {}};
@@ -152,7 +151,7 @@ constexpr std::array<Sensitivity, 3> kSensitivities{
     {{{1.0, 0.0}, {0.0047, 1e-5}}, {{1.0, 0.0}, {0.0053, 1e-5}}, {{34.1, 13.5}, {0.04, 0.025}}}};
 
 Plane asSeen(const Plane& plane, const Sensitivity& sensitivity) {
-    constexpr double kWidest = 0.04;  // of all channels' b
+    constexpr double kWidest = 0.04;  // greatest b of all channels
     static const int radius =
         static_cast<int>(std::ceil(3.0 * std::sqrt(kWidest / (2.0 * pi * pi)) * kPixelsPerDegree));
     Plane sum{plane.width, plane.height, std::vector<double>(plane.values.size(), 0.0)};
@@ -192,10 +191,11 @@ std::vector<glm::dvec3> seenColors(const Planes& opponent) {
     return colors;
 }
 
-// 0 to 1: large differences are pressed together, as what is different enough is different.
+// Returns 0 to 1. Large differences are compressed, because beyond some difference more hardly
+// matters.
 double colorError(const glm::dvec3& a, const glm::dvec3& b) {
     constexpr double kPower = 0.7;
-    constexpr double kBendAt = 0.4;  // of the greatest
+    constexpr double kBendAt = 0.4;  // as a share of the greatest error
     constexpr double kBendTo = 0.95;
     static const double greatest = std::pow(
         hyab(
@@ -208,7 +208,7 @@ double colorError(const glm::dvec3& a, const glm::dvec3& b) {
                         : kBendTo + (error - bend) / (greatest - bend) * (1.0 - kBendTo);
 }
 
-// Positive weights sum to 1, negative ones to -1.
+// Normalises positive weights to a sum of 1 and negative ones to -1.
 Kernel balanced(Kernel kernel) {
     double positive = 0.0;
     double negative = 0.0;
@@ -217,7 +217,7 @@ Kernel balanced(Kernel kernel) {
     return kernel;
 }
 
-// Lengths of the gradients that a kernel finds along both axes.
+// Magnitudes of the gradients from a kernel applied along both axes.
 std::vector<double> strengths(const Plane& plane, const Kernel& change, const Kernel& gauss) {
     const Plane across = filtered(plane, change, gauss);
     const Plane down = filtered(plane, gauss, change);
@@ -227,7 +227,7 @@ std::vector<double> strengths(const Plane& plane, const Kernel& change, const Ke
     return lengths;
 }
 
-// 0 to 1, for each pixel: edges and points that only one of the pictures has.
+// Error of each pixel, 0 to 1: edges and points that only one of the pictures has.
 std::vector<double> featureErrors(const Plane& reference, const Plane& picture) {
     const double sigma = 0.5 * 0.082 * kPixelsPerDegree;
     const int radius = static_cast<int>(std::ceil(3.0 * sigma));
@@ -249,7 +249,7 @@ std::vector<double> featureErrors(const Plane& reference, const Plane& picture) 
     return errors;
 }
 
-// From 0 to 1.
+// Values from 0 to 1.
 Plane brightness(const Plane& opponent) {
     Plane result = opponent;
     for (double& value : result.values) value = (value + 16.0) / 116.0;

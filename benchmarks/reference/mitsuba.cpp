@@ -39,9 +39,9 @@ namespace benchmarks::reference {
 
 // ---- Control points of curves -------------------------------------------------------------------
 
-// The spline passes (c[i-1] + 4 c[i] + c[i+1]) / 6 at knot i. Natural ends, c[-1] - 2 c[0] + c[1]
-// = 0, make c[0] the first point and likewise the last, which leaves a tridiagonal system for
-// those between. Thomas's algorithm: it is diagonally dominant, so no pivots are needed.
+// The spline passes (c[i-1] + 4 c[i] + c[i+1]) / 6 at knot i. Natural ends, c[-1] - 2 c[0] + c[1] =
+// 0, make c[0] the first point, and likewise at the last. This leaves a tridiagonal system for the
+// others. Thomas's algorithm solves it without pivoting, because it is diagonally dominant.
 std::vector<glm::dvec4> interpolatingControlPoints(std::span<const glm::dvec4> points) {
     assert(points.size() >= 2);
     const std::size_t count = points.size();
@@ -65,7 +65,7 @@ namespace {
 
 // ---- Units of lights ----------------------------------------------------------------------------
 
-// Squared distance at which the light has its colour, m^2.
+// Squared distance at which the light shows its colour, m^2.
 double referenceSquared(const hair::LightSettings& light, const glm::dvec3& target) {
     const double reference{light.reference_distance};
     if (reference > 0.0) return reference * reference;
@@ -78,7 +78,7 @@ double referenceSquared(const hair::LightSettings& light, const glm::dvec3& targ
 glm::dvec3 lightColor(const hair::RenderSettings& render, const hair::LightSettings& light) {
     const double strength{light.strength};
     const glm::dvec3 color(light.color);
-    // The strength is a factor of working colours.
+    // The strength is a factor on working colours.
     return hair::rendering::hasLinearLight(render) ? strength * hair::rendering::toLinear(color)
                                                    : hair::rendering::toLinear(strength * color);
 }
@@ -89,8 +89,8 @@ glm::dvec3 lightIntensity(
     return std::numbers::pi * referenceSquared(light, target) * color;
 }
 
-// The irradiance of a surface that faces a sphere is pi radiance (radius / distance)^2, before the
-// middle of a rectangle pi radiance times the form factor.
+// The irradiance of a surface that faces a sphere is pi radiance (radius / distance)^2. In front of
+// the middle of a rectangle, it is pi radiance times the form factor.
 glm::dvec3
 lightRadiance(const hair::LightSettings& light, const glm::dvec3& color, const glm::dvec3& target) {
     if (light.type == hair::LightType::rectangle) {
@@ -104,14 +104,14 @@ lightRadiance(const hair::LightSettings& light, const glm::dvec3& color, const g
 
 namespace {
 
-// Files are in cm. Mitsuba moves the origins of rays that leave a surface by 9e-5 (1 + the greatest
-// coordinate) in the file's unit: in metres by 0.1 mm, three times a hair's radius, so that fibres
-// beside each other are missed; in centimetres by 0.01 mm at 0.1 m from the origin.
+// Files are in cm. Mitsuba offsets the origins of rays that leave a surface by 9e-5 (1 + the
+// greatest coordinate) in the file's unit. In metres this is 0.1 mm, three times a hair's radius,
+// so rays would miss adjacent fibres. In centimetres it is 0.01 mm at 0.1 m from the origin.
 constexpr float kUnitsPerMetre = 100;
 
 // ---- XML elements -------------------------------------------------------------------------------
 
-// Elements of a Mitsuba scene, each with its line's end.
+// Elements of a Mitsuba scene, each with its newline.
 
 template <class Value>
 std::string element(const char* type, const char* name, const Value& value) {
@@ -145,7 +145,8 @@ void writeSphere(std::ostream& out, const hair::LightSettings& light, const glm:
         << "    </emitter>\n</shape>\n";
 }
 
-// Mitsuba's rectangle is that of -1 to 1 across +z, to which it shines. Zeros lose their signs.
+// Mitsuba's rectangle extends from -1 to 1 and shines towards +z. Adding 0 removes the sign of
+// zeros.
 void writeRectangle(
     std::ostream& out, const hair::LightSettings& light, const glm::dvec3& radiance) {
     const hair::rendering::RectangleFace face = hair::rendering::rectangleFace(light);
@@ -183,7 +184,7 @@ void writeLight(
     }
 }
 
-// Mitsuba's pictures of surroundings lie as ours do: +y up, their middle at +z, their right at -x.
+// Mitsuba's environment maps have our orientation: +y up, the middle at +z, the right at -x.
 void writeEnvironment(
     std::ostream& out, const hair::RenderSettings& render, const std::string& file) {
     out << "<emitter type=\"envmap\">\n    " << element("string", "filename", file) << "    "
@@ -192,8 +193,8 @@ void writeEnvironment(
         << scene::decimalText(render.environment_turn) << "\"/>\n    </transform>\n</emitter>\n";
 }
 
-// The emitters of a Mitsuba scene: the settings' lights, and their background or, where there is
-// one, their environment, whose picture is `environment_file`.
+// Writes the emitters of a Mitsuba scene: the settings' lights, and the background or, if there is
+// one, the environment with the picture `environment_file`.
 void writeMitsubaLights(
     std::ostream& out, const hair::Settings& settings, const std::string& environment_file) {
     if (!environment_file.empty()) {
@@ -209,7 +210,7 @@ void writeMitsubaLights(
 
 // ---- The scene file -----------------------------------------------------------------------------
 
-// Fair hair is seen through many fibres: paths are long, and end by chance only late.
+// Light hair is seen through many fibres, so paths are long and Russian roulette starts late.
 constexpr const char* kBegin = R"(<?xml version="1.0" encoding="utf-8"?>
 <scene version="3.0.0">
 <default name="spp" value="64"/>
@@ -243,7 +244,7 @@ void writeCamera(std::ostream& out, const hair::Settings& settings) {
 
 void writeHair(std::ostream& out, const hair::ShadingSettings& shading, const std::string& file) {
     const glm::dvec3 absorbed = hair::rendering::absorption(shading);
-    // Mitsuba takes colours up to 1 here, and a factor.
+    // Mitsuba accepts colours up to 1 here, and a scale.
     const double scale = std::max({absorbed.x, absorbed.y, absorbed.z, 1.0});
     out << "<shape type=\"bsplinecurve\">\n    " << element("string", "filename", file)
         << "    <bsdf type=\"hair\">\n        " << rgb("sigma_a", absorbed / scale) << "        "
@@ -251,13 +252,14 @@ void writeHair(std::ostream& out, const hair::ShadingSettings& shading, const st
         << element("float", "longitudinal_roughness", shading.longitudinal_roughness) << "        "
         << element("float", "azimuthal_roughness", shading.azimuthal_roughness)
         << "        "
-        // Mitsuba's scales open towards the root of a curve that begins there; hair's do not.
+        // In Mitsuba, scales open towards the root of a curve that begins there; the scales of hair
+        // do not.
         << element("float", "scale_tilt", -shading.cuticle_tilt) << "        "
         << element("float", "int_ior", shading.refractive_index) << "        "
         << element("float", "ext_ior", 1.0) << "    </bsdf>\n</shape>\n";
 }
 
-// A picture's rows go down as its v does, in Mitsuba as in glTF.
+// A picture's rows go down with v, in Mitsuba as in glTF.
 void writeColor(std::ostream& out, const char* name, const MitsubaParts::Mesh& mesh) {
     if (mesh.texture.empty()) {
         out << rgb(name, hair::rendering::toLinear(mesh.color));
@@ -281,7 +283,7 @@ void writeGlossy(std::ostream& out, const MitsubaParts::Mesh& mesh) {
         << element("float", "roughness", mesh.roughness) << "    </bsdf>\n";
 }
 
-// Where light is added up in display RGB, ours are matt.
+// If light is summed in display RGB, our surfaces are matt.
 void writeMesh(
     std::ostream& out, const hair::RenderSettings& render, const MitsubaParts::Mesh& mesh) {
     out << "<shape type=\"ply\">\n    " << element("string", "filename", mesh.file) << "    ";
@@ -324,7 +326,7 @@ void writeMaterialPly(
     std::ostream& out, const hair::groom::Mesh& mesh, std::uint32_t material,
     const hair::simulation::RigidMotion& pose) {
     constexpr std::uint32_t kUnused = ~0u;
-    std::vector<std::uint32_t> numbers(mesh.positions.size(), kUnused);  // in the file
+    std::vector<std::uint32_t> numbers(mesh.positions.size(), kUnused);  // index in the file
     std::vector<std::uint32_t> vertices;  // of the file
     std::vector<std::array<std::uint32_t, 3>> triangles;
     for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
@@ -360,7 +362,8 @@ namespace {
 
 // ---- Files of meshes ----------------------------------------------------------------------------
 
-// A material's picture times its colour, both linear, as display RGB again: Mitsuba has no factor.
+// The material's picture times its colour, multiplied in linear RGB and converted back to display
+// RGB: Mitsuba has no such factor.
 engine::Pixels colored(engine::Pixels picture, const glm::vec3& color) {
     const glm::dvec3 factor = hair::rendering::toLinear(color);
     for (std::size_t i = 0; i < picture.rgba.size(); i += 4) {
@@ -386,8 +389,8 @@ const char* wrapName(hair::groom::Wrap wrap) {
     return "clamp";
 }
 
-// Writes a mesh, where `pose` takes it, into `folder`: "<name>_0.ply" and so on, one of each
-// material that has triangles, and the pictures of base colours as PNG.
+// Writes a mesh, moved by `pose`, into `folder`: "<name>_0.ply" and so on, one file per material
+// with triangles, and the pictures of base colours as PNG.
 std::vector<MitsubaParts::Mesh> writeMitsubaMesh(
     const std::filesystem::path& folder, const std::string& name, const hair::groom::Mesh& mesh,
     const hair::simulation::RigidMotion& pose) {
@@ -438,7 +441,7 @@ void play(const engine::Device& device, measure::Case& played, std::uint32_t fra
     progress.clear();
 }
 
-// The head, where the last frame takes it, and the meshes beside it.
+// Writes the head in the pose of the last frame, and the other meshes.
 std::vector<MitsubaParts::Mesh> writeMeshes(
     const std::filesystem::path& folder, const scene::Scene& scene, const hair::Settings& settings,
     const measure::Case& played) {
@@ -460,7 +463,7 @@ std::vector<MitsubaParts::Mesh> writeMeshes(
     return parts;
 }
 
-// The picture of the surroundings; the name of the copy, empty where there is none.
+// Copies the environment's picture. Returns the copy's name, empty if there is no environment.
 std::string copyEnvironment(
     const std::filesystem::path& folder, const scene::Scene& scene,
     const hair::Settings& settings) {
@@ -511,7 +514,8 @@ namespace {
 
 // ---- Path tracing -------------------------------------------------------------------------------
 
-// The tool's lines are "passes <how many>", then "pass <samples before it>" as each begins.
+// The tool writes the line "passes <number of passes>", then "pass <samples before it>" at the
+// start of each.
 class PassProgress {
 public:
     explicit PassProgress(std::uint32_t samples) : samples_(samples) {}

@@ -20,7 +20,7 @@ namespace {
 void run(
     const std::vector<std::string>& arguments,
     const std::function<void(std::string_view line)>& each_line) {
-    // -B -E: leaves no byte code beside the tool, and nobody's variables change what it does.
+    // -B -E: writes no byte code beside the tool and ignores Python environment variables.
     std::vector<std::string> all{
         engine::pythonInterpreter("reference", "HAIRBENCH_REFERENCE_PYTHON"), "-B", "-E"};
     all.insert(all.end(), arguments.begin(), arguments.end());
@@ -31,7 +31,7 @@ void run(
             "this needs the project's Python environment for references: run " +
             engine::makesPythonEnvironment("reference") + " (" + error.what() + ')');
     } catch (const engine::Error&) {
-        engine::checkInterrupted();  // which ends the tool too
+        engine::checkInterrupted();  // the interrupt ends the tool too
         throw;
     }
 }

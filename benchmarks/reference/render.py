@@ -1,6 +1,7 @@
 """Renders a scene of Mitsuba 3: render.py SCENE.xml OUT.exr|OUT.png SAMPLES
 
-Writes "passes N" to stdout, then "pass SAMPLES_DONE" as each begins. A failure is one line on stderr.
+Writes "passes N" to stdout, then "pass SAMPLES_DONE" at the start of each pass. A failure is one
+line on stderr.
 """
 
 import os
@@ -14,7 +15,7 @@ MOST_PASSES = 50  # each can be timed; more would only cost time
 
 
 def render(scene, samples):
-    """The mean of all samples, linear RGB, [row][column][channel]."""
+    """Returns the mean of all samples, linear RGB, [row][column][channel]."""
     size = -(-samples // MOST_PASSES)
     starts = range(0, samples, size)
     print("passes", len(starts), flush=True)
@@ -38,7 +39,7 @@ def write(image, path):
 
 
 def main():
-    signal.signal(signal.SIGINT, signal.SIG_DFL)  # within a pass too
+    signal.signal(signal.SIGINT, signal.SIG_DFL)  # also within a pass
     scene, out, samples = sys.argv[1:]
     mi.set_variant("scalar_rgb")
     mi.set_log_level(mi.LogLevel.Error)
