@@ -124,7 +124,7 @@ GateSession::GateSession(const GateOptions& options, report::MetricChoice judged
     run_.rule.threshold = options.verdict.threshold;
     run_.rule.first_pairs = options.pairs;
     if (!judged_)
-        judged_ = report::metricsNamed(regex_);  // throws for a malformed expression
+        judged_ = report::metricsNamed(regex_);  // throws before anything runs if malformed
 }
 
 GateSession::~GateSession() {
