@@ -1,5 +1,6 @@
 #version 460
-// What the constraint makes of a field, at points of the host's choice; one invocation per point.
+// Evaluates a field and the contact with it at points that the host chooses. One invocation per
+// point.
 #extension GL_GOOGLE_include_directive : require
 
 #include "probes.glsl"

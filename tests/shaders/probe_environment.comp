@@ -1,5 +1,5 @@
 #version 460
-// What the environment's functions give in some directions, for tests.
+// Evaluates the environment's functions in some directions.
 #extension GL_GOOGLE_include_directive : require
 #include "common/picture.glsl"
 #include "environment/radiance.glsl"

@@ -1,5 +1,6 @@
 #version 460
-// What a fibre scatters, in directions of the host's choice; one invocation per probe.
+// Evaluates the scattering of a fibre for directions that the host chooses. One invocation per
+// probe.
 #extension GL_GOOGLE_include_directive : require
 
 #include "probes.glsl"

@@ -1,5 +1,5 @@
 #version 460
-// What lights and models say at points of the host's choice; one invocation per point.
+// Evaluates lights and shading models at points that the host chooses. One invocation per point.
 #extension GL_GOOGLE_include_directive : require
 
 #include "probes.glsl"

@@ -1,5 +1,6 @@
 #version 460
-// What surfaces at the origin reflect of rectangles of light; one invocation each.
+// Evaluates the reflection of rectangular lights by surfaces at the origin. One invocation per
+// probe.
 #extension GL_GOOGLE_include_directive : require
 
 #include "probes.glsl"

@@ -1,5 +1,5 @@
 #version 460
-// Where the back end `software` has a pixel's samples; one invocation.
+// Writes the sample positions of the back end `software`. One invocation.
 #extension GL_GOOGLE_include_directive : require
 
 #include "probes.glsl"

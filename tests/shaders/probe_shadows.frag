@@ -1,5 +1,5 @@
 #version 460
-// What is between a light and points of the host's choice, one to a column.
+// Evaluates the light's path to points that the host chooses, one per column.
 #extension GL_GOOGLE_include_directive : require
 #define HAIRBENCH_SHADOW_BINDING 0
 #include "common/picture.glsl"
@@ -13,7 +13,7 @@ layout(location = 1) out vec4 behind;  // met, ended, returned, kept
 
 void main() {
     PictureParameters picture = PictureReference(push.picture).parameters;
-    // Neighbours of the picture's last pixels are worked out too, and see no probe.
+    // Helper invocations beyond the last pixels run too, and have no probe.
     uint column = min(uint(gl_FragCoord.x), push.count - 1u);
     ShadowProbe probe = Probes(push.probes).at[column];
     LightPath found = lightPath(

@@ -1,12 +1,12 @@
 #version 460
-// What points of strands show, by the model that the pipeline is specialized for and without
-// shadows; one invocation per point.
+// Shades points of strands with the model that the pipeline is specialized for, without shadows.
+// One invocation per point.
 #extension GL_GOOGLE_include_directive : require
 
 #include "probes.glsl"
 #include "common/picture.glsl"
 
-// In the place of shading/shadows.glsl, whose images a probe has not.
+// Replaces shading/shadows.glsl, because a probe does not have its images.
 #define HAIRBENCH_SHADOWS_GLSL
 #include "shading/lights.glsl"
 struct Receiver {

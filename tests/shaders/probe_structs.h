@@ -1,15 +1,15 @@
 #ifndef HAIRBENCH_PROBE_STRUCTS_H
 #define HAIRBENCH_PROBE_STRUCTS_H
 
-// What tests ask shaders and what these answer. Needs shared/distance_field_structs.h before it.
+// Inputs and outputs of the tests' shaders. Include shared/distance_field_structs.h first.
 
-// Where probe_distance.comp asks, and what it gets.
+// Input and output of probe_distance.comp.
 struct DistanceProbe {
     vec3 position;  // m
-    vec3 before;  // m: where friction holds it
+    vec3 before;  // m: friction holds it here
     float distance;  // m; written
     vec3 gradient;  // of the distance; written
-    vec3 pushed;  // m: where contact puts the position; written
+    vec3 pushed;  // m: position after contact; written
 };
 
 // Push constants of probe_distance.comp.
@@ -25,18 +25,18 @@ struct ProbeDistancePush {
 struct EnvironmentProbePush {
     Address environment;  // EnvironmentParameters
     Address directions;  // vec3 [direction], unit length
-    Address radiance;  // vec3 [direction], written: what comes from there
-    Address light;  // vec3 [direction], written: what surfaces that face there get
+    Address radiance;  // vec3 [direction], written: radiance from there
+    Address light;  // vec3 [direction], written: light on surfaces that face there
     uint count;
 };
 
-// What probe_fiber.comp is asked, and what it says.
+// Input and output of probe_fiber.comp.
 struct FiberProbe {
     vec3 to_eye;
     float h;
     vec3 to_light;
     float strands;
-    float ended;  // LightPath::ended, of all channels
+    float ended;  // LightPath::ended, for all channels
     float returned;  // LightPath::returned
     vec3 bsdf;  // f |cos theta_i|; written
     vec3 dual_scattering;  // written
@@ -49,7 +49,7 @@ struct ProbeFiberPush {
     uint count;
 };
 
-// What probe_models.comp is asked about a point and a light, and what it says.
+// Input and output of probe_models.comp: a point and a light.
 struct ModelProbe {
     vec3 position;  // m
     uint light;
@@ -76,14 +76,14 @@ struct ProbeModelsPush {
     uint count;
 };
 
-// What probe_rectangle.comp is asked and what it answers.
+// Input and output of probe_rectangle.comp.
 struct RectangleProbe {
     vec3 base_color;
     float metallic;
     float roughness;
     vec3 normal;
     vec3 to_eye;
-    vec3 corners[4];  // m, as LightSample has them
+    vec3 corners[4];  // m, as in LightSample
     vec3 diffuse;  // radiance to the eye, of a rectangle of radiance 1; written
     vec3 glossy;  // written
 };
@@ -94,10 +94,10 @@ struct RectangleProbePush {
     uint count;
 };
 
-// Where strands/software/samples.glsl has a pixel's samples: written by probe_samples.comp.
+// Sample positions of strands/software/samples.glsl, written by probe_samples.comp.
 struct SamplePlaces {
-    vec2 places[8];  // px, of each sample
-    uint row_samples[8];  // which sample a row has
+    vec2 places[8];  // px, for each sample
+    uint row_samples[8];  // sample of each row
     float row_places[8];  // px, along the row
     uint column_samples[8];
     float column_places[8];
@@ -108,7 +108,7 @@ struct SamplePlacesPush {
     Address places;  // SamplePlaces
 };
 
-// A point to be asked about, and what probe_shadows.frag finds.
+// A query point of probe_shadows.frag.
 struct ShadowProbe {
     vec3 position;  // m
     uint light;
@@ -124,7 +124,7 @@ struct ShadowProbePush {
     uint count;
 };
 
-// A point of a strand to be shaded, and what it shows.
+// A point of a strand, and its shading.
 struct StrandProbe {
     vec3 tangent;  // unit length
     vec3 to_eye;  // unit length
@@ -140,7 +140,7 @@ struct ProbeStrandPush {
     uint count;
 };
 
-// What probe_surface.comp is asked and what it answers.
+// Input and output of probe_surface.comp.
 struct SurfaceProbe {
     vec3 base_color;
     float metallic;

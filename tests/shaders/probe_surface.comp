@@ -1,5 +1,6 @@
 #version 460
-// What surfaces reflect, at directions of the host's choice; one invocation each.
+// Evaluates the reflection of surfaces for directions that the host chooses. One invocation per
+// probe.
 #extension GL_GOOGLE_include_directive : require
 
 #include "probes.glsl"

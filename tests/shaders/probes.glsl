@@ -1,4 +1,4 @@
-// The structs of probes, and what these need.
+// The structs of probes and their dependencies.
 #include "common/extensions.glsl"
 #include "shared/distance_field_structs.h"
 #include "probe_structs.h"
