@@ -1,4 +1,4 @@
-// Hair as users have it: the grown grooms, among bodies, after it settled and for a second after.
+// Hair as users have it: the grown grooms with bodies, after settling and one second later.
 #include <filesystem>
 
 #include "benchmarks/scene/assets.h"
@@ -10,7 +10,7 @@
 namespace benchmarks::physics {
 namespace {
 
-// The greatest length of a guide, over its length at rest.
+// The greatest ratio of a guide's length to its rest length.
 double greatestLength(const hair::groom::Groom& groom, std::span<const glm::vec3> points) {
     Extremes ratios;
     for (std::uint32_t strand = 0; strand < groom.strand_count; ++strand) {
@@ -32,7 +32,7 @@ namespace fs = std::filesystem;
 
 using GrownHair = GpuTest;
 
-// The farthest that a tip is from where the groom has it, over its guide's length.
+// The greatest distance of a tip from its place in the groom, relative to its guide's length.
 double tipsMoved(const hair::groom::Groom& groom, std::span<const glm::vec3> points) {
     Extremes moved;
     for (std::uint32_t strand = 0; strand < groom.strand_count; ++strand) {
@@ -46,8 +46,8 @@ double tipsMoved(const hair::groom::Groom& groom, std::span<const glm::vec3> poi
     return moved.greatest();
 }
 
-// Asked for: 0.1 % of the length with `rod`, 1 % with `shape`, after 10 s. A tenth of the lesser
-// after the first second leaves room for nine more.
+// The requirement after 10 s is 0.1 % of the length with `rod` and 1 % with `shape`. A tenth of the
+// latter after the first second leaves room for nine more.
 TEST_F(GrownHair, HangsAsItIsGroomedAndKeepsItsLength) {
     for (const char* name : {"short_straight", "long_straight", "wavy_bob", "tight_curls"}) {
         const fs::path path = fs::path(HAIRBENCH_SCENES_DIR) / (std::string(name) + ".json");
@@ -74,7 +74,7 @@ TEST_F(GrownHair, HangsAsItIsGroomedAndKeepsItsLength) {
     }
 }
 
-// Wind moves it all the same.
+// Wind moves the hair, and it still keeps its length.
 TEST_F(GrownHair, KeepsItsLengthInWind) {
     const fs::path path = fs::path(HAIRBENCH_SCENES_DIR) / "wavy_bob.json";
     hair::Settings settings = scene::loadScene(path).settings;

@@ -1,4 +1,4 @@
-// The quick part of `hairbench physics`: what solvers promise, on every build.
+// The quick part of `hairbench physics`: the solvers' promises, on every build.
 #include <algorithm>
 
 #include "benchmarks/physics/checks.h"
@@ -9,7 +9,7 @@ namespace {
 
 using hair::Solver;
 
-// Every gate passes, and there was one.
+// Expects that every gate passes and that there is at least one.
 void expectPass(const Findings& findings) {
     int gates = 0;
     for (const Outcome& each : findings.outcomes()) {

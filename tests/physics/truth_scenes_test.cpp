@@ -1,4 +1,4 @@
-// The scenes of scenes/truth: what theory says of them, as a user opens them.
+// The scenes of scenes/truth, compared with theory, as a user opens them.
 #include <cmath>
 #include <filesystem>
 #include <numeric>
@@ -37,7 +37,7 @@ public:
             device_, *simulation_, static_cast<int>(std::lround(seconds / timeStep())));
     }
 
-    // Of a strand, from its root, m.
+    // The points of a strand relative to its root, m.
     std::vector<glm::dvec3> strand(std::uint32_t index) const {
         const auto all = simulation_->readPositions();
         const auto first = all.begin() + index * groom_.vertices_per_strand;
@@ -66,7 +66,7 @@ private:
 
 using TruthScenes = GpuTest;
 
-// Asked for: 2 %. The clamp is half a segment longer than that of 64 segments.
+// Requirement: 2 %. The clamp is half a segment longer than that of 64 segments.
 TEST_F(TruthScenes, LevelHairSagsAsTheElastica) {
     const TruthScene scene(device(), "cantilever");
     ASSERT_EQ(scene.groom().strand_count, 4u);
@@ -78,7 +78,8 @@ TEST_F(TruthScenes, LevelHairSagsAsTheElastica) {
     }
 }
 
-// Asked for: 2 % of the length at any time step where theory has a steady state, 1 % between them.
+// Requirement: 2 % of the length at any time step where theory has a steady state, and 1 % between
+// time steps.
 TEST_F(TruthScenes, WindHoldsHairWhereTheElasticaIs) {
     std::vector<std::vector<glm::dvec3>> tips;
     for (const float rate : {30.0f, 60.0f, 480.0f}) {
@@ -98,8 +99,8 @@ TEST_F(TruthScenes, WindHoldsHairWhereTheElasticaIs) {
     }
 }
 
-// Asked for: 2 % of the length. Two of the lengths are below the one at which theory has hair leave
-// its plane, two above.
+// Requirement: 2 % of the length. Two of the lengths are below the theoretical buckling length, two
+// above.
 TEST_F(TruthScenes, FlatHairBucklesSideways) {
     TruthScene scene(device(), "lateral_buckling");
     ASSERT_EQ(scene.groom().strand_count, 4u);
@@ -122,8 +123,8 @@ TEST_F(TruthScenes, FlatHairBucklesSideways) {
     }
 }
 
-// Asked for: 1 % of the length after 5 s, and no flutter. tests/simulation/bending_test.cpp has
-// where that is.
+// Requirement: 1 % of the length after 5 s, and no flutter. tests/simulation/bending_test.cpp
+// compares the position.
 TEST_F(TruthScenes, WindHoldsShapesHairInOnePlaceAtAnyTimeStep) {
     std::vector<glm::dvec3> rest;
     for (const float rate : {60.0f, 120.0f, 240.0f, 480.0f}) {
@@ -145,7 +146,7 @@ TEST_F(TruthScenes, WindHoldsShapesHairInOnePlaceAtAnyTimeStep) {
     }
 }
 
-// The tip's mean place over the time that is looked at; crossings of it make the frequency.
+// The frequency of the tip, from its crossings of its mean position over the measured time.
 double frequencyOfTip(TruthScene& scene, double seconds, int axis) {
     std::vector<double> samples;
     const int count = static_cast<int>(std::lround(seconds / scene.timeStep()));
@@ -159,8 +160,8 @@ double frequencyOfTip(TruthScene& scene, double seconds, int axis) {
         .value_or(std::numeric_limits<double>::quiet_NaN());
 }
 
-// Asked for: 2 %. Beside the first mode there are 2 % of the second, whose crossings cancel out
-// over whole periods.
+// Requirement: 2 %. Besides the first mode there are 2 % of the second; its crossings cancel over
+// whole periods.
 TEST_F(TruthScenes, LevelHairSwingsAsABeam) {
     TruthScene scene(device(), "bending_frequency");
     const hair::MaterialSettings& material = scene.settings().material;
@@ -169,7 +170,7 @@ TEST_F(TruthScenes, LevelHairSwingsAsABeam) {
     EXPECT_NEAR(frequencyOfTip(scene, 5.0 / theory, 1) / theory, 1.0, 0.02);
 }
 
-// Asked for: 1 % at 1/60 s, of which 0.4 % is that of 64 masses.
+// Requirement: 1 % at 1/60 s, of which 0.4 % is due to 64 masses.
 TEST_F(TruthScenes, AChainSwingsAsBernoullis) {
     TruthScene scene(device(), "hanging_chain");
     const double theory = 1.0 / hangingChainPeriod(scene.length(0), kGravity);
