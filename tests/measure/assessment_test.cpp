@@ -20,8 +20,8 @@ RoundTimes roundsOf(
     return all;
 }
 
-// Hair that unfolds: the 40th frame of every round takes twice as long as the first. Looked at one
-// after the other, the last 32 frames of any round rise.
+// Hair that unfolds: the 40th frame of every round takes twice as long as the first. Taken alone,
+// the last 32 frames of any round rise.
 TEST(Assessment, SeesNoDriftInFramesThatHaveMoreToDo) {
     Noise noise(1);
     const Assessment found = assess(roundsOf(6, 40, [&](double, double frame) {
@@ -50,8 +50,8 @@ TEST(Assessment, DoesNotJudgeWhatItCannot) {
     EXPECT_EQ(assess(roundsOf(1, 6, constant)).relative_half_width, 0.0);
 }
 
-// The interval holds the median of the noise, 1, as often as it says, though frames differ twofold:
-// the median over the profile 0.7 ... 1.4 is 1.05.
+// The interval contains the median of the noise, 1, as often as promised, although frames differ by
+// a factor of two: the median over the profile 0.7 ... 1.4 is 1.05.
 TEST(Assessment, SaysHowWellTheMedianIsKnown) {
     constexpr int kTrials = 500;
     Noise noise(3);
@@ -66,10 +66,10 @@ TEST(Assessment, SaysHowWellTheMedianIsKnown) {
     EXPECT_LE(missed, mostOf(kTrials, 0.05));
 }
 
-// Interference that comes and goes leaves fewer independent times than there are, whatever frames
-// have to do: 8 rounds of 25 frames of which every round is one level with 10 % of noise, so that
-// they are worth some eight times. Independent times would leave sqrt(25) = 5 times less width; the
-// half is a safe distance from either.
+// Interference that comes and goes leaves fewer independent times than there are, whatever the
+// frames' work. Here are 8 rounds of 25 frames; every round has one level with 10 % of noise, so
+// there are about eight independent times. With independent times the width would be sqrt(25) = 5
+// times smaller; a factor of two is a safe distance from both.
 TEST(Assessment, CountsTimesForAsManyAsTheyAre) {
     Noise noise(4);
     double dependent = 0.0;
@@ -97,7 +97,7 @@ TEST(Assessment, IsEnoughWhenSteadyAndPrecise) {
     EXPECT_FALSE(isEnough(known(false, 0.001), 0.01));
     EXPECT_FALSE(isEnough(known({}, 0.001), 0.01));
     EXPECT_FALSE(isEnough(known(true, {}), 0.01));
-    EXPECT_FALSE(isEnough(known(true, 0.0), 0.0));  // 0 asks for the whole of max_time
+    EXPECT_FALSE(isEnough(known(true, 0.0), 0.0));  // 0 requests the whole max_time
 }
 
 }  // namespace

@@ -18,7 +18,7 @@ using engine::Timing;
 constexpr std::uint32_t kGroupSize = 64;
 constexpr std::uint32_t kRounds = 16;
 
-// What a group's invocations leave after some steps, one number at a time.
+// The result of a work group's invocations after some steps, computed one number at a time.
 std::uint32_t numberOf(std::uint32_t group, std::uint32_t steps) {
     std::uint32_t all = 0;
     for (std::uint32_t i = 0; i < kGroupSize; ++i) {
@@ -46,7 +46,7 @@ TEST_F(BusyWorkTest, DoesAsManyStepsAsAsked) {
         EXPECT_EQ(doneOf(steps).steps, steps);
 }
 
-// Four steps more than there are groups: the first four do two.
+// Four steps more than there are groups: the first four groups do two.
 TEST_F(BusyWorkTest, DoesTheWorkOfEveryStep) {
     const std::uint32_t groups = BusyWork(device(), 0).groups();
     ASSERT_GT(groups, 5u);

@@ -55,11 +55,11 @@ TEST_F(DiskCacheTest, GivesBackWhatItWasGiven) {
     EXPECT_EQ(kept.load("d"), std::nullopt);
     kept.store("a", "2");
     EXPECT_EQ(kept.load("a"), "2");
-    EXPECT_THAT(files(), SizeIs(3));  // nothing is left of writing them
+    EXPECT_THAT(files(), SizeIs(3));  // no temporary files remain
     EXPECT_THAT(faults_, IsEmpty());
 }
 
-// Cut off anywhere, or with any byte changed, an entry is as good as none, and says so.
+// An entry that is truncated anywhere, or has any byte changed, is ignored with a message.
 TEST_F(DiskCacheTest, TakesNothingDamaged) {
     const DiskCache kept = cache();
     kept.store("key", "some bytes");
@@ -86,7 +86,8 @@ TEST_F(DiskCacheTest, TakesNothingDamaged) {
     EXPECT_EQ(kept.load("key"), "some bytes");
 }
 
-// What nobody writes to would be waited for, and what has no end read for ever.
+// A read from a FIFO without a writer would block, and a read from an endless device would never
+// end.
 TEST_F(DiskCacheTest, TakesWhatIsAFileAlone) {
     const DiskCache kept = cache();
     kept.store("key", "bytes");
@@ -101,7 +102,8 @@ TEST_F(DiskCacheTest, TakesWhatIsAFileAlone) {
     fs::create_directory(file);
     EXPECT_EQ(kept.load("key"), std::nullopt);
     fs::remove(file);
-    // Its sizes are right, and it holds more than the cache may: a file without anything on disk.
+    // Its sizes are consistent, and it exceeds the cache's limit: a sparse file without data on
+    // disk.
     kept.store("key", "bytes");
     std::string text = textOf(file);
     const std::uint64_t huge = std::uint64_t{1} << 40;
@@ -114,7 +116,7 @@ TEST_F(DiskCacheTest, TakesWhatIsAFileAlone) {
     EXPECT_THAT(faults_, SizeIs(1));
 }
 
-// As runs that begin together do.
+// As for runs that start together.
 TEST_F(DiskCacheTest, IsSharedByProcesses) {
     constexpr int kProcesses = 4;
     const std::string bytes(20'000, 'x');
@@ -143,7 +145,7 @@ TEST_F(DiskCacheTest, IsSharedByProcesses) {
     EXPECT_THAT(faults_, IsEmpty());
 }
 
-// As where two keys have one hash.
+// As if two keys had the same hash.
 TEST_F(DiskCacheTest, TakesNothingOfAnotherKey) {
     const DiskCache kept = cache();
     kept.store("one", "bytes");
@@ -154,14 +156,14 @@ TEST_F(DiskCacheTest, TakesNothingOfAnotherKey) {
 }
 
 TEST_F(DiskCacheTest, WhatWasUsedLongestAgoGoesFirst) {
-    const DiskCache kept = cache(4096);  // three entries of a thousand bytes and what they need
+    const DiskCache kept = cache(4096);  // three entries of a thousand bytes, with their headers
     const std::string bytes(1000, 'x');
     const auto now = fs::file_time_type::clock::now();
     for (const char* key : {"a", "b", "c"}) kept.store(key, bytes);
     fs::last_write_time(kept.fileOf("a"), now - std::chrono::hours(3));
     fs::last_write_time(kept.fileOf("b"), now - std::chrono::hours(2));
     fs::last_write_time(kept.fileOf("c"), now - std::chrono::hours(1));
-    EXPECT_TRUE(kept.load("a"));  // now it was used last
+    EXPECT_TRUE(kept.load("a"));  // now it is the most recently used
     kept.store("d", bytes);
     EXPECT_FALSE(kept.load("b"));
     for (const char* key : {"a", "c", "d"}) EXPECT_TRUE(kept.load(key)) << key;
@@ -172,8 +174,8 @@ TEST_F(DiskCacheTest, WhatWasUsedLongestAgoGoesFirst) {
     EXPECT_LE(sum, 4096u);
 }
 
-// Killed while it wrote an entry, a process leaves it beside: others may be at it now, but not for
-// hours.
+// A process that is killed while it writes an entry leaves a temporary file. Other processes may be
+// writing one now, but not for hours.
 TEST_F(DiskCacheTest, RemovesWhatKilledProcessesLeft) {
     const DiskCache kept = cache();
     kept.store("a", "1");

@@ -11,7 +11,7 @@ using testing::Each;
 using testing::ElementsAre;
 using testing::Pointwise;
 
-// Rounds of 1, 3 and 1.5 times a profile: by the median round, 1.5, they are 2/3, 2 and 1.
+// Rounds of 1, 3 and 1.5 times a profile. Relative to the median round, 1.5, they are 2/3, 2 and 1.
 const RoundTimes kSlowerAndFaster{{2.0, 6.0, 4.0}, {6.0, 18.0, 12.0}, {3.0, 9.0, 6.0}};
 
 TEST(FrameProfile, IsWhatAllRoundsShare) {

@@ -23,7 +23,7 @@ using testing::SizeIs;
 
 constexpr const char* kScenes = HAIRBENCH_SOURCE_DIR "/scenes";
 
-// A few of the thesis's guides that have sunk onto the head, in a small picture.
+// A few of the thesis's guides, settled onto the head, in a small picture.
 hair::Settings settledCase(hair::Solver solver) {
     hair::Settings settings;
     settings.groom.guides = 24;
@@ -40,8 +40,8 @@ hair::Settings settledCase(hair::Solver solver) {
     return settings;
 }
 
-// What a case shows of itself: the guides at first, and guides and picture after frames that move
-// and a reset, twice.
+// Hashes of a case: its initial guides, and its guides and picture after frames with motion and a
+// reset, twice.
 struct Shown {
     std::vector<std::string> hashes;
     bool operator==(const Shown&) const = default;
@@ -76,7 +76,7 @@ protected:
         return shown(played);
     }
 
-    // All of the settled state, velocities and a solver's own too.
+    // The complete settled state, including velocities and the solver's own data.
     static std::vector<std::vector<std::byte>>
     settledState(const hair::Settings& settings, HairCache& cache) {
         const auto mesh = scene::loadMesh(settings, kScenes);
@@ -87,7 +87,7 @@ protected:
             .buffers;
     }
 
-    // Fields and states that this case needs beyond what the cache knows.
+    // Number of fields and states that this case adds to the cache.
     static std::size_t makes(HairCache& cache, const hair::Settings& settings) {
         const std::size_t before = cache.made();
         const Case made(device(), settings, kScenes, &cache);
@@ -99,7 +99,7 @@ protected:
 };
 
 TEST_F(HairCacheTest, GivesToTheBitWhatIsMadeWithoutIt) {
-    std::size_t made = 2;  // a field, of all solvers, and a state
+    std::size_t made = 2;  // a field, shared by all solvers, and a state
     for (const hair::Solver solver :
          {hair::Solver::shape, hair::Solver::ftl, hair::Solver::rod, hair::Solver::stable_cosserat,
           hair::Solver::position_based_rod, hair::Solver::augmented_mass_spring}) {
@@ -157,7 +157,7 @@ TEST_F(HairCacheTest, CasesThatAreDrawnOtherwiseShareAllOfIt) {
     }
 }
 
-// What a field is baked of, and what a state is settled of, are all in their keys.
+// All inputs of a field and of a settled state are in their keys.
 TEST_F(HairCacheTest, CasesWithOtherHairShareWhatIsTheSameAlone) {
     const hair::Settings settings = settledCase(hair::Solver::shape);
     HairCache cache = onDisk();
@@ -178,13 +178,13 @@ TEST_F(HairCacheTest, CasesWithOtherHairShareWhatIsTheSameAlone) {
              {2, [](auto& s) { s.simulation.distance_fields[0].resolution = 13; }}}) {
         hair::Settings other = settings;
         change(other);
-        HairCache fresh = onDisk();  // so that the keys on disk are told apart as well
+        HairCache fresh = onDisk();  // so that the keys on disk are tested too
         EXPECT_EQ(makes(fresh, other), made);
         EXPECT_EQ(makes(fresh, other), 0u);
     }
 }
 
-// What was not settled is there at once: nothing is kept of it.
+// A state without settling is not kept.
 TEST_F(HairCacheTest, KeepsNoStateThatTookNoTime) {
     HairCache cache = onDisk();
     hair::Settings settings = settledCase(hair::Solver::none);
@@ -194,7 +194,7 @@ TEST_F(HairCacheTest, KeepsNoStateThatTookNoTime) {
     EXPECT_EQ(makes(cache, settings), 0u);
 }
 
-// The same words in place of the program's are another program.
+// Replacing the program's shaders by identical ones still counts as another program.
 TEST_F(HairCacheTest, ProgramsWithOtherShadersTakeNothing) {
     const hair::Settings settings = settledCase(hair::Solver::shape);
     HairCache cache = onDisk();
@@ -203,12 +203,12 @@ TEST_F(HairCacheTest, ProgramsWithOtherShadersTakeNothing) {
     device().shaders().replace({{"simulation/ftl.comp", {code.begin(), code.end()}}});
     HairCache other = onDisk();
     EXPECT_EQ(makes(other, settings), 2u);
-    EXPECT_EQ(makes(cache, settings), 0u);  // of the replaced ones, which the other has made
+    EXPECT_EQ(makes(cache, settings), 0u);  // with the replaced shaders, made by the other cache
     device().shaders().replace({});
     EXPECT_EQ(makes(other, settings), 0u);
 }
 
-// A tetrahedron without a face, as far as the head is large.
+// A tetrahedron without one face, as large as the head.
 TEST_F(HairCacheTest, FieldsKeepWhatIsOddAboutTheirMesh) {
     hair::Settings settings = settledCase(hair::Solver::shape);
     const TemporaryFolder meshes;

@@ -14,8 +14,9 @@
 #include "tests/golden/features.h"
 #include "tests/required.h"
 
-// What the host does for a frame: it allocates nothing. Allocations are counted where operator new
-// is replaced, which is why this is a program of its own, and by thread: drivers have others.
+// The host's work for a frame allocates nothing. Allocations are counted in a replaced operator
+// new, so this is a separate program. They are counted per thread, because drivers have other
+// threads.
 
 namespace {
 
@@ -44,7 +45,7 @@ void operator delete[](void* memory, std::size_t) noexcept { std::free(memory); 
 namespace benchmarks::measure {
 namespace {
 
-// Without validation, which keeps account of all that is recorded.
+// Without validation, which keeps records of everything.
 class HostAllocations : public testing::Test {
 protected:
     void SetUp() override {
@@ -55,8 +56,8 @@ protected:
         }
     }
 
-    // Of overlapped frames, when pipelines have been made and used; small, for what is recorded
-    // doesn't depend on sizes.
+    // Allocations in overlapped frames, after pipelines have been created and used. The frames are
+    // small, because recording does not depend on sizes.
     std::uint64_t ofFrames(hair::Settings settings) {
         settings.render.width = 32;
         settings.render.height = 24;
@@ -103,7 +104,7 @@ TEST_F(HostAllocations, AreNoneInAFrameOfAnyBackEnd) {
                 EXPECT_EQ(ofFrames(settings), 0u)
                     << "back end " << static_cast<int>(backend) << ", samples " << samples;
             } catch (const engine::Unsupported&) {  // NOLINT(bugprone-empty-catch)
-                // A device without the stages draws no such frame.
+                // A device without these stages cannot draw such a frame.
             }
         }
     }

@@ -75,7 +75,7 @@ TEST_F(MeasureTest, PlaysOneRoundOfEachModeWithoutTime) {
     for (const report::Sampling& mode : result.sampling) EXPECT_EQ(mode.rounds, 1u);
 }
 
-// A round of five frames: the middle one of the times that are reported is what was judged.
+// A round has five frames: the middle one of the reported times is the judged one.
 TEST_F(MeasureTest, JudgesEachModeByTheTimeThatItReports) {
     std::map<std::string, double> medians;
     const report::CaseResult result = measured(
@@ -92,8 +92,8 @@ TEST_F(MeasureTest, JudgesEachModeByTheTimeThatItReports) {
     }
 }
 
-// Of one frame every median is its only sample: the passes add up to their share of its wall clock,
-// and what they take less when they overlap is saved.
+// With one frame, every median is its only sample. The passes sum to their share of its wall clock,
+// and the time that they save by overlapping is reported.
 TEST_F(MeasureTest, TellsWhatOverlapSaves) {
     hair::Settings settings = smallCase();
     settings.run.frames = 1;
@@ -106,7 +106,7 @@ TEST_F(MeasureTest, TellsWhatOverlapSaves) {
         onlySample(result, "frame.overlap"), passes - frame, 1e-9 * (passes + frame));  // rounding
 }
 
-// The next case may need less.
+// The next case may need less memory.
 TEST_F(MeasureTest, FailsACaseForWhichThereIsNoMemory) {
     const run::PlannedCase planned{
         .spec = {.name = "small", .axes = {}, .settings = smallCase()},
@@ -138,7 +138,7 @@ TEST_F(MeasureTest, TellsHowLongTheDeviceWasAtWork) {
     for (const double time : find(result, "frame.device.time")->samples) EXPECT_GT(time, 0.0);
 }
 
-// 2 frames to warm up, 5 that count and the one that ends the last of them, played by hand.
+// Plays by hand 2 warm-up frames, 5 counted frames and the one that ends the last of them.
 TEST_F(MeasureTest, HashesWhatTheLastFrameLeaves) {
     const hair::Settings settings = smallCase();
     Case by_hand(device(), settings, HAIRBENCH_SOURCE_DIR "/scenes");
@@ -150,7 +150,7 @@ TEST_F(MeasureTest, HashesWhatTheLastFrameLeaves) {
         loop.finish();
     }
     const std::vector<std::uint8_t> last = by_hand.picture();
-    ASSERT_EQ(earlier_states.size(), 8u);  // so that one frame more or less would show
+    ASSERT_EQ(earlier_states.size(), 8u);  // so that one frame more or less would be noticed
     ASSERT_FALSE(earlier_states.contains(by_hand.stateHash()));
 
     Case test_case(device(), settings, HAIRBENCH_SOURCE_DIR "/scenes");
@@ -164,7 +164,7 @@ TEST_F(MeasureTest, HashesWhatTheLastFrameLeaves) {
     EXPECT_EQ(result.state_hash, report::hashBytes(std::as_bytes(std::span(guides))));
 }
 
-// 256 times the work, of which a pass of nothing is the least part.
+// 256 times the work, so that the time of an empty pass is negligible.
 TEST_F(MeasureTest, FramesOfWorkAloneTakeLongerTheMoreItIs) {
     const hair::Settings settings = smallCase();
     Case test_case(device(), settings, HAIRBENCH_SOURCE_DIR "/scenes");
@@ -184,7 +184,7 @@ TEST_F(MeasureTest, FramesOfWorkAloneTakeLongerTheMoreItIs) {
     EXPECT_GE(much.wall, *much.device);
 }
 
-// Every sample of every round is kept, and the hooks are told of each round.
+// Every sample of every round is kept, and the hooks are called for each round.
 TEST_F(MeasureTest, KeepsTheSamplesOfAllRounds) {
     hair::Settings settings = smallCase();
     settings.run.precision = 0.0f;
@@ -204,7 +204,7 @@ TEST_F(MeasureTest, KeepsTheSamplesOfAllRounds) {
         rounds += mode.rounds + mode.warmup_rounds;
         throttled += mode.throttled_rounds;
     }
-    // A GPU plays on while the first round of a mode is looked at.
+    // A GPU continues to play while the first round of a mode is assessed.
     EXPECT_GE(told + result.sampling.size(), rounds);
     EXPECT_LE(told, rounds + throttled);
     EXPECT_EQ(modes.size(), result.sampling.size());
@@ -216,7 +216,7 @@ TEST_F(MeasureTest, KeepsTheSamplesOfAllRounds) {
     EXPECT_GE(result.sampling[0].seconds, 0.2);
 }
 
-// Rounds start over, so however many there are, they end with the same hair.
+// Rounds start over, so any number of them ends with the same hair.
 TEST_F(MeasureTest, EndsWithTheSameHairAfterAnyNumberOfRounds) {
     hair::Settings settings = smallCase();
     const report::CaseResult one = measured(settings);
@@ -232,7 +232,7 @@ TEST_F(MeasureTest, EndsWithTheSameHairAfterAnyNumberOfRounds) {
 
 TEST_F(MeasureTest, BusyWorkChangesNoPictureNoStateAndNoCount) {
     hair::Settings settings = smallCase();
-    settings.render.ssaa = 2;  // so that the resolve has a pass
+    settings.render.ssaa = 2;  // so that there is a resolve pass
     const report::CaseResult plain = measured(settings);
     settings.run.busy_work = 2000;
     for (const char* pass : {"wind", "simulate", "scene", "strands", "resolve"}) {
@@ -255,7 +255,7 @@ TEST_F(MeasureTest, SlowsDownNoPassThatIsNotThere) {
         "/run/busy_pass: there is no pass 'shadow'; there are wind, simulate, scene, strands");
 }
 
-// On a software device what a frame costs the processor is what a frame costs.
+// On a software device, the processor's cost of a frame is the frame's cost.
 TEST_F(MeasureTest, TellsWhatASoftwareDeviceUses) {
     const bool software = device().info().type == "cpu";
     const report::CaseResult result = measured(smallCase());
@@ -280,8 +280,8 @@ TEST_F(MeasureTest, StopsWhenAsked) {
 
 class RoundPlayerTest : public GpuTest {
 protected:
-    // Frames advance by a third of a step, so that every third frame simulates and no other does.
-    // Which frames these are is in their passes then, whatever they took.
+    // Frames advance by a third of a step, so that only every third frame simulates. The passes
+    // then identify these frames, whatever their times.
     static hair::Settings thirdsOfSteps() {
         hair::Settings settings = smallCase();
         settings.simulation.time_step = 1.0f / 60.0f;

@@ -38,7 +38,7 @@ const fs::path kSceneFolder = HAIRBENCH_SCENES_DIR;
 
 class MemoryNeedTest : public GpuTest {
 protected:
-    // Holds a case's need against what live allocations hold once it is made. `name` is the case's.
+    // Compares a case's need with its live allocations after it is made. `name` is the case's.
     void check(const std::string& name, const hair::Settings& settings, const fs::path& directory) {
         SCOPED_TRACE(name);
         HairCache cache;
@@ -51,11 +51,11 @@ protected:
             const std::uint64_t held = device().allocatedBytes() - before;
             EXPECT_GE(need.device, held);
             EXPECT_GE(unread.device, held);
-            // The small buffers that are taken to be there are no more than half a MiB.
+            // The assumed small buffers are at most half a MiB.
             EXPECT_LE(need.device, 3 * held + (512u << 10));
             ++checked_;
         } catch (const engine::Unsupported&) {
-            // Of a device that lacks what it needs nothing is promised.
+            // There is no promise for a device that lacks a needed feature.
         }
     }
 
@@ -106,7 +106,7 @@ TEST_F(MemoryNeedTest, KnowsEverySolver) {
     EXPECT_GT(checked_, 8u);
 }
 
-// The first case of each scene that is shipped, small.
+// The first case of each shipped scene, made small.
 TEST_F(MemoryNeedTest, IsNoLessThanWhatShippedScenesAllocate) {
     for (const auto& entry : fs::directory_iterator(kSceneFolder)) {
         const fs::path path = entry.path();
@@ -115,13 +115,14 @@ TEST_F(MemoryNeedTest, IsNoLessThanWhatShippedScenesAllocate) {
             continue;
         const scene::Scene loaded = scene::loadScene(path);
         hair::Settings settings = scene::expand(loaded).front().settings;
-        settings.run.compare_backends = false;  // whose pictures are drawn after the case's
+        settings.run.compare_backends = false;  // its pictures are drawn after the case's
         check(path.filename().string(), run::smaller(settings), kSceneFolder);
     }
     EXPECT_GT(checked_, 10u);
 }
 
-// A picture's own images, by hand: 8-bit color and 32-bit depth of each sample, and the output.
+// A picture's own images, computed by hand: 8-bit colour and 32-bit depth of each sample, and the
+// output.
 TEST_F(MemoryNeedTest, GrowsWithThePictureAsItsImagesDo) {
     hair::Settings settings = hair::plainSettings();
     settings.render.msaa = 4;
@@ -129,7 +130,7 @@ TEST_F(MemoryNeedTest, GrowsWithThePictureAsItsImagesDo) {
     const std::uint64_t small = memoryNeed(device(), settings, kSceneFolder).device;
     settings.render.width = settings.render.height = 2000;
     const std::uint64_t large = memoryNeed(device(), settings, kSceneFolder).device;
-    const double images = 3e6 * (4 * (4 + 4) + 4);  // of three million pixels more
+    const double images = 3e6 * (4 * (4 + 4) + 4);  // of three million additional pixels
     EXPECT_GE(static_cast<double>(large - small), images);
     EXPECT_LE(static_cast<double>(large - small), 1.5 * images);
 }
@@ -145,10 +146,10 @@ TEST(MemoryRoom, IsWhatTheControlGroupLeaves) {
     root.write("sys/fs/cgroup/user/run/memory.max", "1000000\n");
     root.write("sys/fs/cgroup/user/run/memory.current", "700000\n");
     EXPECT_EQ(freeInControlGroup(root.path()), 300000u);
-    // Pages that can be read again are free.
+    // Pages that can be read again count as free.
     root.write("sys/fs/cgroup/user/run/memory.stat", "anon 600000\ninactive_file 100000\n");
     EXPECT_EQ(freeInControlGroup(root.path()), 400000u);
-    // A group is in those above.
+    // A group's ancestors limit it too.
     root.write("sys/fs/cgroup/user/memory.max", "900000\n");
     root.write("sys/fs/cgroup/user/memory.current", "880000\n");
     EXPECT_EQ(freeInControlGroup(root.path()), 20000u);
@@ -161,8 +162,9 @@ TEST(MemoryRoom, IsWhatAnOlderControlGroupLeaves) {
     root.write("proc/self/cgroup", "9:name=systemd:/\n4:cpu,memory:/job/7\n0::/\n");
     root.write("sys/fs/cgroup/memory/memory.limit_in_bytes", "9223372036854771712\n");
     root.write("sys/fs/cgroup/memory/memory.usage_in_bytes", "123456789\n");
-    EXPECT_EQ(freeInControlGroup(root.path()), std::nullopt);  // so it says that there is none
-    // Within a container the group's folder is the root of what is mounted.
+    EXPECT_EQ(freeInControlGroup(root.path()), std::nullopt);  // this value means that there is no
+                                                               // limit
+    // Inside a container, the group's folder is the root of the mount.
     root.write("sys/fs/cgroup/memory/memory.limit_in_bytes", "200000000\n");
     root.write("sys/fs/cgroup/memory/memory.stat", "cache 1\ntotal_inactive_file 23456789\n");
     EXPECT_EQ(freeInControlGroup(root.path()), 100000000u);
@@ -245,14 +247,14 @@ TEST_F(NoRoom, IsSkippedWithTheFigure) {
         testing::MatchesRegex("needs about [0-9.]+ [MG]B of (device )?memory; 1.05 MB are free "
                               "\\(--max-memory\\)"));
     ASSERT_TRUE(skipped.memory_need);
-    EXPECT_GT(skipped.memory_need->device, 512u * 512 * 8);  // color and depth
+    EXPECT_GT(skipped.memory_need->device, 512u * 512 * 8);  // colour and depth
     const report::CaseResult ran = run(each, std::uint64_t{8} << 30);
     EXPECT_EQ(ran.status, report::Status::ok) << ran.reason;
     ASSERT_TRUE(ran.memory_need);
     EXPECT_EQ(ran.memory_need->device, skipped.memory_need->device);
 }
 
-// A case that an allocation fails in, is in the journal, and so are those around it.
+// A case with a failed allocation is in the journal, and so are the cases around it.
 TEST_F(NoRoom, FailsOneCaseAndTheRunGoesOn) {
     const TemporaryFolder folder;
     run::RunPlan plan;

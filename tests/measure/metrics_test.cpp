@@ -50,7 +50,7 @@ TEST(MissedCount, IsLessOnGpusAndAnyDifferenceOnProcessors) {
              {"virtual", "tessellation_control_patches", 951, 952, "expected at least 952"},
              {"discrete", "geometry_invocations", 121, 120, "expected 120"},
              {"discrete", "geometry_primitives", 239, 240, "expected 240"},
-             // A stage that mustn't run at all.
+             // A stage that must not run at all.
              {"discrete", evaluations, 1, 0, "expected 0"},
              {"discrete", evaluations, 7, std::nullopt, std::nullopt},
          }) {
@@ -64,7 +64,7 @@ TEST(MissedCount, IsLessOnGpusAndAnyDifferenceOnProcessors) {
 TEST(Metrics, OfOverlappedFramesSayWhoWaitsForWhom) {
     std::vector<engine::FrameRecord> frames = framesOf(2);
     frames[0].device = 8.0;
-    frames[1].device = 13.0;  // it began while the frame before was at work
+    frames[1].device = 13.0;  // it began while the previous frame was at work
     for (engine::FrameRecord& frame : frames) {
         frame.record = 2.0;
         frame.submit = 1.0;
@@ -87,8 +87,9 @@ TEST(Metrics, OfOverlappedFramesSayWhoWaitsForWhom) {
         EXPECT_EQ(metric.mode, report::Mode::overlapped);
 }
 
-// 98 frames of 10 ms and two of 40 ms, 1,060 ms in all. Percentile: quantile 0.99 lies at position
-// 98.01 of 0 ... 99, in the two: 25 fps, as is the one slowest; 1 % of the time is within it.
+// 98 frames of 10 ms and two of 40 ms, 1,060 ms in all. Percentile: quantile 0.99 is at position
+// 98.01 of 0 ... 99, within the two: 25 fps. So is the single slowest frame, and 1 % of the time is
+// within it.
 TEST(Metrics, HaveLowsOfThreeKinds) {
     std::vector<engine::FrameRecord> frames = framesOf(100);
     frames[10].interval = frames[60].interval = 40.0;
@@ -101,7 +102,7 @@ TEST(Metrics, HaveLowsOfThreeKinds) {
     EXPECT_THAT(names(result), testing::Not(testing::Contains(testing::HasSubstr("low_0_1"))));
 }
 
-// Where the share is less than a frame, a low would be the slowest frame under another name.
+// If the share is less than one frame, a low would just be the slowest frame.
 TEST(Metrics, HaveLowsOfEnoughFramesOnly) {
     const auto lows = [](std::size_t frames) {
         report::CaseResult result;

@@ -25,7 +25,7 @@ using FrameTime = double engine::FrameRecord::*;
 constexpr FrameTime kFrameTimes[] = {
     &engine::FrameRecord::interval, &engine::FrameRecord::wall, &engine::FrameRecord::record};
 
-// A machine whose clock only advances as rounds are played and pauses made.
+// A machine whose clock advances only with rounds and pauses.
 struct Machine {
     std::function<double(int round, int frame)> time;                       // ms
     std::function<double(int round)> clock = [](int) { return kFullClock; };  // MHz
@@ -34,7 +34,8 @@ struct Machine {
         return std::vector<std::string>();
     };
     double held = 0.0;  // MHz, before and then after
-    FrameTime judged = &engine::FrameRecord::wall;  // the others are of a machine that gets slower
+    FrameTime judged = &engine::FrameRecord::wall;  // the other times are those of a machine that
+                                                    // slows down
     int frames = 10;
     double now = 100.0;  // s
     int rounds = 0;
@@ -99,7 +100,7 @@ TEST(SampleRounds, PlaysOneWithoutTime) {
     EXPECT_THAT(sampled.conditions, SizeIs(1));
 }
 
-// Rounds of 0.1 s until 32 times of 10 ms are steady: whichever time it is, nothing else is judged.
+// Rounds of 0.1 s until 32 times of 10 ms are steady. Only the judged time counts, whichever it is.
 TEST(SampleRounds, JudgesTheTimeThatTheRuleNames) {
     for (const FrameTime judged : kFrameTimes) {
         Machine machine{.time = [](int, int) { return 10.0; }, .judged = judged};
@@ -112,8 +113,8 @@ TEST(SampleRounds, JudgesTheTimeThatTheRuleNames) {
     }
 }
 
-// An overlapped frame has no wall clock of its own, and the interval of another is the wait for it
-// and whatever the CPU does between frames.
+// An overlapped frame has no wall clock of its own. The interval of other frames includes the wait
+// for them and the CPU's work between frames.
 TEST(SamplingRule, NamesTheTimeOfTheMode) {
     engine::FrameRecord frame;
     frame.interval = 1.0;
@@ -131,7 +132,7 @@ TEST(SamplingRule, NamesTheTimeOfTheMode) {
     EXPECT_EQ(rule(engine::Timing::isolated).max_time, 7.0);
 }
 
-// Noise of 1 %: its median is known to 1 % long before 60 s, and all of it is kept.
+// Noise of 1 %: the median is known to 1 % long before 60 s, and all samples are kept.
 TEST(SampleRounds, EndsWhenTheMedianIsKnown) {
     Noise noise(1);
     Machine machine{.time = [&](int, int) { return 10.0 * (1.0 + 0.01 * noise.normal()); }};
@@ -147,7 +148,7 @@ TEST(SampleRounds, EndsWhenTheMedianIsKnown) {
     EXPECT_NEAR(machine.told.back().median, 10.0, 0.1);
 }
 
-// Rounds of 0.1 s: the last one that is begun begins before 2 s are over.
+// Rounds of 0.1 s: the last round begins before 2 s are over.
 TEST(SampleRounds, EndsWhenTimeIsOver) {
     Noise noise(2);
     Machine machine{.time = [&](int, int) { return 7.0 + 6.0 * noise.uniform(); }};
@@ -194,8 +195,8 @@ TEST(SampleRounds, SaysWhatDriftsToTheEnd) {
     EXPECT_EQ(sampled.sampling.warmup_rounds, 0u);
 }
 
-// Every third round at 89 % of the clock that the others hold takes twice as long; at 91 % rounds
-// count. The first round is judged when the second has held a higher clock.
+// Every third round, at 89 % of the others' clock, takes twice as long; at 91 % rounds count. The
+// first round is judged after the second has had a higher clock.
 TEST(SampleRounds, LeavesOutThrottledRounds) {
     Machine machine{
         .time = [](int round, int) { return round % 3 == 0 ? 20.0 : 10.0; },
@@ -209,7 +210,7 @@ TEST(SampleRounds, LeavesOutThrottledRounds) {
     EXPECT_FALSE(sampled.all_throttled);
 }
 
-// Heat holds a device back at whatever clock.
+// Heat throttles a device at any clock.
 TEST(SampleRounds, LeavesOutRoundsWithHeatOrPowerForAReason) {
     for (const char* reason :
          {"hardware slowdown", "software thermal slowdown", "hardware thermal slowdown",
@@ -227,7 +228,7 @@ TEST(SampleRounds, LeavesOutRoundsWithHeatOrPowerForAReason) {
     }
 }
 
-// A board that draws all the power it may is measured at the clock that it holds.
+// A board at its power limit is measured at the clock that it maintains.
 TEST(SampleRounds, CountsRoundsAtThePowerLimitWhileTheClockHolds) {
     Machine machine{
         .time = [](int, int) { return 10.0; },
@@ -238,7 +239,7 @@ TEST(SampleRounds, CountsRoundsAtThePowerLimitWhileTheClockHolds) {
         sampled.sampling.throttled_rounds, static_cast<std::uint32_t>((machine.rounds + 2) / 3));
 }
 
-// A clock that somebody locked below what the board is rated for is as good as any.
+// A clock locked below the board's rated clock is as good as any.
 TEST(SampleRounds, TakesALockedClockForWhatItIs) {
     Machine machine{
         .time = [](int, int) { return 10.0; }, .clock = [](int) { return 300.0; }, .load = 1.0};
@@ -246,7 +247,7 @@ TEST(SampleRounds, TakesALockedClockForWhatItIs) {
     EXPECT_EQ(machine.held, 300.0);
 }
 
-// Under full load the device held 1,000 MHz in an earlier case.
+// Under full load, the device reached 1,000 MHz in an earlier case.
 TEST(SampleRounds, WaitsForADeviceToReachItsClock) {
     Machine machine{
         .time = [](int, int) { return 10.0; },
@@ -259,8 +260,7 @@ TEST(SampleRounds, WaitsForADeviceToReachItsClock) {
     EXPECT_EQ(machine.held, 1000.0);
 }
 
-// A case that gives a device little to do may be played at a low clock, and says nothing of what
-// it could hold.
+// A case with little work may run at a low clock, and does not tell the highest possible clock.
 TEST(SampleRounds, DoesNotExpectAFullClockOfALightLoad) {
     for (const std::optional<double> load : {std::optional<double>(), std::optional(0.4)}) {
         Machine machine{

@@ -17,8 +17,8 @@ std::vector<double> levels(std::size_t count, const std::function<double(double)
     return all;
 }
 
-// Noise of 10 %, against which the tolerance of 1 % helps little: the level of the tests bounds
-// how many series lose a round, for whatever number of rounds.
+// Noise of 10 %, for which the tolerance of 1 % is of little use. The level of the tests limits how
+// many series lose a round, for any number of rounds.
 TEST(Settling, LeavesNothingOutOfNoise) {
     constexpr int kSeries = 1000;
     for (const std::size_t rounds : {8u, 9u, 20u, 64u, 200u}) {
@@ -31,8 +31,8 @@ TEST(Settling, LeavesNothingOutOfNoise) {
     }
 }
 
-// 30 % more at first, gone by e every 4 rounds, with noise of 0.3 %. After the 8th round 4 % are
-// left, which 30 or more rounds show beyond doubt; after the 20th 0.2 %, below the tolerance.
+// 30 % more at first, decaying by e every 4 rounds, with noise of 0.3 %. After the 8th round 4 %
+// are left, which 30 or more rounds show clearly; after the 20th 0.2 %, below the tolerance.
 TEST(Settling, LeavesOutWhatSettles) {
     for (const double sign : {1.0, -1.0}) {
         for (const std::size_t rounds : {50u, 60u}) {
@@ -48,7 +48,7 @@ TEST(Settling, LeavesOutWhatSettles) {
     }
 }
 
-// A device that gets warm: 1 % more every round without end. No half is better than the other.
+// A device that warms up: 1 % more every round without end. Neither half is better than the other.
 TEST(Settling, KeepsWhatDriftsToTheEnd) {
     Noise noise(3);
     for (int trial = 0; trial < 100; ++trial)
@@ -58,22 +58,23 @@ TEST(Settling, KeepsWhatDriftsToTheEnd) {
             0u);
 }
 
-// Sure, but of no weight: 0.5 % over all rounds, half the tolerance.
+// Significant but irrelevant: 0.5 % over all rounds, half the tolerance.
 TEST(Settling, OverlooksWhatDoesNotMatter) {
     EXPECT_EQ(settlingRounds(levels(30, [](double i) { return 1.0 - 0.005 * i / 30.0; })), 0u);
     EXPECT_GT(
         settlingRounds(levels(30, [](double i) { return i < 10.0 ? 1.2 - 0.02 * i : 1.0; })), 0u);
 }
 
-// Three rounds of 30 are all above the rest: by chance once in binomial(30, 3) / 2 = 2,030 series.
-// One alone is so once in 15.
+// Three rounds of 30 are all above the rest: by chance this happens once in binomial(30, 3) / 2 =
+// 2,030 series. For a single round it happens once in 15.
 TEST(Settling, LeavesOutAFewRoundsThatStandApart) {
     const auto slow = [](double count) {
         Noise noise(5);
         return settlingRounds(
             levels(30, [&](double i) { return (i < count ? 1.2 : 1.0) + 0.002 * noise.normal(); }));
     };
-    EXPECT_EQ(slow(3.0), 1u);  // two left are so once in binomial(29, 2) / 2 = 203: not sure enough
+    EXPECT_EQ(slow(3.0), 1u);  // for the remaining two it happens once in binomial(29, 2) / 2 =
+                               // 203: not significant
     EXPECT_EQ(slow(4.0), 2u);
     EXPECT_EQ(slow(1.0), 0u);
 }

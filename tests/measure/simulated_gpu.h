@@ -18,8 +18,8 @@
 #include "benchmarks/measure/stage.h"
 #include "engine/queries.h"
 
-// A GPU, its driver and its host as figures: what is measured on it can be held against what is
-// true of it. Its clock is its own, so that an hour of measuring takes seconds.
+// A model of a GPU, its driver and its host, so that measurements can be compared with the true
+// values. It has its own clock, so that an hour of measuring takes seconds.
 namespace benchmarks::measure {
 
 struct GpuModel {
@@ -28,34 +28,34 @@ struct GpuModel {
         double cycles;
     };
     std::vector<Pass> passes{{"wind", 20e3}, {"simulate", 80e3}, {"strands", 300e3}};
-    // What the frame of a play costs more than the first, from 0.
+    // Cost of a play's frame relative to the first, frames counted from 0.
     std::function<double(std::uint32_t frame)> profile = [](std::uint32_t) { return 1.0; };
-    double overlap = 0.0;  // share of the passes' time that side by side saves
+    double overlap = 0.0;  // share of the passes' time that overlap saves
 
     double slow = 210e6, fast = 1980e6;  // Hz
     double rise = 0.3;  // s of load from slow to fast
-    double decay = 0.05;  // s of idleness back
-    double idle_after = 2e-3;  // s; shorter gaps are none to the governor
+    double decay = 0.05;  // s of idling back to slow
+    double idle_after = 2e-3;  // s; the governor ignores shorter gaps
 
-    double record = 5e-6, submit = 2e-6;  // s of the CPU for a frame
+    double record = 5e-6, submit = 2e-6;  // s of CPU time for a frame
     double least_latency = 20e-6, most_latency = 60e-6;  // s, of submitting and of waking up
     double tail = 0.01;  // share of latencies that are ten times as long
-    double sleeps_after = 1e9;  // s of a wait after which waking up takes `sleep` longer
+    double sleeps_after = 1e9;  // s of waiting after which waking up takes `sleep` longer
     double sleep = 0.0;  // s
-    double stalls = 0.0;  // a second: the compositor has the device
+    double stalls = 0.0;  // per second: the compositor takes the device
     double stall = 2e-3;  // s
 
     double throttled_share = 0.0;  // of the time, in stretches of 0.5 to 1.5 s
     double throttled_clock = 0.7;  // of fast
-    std::string throttle_reason;  // what the driver says of it; empty: nothing
+    std::string throttle_reason;  // reason reported by the driver; empty: none
 
     double period = 1.0;  // ns, of a timestamp's tick
     std::uint32_t valid_bits = 64;
     double stamp_rate = 1.0;
-    bool stamps_shifted = false;  // a pass's time is that of the pass before
-    bool calibrated = true;  // host and device can read a clock together
-    bool processor = false;  // it says that it is one
-    bool waits_for_all = false;  // a wait for a frame ends when all are done that were submitted
+    bool stamps_shifted = false;  // a pass's time is that of the previous pass
+    bool calibrated = true;  // host and device can read a common clock
+    bool processor = false;  // it reports that it is a processor
+    bool waits_for_all = false;  // a wait for a frame ends only when all submitted frames are done
 
     double most_age = 0.1;  // s, of a clock reading
     bool tells_age = false;
@@ -71,7 +71,7 @@ public:
         if (model_.throttled_share > 0.0) nextThrottle();
     }
 
-    // ms of the passes at the full clock.
+    // True time of a pass at the full clock, ms.
     double truth(const std::string& pass) const {
         for (const GpuModel::Pass& each : model_.passes)
             if (each.name == pass) return each.cycles / model_.fast * 1e3;
@@ -127,7 +127,7 @@ public:
                 reading.throttle_reasons = {model_.throttle_reason};
             readings.push_back(std::move(reading));
         }
-        // What later readings may still be of.
+        // Later readings may still refer to these states.
         while (history_.size() > 1 && history_[1].time < next_reading_ - 2.0 * model_.most_age)
             history_.pop_front();
         report::Conditions conditions;
@@ -136,17 +136,17 @@ public:
         return conditions;
     }
 
-    // s in which the device was throttled, of those so far.
+    // Seconds of throttling so far.
     double throttled() const { return throttled_; }
 
-    // Frames with passes so far.
+    // Number of frames with passes so far.
     std::uint32_t frames() const { return frames_; }
 
 private:
     static constexpr double kNever = std::numeric_limits<double>::infinity();
     static constexpr double kReadingPeriod = 0.05;  // s
     static constexpr double kLoadWindow = 0.1;  // s
-    static constexpr double kNotes = 1e-3;  // s between two states that are kept
+    static constexpr double kNotes = 1e-3;  // s between two recorded states
     static constexpr std::size_t kSlots = 2;
 
     struct State {
@@ -232,7 +232,7 @@ private:
 
         std::uint64_t ticksAt(double time) const {
             const double ticks = time * 1e9 / gpu_.model_.period * gpu_.model_.stamp_rate;
-            // Counters have run for a while when a program starts: this one is about to wrap.
+            // Counters have run for a while when a program starts; this one is about to wrap.
             const std::uint64_t mask = engine::validMask(gpu_.model_.valid_bits);
             return (static_cast<std::uint64_t>(ticks) + mask - 1000000) & mask;
         }
@@ -242,7 +242,7 @@ private:
                    gpu_.model_.period * 1e-6;
         }
 
-        // All passes in one submission that reaches the device at `arrival`; when it is done.
+        // Plays all passes in one submission that reaches the device at `arrival`. Returns its end.
         double play(engine::FrameRecord& record, double arrival) {
             double time = std::max(arrival, gpu_.busy_until_);
             const double first = time;
@@ -269,7 +269,7 @@ private:
             return time;
         }
 
-        // A submission for each pass, waited for.
+        // Plays each pass in its own submission and waits for it.
         void playPasses(engine::FrameRecord& record) {
             for (const GpuModel::Pass& pass : gpu_.model_.passes) {
                 const double submission = gpu_.now_;
@@ -289,7 +289,7 @@ private:
         std::uint32_t frame_ = 0;
         double start_ = 0.0;
         std::vector<engine::FrameRecord> records_;
-        std::deque<double> in_flight_;  // when they are done
+        std::deque<double> in_flight_;  // their end times
     };
 
     double uniform(double low, double high) {
@@ -318,7 +318,7 @@ private:
 
     void note() {
         const double window = busy_until_ - noted_;
-        // Drivers tell the mean of a while.
+        // Drivers report the mean over a window.
         if (window > 0.0)
             load_ += (std::clamp(busy_ / window, 0.0, 1.0) - load_) *
                      (1.0 - std::exp(-window / kLoadWindow));
@@ -327,7 +327,7 @@ private:
         busy_ = 0.0;
     }
 
-    // Does the cycles from `time` on; when they are done.
+    // Executes cycles from `time` on. Returns the end.
     double work(double cycles, double time) {
         const double idle = time - busy_until_;
         if (idle > model_.idle_after)
@@ -359,7 +359,7 @@ private:
     double now_ = 0.0;  // s, of the host
     double clock_;  // Hz
     double busy_until_ = 0.0;
-    double busy_ = 0.0;  // s since the last note
+    double busy_ = 0.0;  // busy time since the last recorded state, s
     double noted_ = 0.0;
     double load_ = 0.0;
     double next_stall_;

@@ -41,7 +41,7 @@ double medianIn(const report::CaseResult& result, const std::string& name) {
     return metric ? report::quantile(metric->samples, 0.5) : std::nan("");
 }
 
-// Frames of 30 us to 30 ms, and whatever else a machine does to them.
+// A random machine with frames of 30 us to 30 ms.
 GpuModel anyModel(std::mt19937_64& random, double throttled_share) {
     const auto uniform = [&](double low, double high) {
         return std::uniform_real_distribution<double>(low, high)(random);
@@ -68,9 +68,9 @@ bool foundThrottling(const report::CaseResult& result) {
     });
 }
 
-// The bounds are the ones that a reader of reports is promised (docs/measuring.md): the median
-// error within 1 %, 95 % of the cases within 3 %. Frames that the device is busy with for longer
-// than the host needs between two of them also have that as their interval.
+// The bounds are those promised to readers of reports (docs/measuring.md): a median error within 1
+// %, and 95 % of the cases within 3 %. If a frame occupies the device longer than the host needs
+// between two frames, the frame's interval equals its device time.
 TEST(SimulatedGpu, FrameTimesAreTrueWhateverTheMachineDoes) {
     std::vector<double> device, intervals, passes;
     for (std::uint32_t seed = 0; seed < 200; ++seed) {
@@ -95,8 +95,8 @@ TEST(SimulatedGpu, FrameTimesAreTrueWhateverTheMachineDoes) {
     }
 }
 
-// Bounds as above: 95 % of machines that are throttled a fifth of the time, 1 % of those that are
-// never. A mode is measured until its time is over, so that it meets some throttling.
+// Bounds as above: 95 % of the machines that are throttled a fifth of the time, and 1 % of those
+// that never are. A mode is measured until its time is over, so that it meets some throttling.
 TEST(SimulatedGpu, ThrottlingIsFoundWhereThereIsSomeAndNotElsewhere) {
     const hair::RunSettings run{.precision = 0.0f, .max_time = 6.0f};
     int found = 0, wrongly = 0;
@@ -115,7 +115,7 @@ TEST(SimulatedGpu, ThrottlingIsFoundWhereThereIsSomeAndNotElsewhere) {
     EXPECT_LE(wrongly, 1);
 }
 
-// An hour of heat: the case fails, and what was measured is in the report.
+// An hour of heat: the case fails, and its measurements are in the report.
 TEST(SimulatedGpu, ACaseThatIsThrottledThroughoutFailsAndKeepsItsSamples) {
     GpuModel model;
     model.throttled_share = 0.9999;
@@ -129,8 +129,8 @@ TEST(SimulatedGpu, ACaseThatIsThrottledThroughoutFailsAndKeepsItsSamples) {
     EXPECT_THAT(result.conditions.throttle_reasons, Contains("hardware thermal slowdown"));
 }
 
-// Rounds measure for a quarter of a second at least, on whatever frames; and the device never waits
-// for the next one, or its clock would fall (it needs 2 ms to notice).
+// Rounds measure for at least a quarter of a second, for any frames. The device never waits for the
+// next round, or its clock would fall (it needs 2 ms to notice).
 TEST(SimulatedGpu, RoundsAreLongAndNothingIsBetweenThem) {
     for (const double cycles : {60e3, 600e3, 6e6}) {
         GpuModel model;
@@ -155,7 +155,7 @@ TEST(SimulatedGpu, RoundsAreLongAndNothingIsBetweenThem) {
     }
 }
 
-// Frames of a play that cost different amounts are the same in every round.
+// Frames of a play with different costs are the same in every round.
 TEST(SimulatedGpu, PlaysShowTheSameFrames) {
     GpuModel model;
     model.least_latency = model.most_latency = 30e-6;
@@ -166,12 +166,12 @@ TEST(SimulatedGpu, PlaysShowTheSameFrames) {
     const report::Metric* times = metricIn(result, "frame.device.time");
     ASSERT_TRUE(times);
     ASSERT_EQ(times->samples.size() % 3, 0u);
-    // A thousandth for the end of the clock's rise.
+    // The tolerance of a hundredth allows for the end of the clock's rise.
     for (std::size_t i = 0; i < times->samples.size(); ++i)
         EXPECT_NEAR(times->samples[i] / gpu.truth(), 3.0 + static_cast<double>(i % 3), 1e-2);
 }
 
-// /run/max_time 0 asks for one play, and gets it.
+// /run/max_time 0 requests one play and gets it.
 TEST(SimulatedGpu, CountsAreCountsWithoutTime) {
     SimulatedGpu gpu(GpuModel{}, 5);
     const report::CaseResult result = measuredOn(gpu, {.frames = 7, .max_time = 0.0f});
@@ -179,8 +179,8 @@ TEST(SimulatedGpu, CountsAreCountsWithoutTime) {
     EXPECT_EQ(metricIn(result, "frame.time")->samples.size(), 7u);
 }
 
-// 400,000 cycles at 1.98 GHz are 0.2 ms; submitting and waiting take two latencies of 20 to 60 us
-// and 2 us more, so a frame's passes are far from its wall clock and nothing is wrong.
+// 400,000 cycles at 1.98 GHz are 0.2 ms. Submitting and waiting take two latencies of 20 to 60 us
+// and 2 us more. A frame's passes are therefore far from its wall clock, and nothing is wrong.
 TEST(SimulatedGpu, AShortFrameIsNoReasonToDoubtItsPasses) {
     SimulatedGpu gpu(GpuModel{}, 9);
     const report::CaseResult result = measuredOn(gpu);
@@ -192,8 +192,8 @@ TEST(SimulatedGpu, AShortFrameIsNoReasonToDoubtItsPasses) {
     EXPECT_NEAR(medianIn(result, "frame.overlap"), 0.0, 0.01 * gpu.truth());
 }
 
-// A host that has waited for more than 0.3 ms wakes up 0.15 ms later, as one with an H200 did: of a
-// frame of 0.8 ms 0.23 ms are its submission, and nothing is wrong with its passes.
+// A host that has waited for more than 0.3 ms wakes up 0.15 ms later, as one with an H200 did. Of a
+// frame of 0.8 ms, 0.23 ms are its submission, and nothing is wrong with its passes.
 TEST(SimulatedGpu, AHostThatFallsAsleepIsNoReasonToDoubtPasses) {
     GpuModel model;
     model.passes = {{"simulate", 84e3}, {"strands", 1500e3}};
@@ -207,8 +207,8 @@ TEST(SimulatedGpu, AHostThatFallsAsleepIsNoReasonToDoubtPasses) {
     EXPECT_THAT(result.trust.warnings, IsEmpty());
 }
 
-// Work is not made longer and longer until stamps that stand still have seen it: 32 frames of some
-// 8 to 32 ms.
+// The search for a work length ends even if timestamps stand still: after 32 frames of about 8 to
+// 32 ms.
 TEST(SimulatedGpu, StampsThatStandStillEndNoSearch) {
     GpuModel model;
     model.stamp_rate = 0.0;
@@ -218,7 +218,7 @@ TEST(SimulatedGpu, StampsThatStandStillEndNoSearch) {
     EXPECT_LT(gpu.seconds() - begin, 1.5);
 }
 
-// A third of the passes' time is hidden where frames overlap.
+// Overlap hides a third of the passes' time.
 TEST(SimulatedGpu, OverlapIsFound) {
     GpuModel model;
     model.overlap = 1.0 / 3.0;
@@ -229,15 +229,15 @@ TEST(SimulatedGpu, OverlapIsFound) {
 
 // ---- Gates of processes on the simulated GPU ----------------------------------------------------
 
-// Medians of one process: of frame.time, frame.cycles, pass.strands.time, pass.strands.cycles.
+// Medians of one process: frame.time, frame.cycles, pass.strands.time, pass.strands.cycles.
 using Block = std::vector<double>;
 
 struct Build {
-    double work = 1.0;  // of the strands' cycles
-    double clock = 1.0;  // of the device's
+    double work = 1.0;  // relative to the strands' cycles
+    double clock = 1.0;  // relative to the device's
 };
 
-// Processes of a build, each on a device whose clock is off by 0.4 % as temperature has it.
+// Processes of a build, each on a device with a clock error of 0.4 %, as from temperature.
 std::vector<Block> blocksOf(const Build& build, std::uint32_t first_seed) {
     std::vector<Block> blocks;
     for (std::uint32_t seed = first_seed; seed < first_seed + 60; ++seed) {
@@ -276,8 +276,9 @@ bool callsRegression(const gate::Gate& gate) {
            (gate.comparisons()[2].verdict == report::Verdict::regressed && !gate.isClockChange(2));
 }
 
-// What a gate promises (docs/comparing.md): 0 of 1,000 identical pairs of builds, nine of ten that
-// are 3 % slower, by 24 pairs; and a clock that is 5 % lower is called a clock.
+// A gate's promises (docs/comparing.md): it finds 0 of 1,000 identical pairs of builds, and nine of
+// ten that are 3 % slower, with 24 pairs. A clock that is 5 % lower is recognised as a clock
+// change.
 TEST(SimulatedGpu, GatesTellBuildsFromClocks) {
     const std::vector<Block> before = blocksOf({}, 1);
     const std::vector<Block> same = blocksOf({}, 1001);
@@ -312,7 +313,7 @@ std::vector<std::string> faultsOf(const GpuModel& model) {
 
 TEST(SimulatedGpu, RightTimestampsAreBelieved) {
     EXPECT_THAT(faultsOf({}), IsEmpty());
-    // As coarse as some mobile GPUs'.
+    // As coarse as on some mobile GPUs.
     EXPECT_THAT(faultsOf({.period = 1000.0 / 19.2}), IsEmpty());
 }
 
@@ -327,14 +328,14 @@ TEST(SimulatedGpu, TimestampsOfTwiceTheRateAreFound) {
         Contains(AllOf(HasSubstr("pass.strands"), HasSubstr("with planted work in strands"))));
 }
 
-// The passes take 10, 40 and 150 us: what is wrong with them is far below what a submission takes.
+// The passes take 10, 40 and 150 us, so their errors are far below the time of a submission.
 TEST(SimulatedGpu, TimestampsOfTheNextPassAreFound) {
     const std::vector<std::string> faults = faultsOf({.stamps_shifted = true});
     EXPECT_THAT(faults, Contains(AllOf(HasSubstr("pass.wind"), HasSubstr("work in wind"))));
     EXPECT_THAT(faults, Contains(AllOf(HasSubstr("pass.simulate"), HasSubstr("work in wind"))));
 }
 
-// 36 bits of 1 ns wrap every 69 s; the model's counter is 1 ms before that when it starts.
+// 36 bits of 1 ns wrap every 69 s; the model's counter starts 1 ms before that.
 TEST(SimulatedGpu, ACounterThatWrapsIsNoFault) {
     GpuModel model;
     model.valid_bits = 36;
@@ -345,7 +346,7 @@ TEST(SimulatedGpu, ACounterThatWrapsIsNoFault) {
 
 // ---- Measuring in proportion --------------------------------------------------------------------
 
-// A processor's passes: 2, 10 and 40 ms, of which what submitting takes is little.
+// A processor's passes: 2, 10 and 40 ms. The time of a submission is small beside them.
 GpuModel processor() {
     GpuModel model;
     model.processor = true;
@@ -361,7 +362,7 @@ std::vector<engine::FrameRecord> framesOf(SimulatedGpu& gpu, engine::Timing timi
     return player->finish();
 }
 
-// Judges a device's timestamps in at most so many seconds; more than that is a failure.
+// Judges a device's timestamps in at most this many seconds; more is a failure.
 TimestampJudgement judged(SimulatedGpu& gpu, double seconds, DeviceKnowledge* known = nullptr) {
     const auto isolated = framesOf(gpu, engine::Timing::isolated);
     const auto clocked = framesOf(gpu, engine::Timing::wall_clock);
@@ -374,9 +375,9 @@ TimestampJudgement judged(SimulatedGpu& gpu, double seconds, DeviceKnowledge* kn
 
 using Verdict = TimestampJudgement::Verdict;
 
-// Overlapped and isolated 2 to warm up, 2 that count and the one that ends them, and the first
-// frame of all twice; on a processor one more before them, which fills the queue, and there, or
-// where there are no timestamps, 2 more by the CPU's clock.
+// Overlapped and isolated modes have 2 warm-up frames, 2 counted frames and the one that ends them,
+// and the first frame of all is played twice. A processor has one more before them, which fills the
+// queue. A processor, and a device without timestamps, also has 2 more by the CPU's clock.
 TEST(SimulatedGpu, AskedForCountsACaseIsFourteenFramesAtMost) {
     GpuModel unstamped;
     unstamped.valid_bits = 0;
@@ -393,9 +394,9 @@ TEST(SimulatedGpu, AskedForCountsACaseIsFourteenFramesAtMost) {
     }
 }
 
-// Nothing waits until as many frames are begun as may be in flight, and the first frame of all is
-// waited for: neither may be among the intervals, of which there may be one. A frame is 52.5 ms,
-// the host's part of it two latencies of at most 60 us and 7 us.
+// Nothing waits until as many frames have begun as may be in flight, and the first frame of all is
+// waited for. Neither may be among the intervals, even if there is only one. A frame takes 52.5 ms;
+// the host's part is two latencies of at most 60 us and 7 us.
 TEST(SimulatedGpu, AFewFramesInTheFirstRoundHaveTheirWholeTime) {
     for (const bool is_processor : {false, true})
         for (const std::uint32_t warmup : {2u, 3u, 6u})
@@ -414,7 +415,7 @@ TEST(SimulatedGpu, AFewFramesInTheFirstRoundHaveTheirWholeTime) {
             }
 }
 
-// However short the time and however long the frames; and what had time was looked at.
+// For any time limit and any frame length. Whatever had time was checked.
 TEST(SimulatedGpu, CheckingTimestampsTakesNoMoreThanItsTime) {
     for (const bool is_processor : {false, true})
         for (const double scale : {0.1, 1.0, 30.0})
@@ -441,8 +442,8 @@ TEST(SimulatedGpu, CheckingTimestampsTakesNoMoreThanItsTime) {
     }
 }
 
-// Frames that something else slowed down by half are no fault of the timestamps: pairs in turns
-// tell, and where they have no time the judgement is left open.
+// Frames that a disturbance slowed down by half are not a fault of the timestamps. Alternating
+// pairs tell; without time for them, the verdict is left open.
 TEST(SimulatedGpu, ADisturbanceOfAProcessorIsNoFault) {
     SimulatedGpu gpu(processor(), 27);
     std::vector<engine::FrameRecord> slowed = framesOf(gpu, engine::Timing::isolated);
@@ -466,11 +467,11 @@ TEST(SimulatedGpu, TimestampsThatWereRightAreNotCheckedAgainInARun) {
         ASSERT_EQ(judged(gpu, 2.0, &known).verdict, Verdict::right);
         const std::uint32_t before = gpu.frames();
         EXPECT_EQ(judged(gpu, 2.0, &known).verdict, Verdict::right);
-        EXPECT_EQ(gpu.frames(), before + 12);  // what it is to judge
+        EXPECT_EQ(gpu.frames(), before + 12);  // the frames to judge
     }
 }
 
-// A case has time for a pass or two; the next one of the run goes on.
+// A case has time for a pass or two; the next case of the run continues.
 TEST(SimulatedGpu, WhatIsLeftOfACheckIsDoneInLaterCases) {
     SimulatedGpu gpu(GpuModel{}, 31);
     DeviceKnowledge known;
