@@ -16,7 +16,7 @@
 
 namespace hair::simulation {
 
-// Adds a triangle with vertices of its own, so that closing the mesh has something to weld.
+// Adds a triangle with its own vertices, so that closing the mesh has vertices to weld.
 inline void
 addTriangle(groom::Mesh& mesh, const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c) {
     const auto first = static_cast<std::uint32_t>(mesh.positions.size());
@@ -57,7 +57,8 @@ inline groom::Mesh makeBox(const glm::dvec3& lower, const glm::dvec3& upper) {
     return mesh;
 }
 
-// An icosahedron whose triangles are split in four `levels` times, its vertices on the sphere.
+// Returns an icosahedron with each triangle split in four `levels` times and vertices on the
+// sphere.
 inline groom::Mesh makeSphere(const glm::dvec3& centre, double radius, int levels) {
     const double golden = std::numbers::phi;
     const std::array<glm::dvec3, 12> corners{
@@ -82,7 +83,7 @@ inline groom::Mesh makeSphere(const glm::dvec3& centre, double radius, int level
     for (int level = 0; level < levels; ++level) {
         std::vector<std::array<glm::dvec3, 3>> finer;
         for (const auto& [a, b, c] : triangles) {
-            // Commutative, so that neighbours get the same point.
+            // The sum is commutative, so neighbours get the same point.
             const glm::dvec3 ab = glm::normalize(glm::normalize(a) + glm::normalize(b));
             const glm::dvec3 bc = glm::normalize(glm::normalize(b) + glm::normalize(c));
             const glm::dvec3 ca = glm::normalize(glm::normalize(c) + glm::normalize(a));
@@ -100,8 +101,8 @@ inline groom::Mesh makeSphere(const glm::dvec3& centre, double radius, int level
     return mesh;
 }
 
-// A sphere without what is farther than `opening` (rad) from its top, which is up: rings of
-// `around` vertices, `across` of them. Its rim is a regular polygon.
+// Returns a sphere cut off `opening` (rad) from its top, which points up. It has `across` rings of
+// `around` vertices. Its rim is a regular polygon.
 inline groom::Mesh
 makeOpenSphere(const glm::dvec3& centre, double radius, double opening, int around, int across) {
     const auto at = [&](int i, int j) {
@@ -122,7 +123,7 @@ makeOpenSphere(const glm::dvec3& centre, double radius, double opening, int arou
     return mesh;
 }
 
-// Round the y axis.
+// Returns a torus round the y axis.
 inline groom::Mesh makeTorus(double radius, double tube_radius, int around, int across) {
     const auto at = [&](int i, int j) {
         const double turn = 2 * std::numbers::pi * (i % around) / around;
@@ -141,8 +142,8 @@ inline groom::Mesh makeTorus(double radius, double tube_radius, int around, int 
     return mesh;
 }
 
-// From z = -half_depth to half_depth over a counter-clockwise outline that is wholly seen from the
-// origin.
+// Returns a prism from z = -half_depth to half_depth. The outline is counter-clockwise and wholly
+// visible from the origin.
 inline groom::Mesh makePrism(std::span<const glm::dvec2> outline, double half_depth) {
     groom::Mesh mesh;
     const auto at = [&](glm::dvec2 p, double side) { return glm::dvec3(p, side * half_depth); };
@@ -163,7 +164,8 @@ inline groom::Mesh makeLShape() {
     return makePrism(kOutline, 0.4);
 }
 
-// Seven spikes of some 15 degrees: pseudonormals that are far from all their faces' normals.
+// Returns a star of seven spikes of about 15 degrees. Its pseudonormals are far from all normals of
+// their faces.
 inline groom::Mesh makeStar() {
     std::vector<glm::dvec2> outline;
     for (int i = 0; i < 14; ++i) {

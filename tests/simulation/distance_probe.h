@@ -19,7 +19,7 @@ struct Contact {
     float friction = 0.0f;
 };
 
-// What the simulation's shaders make of a field at the probes' positions.
+// Returns the field as the simulation's shaders read it at the probes' positions.
 inline std::vector<gpu::DistanceProbe> probe(
     const engine::Device& device, const DistanceField& field,
     std::span<const gpu::DistanceProbe> probes, const Contact& contact = {}) {

@@ -12,7 +12,7 @@
 #include "hair/simulation/solvers.h"
 #include "tests/simulation/strands.h"
 
-// Hair in air that nothing else acts on.
+// Hair in air. By default nothing else acts on it.
 namespace hair::simulation {
 
 inline SimulationSettings inAir(float time_step) {
@@ -28,7 +28,8 @@ inline SimulationSettings fallingThroughAir(float time_step) {
     return settings;
 }
 
-// The accelerations that air gives free vertices of a strand in a substep at the start, m/s^2.
+// Returns the accelerations, m/s^2, that air gives a strand's free vertices in a substep at the
+// start.
 inline std::vector<glm::dvec3> dragOnFree(
     std::span<const glm::dvec3> positions, std::span<const glm::dvec3> previous,
     const SimulationSettings& settings, std::uint32_t seed) {
@@ -47,8 +48,8 @@ inline std::vector<glm::dvec3> dragOnFree(
     return accelerations;
 }
 
-// That the root is held reaches one vertex further with every step, so the tip falls freely and
-// level for as many steps.
+// The effect of the fixed root moves one vertex further each step. The tip falls freely and level
+// for that many steps.
 inline constexpr std::uint32_t kLevelVertices = 64;
 inline constexpr int kFreeSteps = 60;
 
@@ -59,7 +60,7 @@ inline groom::Groom levelHair() {
     return groom;
 }
 
-// Where drag bears the weight, by bisection, m/s.
+// Returns the speed at which drag balances the weight, by bisection, m/s.
 inline double fallingSpeed(const SimulationSettings& settings) {
     const double weight = glm::length(glm::dvec3(settings.gravity));
     double slow = 0.0;
@@ -73,9 +74,9 @@ inline double fallingSpeed(const SimulationSettings& settings) {
     return slow;
 }
 
-// A tip that a spring c = k / (1 - k) holds, which is the global constraint at 1/60 s, in wind
-// along z. Air stretches the spring by k(U) U h^2 / c, h = 1/60 s: 3.5 mm, which turns the metre
-// between root and tip by so little that the wind across it is less by 1e-5.
+// A tip in wind along z, held by a spring c = k / (1 - k). At 1/60 s the spring is the global
+// constraint. Air stretches it by k(U) U h^2 / c = 3.5 mm, h = 1/60 s. This turns the 1 m segment
+// so little that the wind across it falls by only 1e-5.
 inline groom::Groom levelPair() {
     return {.strand_count = 1, .vertices_per_strand = 2, .points = {{0, 0, 0}, {1, 0, 0}}};
 }
@@ -95,7 +96,7 @@ inline double springsStretch(const SimulationSettings& settings) {
     return reference::dragAcceleration(settings.wind, settings.material, speed) / 3600.0;
 }
 
-// In which exp(-k / 2 t), k = 25/s, has fallen below 1e-5.
+// Returns the number of steps until exp(-k / 2 t), k = 25/s, is below 1e-5.
 inline int restingSteps(const SimulationSettings& settings) {
     return static_cast<int>(std::ceil(2.0 / double{settings.time_step})) + 20;
 }

@@ -16,10 +16,10 @@ inline constexpr Solver kSolvers[] = {
     Solver::stable_cosserat,
     Solver::position_based_rod,
     Solver::augmented_mass_spring};
-// Those whose whole state is positions and previous positions; gpu_rod_test.cpp has the rest.
+// Solvers whose whole state is positions and previous positions. gpu_rod_test.cpp tests the rest.
 inline constexpr Solver kSolversOfPositions[] = {Solver::shape, Solver::ftl};
 
-// Runs wind, hair against hair, hands and step `steps` times and waits.
+// Records wind, hair-hair interaction, forces, hands and a step, `steps` times, and waits.
 inline void advance(const engine::Device& device, Simulation& simulation, int steps) {
     runOnce(device, [&](engine::Commands& commands) {
         for (int i = 0; i < steps; ++i) {

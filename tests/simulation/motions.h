@@ -8,15 +8,15 @@
 
 namespace hair::simulation {
 
-// Where the neck of a head at the origin would be, m.
+// Neck position of a head at the origin, m.
 inline constexpr glm::vec3 kNeck{0.0f, -0.08f, -0.02f};
 
-// The head in one pose for ever.
+// Keeps the head in one pose.
 inline MotionSettings posed(const glm::vec3& rotation, const glm::vec3& translation) {
     return {.keyframes = {{.rotation = rotation, .translation = translation}}, .pivot = kNeck};
 }
 
-// Nods of 30 degrees each way, twice in a second, that sway to the side.
+// Nods by 30 degrees each way, twice a second, and sways to the side.
 inline MotionSettings nodding() {
     return {
         .keyframes =
@@ -27,7 +27,7 @@ inline MotionSettings nodding() {
         .repeat = true};
 }
 
-// A turn of 40 degrees and 5 cm that is over after three steps of 1/60 s.
+// Turns by 40 degrees and moves by 5 cm within three steps of 1/60 s.
 inline MotionSettings jerk() {
     return {
         .keyframes =

@@ -13,7 +13,7 @@
 
 namespace hair::simulation {
 
-// Wind and a body that hair rubs against.
+// Wind and a body with friction.
 inline SimulationSettings windy() {
     SimulationSettings settings;
     settings.wind.strength = 10.0f;
@@ -22,11 +22,11 @@ inline SimulationSettings windy() {
     return settings;
 }
 
-// A hundred steps of `shape`, everything together. The bound comes from the problem, not from the
-// device: a second reference is disturbed by the rounding of a float in every vertex after every
-// step, and the distance between the two says how far the solver spreads one rounding a step. The
-// device rounds once per pull and sweep, independently, so its error is larger by the root of their
-// number; twice that, because it may divide and take roots to less than a float's precision.
+// Compares a hundred steps of `shape`, with all its parts on, with the reference. The bound comes
+// from the problem, not from the device: after every step a second reference gets float rounding in
+// every vertex, and its distance from the first shows how the solver spreads one rounding a step.
+// The device rounds once per pull and sweep, independently, so its error grows with the square root
+// of their number. The factor of two allows for divisions and roots below float precision.
 inline void expectNearReference(
     const engine::Device& device, const groom::Groom& groom, const SimulationSettings& settings) {
     const std::uint32_t vertices = groom.vertices_per_strand;

@@ -22,7 +22,7 @@ inline std::string nameOfParallelism(const testing::TestParamInfo<Parallelism>& 
     return "";
 }
 
-// Runs a suite of TEST_P for every way that the `shape` solver is spread over the device.
+// Runs a TEST_P suite for each way to spread the `shape` solver over the device.
 #define FOR_EVERY_PARALLELISM(SUITE)                                                               \
     INSTANTIATE_TEST_SUITE_P(                                                                      \
         , SUITE, testing::Values(Parallelism::vertex, Parallelism::strand, Parallelism::serial),   \

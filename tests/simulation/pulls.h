@@ -11,18 +11,18 @@
 // Hands for tests.
 namespace hair::simulation {
 
-// A hand that stays in one place for ever.
+// A hand that stays in one place.
 inline std::vector<PullKey> stays(const glm::vec3& place) {
     return {{.time = 0.0f, .position = place}, {.time = 1000.0f, .position = place}};
 }
 
-// A hand that goes straight from `start` at time 0, m/s.
+// A hand that moves straight from `start` at time 0. The velocity is in m/s.
 inline std::vector<PullKey> goes(const glm::vec3& start, const glm::vec3& velocity) {
     return {
         {.time = 0.0f, .position = start}, {.time = 16.0f, .position = start + 16.0f * velocity}};
 }
 
-// A hand that jerks to and fro, a new place 10 cm to each side every 20 ms, for a second.
+// A hand that jerks to and fro for a second: every 20 ms to a new place, 10 cm to either side.
 inline std::vector<PullKey> jerks(const glm::vec3& centre) {
     std::vector<PullKey> path;
     std::mt19937 random(5);
@@ -33,19 +33,19 @@ inline std::vector<PullKey> jerks(const glm::vec3& centre) {
     return path;
 }
 
-// The distance of a free vertex from the hand that holds it, over that at the start, where it moves
-// as fast as the hand: after n steps of implicit Euler on e'' = -k e - 2 sqrt(k) e'. Each step
-// multiplies (e, dt e') by a matrix with the double eigenvalue 1 / (1 + s), s = sqrt(k) dt; so
-// e_n = (A + B n) (1 + s)^-n, and e_0 = 1, e_1 = (1 + 2 s) / (1 + s)^2 give A and B. In the limit
-// of small steps it is the critically damped (1 + w t) exp(-w t).
+// Returns the distance of a free vertex from its hand, relative to the start. The vertex starts at
+// the hand's velocity. The result is after n steps of implicit Euler on e'' = -k e - 2 sqrt(k) e'.
+// Each step multiplies (e, dt e') by a matrix with the double eigenvalue 1 / (1 + s), s = sqrt(k)
+// dt. Hence e_n = (A + B n) (1 + s)^-n; e_0 = 1 and e_1 = (1 + 2 s) / (1 + s)^2 give A and B. For
+// small steps the limit is the critically damped (1 + w t) exp(-w t).
 inline double approach(int n, double stiffness, double dt) {
     const double s = std::sqrt(stiffness) * dt;
     return (1.0 + n * s / (1.0 + s)) * std::pow(1.0 + s, -n);
 }
 
-// Several hands at once: two at one strand near each other, one of them stiff and in jerks; one
-// that holds a vertex alone; two that hold the same vertex; and one whose time comes later. For
-// grooms of three strands of six vertices and more.
+// Several hands at once, for grooms with at least three strands of six vertices: two near each
+// other on one strand, one of them stiff and jerking; one that holds a vertex alone; two that hold
+// the same vertex; and one that starts later.
 inline std::vector<PullSettings> manyPulls() {
     return {
         {.guide = 0,

@@ -9,7 +9,7 @@
 
 #include "hair/reference/rod.h"
 
-// Rods for tests, of hair's own material where nothing else is said.
+// Rods for tests. The default material is hair.
 namespace hair::simulation {
 
 constexpr double kEarth = 9.81;  // m/s^2
@@ -19,17 +19,17 @@ inline double lineDensity(const reference::RodMaterial& material) {
     return material.density * kPi * material.radius * material.radius;
 }
 
-// E I, N m^2.
+// Returns E I, N m^2.
 inline double bendingStiffness(const reference::RodMaterial& material) {
     return material.youngs_modulus * kPi / 4.0 * std::pow(material.radius, 4.0);
 }
 
-// G J, N m^2.
+// Returns G J, N m^2.
 inline double twistingStiffness(const reference::RodMaterial& material) {
     return material.shear_modulus * kPi / 2.0 * std::pow(material.radius, 4.0);
 }
 
-// Where lambda g L^3 / (E I) is gamma.
+// Returns the length L at which lambda g L^3 / (E I) = gamma.
 inline double lengthFor(double gamma, const reference::RodMaterial& material) {
     return std::cbrt(gamma * bendingStiffness(material) / (lineDensity(material) * kEarth));
 }
@@ -41,8 +41,8 @@ straightRod(int segments, double length, const glm::dvec3& direction = {1.0, 0.0
     return points;
 }
 
-// Midpoints of this rod's segments turn by `turn` rad from the root, along x, to the tip,
-// downwards; the curvature is the same everywhere.
+// Returns an arc of constant curvature. It starts along x and bends down. From the root to the tip
+// the segments turn by `turn` rad.
 inline std::vector<glm::dvec3> arc(int segments, double length, double turn) {
     std::vector<glm::dvec3> points{glm::dvec3(0.0)};
     for (int i = 0; i < segments; ++i) {
@@ -63,7 +63,7 @@ inline std::vector<glm::dvec3> helix(int segments, double radius, double pitch, 
     return points;
 }
 
-// A V of this length between two points `span` apart on x.
+// Returns a V of this length between two points `span` apart on x.
 inline std::vector<glm::dvec3> vee(int segments, double length, double span) {
     const double drop = std::sqrt(length * length - span * span) / 2.0;
     std::vector<glm::dvec3> points;
@@ -74,7 +74,8 @@ inline std::vector<glm::dvec3> vee(int segments, double length, double span) {
     return points;
 }
 
-// Of the catenary of this length between those points: 2 a sinh(span / 2 a) = length.
+// Returns the sag of the catenary of this length between the same points: 2 a sinh(span / 2 a) =
+// length.
 inline double catenarySag(double length, double span) {
     double low = 1e-3, high = 10.0;
     for (int i = 0; i < 100; ++i) {

@@ -9,22 +9,21 @@
 
 namespace hair::simulation {
 
-// How far the device may be from the reference after some steps. The bound comes from the problem
-// and not from the device: a second reference is disturbed by the rounding of a float in every
-// vertex after every step, and the distance between the two says how far the solver spreads one
-// rounding a step.
+// Bounds the device's distance from the reference after some steps. The bound comes from the
+// problem, not from the device: after every step a second reference gets float rounding in every
+// vertex, and its distance from the first shows how the solver spreads one rounding a step.
 struct Rounding {
     double spread;     // m
-    double roundings;  // of a vertex in a step
+    double roundings;  // per vertex and step
 
-    // The device rounds once per pull and sweep, independently, so its error is larger by the root
-    // of their number; twice that, because it may divide and take roots to less than a float's
-    // precision.
+    // The device rounds once per pull and sweep, independently, so its error grows with the square
+    // root of their number. The factor of two allows for divisions and roots below float precision.
     double bound() const { return 2.0 * std::sqrt(roundings) * spread; }
 };
 
-// Corrections of a vertex in a step that round. Where a strand is solved or followed as a whole,
-// each vertex has the roundings of all above it; one pass more is for what bodies pushed.
+// Returns the rounded corrections per vertex and step. Where a solver treats a strand as a whole,
+// each vertex collects the roundings of all vertices above it. One extra pass corrects the vertices
+// that bodies pushed.
 inline double pulls(const SimulationSettings& settings, std::uint32_t vertices_per_strand) {
     if (settings.solver == Solver::ftl) return vertices_per_strand;
     if (settings.length.method == LengthMethod::iterate)

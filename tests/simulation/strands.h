@@ -13,10 +13,10 @@
 #include "hair/simulation/stiffness.h"
 #include "tests/largest_difference.h"
 
-// Grooms and states for the simulation's tests. Everything is deterministic on every platform.
+// Grooms and states for the simulation tests. They are the same on every platform.
 namespace hair::simulation {
 
-// In [-1, 1).
+// Returns a number in [-1, 1).
 inline double randomSigned(std::mt19937& random) {
     return static_cast<double>(random()) / 2147483648.0 - 1.0;
 }
@@ -27,7 +27,7 @@ inline glm::dvec3 randomVector(std::mt19937& random) {
     return {x, y, randomSigned(random)};
 }
 
-// Strands that hang from points 5 cm apart, made of `segment` long pieces.
+// Returns strands that hang from points 5 cm apart. Each segment is `segment` long.
 inline groom::Groom
 straightGroom(std::uint32_t strands, std::uint32_t vertices, double segment = kReferenceSegment) {
     groom::Groom groom{.strand_count = strands, .vertices_per_strand = vertices};
@@ -37,7 +37,8 @@ straightGroom(std::uint32_t strands, std::uint32_t vertices, double segment = kR
     return groom;
 }
 
-// Wavy strands: each piece is bent from the one before by a random angle of up to about 40 degrees.
+// Returns wavy strands: each segment turns from the previous one by a random angle up to about 40
+// degrees.
 inline groom::Groom
 wavyGroom(std::uint32_t strands, std::uint32_t vertices, double segment = kReferenceSegment) {
     groom::Groom groom{.strand_count = strands, .vertices_per_strand = vertices};
@@ -54,7 +55,7 @@ wavyGroom(std::uint32_t strands, std::uint32_t vertices, double segment = kRefer
     return groom;
 }
 
-// The groom's points, all but the roots moved by up to `amount` along each axis, m.
+// Returns the groom's points with all but the roots moved by up to `amount` along each axis, m.
 inline std::vector<glm::vec3>
 disturbed(const groom::Groom& groom, double amount, std::uint32_t seed) {
     std::mt19937 random(seed);
@@ -69,7 +70,7 @@ inline std::vector<glm::dvec3> toDouble(std::span<const glm::vec3> points) {
     return {points.begin(), points.end()};
 }
 
-// Length of the groom's longest strand, m: what errors are relative to.
+// Returns the length of the groom's longest strand, m. Errors are relative to it.
 inline double longestStrand(const groom::Groom& groom) {
     Extremes lengths;
     for (std::uint32_t s = 0; s < groom.strand_count; ++s) {
@@ -82,7 +83,7 @@ inline double longestStrand(const groom::Groom& groom) {
     return lengths.greatest();
 }
 
-// Settings with every force and constraint switched off; a test switches on what it is about.
+// Returns settings with every force and constraint off. Each test switches on its subject.
 inline SimulationSettings nothingActs() {
     SimulationSettings settings;
     settings.gravity = glm::vec3(0.0f);

@@ -11,7 +11,8 @@
 #include "hair/groom/mesh/mesh.h"
 #include "tests/largest_difference.h"
 
-// What is true of a triangle mesh, in double and by going through all of its triangles.
+// Distances and winding numbers of a triangle mesh, in double and by brute force over all
+// triangles.
 namespace hair::reference {
 
 inline std::array<glm::dvec3, 3> corners(const groom::Mesh& mesh, const auto& triangle) {
@@ -20,7 +21,7 @@ inline std::array<glm::dvec3, 3> corners(const groom::Mesh& mesh, const auto& tr
         glm::dvec3(mesh.positions[triangle[2]])};
 }
 
-// Ericson 2005, Real-time collision detection, 5.1.5.
+// Returns the closest point of the triangle (Ericson 2005, Real-time collision detection, 5.1.5).
 inline glm::dvec3 closestPoint(const glm::dvec3& p, const std::array<glm::dvec3, 3>& triangle) {
     const auto& [a, b, c] = triangle;
     const glm::dvec3 ab = b - a, ac = c - a;
@@ -47,9 +48,9 @@ inline double distance(const groom::Mesh& mesh, const glm::dvec3& p) {
     return distances.least();
 }
 
-// How often the surface goes round p: 1 inside a closed one, 0 outside. Jacobson et al. 2013,
-// Robust inside-outside segmentation using generalized winding numbers; the solid angles are van
-// Oosterom and Strackee's 1983, The solid angle of a plane triangle, eq. 8.
+// Returns the winding number at p: 1 inside a closed surface, 0 outside. Source: Jacobson et al.
+// 2013, Robust inside-outside segmentation using generalized winding numbers. Solid angles: van
+// Oosterom and Strackee 1983, The solid angle of a plane triangle, eq. 8.
 inline double windingNumber(const groom::Mesh& mesh, const glm::dvec3& p) {
     double angles = 0.0;
     for (const auto& triangle : mesh.triangles) {

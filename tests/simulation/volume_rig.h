@@ -19,7 +19,7 @@
 
 namespace hair::simulation {
 
-// What hair gives hair, without a solver: given positions to accelerations.
+// Runs hair-hair interaction without a solver: takes positions and returns accelerations.
 class VolumeRig {
 public:
     struct Sum {
@@ -48,8 +48,8 @@ public:
               "guide parameters")),
           hair_hair_(device, groom, settings, stepOf(settings)) {}
 
-    // m/s^2, without a step before. `previous` is a substep earlier; every vertex has `others` from
-    // elsewhere, which hair on hair is added to.
+    // Returns accelerations, m/s^2, with no step before. `previous` is one substep earlier. Each
+    // vertex starts with the acceleration `others`, to which hair-hair interaction adds.
     std::vector<glm::vec3> accelerations(
         std::span<const glm::vec3> positions, std::span<const glm::vec3> previous,
         const RigidMotion& frame = {}, const glm::vec3& others = glm::vec3(0.0f)) {
@@ -57,7 +57,7 @@ public:
         return nextAccelerations(positions, previous, frame, others);
     }
 
-    // The same after the step of the last ones.
+    // Returns the accelerations of the next step, after the last call's step.
     std::vector<glm::vec3> nextAccelerations(
         std::span<const glm::vec3> positions, std::span<const glm::vec3> previous,
         const RigidMotion& frame = {}, const glm::vec3& others = glm::vec3(0.0f)) const {
@@ -78,7 +78,7 @@ public:
         return {result.begin(), result.end()};
     }
 
-    // The same by the reference.
+    // Returns the same accelerations from the reference.
     std::vector<glm::dvec3> expected(
         std::span<const glm::vec3> positions, std::span<const glm::vec3> previous,
         const RigidMotion& frame = {}, std::vector<glm::dvec3>* kept = nullptr) const {
@@ -95,7 +95,7 @@ public:
                         .kept = kept});
     }
 
-    // The grids of the last accelerations(), [grid][z][y][x].
+    // Returns the grids of the last call, [grid][z][y][x].
     std::vector<Sum> sums() const {
         const auto fixed = engine::downloadAs<std::int32_t>(device_, hair_hair_.sums());
         const auto blocks = engine::downloadAs<gpu::VolumeBlock>(device_, hair_hair_.blocks());
@@ -109,7 +109,7 @@ public:
             const std::size_t z = grid_and_z / side * blocks_of_side + grid_and_z % side / 4;
             const std::size_t y = z * blocks_of_side + cell / side % side / 4;
             const gpu::VolumeBlock& block = blocks[y * blocks_of_side + cell % side / 4];
-            // The powers of two that are more than the share and than the speed.
+            // Powers of two above the share and above the speed.
             const double share = std::exp2(std::bit_width(block.share));
             int speed = 0;
             (void)std::frexp(std::bit_cast<float>(block.fastest), &speed);
