@@ -73,7 +73,7 @@ TEST_F(GpuMotion, TakesAStepLikeTheReference) {
 TEST_F(GpuMotion, StaysNearTheReferenceForAHundredSteps) {
     for (const Solver solver : kSolversOfPositions)
         for (const std::uint32_t substeps : {1u, 2u, 5u})
-            for (const std::uint32_t vertices : {2u, 8u, 16u}) {
+            for (const std::uint32_t vertices : {2u, 8u, 9u}) {
                 const groom::Groom groom = wavyGroom(5, vertices);
                 SimulationSettings settings = withBodies(solver);
                 settings.substeps = substeps;

@@ -51,12 +51,22 @@ TEST_F(GpuSolver, FollowsVerletsDiscreteParabola) {
 
 TEST_P(GpuShapeSolver, StaysNearTheReferenceForAHundredSteps) {
     for (const StiffnessScaling scaling : {StiffnessScaling::thesis, StiffnessScaling::invariant})
-        for (const std::uint32_t vertices : {2u, 3u, 8u, 9u, 16u, 33u, 64u}) {
+        for (const std::uint32_t vertices : {2u, 3u, 8u, 9u, 33u, 64u}) {
             SimulationSettings settings = windy();
             settings.stiffness_scaling = scaling;
-            settings.collision.continuous = scaling == StiffnessScaling::invariant;
             expectNearReference(device(), wavyGroom(5, vertices), settings);
         }
+}
+
+// Each number of vertices is a kernel of its own, and compiling kernels takes longer than running
+// them. Continuous collisions move each vertex by itself, so one chunk and several are enough.
+TEST_P(GpuShapeSolver, StaysNearTheReferenceWithContinuousCollisions) {
+    for (const std::uint32_t vertices : {8u, 33u}) {
+        SimulationSettings settings = windy();
+        settings.stiffness_scaling = StiffnessScaling::invariant;
+        settings.collision.continuous = true;
+        expectNearReference(device(), wavyGroom(5, vertices), settings);
+    }
 }
 
 TEST_P(GpuShapeSolver, GivesTheSameBitsEveryTime) {
