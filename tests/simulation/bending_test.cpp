@@ -27,7 +27,7 @@ using Points = std::vector<glm::dvec3>;
 
 // Strands of one chunk and of several, whose last is full and is not, and that fill a workgroup and
 // do not: 9 and 33 have one vertex in the last of 5 and 17 chunks of `vertex`.
-constexpr std::uint32_t kVertexCounts[] = {2, 3, 8, 9, 32, 33, 64};
+constexpr std::uint32_t kVertexCounts[] = {2, 3, 8, 9, 33, 64};
 
 SimulationSettings bending() {
     SimulationSettings settings;
