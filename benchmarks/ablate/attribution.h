@@ -9,7 +9,7 @@
 
 #include "benchmarks/ablate/stops.h"
 
-// Derives costs from times; docs/ablation.md defines the costs.
+// Derives costs from times; docs/measuring.md defines the costs.
 namespace benchmarks::ablate {
 
 // A difference of times, ms: the Hodges-Lehmann estimate over the laps' differences and its exact

@@ -24,7 +24,7 @@ inline constexpr std::array kLightAngles{0.0, 45.0, 90.0, 180.0};
 // A level is compared with a slightly finer one; the difference is the popping.
 inline constexpr float kLevelStep = 0.05f;
 
-// Differences between a level's picture and the path-traced picture of level 0: docs/references.md.
+// Differences between a level's picture and the path-traced picture of level 0: docs/rendering.md.
 struct LightErrors {
     double angle = 0.0;  // of kLightAngles
     double flip = 0.0;

@@ -12,7 +12,7 @@
 #include "benchmarks/report/report.h"
 #include "engine/process.h"
 
-// Errors between pictures: docs/references.md defines the figures.
+// Errors between pictures: docs/rendering.md defines the figures.
 namespace benchmarks::reference {
 
 struct PictureErrors {
