@@ -15,6 +15,8 @@
 
 #include "engine/error.h"
 #include "engine/run_tool.h"
+#include "engine/spirv.h"
+#include "engine/spirv_judge.h"
 
 namespace engine {
 namespace {
@@ -86,16 +88,29 @@ void GlslIncluder::releaseInclude(IncludeResult* result) {
 
 // ---- The compiler -------------------------------------------------------------------------------
 
+struct Stage {
+    const char* extension;
+    EShLanguage language;
+    const char* layout = "";  // smallest declaration that a shader of the stage needs
+    const char* directive = "";  // required in each unit of the stage
+};
+constexpr const char* kMeshDirective = "#extension GL_EXT_mesh_shader : require\n";
 constexpr std::array kStages{
-    std::pair{".vert", EShLangVertex},         std::pair{".tesc", EShLangTessControl},
-    std::pair{".tese", EShLangTessEvaluation}, std::pair{".geom", EShLangGeometry},
-    std::pair{".task", EShLangTask},           std::pair{".mesh", EShLangMesh},
-    std::pair{".frag", EShLangFragment},       std::pair{".comp", EShLangCompute},
+    Stage{".vert", EShLangVertex},
+    Stage{".tesc", EShLangTessControl, "layout(vertices = 1) out;"},
+    Stage{".tese", EShLangTessEvaluation, "layout(isolines) in;"},
+    Stage{".geom", EShLangGeometry, "layout(points) in; layout(points, max_vertices = 1) out;"},
+    Stage{".task", EShLangTask, "", kMeshDirective},
+    Stage{
+        ".mesh", EShLangMesh, "layout(points, max_vertices = 1, max_primitives = 1) out;",
+        kMeshDirective},
+    Stage{".frag", EShLangFragment},
+    Stage{".comp", EShLangCompute},
 };
 
-EShLanguage stageOf(const std::string& path) {
-    for (const auto& [extension, stage] : kStages) {
-        if (path.ends_with(extension)) return stage;
+const Stage& stageOf(const std::string& path) {
+    for (const Stage& stage : kStages) {
+        if (path.ends_with(stage.extension)) return stage;
     }
     throw Error("shader '" + path + "'", "its extension names no stage");
 }
@@ -128,33 +143,95 @@ void setTarget(glslang::TShader& shader, EShLanguage stage) {
     shader.setEnvTarget(glslang::EShTargetSpv, glslang::EShTargetSpv_1_6);
 }
 
-// The strings of an extension's unit. An error in a declaration names its line in the file.
+// A compilation unit that does not come with the program. An error in a declaration names its line
+// in the file.
 struct ExtensionUnit {
-    ExtensionUnit(const ShaderExtension& extension, const ReadShader& read)
-        : head("#version 460\n" + read(extension.interface).value_or("")),
-          texts{head.c_str(), extension.declarations.c_str(), extension.text.c_str()},
-          lengths{
-              static_cast<int>(head.size()), static_cast<int>(extension.declarations.size()),
-              static_cast<int>(extension.text.size())},
-          names{extension.interface.c_str(), extension.name.c_str(), extension.name.c_str()} {}
+    ExtensionUnit(const ShaderExtension& extension, const ReadShader& read, const Stage& stage)
+        : head(
+              std::string("#version 460\n") + stage.directive +
+              read(extension.interface).value_or("")),
+          shader(stage.language) {
+        const std::array texts{
+            head.c_str(), extension.declarations.c_str(), extension.text.c_str()};
+        const std::array lengths{
+            static_cast<int>(head.size()), static_cast<int>(extension.declarations.size()),
+            static_cast<int>(extension.text.size())};
+        const std::array names{
+            extension.interface.c_str(), extension.name.c_str(), extension.name.c_str()};
+        shader.setStringsWithLengthsAndNames(
+            texts.data(), lengths.data(), names.data(), static_cast<int>(texts.size()));
+        setTarget(shader, stage.language);
+        if (!shader.parse(GetDefaultResources(), kDefaultVersion, false, kMessages))
+            error = firstError(shader.getInfoLog(), extension.name);
+    }
 
     std::string head;
-    std::array<const char*, 3> texts;
-    std::array<int, 3> lengths;
-    std::array<const char*, 3> names;
+    glslang::TShader shader;
+    std::optional<ShaderError> error;
 };
+
+// Some of glslang's messages end in a space.
+std::string withoutEnd(const std::string& text) {
+    return text.substr(0, text.find_last_not_of(' ') + 1);
+}
+
+// Returns "shadeHair" for "vec3 shadeHair(HairPoint point)".
+std::string nameOfFunction(const std::string& signature) {
+    const std::size_t end = signature.find('(');
+    const std::size_t begin = signature.rfind(' ', end) + 1;
+    return signature.substr(begin, end - begin);
+}
 
 // Returns an error from linking the units. It has no line and is attributed to an extension,
 // because the program's own units fit together. glslang calls a function there "name(u1;".
-ShaderError linkError(const std::string& log, const ShaderExtensions& extensions) {
+ShaderError linkError(const std::string& log, const ShaderExtension& extension) {
     static const std::regex signature(R"(\n\s*(\w+)\()");
-    const std::string& file = extensions.front()->name;
     std::smatch match;
-    if (!std::regex_search(log, match, signature)) return {file, 0, firstError(log, file).text};
+    if (!std::regex_search(log, match, signature))
+        return {extension.name, 0, firstError(log, extension.name).text};
+    const std::string function = match[1];
+    if (log.find("Recursion detected") != std::string::npos)
+        return {extension.name, 0, "'" + function + "' calls itself, which no function may"};
     if (log.find("Multiple function bodies") != std::string::npos)
-        return {file, 0, "'" + match[1].str() + "' is a function of the program's own: rename it"};
-    return {
-        file, 0, "has no function '" + match[1].str() + "' with the parameters that are asked for"};
+        return {
+            extension.name, 0, "'" + function + "' is a function of the program's own: rename it"};
+    if (function == nameOfFunction(extension.function))
+        return {extension.name, 0, "has no function " + extension.function};
+    return {extension.name, 0, "'" + function + "' is declared and not defined"};
+}
+
+// Judges an extension linked with its stand-in instead of the program's shaders. So the code that
+// is judged holds nothing of the program's, which may use more than an extension may.
+std::optional<ShaderError>
+judge(const ShaderExtension& extension, const ReadShader& read, const Stage& stage) {
+    ExtensionUnit unit(extension, read, stage);
+    if (unit.error) {
+        if (unit.error->text.find('\'' + nameOfFunction(extension.function) + '\'') !=
+            std::string::npos)
+            unit.error->text = withoutEnd(unit.error->text) + "; wanted is " + extension.function;
+        return unit.error;
+    }
+    const ShaderExtension stand_in{
+        .interface = extension.interface,
+        .macro = {},
+        .declarations = stage.layout,
+        .name = "main",
+        .text = extension.stand_in};
+    ExtensionUnit rest(stand_in, read, stage);
+    if (rest.error) return rest.error;
+    glslang::TProgram program;
+    program.addShader(&unit.shader);
+    program.addShader(&rest.shader);
+    if (!program.link(kMessages)) return linkError(program.getInfoLog(), extension);
+    glslang::SpvOptions options;
+    options.generateDebugInfo = true;  // for the line numbers
+    spv::SpvBuildLogger logger;
+    ShaderCode code;
+    glslang::GlslangToSpv(*program.getIntermediate(stage.language), code, &logger, &options);
+    const std::optional<SpirvFault> fault = judgeSpirv(code);
+    if (!fault) return std::nullopt;
+    return ShaderError{
+        extension.name, fault->file == extension.name ? fault->line : 0, fault->text};
 }
 
 // ---- Compiling in a fork ------------------------------------------------------------------------
@@ -164,9 +241,8 @@ constexpr ChildLimits kCompileLimits{.seconds = 20, .bytes = std::size_t{2} << 3
 
 std::string bytesOf(const CompiledShader& compiled) {
     if (compiled.error) {
-        const std::string& text = compiled.error->text;  // glslang ends some with a space
         return 'E' + std::to_string(compiled.error->line) + '\n' + compiled.error->file + '\n' +
-               text.substr(0, text.find_last_not_of(' ') + 1);
+               withoutEnd(compiled.error->text);
     }
     return 'C' + std::string(
                      reinterpret_cast<const char*>(compiled.code.data()),
@@ -189,13 +265,6 @@ ShaderCode codeOf(const std::string& bytes) {
 }
 
 // ---- Sources in SPIR-V --------------------------------------------------------------------------
-
-// Returns a SPIR-V string: UTF-8, four bytes a word, zero-terminated.
-std::string literal(std::span<const std::uint32_t> words) {
-    std::string text(words.size_bytes(), '\0');
-    std::memcpy(text.data(), words.data(), words.size_bytes());
-    return text.substr(0, text.find('\0'));
-}
 
 // Returns a path relative to the shader folder: the build calls included files
 // "./common/picture.glsl".
@@ -269,7 +338,7 @@ ShaderCompiler::~ShaderCompiler() { glslang::FinalizeProcess(); }
 
 CompiledShader ShaderCompiler::compile(
     const std::string& path, const ReadShader& read, const ShaderExtensions& extensions) const {
-    const EShLanguage stage = stageOf(path);
+    const Stage& stage = stageOf(path);
     CompiledShader compiled{.code = {}, .files = {path}, .error = {}};
     const std::optional<std::string> text = read(path);
     if (!text) {
@@ -280,9 +349,9 @@ CompiledShader ShaderCompiler::compile(
     const char* const string = text->data();
     const int length = static_cast<int>(text->size());
     const char* const name = path.c_str();
-    glslang::TShader shader(stage);
+    glslang::TShader shader(stage.language);
     shader.setStringsWithLengthsAndNames(&string, &length, &name, 1);
-    setTarget(shader, stage);
+    setTarget(shader, stage.language);
     std::string macros;
     for (const auto& extension : extensions) macros += "#define " + extension->macro + " 1\n";
     shader.setPreamble(macros.c_str());
@@ -296,34 +365,27 @@ CompiledShader ShaderCompiler::compile(
     }
 
     // Declared before the program, which refers to them.
-    std::vector<ExtensionUnit> units;
-    std::vector<std::unique_ptr<glslang::TShader>> parts;
+    std::vector<std::unique_ptr<ExtensionUnit>> units;
     glslang::TProgram program;
-    units.reserve(extensions.size());
     for (const auto& extension : extensions) {
-        const ExtensionUnit& unit = units.emplace_back(*extension, read);
-        glslang::TShader& part = *parts.emplace_back(std::make_unique<glslang::TShader>(stage));
-        part.setStringsWithLengthsAndNames(
-            unit.texts.data(), unit.lengths.data(), unit.names.data(),
-            static_cast<int>(unit.texts.size()));
-        setTarget(part, stage);
-        if (!part.parse(GetDefaultResources(), kDefaultVersion, false, kMessages)) {
-            compiled.error = firstError(part.getInfoLog(), extension->name);
-            return compiled;
-        }
-        program.addShader(&part);
+        compiled.error = judge(*extension, read, stage);
+        if (compiled.error) return compiled;
+        const auto& unit =
+            units.emplace_back(std::make_unique<ExtensionUnit>(*extension, read, stage));
+        program.addShader(&unit->shader);
     }
     // Last: its stage settings apply where earlier units have none.
     program.addShader(&shader);
     if (!program.link(kMessages) || !program.mapIO()) {
         compiled.error = extensions.empty() ? firstError(program.getInfoLog(), path)
-                                            : linkError(program.getInfoLog(), extensions);
+                                            : linkError(program.getInfoLog(), *extensions.front());
         return compiled;
     }
     glslang::SpvOptions options;
     options.generateDebugInfo = extensions.empty();
     spv::SpvBuildLogger logger;
-    glslang::GlslangToSpv(*program.getIntermediate(stage), compiled.code, &logger, &options);
+    glslang::GlslangToSpv(
+        *program.getIntermediate(stage.language), compiled.code, &logger, &options);
     return compiled;
 }
 
@@ -336,12 +398,12 @@ ShaderSources shaderSources(std::span<const std::uint32_t> code) {
     forEachDeclaration(code, [&](SpirvInstruction instruction) {
         const std::span<const std::uint32_t> words = instruction.operands;
         if (instruction.operation == spirv::kString && words.size() > 1) {
-            names[words[0]] = literal(words.subspan(1));
+            names[words[0]] = spirvText(words.subspan(1));
         } else if (instruction.operation == spirv::kSource && words.size() > 2) {
             last = &sources[relative(names[words[2]])];  // language, version, file, text
-            *last = literal(words.subspan(3));
+            *last = spirvText(words.subspan(3));
         } else if (instruction.operation == spirv::kSourceContinued && last) {
-            *last += literal(words);
+            *last += spirvText(words);
         }
     });
     return sources;

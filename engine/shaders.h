@@ -30,6 +30,10 @@ struct ShaderExtension {
     std::string declarations;  // precede the text, each with its line number in the file
     std::string name;  // of the file, in errors
     std::string text;
+    std::string function{};  // that the text must define: "vec3 shadeHair(HairPoint point)"
+    // GLSL that defines the functions of the program's side, and a main() that calls the function.
+    // The extension is linked with it and judged before it is linked with the program's shaders.
+    std::string stand_in{};
 };
 using ShaderExtensions = std::vector<std::shared_ptr<const ShaderExtension>>;
 
@@ -44,8 +48,8 @@ public:
     std::span<const std::uint32_t> code(std::string_view path) const;
 
     // Returns the code linked with the extensions that it calls. Compiles it at first use. Throws
-    // Error "<file>:<line>: <reason>" if an extension does not compile. Thread-safe, except with
-    // replace().
+    // Error "<file>:<line>: <reason>" if an extension does not compile or judgeSpirv() refuses it.
+    // Thread-safe, except with replace().
     std::shared_ptr<const ShaderCode>
     extended(std::string_view path, const ShaderExtensions& extensions) const;
 
@@ -92,7 +96,8 @@ public:
     // `path`: an entry point, with its stage as extension: "strands/strand.frag". Includes are
     // always relative to the shader folder, whichever file includes them. With extensions, all
     // units are linked together and the code carries no sources; an error in an extension has the
-    // extension's name as its file.
+    // extension's name as its file. A fault that judgeSpirv() finds in an extension by itself is
+    // an error too.
     CompiledShader compile(
         const std::string& path, const ReadShader& read,
         const ShaderExtensions& extensions = {}) const;
@@ -123,33 +128,5 @@ struct ShaderBinding {
 
 // Returns all descriptor bindings that a shader's code declares.
 std::set<ShaderBinding> shaderBindings(std::span<const std::uint32_t> code);
-
-// Operation codes: SPIR-V specification, 3.42.
-namespace spirv {
-constexpr std::uint32_t kSourceContinued = 2;
-constexpr std::uint32_t kSource = 3;
-constexpr std::uint32_t kString = 7;
-constexpr std::uint32_t kFunction = 54;
-constexpr std::uint32_t kDecorate = 71;
-}  // namespace spirv
-
-struct SpirvInstruction {
-    std::uint32_t operation = 0;
-    std::span<const std::uint32_t> operands;  // words
-};
-
-// Calls `use` for every instruction before the first function. Ends early if the code is not
-// SPIR-V.
-template <class Use>
-void forEachDeclaration(std::span<const std::uint32_t> code, Use&& use) {
-    constexpr std::size_t kHeaderWords = 5;
-    for (std::size_t at = kHeaderWords; at < code.size();) {
-        const std::size_t count = code[at] >> 16;
-        const std::uint32_t operation = code[at] & 0xffff;
-        if (operation == spirv::kFunction || count == 0 || count > code.size() - at) return;
-        use(SpirvInstruction{operation, code.subspan(at + 1, count - 1)});
-        at += count;
-    }
-}
 
 }  // namespace engine

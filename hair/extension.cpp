@@ -5,6 +5,7 @@
 #include <cctype>
 #include <cmath>
 #include <cstdint>
+#include <limits>
 #include <locale>
 #include <optional>
 #include <regex>
@@ -78,6 +79,9 @@ void checkLines(const std::string& name, const std::string& text) {
         const bool control = static_cast<unsigned char>(text[i]) < ' ' || text[i] == '\x7f';
         if (control && text[i] != '\t' && !ends)
             throw errorAt(name, number, "has a control character");
+        // A backslash at the end of a line continues the line, or a comment, on the next one.
+        if (text[i] == '\\')
+            throw errorAt(name, number, "'\\' has no place in a file that a scene names");
     }
 }
 
@@ -89,8 +93,6 @@ void checkWords(const std::string& name, const std::string& text) {
     std::size_t number = 0;
     for (std::string line; std::getline(lines, line);) {
         ++number;
-        if (line.find('\\') != std::string::npos)
-            throw errorAt(name, number, "'\\' has no place in a file that a scene names");
         if (std::regex_match(line, match, directive))
             throw errorAt(
                 name, number, '#' + match[1].str() + " has no place in a file that a scene names");
@@ -210,9 +212,8 @@ bool readOriginal(const std::string& text, ExtensionParameter& parameter) {
         const std::string part =
             parameter.is_vector ? parts[static_cast<std::size_t>(i) + 1].str() : text;
         const std::optional<double> number = numberIn(part);
-        if (!number) return false;
+        if (!number || *number < parameter.minimum || *number > parameter.maximum) return false;
         parameter.original[i] = static_cast<float>(*number);
-        if (*number < parameter.minimum || *number > parameter.maximum) return false;
     }
     return true;
 }
@@ -226,6 +227,11 @@ parameterIn(const std::string& name, std::size_t line, const std::string& declar
     const std::optional<double> minimum = numberIn(parts[3]), maximum = numberIn(parts[4]);
     if (!minimum || !maximum || *minimum >= *maximum)
         throw errorAt(name, line, "[" + parts[3].str() + "," + parts[4].str() + "] is no range");
+    if (std::max(-*minimum, *maximum) > double{std::numeric_limits<float>::max()})
+        throw errorAt(
+            name, line,
+            "[" + parts[3].str() + "," + parts[4].str() +
+                "] goes beyond numbers of 32 bits, which end at 3.4e38");
     ExtensionParameter parameter{
         .name = parts[1],
         .minimum = *minimum,
@@ -244,20 +250,49 @@ struct Part {
     const char* interface;
     const char* macro;
     std::uint32_t first_constant;
+    const char* function;  // this and the next: as in engine::ShaderExtension
+    const char* stand_in;
 };
 
 Part partOf(ExtensionKind kind) {
     switch (kind) {
     case ExtensionKind::shading:
         return {
-            "extension/shading.glsl", "HAIRBENCH_EXTENDED_SHADING", gpu::kShadingParameterConstant};
+            "extension/shading.glsl", "HAIRBENCH_EXTENDED_SHADING", gpu::kShadingParameterConstant,
+            "vec3 shadeHair(HairPoint point)", R"(
+uint lightCount() { return 1u; }
+HairLight hairLight(HairPoint point, uint light) {
+    return HairLight(point.normal, point.color, 1.0);
+}
+HairShading hairShading() { return HairShading(0.0, 0.0, 0.0, 0.0); }
+vec3 workingColor(vec3 display) { return display; }
+void main() {
+    HairPoint point;
+    shadeHair(point);
+}
+)"};
     case ExtensionKind::offset:
         return {
-            "extension/offset.glsl", "HAIRBENCH_EXTENDED_OFFSET", gpu::kOffsetParameterConstant};
+            "extension/offset.glsl", "HAIRBENCH_EXTENDED_OFFSET", gpu::kOffsetParameterConstant,
+            "vec3 offsetHair(HairPlace place)", R"(
+float hairRandom(HairPlace place, uint which) { return 0.0; }
+void main() {
+    HairPlace place;
+    offsetHair(place);
+}
+)"};
     case ExtensionKind::force:
         break;
     }
-    return {"extension/force.glsl", "HAIRBENCH_EXTENDED_FORCE", gpu::kForceParameterConstant};
+    return {
+        "extension/force.glsl", "HAIRBENCH_EXTENDED_FORCE", gpu::kForceParameterConstant,
+        "vec3 accelerateGuide(GuidePoint point)", R"(
+float guideRandom(GuidePoint point, uint which) { return 0.0; }
+void main() {
+    GuidePoint point;
+    accelerateGuide(point);
+}
+)"};
 }
 
 std::uint32_t constantOf(ExtensionKind kind, std::size_t parameter) {
@@ -318,7 +353,9 @@ Extension parseExtension(ExtensionKind kind, const std::string& name, std::strin
         .macro = part.macro,
         .declarations = std::move(declarations),
         .name = name,
-        .text = std::move(text)});
+        .text = std::move(text),
+        .function = part.function,
+        .stand_in = part.stand_in});
     return extension;
 }
 

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <memory>
+#include <set>
+#include <string_view>
 #include <type_traits>
 #include <utility>
 
@@ -116,17 +118,20 @@ void loadOne(
     parameters.values = completed(parameters.values, *parameters.file, field.parameters);
 }
 
-// Returns an entry point that calls extensions of that kind.
-const char* calledBy(hair::ExtensionKind kind) {
-    switch (kind) {
-    case hair::ExtensionKind::shading:
-        return "strands/strand.frag";
-    case hair::ExtensionKind::offset:
-        return "strands/evaluate.comp";
-    case hair::ExtensionKind::force:
-        break;
+// Returns one entry point of each stage that calls functions of the extension. Stages differ in
+// what they offer: only a fragment has a place in the picture, for example.
+std::vector<std::string> entryPointsOf(const engine::ShaderExtension& extension) {
+    std::vector<std::string> paths;
+    std::set<std::string> kinds;
+    for (const std::string_view path : engine::shaderPaths()) {
+        const std::string kind = std::filesystem::path(path).extension().string();
+        if (!kinds.contains(kind) &&
+            engine::shaderSources(engine::shaderCode(path)).contains(extension.interface)) {
+            kinds.insert(kind);
+            paths.emplace_back(path);
+        }
     }
-    return "simulation/force.comp";
+    return paths;
 }
 
 }  // namespace
@@ -161,8 +166,9 @@ void checkExtensions(const hair::Settings& settings) {
         const auto [file, parameters] = named(settings, field.kind);
         if (!parameters.file) continue;
         try {
-            engine::ShaderLibrary().extended(
-                calledBy(field.kind), hair::shaderExtensions(parameters));
+            const engine::ShaderLibrary library;
+            for (const std::string& path : entryPointsOf(*parameters.file->shader))
+                library.extended(path, hair::shaderExtensions(parameters));
         } catch (const engine::Error& error) {
             throw engine::Error(field.pointer, error.what());
         }

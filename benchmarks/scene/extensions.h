@@ -41,8 +41,8 @@ withExtensions(const hair::Settings& settings, const std::filesystem::path& dire
 // settings unchanged; playing them then reports the error.
 void rereadExtensions(hair::Settings& settings, const std::filesystem::path& directory);
 
-// Compiles the files to find errors. Throws engine::Error "<JSON pointer>: <file>:<line>:
-// <reason>".
+// Compiles the files for every stage that calls them, to find errors. Throws engine::Error "<JSON
+// pointer>: <file>:<line>: <reason>".
 void checkExtensions(const hair::Settings& settings);
 
 // A GLSL file that was read.

@@ -164,8 +164,14 @@ TEST_F(SceneExtensions, ErrorsOfTheCompilerHaveFileAndLine) {
         "in/s.json: /shading/model: in/mine.glsl:4: 'colour' : undeclared identifier");
     EXPECT_EQ(
         modelError("vec3 shade(HairPoint point) { return point.color; }\n"),
-        "in/s.json: /shading/model: in/mine.glsl: has no function 'shadeHair' with the parameters "
-        "that are asked for");
+        "in/s.json: /shading/model: in/mine.glsl: has no function vec3 shadeHair(HairPoint point)");
+    EXPECT_EQ(
+        modelError("vec3 shadeHair(vec3 point) { return point; }\n"),
+        "in/s.json: /shading/model: in/mine.glsl: has no function vec3 shadeHair(HairPoint point)");
+    EXPECT_EQ(
+        modelError("float shadeHair(HairPoint point) { return 1.0; }\n"),
+        "in/s.json: /shading/model: in/mine.glsl:1: 'shadeHair' : overloaded functions must have "
+        "the same return type; wanted is vec3 shadeHair(HairPoint point)");
     EXPECT_EQ(
         modelError("vec3 shadeHair(HairPoint point) { return point.color; }\nvoid main() {}\n"),
         "in/s.json: /shading/model: in/mine.glsl: 'main' is a function of the program's own: "
@@ -223,6 +229,147 @@ TEST_F(SceneExtensions, SeesItsInterfaceAlone) {
             testing::StartsWith(at + '\'' + word + "' has no place"));
 }
 
+// The compiler continues a line, or a comment, after a backslash at its end. So the compiler would
+// read text that a check line by line takes for a comment.
+TEST_F(SceneExtensions, HaveNoBackslashAnywhere) {
+    for (const char* const end : {"\\\n", "\\\r\n", "\\ "})
+        for (const char* const hidden :
+             {"#define AB 1", "#extension GL_EXT_buffer_reference : require",
+              "layout(buffer_reference, std430) buffer Memory { vec4 at; };", "shared float x;"})
+            EXPECT_EQ(
+                modelError(
+                    "// x " + std::string(end) + "/*\n" + hidden + "\n// */\n" +
+                    "vec3 shadeHair(HairPoint point) { return point.color; }\n"),
+                "in/s.json: /shading/model: in/mine.glsl:1: '\\' has no place in a file that a "
+                "scene names")
+                << hidden;
+}
+
+// Functions get the same in every stage. Other things, such as gl_FragCoord, exist in the stages of
+// one back end and not in those of another.
+TEST_F(SceneExtensions, AreTheSameInEveryStage) {
+    const auto shading = [&](const std::string& statement) {
+        return modelError(
+            "vec3 shadeHair(HairPoint point) {\n    " + statement +
+            "\n    return point.color;\n}\n");
+    };
+    const std::string at = "in/s.json: /shading/model: in/mine.glsl:2: ";
+    const std::string no_place = " has no place in a file that a scene names";
+    EXPECT_EQ(shading("if (point.along > 2.0) discard;"), at + "'discard'" + no_place);
+    for (const char* const derivative : {"dFdx", "dFdy", "fwidth"})
+        EXPECT_EQ(
+            shading("point.color = " + std::string(derivative) + "(point.color);"),
+            at + "a derivative such as dFdx()" + no_place);
+    for (const char* const input :
+         {"gl_FragCoord.xyz", "vec3(gl_PrimitiveID)", "vec3(gl_SampleID)"})
+        EXPECT_EQ(
+            shading("point.color = " + std::string(input) + ";"),
+            at + "a stage's own input such as gl_FragCoord" + no_place);
+    EXPECT_EQ(
+        shading("gl_FragDepth = 0.5;"), at + "a stage's own output such as gl_Position" + no_place);
+    EXPECT_EQ(
+        shading("point.color = vec3(gl_GlobalInvocationID);"),
+        at + "'gl_GlobalInvocationID' : undeclared identifier");
+    EXPECT_THAT(shading("barrier();"), testing::StartsWith(at + "'barrier'"));
+    // Doubles are optional for devices.
+    EXPECT_EQ(
+        shading("double exact = 2.0LF; point.color *= float(exact);"),
+        at + "a number of other than 32 bits" + no_place);
+
+    folder.write(
+        "in/offset.glsl", "// @parameter reach 0.02 [0, 0.1] m: most\n"
+                          "vec3 offsetHair(HairPlace place) { return vec3(gl_VertexIndex); }\n");
+    EXPECT_EQ(
+        error(R"({"strands": {"offset_function": "offset.glsl"}})"),
+        "in/s.json: /strands/offset_function: in/offset.glsl:2: a stage's own input such as "
+        "gl_FragCoord" +
+            no_place);
+    folder.write(
+        "in/force.glsl",
+        "vec3 accelerateGuide(GuidePoint point) {\n    return vec3(gl_LocalInvocationID);\n}\n");
+    EXPECT_EQ(
+        error(R"({"simulation": {"force": "force.glsl"}})"),
+        "in/s.json: /simulation/force: in/force.glsl:2: a stage's own input such as gl_FragCoord" +
+            no_place);
+}
+
+// Beyond these bounds a driver's compiler may take minutes and gigabytes, or crash.
+TEST_F(SceneExtensions, AreBoundedInSize) {
+    const auto with = [&](const std::string& before, const std::string& statement) {
+        return modelError(
+            before + "vec3 shadeHair(HairPoint point) {\n    " + statement +
+            "\n    return point.color;\n}\n");
+    };
+    const std::string at = "in/s.json: /shading/model: in/mine.glsl";
+    const auto array = [&](const std::string& size) {
+        return with(
+            "", "float a[" + size +
+                    "]; a[int(point.along)] = 1.0; point.color.x = a[int(point.width)];");
+    };
+    EXPECT_EQ(array("4096"), "no error");
+    for (const char* const size : {"4097", "1048576", "2147483647"})
+        EXPECT_EQ(
+            array(size),
+            at + ":2: a type of " + size + " numbers is too large: at most 4096 may be");
+    // Inlined, these are 2^18 bodies of the innermost function.
+    std::string doubling = "float f0(float x) { return sin(x); }\n";
+    for (int i = 1; i <= 18; ++i) {
+        const std::string inner = 'f' + std::to_string(i - 1);
+        doubling += "float f" + std::to_string(i) + "(float x) { return " + inner + "(x) + " +
+                    inner + "(0.5 * x); }\n";
+    }
+    EXPECT_THAT(
+        with(doubling, "point.color.x = f18(point.along);"),
+        testing::StartsWith(at + ": is too large: numbers "));
+    EXPECT_EQ(with(doubling, "point.color.x = f5(point.along);"), "no error");
+    const auto nested = [&](std::size_t depth) {
+        std::string blocks, ends(depth, '}');
+        for (std::size_t i = 0; i < depth; ++i) blocks += "if (point.along > 0.5) {\n";
+        return with("", blocks + "point.color.x = 1.0;" + ends);
+    };
+    EXPECT_EQ(nested(32), "no error");
+    EXPECT_EQ(
+        nested(33), at + ": is too large: blocks within each other: 33, with the body of each "
+                         "function where it is called; at most 32 may be");
+    EXPECT_EQ(
+        with("float f(float x) { return f(x); }\n", "point.color.x = f(1.0);"),
+        at + ": 'f' calls itself, which no function may");
+}
+
+// Everything in the language that works with values alone is allowed.
+TEST_F(SceneExtensions, HaveTheLanguagesMathematics) {
+    EXPECT_EQ(
+        modelError(R"(const float kTable[8] = float[8](1., 2., 3., 4., 5., 6., 7., 8.);
+void put(inout float to[4], int at) { to[at] = kTable[at]; }
+vec3 shadeHair(HairPoint point) {
+    mat3 m = mat3(point.color, point.normal, point.to_eye);
+    m = inverse(m) * transpose(m);
+    float d = determinant(m), whole, array[4];
+    put(array, int(point.along));
+    int exponent;
+    d = frexp(d, exponent) + modf(d, whole) + array[exponent & 3];
+    uint high, low, carry;
+    umulExtended(3u, uint(d), high, low);
+    int bits = bitfieldInsert(bitfieldExtract(int(uaddCarry(high, low, carry)), 2, 3), exponent, 1, 2);
+    bits += bitCount(low) + findMSB(bitfieldReverse(carry)) % 3 ^ ~bits << 2;
+    vec4 packed = unpackUnorm4x8(packUnorm4x8(vec4(d))) + unpackHalf2x16(packHalf2x16(vec2(d))).xyxy;
+    bool odd = any(lessThan(point.color, packed.xyz)) || isnan(d) && !isinf(whole);
+    switch (exponent) {
+    case 0: d += 1.0; break;
+    case 3: d = fma(d, whole, packed.x);
+    default: d = ldexp(d, 2);
+    }
+    do { if (++bits == 3) continue; d *= uintBitsToFloat(high); } while (bits < 10);
+    precise vec3 r = refract(point.normal, point.to_eye, 1.5) + reflect(point.normal, point.tangent);
+    r = mix(point.color, r, bvec3(odd, false, true)) + outerProduct(point.color, r)[1];
+    r += pow(abs(r), vec3(2.0)) + roundEven(r) + atanh(r) + atan(r, r.zyx) + mod(r, 2.0);
+    r[bits % 3] = cross(r, point.normal).y;
+    return odd ? r * m : m * r;
+}
+)"),
+        "no error");
+}
+
 TEST_F(SceneExtensions, DeclarationsHaveAForm) {
     const auto declared = [&](const std::string& declaration) {
         return modelError("\n// @parameter " + declaration + "\n");
@@ -236,6 +383,12 @@ TEST_F(SceneExtensions, DeclarationsHaveAForm) {
                                   "MOST] UNIT: meaning")
             << wrong;
     EXPECT_EQ(declared("a 1 [2, 0] 1: x"), at + "[2, 0] is no range");
+    EXPECT_EQ(
+        declared("a 1e39 [0, 1e40] 1: x"),
+        at + "[0, 1e40] goes beyond numbers of 32 bits, which end at 3.4e38");
+    EXPECT_EQ(
+        declared("a 1e39 [0, 2] 1: x"),
+        at + "1e39 is neither a number nor (x, y, z) within the range");
     EXPECT_EQ(
         declared("a 3 [0, 2] 1: x"), at + "3 is neither a number nor (x, y, z) within the range");
     EXPECT_EQ(

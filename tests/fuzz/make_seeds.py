@@ -269,6 +269,67 @@ def usd_stream():
     return header + b"".join(data for data, _ in sections)
 
 
+# ---- Shaders -------------------------------------------------------------------------------------
+
+
+def spirv():
+    """SPIR-V specification, 2.3 and 3.49: main() calls a sine within a branch."""
+
+    def text(characters):
+        data = characters.encode() + b"\0"
+        data += bytes(-len(data) % 4)
+        return struct.unpack(f"<{len(data) // 4}I", data)
+
+    instructions = [
+        (17, 1),  # OpCapability Shader
+        (11, 1, *text("GLSL.std.450")),  # OpExtInstImport
+        (14, 0, 1),  # OpMemoryModel Logical GLSL450
+        (15, 4, 2, *text("main")),  # OpEntryPoint Fragment
+        (16, 2, 7),  # OpExecutionMode OriginUpperLeft
+        (7, 3, *text("a.glsl")),  # OpString
+        (71, 21, 42),  # OpDecorate NoContraction
+        (71, 22, 1, 3),  # OpDecorate SpecId 3
+        (19, 4),  # OpTypeVoid
+        (20, 5),  # OpTypeBool
+        (22, 6, 32),  # OpTypeFloat
+        (21, 7, 32, 0),  # OpTypeInt
+        (43, 7, 8, 1),  # OpConstant
+        (28, 9, 6, 8),  # OpTypeArray
+        (30, 10, 9, 6),  # OpTypeStruct
+        (32, 11, 7, 10),  # OpTypePointer Function
+        (32, 12, 7, 6),
+        (33, 13, 4),  # OpTypeFunction
+        (33, 14, 6, 6),
+        (41, 5, 15),  # OpConstantTrue
+        (50, 6, 22, 0x3F800000),  # OpSpecConstant
+        (54, 6, 16, 0, 14),  # OpFunction
+        (55, 6, 17),  # OpFunctionParameter
+        (248, 18),  # OpLabel
+        (8, 3, 7, 0),  # OpLine
+        (12, 6, 19, 1, 13, 17),  # OpExtInst Sin
+        (254, 19),  # OpReturnValue
+        (56,),  # OpFunctionEnd
+        (54, 4, 2, 0, 13),
+        (248, 20),
+        (59, 11, 23, 7),  # OpVariable Function
+        (247, 24, 0),  # OpSelectionMerge
+        (250, 15, 25, 24),  # OpBranchConditional
+        (248, 25),
+        (57, 6, 26, 16, 22),  # OpFunctionCall
+        (129, 6, 21, 26, 22),  # OpFAdd
+        (65, 12, 27, 23, 8),  # OpAccessChain
+        (62, 27, 21),  # OpStore
+        (249, 24),  # OpBranch
+        (248, 24),
+        (253,),  # OpReturn
+        (56,),
+    ]
+    words = [0x07230203, 0x00010600, 0, 28, 0]
+    for operation, *operands in instructions:
+        words += [(1 + len(operands)) << 16 | operation, *operands]
+    return struct.pack(f"<{len(words)}I", *words)
+
+
 # ---- Reports -------------------------------------------------------------------------------------
 
 
@@ -406,6 +467,7 @@ def main():
         ("animation", {"skin.glb": skin, "morph.glb": morph}),
         ("mesh_stream", {"square.bin": mesh_stream}),
         ("ply_faces", {"faces.ply": ply_text, "strip.ply": ply_strip}),
+        ("spirv", {"sine.spv": spirv}),
         ("usd_stream", {"two_strands.bin": usd_stream}),
     ]:
         for file_name, make in makers.items():

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdint>
 #include <cstdlib>
+#include <cstring>
 #include <memory>
 #include <optional>
 #include <stdexcept>
@@ -29,6 +30,7 @@
 #include "engine/float_pictures.h"
 #include "engine/pictures.h"
 #include "engine/png_text.h"
+#include "engine/spirv_judge.h"
 #include "hair/extension.h"
 #include "hair/groom/files.h"
 #include "hair/groom/formats/ply.h"
@@ -330,6 +332,14 @@ void readExtension(std::string_view bytes) {
     }
 }
 
+// The SPIR-V of functions that are not the program's own.
+void readSpirv(std::string_view bytes) {
+    std::vector<std::uint32_t> words(bytes.size() / sizeof(std::uint32_t));
+    std::memcpy(words.data(), bytes.data(), words.size() * sizeof(std::uint32_t));
+    const std::optional<engine::SpirvFault> fault = engine::judgeSpirv(words);
+    if (fault) throw engine::Error(fault->text);
+}
+
 // A sweep may have 100,000 cases, for which nobody waits here.
 constexpr std::size_t kMostCases = 64;
 
@@ -548,6 +558,7 @@ std::vector<Target> allTargets() {
           {"scenes/truth", {".json"}},
           {"tests/fuzz/seeds/scene", {}}}});
     all.push_back({"extension", readExtension, {{"scenes/extended", {".glsl"}}}});
+    all.push_back({"spirv", readSpirv, {{"tests/fuzz/seeds/spirv", {}}}});
     all.push_back({"report", readReport, {{"tests/fuzz/seeds/report", {}}}, json});
     all.push_back({"merge", mergeReports, {{"tests/fuzz/seeds/merge", {}}}, json});
     all.push_back({"journal", readJournal, {{"tests/fuzz/seeds/journal", {}}}, json});
