@@ -306,11 +306,11 @@ TEST_F(SceneExtensions, AreBoundedInSize) {
             "", "float a[" + size +
                     "]; a[int(point.along)] = 1.0; point.color.x = a[int(point.width)];");
     };
-    EXPECT_EQ(array("4096"), "no error");
-    for (const char* const size : {"4097", "1048576", "2147483647"})
+    EXPECT_EQ(array("1024"), "no error");
+    for (const char* const size : {"1025", "1048576", "2147483647"})
         EXPECT_EQ(
             array(size),
-            at + ":2: a type of " + size + " numbers is too large: at most 4096 may be");
+            at + ":2: a type of " + size + " numbers is too large: at most 1024 may be");
     // Inlined, these are 2^18 bodies of the innermost function.
     std::string doubling = "float f0(float x) { return sin(x); }\n";
     for (int i = 1; i <= 18; ++i) {

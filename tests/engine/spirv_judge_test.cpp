@@ -200,10 +200,10 @@ std::string arrayOf(const std::string& name, const std::string& of, unsigned cou
 
 TEST(SpirvJudge, BoundsTypes) {
     const auto fault = [](const std::string& types) { return faultOf(Module{.types = types}); };
-    EXPECT_EQ(fault(arrayOf("a", "vec4", 1024)), "");
+    EXPECT_EQ(fault(arrayOf("a", "vec4", 256)), "");
     EXPECT_EQ(
-        fault(arrayOf("a", "vec4", 1025)),
-        "a type of 4100 numbers is too large: at most 4096 may be");
+        fault(arrayOf("a", "vec4", 257)),
+        "a type of 1028 numbers is too large: at most 1024 may be");
     EXPECT_THAT(fault(arrayOf("a", "float", 0xffffffff)), HasSubstr("is too large"));
     // 2^66 numbers must not wrap around to 4.
     EXPECT_THAT(
@@ -211,8 +211,8 @@ TEST(SpirvJudge, BoundsTypes) {
             arrayOf("a", "float", 1u << 31) + arrayOf("b", "a", 1u << 31) + arrayOf("c", "b", 16)),
         HasSubstr("is too large"));
     EXPECT_THAT(
-        fault(arrayOf("a", "float", 4096) + "%pair = OpTypeStruct %a %float"),
-        HasSubstr("a type of 4097 numbers"));
+        fault(arrayOf("a", "float", 1024) + "%pair = OpTypeStruct %a %float"),
+        HasSubstr("a type of 1025 numbers"));
     std::string deep;
     for (int i = 0; i < 16; ++i)
         deep += arrayOf("a" + std::to_string(i), i ? "a" + std::to_string(i - 1) : "float", 1);
@@ -237,10 +237,10 @@ std::string chain(int last, int calls, const std::string& innermost) {
     return text;
 }
 
-// A function counts at each call. 4 x 4096 numbers are allowed, and each function that calls twice
+// A function counts at each call. 4 x 1024 numbers are allowed, and each function that calls twice
 // doubles them.
 TEST(SpirvJudge, CountsFunctionsWhereTheyAreCalled) {
-    const std::string type = arrayOf("a", "float", 4096) + "%to_a = OpTypePointer Function %a\n";
+    const std::string type = arrayOf("a", "float", 1024) + "%to_a = OpTypePointer Function %a\n";
     const auto fault = [&](int last) {
         return faultOf(Module{
             .types = type,
@@ -250,9 +250,9 @@ TEST(SpirvJudge, CountsFunctionsWhereTheyAreCalled) {
     // main() adds one number, its own variable.
     EXPECT_EQ(fault(1), "");
     EXPECT_EQ(
-        fault(2), "is too large: numbers in its variables: 16385, with the body of each function "
-                  "where it is called; at most 16384 may be");
-    EXPECT_THAT(fault(18), HasSubstr("numbers in its variables: 1073741825"));
+        fault(2), "is too large: numbers in its variables: 4097, with the body of each function "
+                  "where it is called; at most 4096 may be");
+    EXPECT_THAT(fault(18), HasSubstr("numbers in its variables: 268435457"));
     EXPECT_THAT(
         faultOf(Module{.body = "%x = OpFunctionCall %void %f18", .functions = chain(18, 2, "")}),
         HasSubstr("numbers that it works out"));
