@@ -4,11 +4,18 @@
 #include <array>
 #include <cassert>
 #include <cstddef>
+#include <cstring>
 #include <string_view>
+#include <system_error>
 #include <type_traits>
 #include <utility>
 
+#include <sys/mman.h>
+#include <unistd.h>
+
 #include "engine/process.h"
+#include "engine/program_files.h"
+#include "engine/run_tool.h"
 #include "engine/shaders.h"
 
 namespace engine {
@@ -313,87 +320,230 @@ PipelineObjects makePipeline(const Device& device, const GraphicsDescription& de
     return objects;
 }
 
-// Everything that a pipeline is made of, as bytes.
-class PipelineKey {
+// ---- Descriptions as bytes ----------------------------------------------------------------------
+
+// Calls `field` for every field of a description, except its extensions.
+template <class Archive>
+void eachField(ComputeDescription& description, Archive&& field) {
+    field(description.shader);
+    field(description.constants);
+    field(description.push_size);
+    field(description.combined_images);
+    field(description.sampled_images);
+    field(description.storage_images);
+    field(description.texel_buffers);
+}
+
+template <class Archive>
+void eachField(GraphicsDescription& description, Archive&& field) {
+    field(description.shaders);
+    field(description.constants);
+    field(description.push_size);
+    field(description.topology);
+    field(description.patch_control_points);
+    field(description.colors);
+    field(description.depth_format);
+    field(description.samples);
+    field(description.cull);
+    field(description.depth_compare);
+    field(description.depth_write);
+    field(description.discard);
+    field(description.sampled_images);
+    field(description.texel_buffers);
+}
+
+class DescriptionWriter {
 public:
     template <class Value>
-        requires std::is_arithmetic_v<Value> || std::is_enum_v<Value>
-    void add(Value value) {
+        requires std::is_trivially_copyable_v<Value>
+    void operator()(const Value& value) {
         bytes_.append(reinterpret_cast<const char*>(&value), sizeof value);
     }
-    void add(const Device& device, const std::string& shader, const ShaderExtensions& extensions) {
-        const std::shared_ptr<const ShaderCode> extended =
-            extensions.empty() ? nullptr : device.shaders().extended(shader, extensions);
-        const std::span<const std::uint32_t> code =
-            extended ? std::span(*extended) : device.shaders().code(shader);
-        const std::string_view text(reinterpret_cast<const char*>(code.data()), code.size_bytes());
-        bytes_.append(shader).push_back('\0');
-        add(text.size());
-        add(std::hash<std::string_view>()(text));
+    template <class Element>
+    void operator()(const std::vector<Element>& elements) {
+        (*this)(elements.size());
+        for (const Element& element : elements) (*this)(element);
     }
-    void add(Constants constants) {
-        std::ranges::sort(constants, {}, &Constant::id);
-        add(constants.size());
-        for (const Constant& constant : constants) {
-            add(constant.id);
-            add(constant.bits);
-        }
+    void operator()(std::string_view text) {
+        (*this)(text.size());
+        bytes_.append(text);
     }
+    void operator()(const std::string& text) { (*this)(std::string_view(text)); }
     const std::string& bytes() const { return bytes_; }
 
 private:
     std::string bytes_;
 };
 
-std::string keyOf(const Device& device, const ComputeDescription& description) {
-    PipelineKey key;
-    key.add(device, description.shader, description.extensions);
-    key.add(description.constants);
-    key.add(description.push_size);
-    key.add(description.combined_images);
-    key.add(description.sampled_images);
-    key.add(description.storage_images);
-    key.add(description.texel_buffers);
-    return key.bytes();
+constexpr const char* kCutOff = "the description of a pipeline is cut off";
+
+// Reads what a DescriptionWriter of the same build wrote.
+class DescriptionReader {
+public:
+    explicit DescriptionReader(std::string_view bytes) : left_(bytes) {}
+
+    template <class Value>
+        requires std::is_trivially_copyable_v<Value>
+    void operator()(Value& value) {
+        std::memcpy(&value, take(sizeof value).data(), sizeof value);
+    }
+    template <class Element>
+    void operator()(std::vector<Element>& elements) {
+        std::size_t count = 0;
+        (*this)(count);
+        for (; count > 0; --count) {
+            if constexpr (std::is_same_v<Element, Constant>)
+                elements.push_back({0, 0u});
+            else
+                elements.emplace_back();
+            (*this)(elements.back());
+        }
+    }
+    void operator()(std::string& text) {
+        std::size_t size = 0;
+        (*this)(size);
+        text = take(size);
+    }
+
+private:
+    std::string_view take(std::size_t size) {
+        if (size > left_.size()) throw Error(kCutOff);
+        const std::string_view taken = left_.substr(0, size);
+        left_.remove_prefix(size);
+        return taken;
+    }
+
+    std::string_view left_;
+};
+
+std::vector<std::string> shadersOf(const ComputeDescription& description) {
+    return {description.shader};
+}
+std::vector<std::string> shadersOf(const GraphicsDescription& description) {
+    return description.shaders;
 }
 
-std::string keyOf(const Device& device, const GraphicsDescription& description) {
-    PipelineKey key;
-    for (const std::string& shader : description.shaders)
-        key.add(device, shader, description.extensions);
-    key.add(description.constants);
-    key.add(description.push_size);
-    key.add(description.topology);
-    key.add(description.patch_control_points);
-    key.add(description.colors.size());
-    for (const ColorTarget& color : description.colors) {
-        key.add(color.format);
-        key.add(color.blend);
+std::string_view bytesOf(std::span<const std::uint32_t> code) {
+    return {reinterpret_cast<const char*>(code.data()), code.size_bytes()};
+}
+
+// Returns the description, followed by what `use` writes for the code of each of its shaders.
+template <class Description, class Use>
+std::string described(const Device& device, Description description, Use&& use) {
+    std::ranges::sort(description.constants, {}, &Constant::id);
+    DescriptionWriter writer;
+    eachField(description, writer);
+    for (const std::string& shader : shadersOf(description)) {
+        const std::shared_ptr<const ShaderCode> extended =
+            description.extensions.empty()
+                ? nullptr
+                : device.shaders().extended(shader, description.extensions);
+        use(writer, bytesOf(extended ? std::span(*extended) : device.shaders().code(shader)));
     }
-    key.add(description.depth_format);
-    key.add(description.samples);
-    key.add(description.cull);
-    key.add(description.depth_compare);
-    key.add(description.depth_write);
-    key.add(description.discard);
-    key.add(description.sampled_images);
-    key.add(description.texel_buffers);
-    return key.bytes();
+    return writer.bytes();
+}
+
+// Returns everything that a pipeline is made of, with a hash instead of the code.
+template <class Description>
+std::string keyOf(const Device& device, const Description& description) {
+    return described(device, description, [](DescriptionWriter& writer, std::string_view code) {
+        writer(code.size());
+        writer(std::hash<std::string_view>()(code));
+    });
+}
+
+// ---- Pipelines made by a child first ------------------------------------------------------------
+
+// A file in memory, which a child inherits.
+class MemoryFile {
+public:
+    explicit MemoryFile(std::string_view bytes) : descriptor_(memfd_create("pipeline", 0)) {
+        for (std::size_t done = 0; descriptor_ >= 0 && done < bytes.size();) {
+            const ssize_t count = write(descriptor_, bytes.data() + done, bytes.size() - done);
+            if (count <= 0) break;  // the child reports that it is cut off
+            done += static_cast<std::size_t>(count);
+        }
+        if (descriptor_ < 0)
+            throw Error("the system has no file for the description of a pipeline");
+    }
+    MemoryFile(const MemoryFile&) = delete;
+    MemoryFile& operator=(const MemoryFile&) = delete;
+    ~MemoryFile() { close(descriptor_); }
+
+    std::string name() const { return "/proc/self/fd/" + std::to_string(descriptor_); }
+
+private:
+    int descriptor_;
+};
+
+// Has a child make the pipeline if it has functions of a scene. Throws Error if that fails.
+template <class Description>
+void tryApart(const Device& device, const Description& description) {
+    if (description.extensions.empty()) return;
+    const bool is_compute = std::is_same_v<Description, ComputeDescription>;
+    const MemoryFile file(
+        (is_compute ? 'C' : 'G') +
+        described(device, description, [](DescriptionWriter& writer, std::string_view code) {
+            writer(code);
+        }));
+    constexpr std::size_t kMostOutput = std::size_t{1} << 16;  // more than drivers print
+    const std::string program = helperProgram(kPipelineTrial).string();
+    const std::string& name = description.extensions.front()->name;
+    try {
+        runTool({program, device.info().name, file.name()}, kMostOutput);
+    } catch (const std::system_error&) {
+        throw Error(name, "the program that compiles it first is missing: " + program);
+    } catch (const Error& error) {
+        std::string reason = error.what();
+        if (reason.starts_with(program)) reason = "it" + reason.substr(program.size());
+        throw Error(name, "the device's compiler fails: " + reason);
+    }
+}
+
+template <class Description>
+PipelineObjects makeTried(const Device& device, const Description& description) {
+    tryApart(device, description);
+    return makePipeline(device, description);
+}
+
+template <class Description>
+Description readAs(const Device& device, std::string_view bytes) {
+    DescriptionReader reader(bytes);
+    Description description;
+    eachField(description, reader);
+    ShaderLibrary::Replacements code;
+    for (const std::string& shader : shadersOf(description)) {
+        std::string words;
+        reader(words);
+        ShaderCode& own = code[shader];
+        own.resize(words.size() / sizeof(std::uint32_t));
+        std::memcpy(own.data(), words.data(), own.size() * sizeof(std::uint32_t));
+    }
+    device.shaders().replace(std::move(code));
+    return description;
 }
 
 }  // namespace
 
 ComputePipeline::ComputePipeline(const Device& device, const ComputeDescription& description)
     : objects_(device.pipelines().get(
-          keyOf(device, description), [&] { return makePipeline(device, description); })) {
+          keyOf(device, description), [&] { return makeTried(device, description); })) {
     checkInterrupted();
 }
 
 GraphicsPipeline::GraphicsPipeline(const Device& device, const GraphicsDescription& description) {
     for (const std::string& path : description.shaders) requireStage(device, path);
     objects_ = device.pipelines().get(
-        keyOf(device, description), [&] { return makePipeline(device, description); });
+        keyOf(device, description), [&] { return makeTried(device, description); });
     checkInterrupted();
+}
+
+TrialDescription readTrial(const Device& device, std::string_view bytes) {
+    if (bytes.empty()) throw Error(kCutOff);
+    const bool is_compute = bytes.starts_with('C');
+    bytes.remove_prefix(1);
+    if (is_compute) return readAs<ComputeDescription>(device, bytes);
+    return readAs<GraphicsDescription>(device, bytes);
 }
 
 }  // namespace engine

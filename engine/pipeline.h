@@ -4,6 +4,8 @@
 #include <cstdint>
 #include <memory>
 #include <string>
+#include <string_view>
+#include <variant>
 #include <vector>
 
 #include "engine/device.h"
@@ -114,5 +116,15 @@ public:
 private:
     PipelineStore::Objects objects_;
 };
+
+// The helper program (helperProgram()) that makes each pipeline with functions of a scene before
+// this program does, in a child with limits (pipeline_trial.cpp): a driver's compiler may run for
+// ever, exhaust memory or crash. A driver with a cache then has the pipeline ready.
+inline constexpr const char* kPipelineTrial = "hairbench_pipeline_trial";
+
+// Reads the description that the helper program gets from its parent. The device uses the code in
+// it from then on. Throws Error if the bytes end too early.
+using TrialDescription = std::variant<ComputeDescription, GraphicsDescription>;
+TrialDescription readTrial(const Device& device, std::string_view bytes);
 
 }  // namespace engine

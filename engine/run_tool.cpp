@@ -185,9 +185,7 @@ constexpr int kOutOfMemory = 12;  // exit status of the fork: ENOMEM
 workAndEnd(const std::function<std::string()>& work, const ChildLimits& limits, int output) {
     signal(SIGINT, SIG_IGN);  // from a terminal: the parent ends this child
     signal(SIGXCPU, SIG_DFL);
-    limit(RLIMIT_CORE, 0);
-    limit(RLIMIT_CPU, limits.seconds);
-    limit(RLIMIT_AS, addressSpace() + limits.bytes);
+    limitSelf(limits);
     std::string bytes;
     try {
         bytes = work();
@@ -214,6 +212,12 @@ std::string describe(int status, const ChildLimits& limits) {
 }
 
 }  // namespace
+
+void limitSelf(const ChildLimits& limits) {
+    limit(RLIMIT_CORE, 0);
+    limit(RLIMIT_CPU, limits.seconds);
+    limit(RLIMIT_AS, addressSpace() + limits.bytes);
+}
 
 std::string runApart(const std::function<std::string()>& work, const ChildLimits& limits) {
     Pipe output;

@@ -25,6 +25,9 @@ struct ChildLimits {
     std::size_t bytes = 0;  // of memory, in addition to this process's
 };
 
+// Sets these limits for this process from now on.
+void limitSelf(const ChildLimits& limits);
+
 // Runs `work` in a fork of this process and returns its result. For work that may never end,
 // exhaust memory or crash. The fork has only the calling thread, so `work` must wait for no other
 // thread. It must not throw. If the child does not return, throws an Error that says how it ended.

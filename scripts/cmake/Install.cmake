@@ -2,7 +2,7 @@
 # relative to themselves (engine/program_files.h). So these folders have no variables.
 
 install(TARGETS hairbench RUNTIME DESTINATION bin)
-install(TARGETS hairbench_mesh_reader RUNTIME DESTINATION libexec/hairbench)
+install(TARGETS hairbench_mesh_reader hairbench_pipeline_trial RUNTIME DESTINATION libexec/hairbench)
 # Users make the Python environments themselves, from pinned requirements.
 install(PROGRAMS scripts/python-environment DESTINATION libexec/hairbench)
 install(FILES scripts/requirements.txt scripts/requirements-module.txt

@@ -5,7 +5,12 @@
 #include <string>
 
 #include <gtest/gtest.h>
+#include <sys/resource.h>
 
+#include "engine/pipeline.h"
+#include "engine/program_files.h"
+#include "engine/run_tool.h"
+#include "engine/shaders.h"
 #include "hair/extension.h"
 #include "hair/rendering/strand_points.h"
 #include "hair/simulation/simulation.h"
@@ -268,6 +273,47 @@ TEST_F(OffsetExtensions, KnowStrandsApart) {
         seen.insert(std::lround(by(0) * 1e6));
     }
     EXPECT_GE(seen.size(), 7u);
+}
+
+// ---- The driver's compiler ----------------------------------------------------------------------
+
+class ExtendedPipelines : public GpuTest {};
+
+// Returns the page faults of all children that have ended.
+long ofChildren() {
+    rusage usage{};
+    getrusage(RUSAGE_CHILDREN, &usage);
+    return usage.ru_minflt;
+}
+
+// Pipelines without extensions need no child, and equal pipelines are made once.
+TEST_F(ExtendedPipelines, AreMadeByAChildFirst) {
+    const ExtensionParameters force = read(
+        ExtensionKind::force,
+        "vec3 accelerateGuide(GuidePoint point) { return point.velocity.yzx; }\n");
+    engine::ComputeDescription description{
+        .shader = "simulation/force.comp", .constants = {}, .push_size = 20};
+    const engine::ComputePipeline own(device(), description);
+    description.extensions = shaderExtensions(force);
+    device().shaders().extended(description.shader, description.extensions);
+    const long before = ofChildren();
+    const engine::ComputePipeline extended(device(), description);
+    const long after = ofChildren();
+    EXPECT_GT(after, before);
+    const engine::ComputePipeline again(device(), description);
+    EXPECT_EQ(again.get(), extended.get());
+    EXPECT_EQ(ofChildren(), after);
+}
+
+// A failure of the child is reported in one line.
+TEST_F(ExtendedPipelines, TheChildSaysWhatIsWrong) {
+    const std::string program = engine::helperProgram(engine::kPipelineTrial).string();
+    EXPECT_EQ(
+        errorText([&] { engine::runTool({program, device().info().name, "/dev/null"}); }),
+        "the description of a pipeline is cut off");
+    EXPECT_EQ(
+        errorText([&] { engine::runTool({program, device().info().name}); }),
+        "two arguments: a device and a file");
 }
 
 // ---- Forces on guides ---------------------------------------------------------------------------

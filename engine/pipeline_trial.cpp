@@ -1,0 +1,88 @@
+// A helper program that makes a pipeline with functions of a scene before its parent does. It
+// limits its own time and memory, so that the driver's compiler can't harm the parent.
+#include <csignal>
+#include <cstddef>
+#include <exception>
+#include <fstream>
+#include <iostream>
+#include <iterator>
+#include <memory>
+#include <new>
+#include <string>
+#include <string_view>
+#include <variant>
+
+#include <unistd.h>
+
+#include "engine/commands.h"
+#include "engine/device.h"
+#include "engine/error.h"
+#include "engine/pipeline.h"
+#include "engine/run_tool.h"
+#include "engine/transfer.h"
+
+namespace engine {
+namespace {
+
+// In addition to what the device itself takes.
+constexpr ChildLimits kLimits{.seconds = 30, .bytes = std::size_t{2} << 30};
+
+[[noreturn]] void sayOutOfTime(int) {
+    constexpr std::string_view kText = "not done after 30 s of the processor\n";
+    static_assert(kLimits.seconds == 30);
+    const auto written = write(STDERR_FILENO, kText.data(), kText.size());
+    _exit(written > 0 ? 1 : 2);
+}
+
+// Returns none if there is no such device: the parent then reports what it finds itself.
+std::unique_ptr<Device> deviceNamed(const std::string& name) {
+    try {
+        return std::make_unique<Device>(DeviceOptions{.wanted = name});
+    } catch (const std::exception&) {
+        return nullptr;
+    }
+}
+
+void make(const Device& device, const TrialDescription& description) {
+    if (const auto* const graphics = std::get_if<GraphicsDescription>(&description)) {
+        GraphicsPipeline(device, *graphics);
+        return;
+    }
+    const auto& compute = std::get<ComputeDescription>(description);
+    const ComputePipeline pipeline(device, compute);
+    // lavapipe compiles at the first dispatch, even at one of no work groups.
+    if (compute.combined_images + compute.sampled_images + compute.storage_images +
+            compute.texel_buffers ==
+        0)
+        runOnce(device, [&](Commands& commands) {
+            commands.bind(pipeline);
+            vkCmdDispatch(commands.get(), 0, 0, 0);
+        });
+}
+
+void run(const std::string& name, const std::string& file) {
+    std::ifstream stream(file, std::ios::binary);
+    const std::string description{std::istreambuf_iterator<char>(stream), {}};
+    const std::unique_ptr<Device> device = deviceNamed(name);
+    if (!device) return;
+    std::signal(SIGXCPU, sayOutOfTime);
+    limitSelf(kLimits);
+    make(*device, readTrial(*device, description));
+}
+
+}  // namespace
+}  // namespace engine
+
+// Arguments: the device's name, and a file with the description of the pipeline.
+int main(int argc, char** argv) {
+    try {
+        if (argc != 3) throw engine::Error("two arguments: a device and a file");
+        engine::run(argv[1], argv[2]);
+        return 0;
+    } catch (const std::bad_alloc&) {
+        std::cerr << "not done with 2048 MiB of memory\n";
+    } catch (const std::exception& error) {
+        std::cerr << error.what() << '\n';
+    }
+    return 1;
+}
