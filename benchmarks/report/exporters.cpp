@@ -240,12 +240,21 @@ std::string gbench(const scene::Json& report) {
 
 // ---- Markdown -----------------------------------------------------------------------------------
 
-// Escapes text for a table cell: no line breaks, and nothing that starts a column or markup.
+// Escapes text for a table cell: no line breaks, and nothing that starts a column or markup,
+// mentions a person or an issue, or becomes a link by itself ("https://", "www.", "a@b.c"; GitHub
+// Flavored Markdown, section 6.9). GitHub looks for mentions and links after it has removed
+// backslashes, so a zero-width space separates their parts.
 std::string escaped(const std::string& text) {
+    constexpr std::string_view kNoWidth = "&#8203;";
     std::string result;
-    for (const char c : text) {
-        if (std::string_view("\\`*_[]<>|#").find(c) != std::string_view::npos) result += '\\';
-        result += c == '\n' || c == '\r' ? ' ' : c;
+    for (std::size_t i = 0; i < text.size(); ++i) {
+        const char c = text[i];
+        const std::string_view rest = std::string_view(text).substr(i);
+        if (rest.starts_with("://")) result += kNoWidth;
+        if (std::string_view("\\`*_[]<>|#&~").find(c) != std::string_view::npos) result += '\\';
+        result += static_cast<unsigned char>(c) < ' ' ? ' ' : c;
+        const bool ends_www = c == '.' && i > 0 && (text[i - 1] == 'w' || text[i - 1] == 'W');
+        if (c == '@' || c == '#' || ends_www) result += kNoWidth;
     }
     return result;
 }

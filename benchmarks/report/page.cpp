@@ -18,6 +18,7 @@
 #include "benchmarks/report/environment.h"
 #include "benchmarks/report/metric.h"
 #include "benchmarks/report/report.h"
+#include "benchmarks/scene/pattern.h"
 #include "engine/error.h"
 #include "engine/files.h"
 #include "engine/program_files.h"
@@ -57,13 +58,27 @@ std::string labelOf(std::size_t index) {
     return index < 26 ? std::string(1, static_cast<char>('A' + index)) : std::to_string(index + 1);
 }
 
-// Adds the report's pictures, whose paths are relative to the report.
+// Checks that a picture has a name as `run` gives, "a.pictures/12.png", and that no link leads
+// elsewhere. A report may come from a stranger, and the page must show no other file of this
+// machine.
+bool isOwnPicture(const std::filesystem::path& folder, const std::filesystem::path& picture) {
+    const scene::Pattern named("^[^/]+\\.pictures/[0-9]+\\.png$");
+    if (!named.isIn(picture.string())) return false;
+    std::error_code error;
+    const std::filesystem::path real = std::filesystem::canonical(folder / picture, error);
+    return !error && real == std::filesystem::canonical(folder, error) / picture;
+}
+
+// Adds the report's pictures, whose paths are relative to the report. A picture that is not the
+// report's own is marked as missing.
 void addPictures(scene::Json& report, const std::filesystem::path& file, scene::Json& pictures) {
     for (scene::Json& each : report.at("cases")) {
         const auto picture = each.find("picture");
         if (picture == each.end()) continue;
         const auto path = picture->get<std::string>();
-        if (const auto uri = pictureUri(file.parent_path() / path)) {
+        const std::filesystem::path folder = file.has_parent_path() ? file.parent_path() : ".";
+        const auto uri = isOwnPicture(folder, path) ? pictureUri(folder / path) : std::nullopt;
+        if (uri) {
             const std::string id = hashText(*uri);
             pictures[id] = *uri;
             each["picture_id"] = id;

@@ -99,5 +99,16 @@ TEST(Markdown, KeepsACellInItsCell) {
         exportReport(reportJson(report), "markdown"), HasSubstr("skipped: a\\|b \\<script\\> |"));
 }
 
+// A table goes into a pull request, so its cells must hold no autolink (GitHub Flavored Markdown,
+// section 6.9), no mention "@name" and no issue "#1".
+TEST(Markdown, NamesNobodyAndLinksNowhere) {
+    Report report = sampleReport();
+    report.cases[1].reason = "@me #1 https://a.b www.a.b c@a.b &lt; \x1b[31m";
+    EXPECT_THAT(
+        exportReport(reportJson(report), "markdown"),
+        HasSubstr("skipped: @&#8203;me \\#&#8203;1 https&#8203;://a.b www.&#8203;a.b "
+                  "c@&#8203;a.b \\&lt;  \\[31m |"));
+}
+
 }  // namespace
 }  // namespace benchmarks::report

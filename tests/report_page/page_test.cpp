@@ -84,6 +84,44 @@ TEST(PageData, SaysWhichPicturesAreMissing) {
     EXPECT_FALSE(cases[0].contains("picture_missing"));
 }
 
+// A report may name any file of this machine, and pages are published.
+TEST(PageData, TakesPicturesOfTheReportsOwnFolderOnly) {
+    const TemporaryFolder folder;
+    const std::filesystem::path own = folder.path() / "own";
+    const auto file = writeWithPictures(knownReport(), own / "a.json", 200);
+    const std::filesystem::path picture = own / "a.pictures/0.png";
+    std::filesystem::create_directories(folder.path() / "home.pictures");
+    for (const auto& copy :
+         {folder.path() / "private.png", folder.path() / "home.pictures/1.png", own / "1.png"})
+        std::filesystem::copy_file(picture, copy);
+    std::filesystem::create_symlink("../../private.png", own / "a.pictures/90.png");
+    std::filesystem::create_directory_symlink("../home.pictures", own / "b.pictures");
+    const std::vector<std::string> names{
+        "../private.png",
+        "../home.pictures/1.png",
+        "1.png",
+        "a.pictures/90.png",
+        "b.pictures/1.png",
+        "a.pictures/../1.png",
+        "./a.pictures/0.png",
+        (folder.path() / "private.png").string()};
+    for (const std::string& name : names) {
+        Report report = knownReport();
+        report.cases[0].picture = name;
+        std::ofstream(own / "c.json") << reportJson(report);
+        const auto data = pageData({{own / "c.json"}});
+        EXPECT_EQ(data.at("reports")[0].at("cases")[0].value("picture_missing", ""), name);
+        EXPECT_TRUE(data.at("pictures").empty()) << name;
+    }
+    EXPECT_FALSE(pageData({{file}}).at("pictures").empty());
+}
+
+TEST(Page, MayNeitherSendFormsNorMoveItsBase) {
+    const std::string page = pageWithoutPlotly(knownData());
+    EXPECT_THAT(page, HasSubstr("base-uri 'none'"));
+    EXPECT_THAT(page, HasSubstr("form-action 'none'"));
+}
+
 TEST(PageData, ComparesTheFirstReportWithEachOther) {
     const TemporaryFolder folder;
     const std::array files{
