@@ -11,6 +11,7 @@
 #include "benchmarks/run/plan.h"
 #include "engine/files.h"
 #include "engine/process.h"
+#include "engine/shown_text.h"
 
 namespace benchmarks::commands {
 namespace {
@@ -67,7 +68,8 @@ int ablateScene(const AblateOptions& options) {
     measure::Progress progress(plan.cases.size());
     const auto finish = [&] {
         engine::writeFileAtomically(out, ablate::ablationText(report));
-        for (const std::string& note : report.notes) std::cout << "note: " << note << '\n';
+        for (const std::string& note : report.notes)
+            std::cout << "note: " << engine::shownText(note) << '\n';
         std::cout << "report: " << out.string() << '\n';
     };
     const auto finish_interrupted = [&] {

@@ -9,6 +9,7 @@
 #include "benchmarks/report/compare.h"
 #include "benchmarks/report/report.h"
 #include "engine/error.h"
+#include "engine/shown_text.h"
 
 namespace benchmarks::commands {
 namespace {
@@ -34,11 +35,14 @@ Pair wantedReports(const report::CompareOptions& options) {
 void print(
     const report::ReportComparison& comparison, const Pair& files, report::ShowCases show_cases,
     bool all) {
-    std::cout << "A: " << files.a.string() << "\nB: " << files.b.string() << '\n';
-    for (const std::string& each : comparison.warnings) std::cout << "warning: " << each << '\n';
-    for (const std::string& each : comparison.unmatched) std::cout << each << '\n';
+    std::cout << "A: " << engine::shownText(files.a.string())
+              << "\nB: " << engine::shownText(files.b.string()) << '\n';
+    for (const std::string& each : comparison.warnings)
+        std::cout << "warning: " << engine::shownText(each) << '\n';
+    for (const std::string& each : comparison.unmatched)
+        std::cout << engine::shownText(each) << '\n';
     for (const report::Mismatch& each : comparison.mismatches)
-        std::cout << report::mismatchText(each) << '\n';
+        std::cout << engine::shownText(report::mismatchText(each)) << '\n';
     std::vector<report::Change> rows;
     for (const report::Change& each : comparison.changes)
         if (all || each.comparison.verdict != report::Verdict::same) rows.push_back(each);
@@ -73,7 +77,8 @@ int compareReports(const report::CompareOptions& options) {
     }
     const report::ReportComparison comparison = report::compareReports(a, b, options.verdict);
     if (with_baseline && !comparison.same_device) {
-        for (const std::string& each : comparison.warnings) std::cerr << each << '\n';
+        for (const std::string& each : comparison.warnings)
+            std::cerr << engine::shownText(each) << '\n';
         std::cerr << "hairbench: baseline '" << options.baseline << "' is of another device\n";
         return report::kNoBaseline;
     }

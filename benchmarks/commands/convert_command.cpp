@@ -7,6 +7,7 @@
 #include "benchmarks/report/exporters.h"
 #include "benchmarks/report/report.h"
 #include "engine/files.h"
+#include "engine/shown_text.h"
 
 namespace benchmarks::commands {
 
@@ -18,8 +19,8 @@ int convertReport(const ConvertReportOptions& options) {
         return report::kOk;
     }
     engine::writeFileAtomically(options.out, text);
-    std::cout << options.out.string() << ": " << options.format << " of " << options.report.string()
-              << '\n';
+    std::cout << engine::shownText(options.out.string()) << ": " << options.format << " of "
+              << engine::shownText(options.report.string()) << '\n';
     return report::kOk;
 }
 

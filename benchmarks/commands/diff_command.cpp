@@ -7,6 +7,7 @@
 #include "benchmarks/reference/picture_errors.h"
 #include "benchmarks/report/change.h"
 #include "engine/files.h"
+#include "engine/shown_text.h"
 
 namespace benchmarks::commands {
 namespace {
@@ -36,8 +37,9 @@ int diffPictures(const DiffOptions& options) {
         std::cout << toJson(errors).dump(2) << '\n';
         return report::kOk;
     }
-    std::cout << options.picture.string() << " against " << options.reference.string() << ", "
-              << errors.width << " x " << errors.height << " px\n"
+    std::cout << engine::shownText(options.picture.string()) << " against "
+              << engine::shownText(options.reference.string()) << ", " << errors.width << " x "
+              << errors.height << " px\n"
               << "RMSE  " << figure(errors.rmse) << '\n'
               << "PSNR  " << (errors.psnr ? figure(*errors.psnr) : "infinite") << " dB\n"
               << "SSIM  " << figure(errors.ssim) << '\n'

@@ -12,6 +12,7 @@
 #include "benchmarks/report/report.h"
 #include "engine/files.h"
 #include "engine/process.h"
+#include "engine/shown_text.h"
 
 namespace benchmarks::commands {
 namespace {
@@ -50,7 +51,7 @@ int examineReports(const std::vector<std::filesystem::path>& reports) {
         try {
             const doctor::ReportExamination examination = doctor::examineReport(path);
             accepted = doctor::isAccepted(examination);
-            said = path.string() + ": " + doctor::examinationText(examination);
+            said = engine::shownText(path.string()) + ": " + doctor::examinationText(examination);
         } catch (const engine::Error& error) {
             said = shortMessage(error);
         }

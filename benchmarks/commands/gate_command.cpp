@@ -8,6 +8,7 @@
 #include "benchmarks/gate/session.h"
 #include "benchmarks/report/change.h"
 #include "engine/files.h"
+#include "engine/shown_text.h"
 
 namespace benchmarks::commands {
 namespace {
@@ -20,7 +21,7 @@ std::filesystem::path reportFile(const gate::GateOptions& options) {
 
 void printEnd(const gate::GateRun& run) {
     if (run.end == gate::GateRun::End::failed)
-        std::cerr << "hairbench: " << run.failure << '\n';
+        std::cerr << "hairbench: " << engine::shownText(run.failure) << '\n';
     else if (run.end == gate::GateRun::End::interrupted)
         std::cerr << "interrupted after " << run.pairs << (run.pairs == 1 ? " pair\n" : " pairs\n");
     else if (run.end == gate::GateRun::End::out_of_time)

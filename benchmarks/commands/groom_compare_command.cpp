@@ -10,6 +10,7 @@
 #include "benchmarks/report/change.h"
 #include "engine/error.h"
 #include "engine/files.h"
+#include "engine/shown_text.h"
 #include "hair/groom/files.h"
 #include "hair/groom/inspect.h"
 #include "hair/groom/mesh/body_mesh.h"
@@ -33,8 +34,9 @@ groom::ComparedFile readCompared(
         const auto findings = hair::groom::inspect(strands, nullptr, {});
         unit = {findings.unit, findings.metres_per_unit, findings.unit_reason};
         if (!findings.unit_stated && findings.metres_per_unit != 1.0)
-            std::cerr << "hairbench: " << path.string() << ": its lengths are taken as "
-                      << findings.unit << ", which it doesn't state\n";
+            std::cerr << "hairbench: " << engine::shownText(path.string())
+                      << ": its lengths are taken as " << findings.unit
+                      << ", which it doesn't state\n";
     }
     groom::ComparedFile file{
         .file = path, .format = hair::groom::strandImporterOf(path).name, .unit = unit};

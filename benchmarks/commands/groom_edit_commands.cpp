@@ -12,6 +12,7 @@
 #include "engine/error.h"
 #include "engine/files.h"
 #include "engine/process.h"
+#include "engine/shown_text.h"
 #include "hair/groom/edit.h"
 #include "hair/groom/files.h"
 #include "hair/groom/groom.h"
@@ -43,11 +44,11 @@ std::optional<hair::groom::BodyMesh> meshOf(const EditGroomOptions& options) {
 
 void warnOf(const std::filesystem::path& file, const std::vector<std::string>& warnings) {
     for (const std::string& each : warnings)
-        std::cerr << "hairbench: " << file.string() << ": " << each << '\n';
+        std::cerr << "hairbench: " << engine::shownText(file.string() + ": " + each) << '\n';
 }
 
 void say(const char* did, const std::filesystem::path& file, const StrandSet& strands) {
-    std::cout << did << ": " << file.string() << ", "
+    std::cout << did << ": " << engine::shownText(file.string()) << ", "
               << report::countText(strands.strandCount(), "strand") << ", "
               << report::countText(strands.points.size(), "point") << std::endl;  // flushes early
 }

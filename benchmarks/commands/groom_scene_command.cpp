@@ -26,6 +26,7 @@
 #include "engine/error.h"
 #include "engine/files.h"
 #include "engine/pictures.h"
+#include "engine/shown_text.h"
 #include "hair/groom/files.h"
 #include "hair/groom/mesh/import_mesh.h"
 
@@ -57,7 +58,7 @@ bool formatStatesAxes(const fs::path& head) {
 }
 
 void tell(const std::string& what, const std::string& text) {
-    std::cout << what << ": " << text << std::endl;  // flushes early
+    std::cout << what << ": " << engine::shownText(text) << std::endl;  // flushes early
 }
 
 // The head of the scene.
@@ -102,7 +103,7 @@ void drawSheet(const GroomSceneOptions& options, const std::vector<hair::CameraS
     const engine::Device device(options.device);
     measure::Case picture(device, settings, scene.directory, &cache);
     for (const std::string& warning : measure::inspectStart(picture).warnings)
-        std::cerr << "hairbench: " << warning << '\n';
+        std::cerr << "hairbench: " << engine::shownText(warning) << '\n';
 
     engine::FrameLoop loop(device, engine::Timing::isolated);
     loop.frame([&](engine::Passes& passes) { picture.simulate(passes); });
@@ -176,7 +177,8 @@ int makeGroomScene(const GroomSceneOptions& options) {
     for (const groom::SceneChoice& choice : made.choices) tell(choice.name, choice.reason);
     warnings.insert(warnings.end(), made.warnings.begin(), made.warnings.end());
     for (const std::string& warning : warnings)
-        std::cerr << "hairbench: " << options.hair.string() << ": " << warning << '\n';
+        std::cerr << "hairbench: " << engine::shownText(options.hair.string() + ": " + warning)
+                  << '\n';
     engine::writeFileAtomically(options.out, scene::changedFields(settings).dump(2) + '\n');
     tell(
         "wrote", options.out.string() + "; hairbench render " + optionsToOpen(options.out) +

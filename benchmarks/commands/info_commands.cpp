@@ -5,7 +5,6 @@
 #include <iostream>
 #include <optional>
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include "benchmarks/commands/commands.h"
@@ -20,26 +19,15 @@
 #include "benchmarks/scene/schema.h"
 #include "benchmarks/scene/sweep.h"
 #include "engine/process.h"
+#include "engine/shown_text.h"
 
 namespace benchmarks::commands {
 
 std::string shortMessage(const std::exception& error) {
     constexpr std::size_t kLongest = 480;  // leaves room for a prefix
-    constexpr std::size_t kEnd = 140;
-    constexpr std::string_view kCut = " [...] ";
-    const std::string_view text = error.what();
-    if (text.size() <= kLongest) return std::string(text);
-    // Moves a position to the start of a UTF-8 character.
-    const auto boundary = [&](std::size_t at) {
-        while (at < text.size() && (static_cast<unsigned char>(text[at]) & 0xc0) == 0x80) ++at;
-        return at;
-    };
-    std::size_t start = kLongest - kEnd - kCut.size();
-    while (start > 0 && (static_cast<unsigned char>(text[start]) & 0xc0) == 0x80) --start;
-    return std::string(text.substr(0, start))
-        .append(kCut)
-        .append(text.substr(boundary(text.size() - kEnd)));
+    return engine::shownText(error.what(), kLongest);
 }
+
 namespace {
 
 void printStart(
@@ -61,7 +49,7 @@ void printStart(
                   << *record.stiffest << " times; " << *record.unbalanced
                   << " could not be balanced\n";
     for (const std::string& warning : start.warnings)
-        std::cout << "   warning: " << warning << '\n';
+        std::cout << "   warning: " << engine::shownText(warning) << '\n';
 }
 
 }  // namespace
@@ -83,8 +71,9 @@ int validateScenes(const ValidateOptions& options) {
                 count +=
                     scene::selectCases(scene, {.scene = path}, &cache.assets(), &warnings).size();
             progress.clear();
-            for (const std::string& warning : warnings) std::cout << "warning: " << warning << '\n';
-            std::cout << path.string() << ": ok, " << count
+            for (const std::string& warning : warnings)
+                std::cout << "warning: " << engine::shownText(warning) << '\n';
+            std::cout << engine::shownText(path.string()) << ": ok, " << count
                       << (count == 1 ? " case\n" : " cases\n");
             if (!device) continue;
             for (scene::Scene& scene : loaded) printStart(*device, path, scene, cache);

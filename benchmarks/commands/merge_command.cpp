@@ -7,6 +7,7 @@
 #include "benchmarks/report/report.h"
 #include "benchmarks/run/merge_reports.h"
 #include "engine/files.h"
+#include "engine/shown_text.h"
 
 namespace benchmarks::commands {
 
@@ -16,9 +17,10 @@ int mergeReports(const MergeOptions& options) {
     const scene::Json report =
         run::mergedReport(options.reports, {.out = options.out, .force = options.force}, notes);
     report::writeReport(report, options.out);
-    for (const std::string& note : notes) std::cerr << "hairbench: " << note << '\n';
-    std::cout << options.out.string() << ": " << report.at("cases").size() << " cases of "
-              << options.reports.size() << " reports\n";
+    for (const std::string& note : notes)
+        std::cerr << "hairbench: " << engine::shownText(note) << '\n';
+    std::cout << engine::shownText(options.out.string()) << ": " << report.at("cases").size()
+              << " cases of " << options.reports.size() << " reports\n";
     // Missing cases give the exit status of an interrupted run.
     return report.at("interrupted").get<bool>() ? report::kInterrupted : report::kOk;
 }

@@ -13,6 +13,7 @@
 #include "engine/float_pictures.h"
 #include "engine/pictures.h"
 #include "engine/process.h"
+#include "engine/shown_text.h"
 #include "hair/groom/files.h"
 
 namespace benchmarks::commands {
@@ -78,7 +79,7 @@ int renderScene(const RenderOptions& options) {
     const engine::Device device(options.scene.device);
     measure::Case picture(device, spec.settings, scene.directory, &cache);
     for (const std::string& warning : measure::inspectStart(picture).warnings)
-        std::cerr << "hairbench: " << warning << '\n';
+        std::cerr << "hairbench: " << engine::shownText(warning) << '\n';
     measure::Progress progress(range.end);
     std::uint32_t written = 0;
     const auto say_interrupted = [&] {
@@ -98,11 +99,11 @@ int renderScene(const RenderOptions& options) {
     }
     progress.clear();
     for (const std::string& warning : picture.warnings())
-        std::cerr << "hairbench: " << warning << '\n';
+        std::cerr << "hairbench: " << engine::shownText(warning) << '\n';
     for (const std::string& message : device.messages().take()) std::cerr << message << '\n';
     if (const std::string text = measure::droppedFragments(picture); !text.empty())
         std::cerr << "hairbench: " << text << '\n';
-    std::cout << options.out.string() << ": ";
+    std::cout << engine::shownText(options.out.string()) << ": ";
     if (range.count() > 1) {
         std::cout << range.count() << " pictures, frames " << range.first << " to "
                   << range.first + (range.count() - 1) * range.step;

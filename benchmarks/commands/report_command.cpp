@@ -6,6 +6,7 @@
 #include "benchmarks/report/change.h"
 #include "benchmarks/report/page.h"
 #include "engine/files.h"
+#include "engine/shown_text.h"
 
 namespace benchmarks::commands {
 
@@ -14,15 +15,16 @@ int writeReportPage(const ReportPageOptions& options) {
     const scene::Json data = report::pageData(options.reports);
     engine::writeFileAtomically(options.out, report::assemblePage(parts, data));
     for (const scene::Json& each : data.at("left_out"))
-        std::cerr << "hairbench: left out " << each.at("file").get<std::string>() << ": "
-                  << each.at("reason").get<std::string>() << ", no report of hairbench run\n";
+        std::cerr << "hairbench: left out " << engine::shownText(each.at("file").get<std::string>())
+                  << ": " << engine::shownText(each.at("reason").get<std::string>())
+                  << ", no report of hairbench run\n";
     std::size_t missing = 0;
     for (const scene::Json& report : data.at("reports"))
         for (const scene::Json& each : report.at("cases"))
             missing += each.contains("picture_missing");
     if (missing > 0)
         std::cerr << "hairbench: pictures of cases that are not there: " << missing << '\n';
-    std::cout << "page: " << options.out.string() << '\n';
+    std::cout << "page: " << engine::shownText(options.out.string()) << '\n';
     return report::kOk;
 }
 

@@ -11,12 +11,13 @@
 #include "benchmarks/run/run.h"
 #include "engine/files.h"
 #include "engine/process.h"
+#include "engine/shown_text.h"
 
 namespace benchmarks::commands {
 namespace {
 
 void printReport(const run::FinishedRun& finished, const std::filesystem::path& out) {
-    std::cout << finished.summary << "report: " << out.string() << '\n';
+    std::cout << finished.summary << "report: " << engine::shownText(out.string()) << '\n';
 }
 
 int conclude(
@@ -83,11 +84,11 @@ int runScene(const run::RunOptions& options) {
     }
     if (!finished.no_device.empty()) {
         print_short("hairbench: the device is gone", finished);
-        std::cerr << "hairbench: " << finished.no_device << '\n';
+        std::cerr << "hairbench: " << engine::shownText(finished.no_device) << '\n';
         return report::kNoDevice;
     }
     if (finished.was_complete)
-        std::cout << "nothing left to do: " << out.string() << " is complete\n";
+        std::cout << "nothing left to do: " << engine::shownText(out.string()) << " is complete\n";
     else
         printReport(finished, out);
     return conclude(options, finished, out);

@@ -7,6 +7,7 @@
 #include "benchmarks/report/text.h"
 #include "engine/files.h"
 #include "engine/process.h"
+#include "engine/shown_text.h"
 #include "hair/groom/files.h"
 
 namespace benchmarks::commands {
@@ -28,12 +29,13 @@ int simulateScene(const SimulateOptions& options) {
         return report::kInterrupted;
     }
     for (const std::string& message : device.messages().take()) std::cerr << message << '\n';
-    for (const std::string& warning : recorded.warnings) std::cerr << warning << '\n';
+    for (const std::string& warning : recorded.warnings)
+        std::cerr << engine::shownText(warning) << '\n';
     const std::string last = std::to_string(recording.frames - 1);
     std::error_code no_size;  // for a pipe
     const std::uintmax_t size = std::filesystem::file_size(recording.out, no_size);
-    std::cout << recording.out.string() << ": " << recorded.strands.strandCount() << " strands, "
-              << recorded.strands.points.size() << " points, "
+    std::cout << engine::shownText(recording.out.string()) << ": " << recorded.strands.strandCount()
+              << " strands, " << recorded.strands.points.size() << " points, "
               << (groom::holdsFrames(recording.out) ? "frames 0 to " + last
                                                     : "frame " + last + ", the last,")
               << " of " << scene.name << (no_size ? "" : ", " + report::sizeText(size)) << '\n';

@@ -11,6 +11,7 @@
 #include "benchmarks/report/text.h"
 #include "benchmarks/scene/json.h"
 #include "engine/error.h"
+#include "engine/shown_text.h"
 #include "hair/groom/build_groom.h"
 #include "hair/groom/guides/bind_strands.h"
 #include "hair/groom/guides/choose_guides.h"
@@ -318,13 +319,6 @@ std::string line(const std::string& name, const std::string& text) {
     return all;
 }
 
-// Replaces control characters in text from a file.
-std::string printable(std::string text) {
-    std::ranges::replace_if(
-        text, [](char c) { return static_cast<unsigned char>(c) < ' ' || c == '\x7f'; }, ' ');
-    return text;
-}
-
 std::string pointsText(const hair::groom::StrandFindings& found) {
     std::string text = report::countText(found.points);
     const hair::groom::Spread& each = found.points_per_strand;
@@ -438,8 +432,10 @@ std::string insideText(const hair::groom::MeshFindings& mesh) {
 
 std::string groomInfoText(const GroomInfo& info) {
     const hair::groom::StrandFindings& found = info.findings;
-    std::string text = info.file.string() + ": " + std::string(info.format) + '\n';
-    if (!info.strands.comment.empty()) text += line("comment", printable(info.strands.comment));
+    std::string text =
+        engine::shownText(info.file.string()) + ": " + std::string(info.format) + '\n';
+    if (!info.strands.comment.empty())
+        text += line("comment", engine::shownText(info.strands.comment));
     text += line("strands", report::countText(found.strands));
     text += line("points", pointsText(found));
     if (found.strands > 0) {
@@ -454,11 +450,12 @@ std::string groomInfoText(const GroomInfo& info) {
     if (found.strands > 0) text += '\n' + spreads(info);
     if (!info.strands.warnings.empty()) text += "\nleft out:\n";
     for (const std::string& warning : info.strands.warnings)
-        text += "  " + printable(warning) + '\n';
+        text += "  " + engine::shownText(warning) + '\n';
     if (info.oddities.empty()) return text + "\nnothing odd\n";
     text += "\nodd:\n";
     for (const Oddity& each : info.oddities)
-        text += "  " + each.what + "\n      " + each.advice + '\n';
+        text += "  " + engine::shownText(each.what) + "\n      " + engine::shownText(each.advice) +
+                '\n';
     return text;
 }
 

@@ -15,6 +15,7 @@
 #include "engine/error.h"
 #include "engine/files.h"
 #include "engine/shaders.h"
+#include "engine/shown_text.h"
 #include "hair/fields.h"
 
 namespace benchmarks::measure {
@@ -280,7 +281,9 @@ hair::simulation::Simulation HairCache::simulation(
 HairCache userHairCache(bool on_disk) {
     DiskCacheOptions options;
     if (on_disk) options.folder = hairCacheFolder();
-    options.warn = [](const std::string& fault) { std::cerr << "hairbench: " << fault << '\n'; };
+    options.warn = [](const std::string& fault) {
+        std::cerr << "hairbench: " << engine::shownText(fault) << '\n';
+    };
     return HairCache(DiskCache(std::move(options)));
 }
 

@@ -10,6 +10,7 @@
 
 #include "benchmarks/measure/measure.h"
 #include "benchmarks/report/text.h"
+#include "engine/shown_text.h"
 
 namespace benchmarks::measure {
 namespace {
@@ -90,10 +91,10 @@ void ProgressLine::show() {
     if (now - steps.start < (terminal_ ? kLong : kPlainPeriod)) return;
     if (terminal_) {
         shown_ = true;
-        std::cerr << "\r\033[K" << fitting(steps.text) << std::flush;
+        std::cerr << "\r\033[K" << fitting(engine::shownText(steps.text)) << std::flush;
     } else {
         written_ = now;
-        std::cerr << steps.text << std::endl;
+        std::cerr << engine::shownText(steps.text) << std::endl;
     }
 }
 

@@ -13,6 +13,7 @@
 #include "benchmarks/report/metric.h"
 #include "benchmarks/report/text.h"
 #include "benchmarks/scene/axis.h"
+#include "engine/shown_text.h"
 
 namespace benchmarks::report {
 namespace {
@@ -164,7 +165,7 @@ std::string header(const scene::Json& report) {
         line += ", Vulkan " + api;
     if (const std::string path = text(member(report, "scene"), "path"); !path.empty())
         line += "; " + path;
-    return line + '\n';
+    return engine::shownText(line) + '\n';
 }
 
 }  // namespace

@@ -7,6 +7,8 @@
 #include <span>
 #include <sstream>
 
+#include "engine/shown_text.h"
+
 namespace benchmarks::report {
 namespace {
 
@@ -35,7 +37,8 @@ std::string
 lineOf(const std::vector<Column>& columns, std::span<const std::size_t> widths, std::size_t row) {
     std::string text;
     for (std::size_t i = 0; i < columns.size(); ++i) {
-        const std::string& cell = row == 0 ? columns[i].title : columns[i].cells[row - 1];
+        const std::string cell =
+            engine::shownText(row == 0 ? columns[i].title : columns[i].cells[row - 1]);
         text += (i == 0 ? "" : "  ") + padded(cell, widths[i], columns[i].numeric);
     }
     text.erase(text.find_last_not_of(' ') + 1);

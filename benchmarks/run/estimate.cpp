@@ -20,6 +20,7 @@
 #include "benchmarks/report/text.h"
 #include "engine/error.h"
 #include "engine/process.h"
+#include "engine/shown_text.h"
 #include "hair/groom/growth/roots.h"
 #include "hair/rendering/strand_plan.h"
 #include "hair/simulation/solvers.h"
@@ -357,7 +358,7 @@ int estimateRun(
     try {
         device.emplace(options);
     } catch (const engine::NoDevice& error) {
-        std::cerr << "hairbench: no estimates: " << error.what() << '\n';
+        std::cerr << "hairbench: no estimates: " << engine::shownText(error.what()) << '\n';
         return printNames(plan);
     }
     Trials trials(plan, *device, cache);

@@ -18,6 +18,7 @@
 #include "benchmarks/scene/json.h"
 #include "engine/error.h"
 #include "engine/process.h"
+#include "engine/shown_text.h"
 
 namespace benchmarks::run {
 namespace {
@@ -87,7 +88,9 @@ FinishedRun finishedRun(const RunRecord& record) {
         for (const scene::Json& warning :
              each.value("/trust/warnings"_json_pointer, scene::Json::array()))
             finished.summary +=
-                each.at("name").get<std::string>() + ": " + warning.get<std::string>() + '\n';
+                engine::shownText(
+                    each.at("name").get<std::string>() + ": " + warning.get<std::string>()) +
+                '\n';
     });
     return finished;
 }

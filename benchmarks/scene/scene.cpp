@@ -13,6 +13,7 @@
 #include "engine/error.h"
 #include "engine/files.h"
 #include "engine/png_text.h"
+#include "engine/shown_text.h"
 #include "hair/fields.h"
 
 namespace benchmarks::scene {
@@ -111,7 +112,7 @@ Scene makeScene(const fs::path& path, Json document, const Reach& reach) {
     Scene scene;
     scene.path = path;
     scene.directory = path.parent_path();
-    scene.name = path.stem().string();
+    scene.name = engine::shownText(path.stem().string());
     scene.settings = readSettings(document);
     loadExtensions(scene.settings, scene.directory, reach);
     Json resolved = writeSettings(scene.settings);

@@ -100,6 +100,31 @@ TEST(Cli, SaysAtOnceThatANameCannotBeWritten) {
     }
 }
 
+// A stranger chooses the names of files and cases. A name with a line break and a colour could
+// forge a line of the program.
+TEST(Cli, ShowsTextsOfFilesOnOneLine) {
+    const TemporaryFolder folder;
+    const std::string forged = "a\n\x1b[32mhairbench: ok\u202e";
+    const std::string escaped = "a\\n\\u001b[32mhairbench: ok\\u202e";
+    folder.write(forged + ".json", R"({"base": ")" HAIRBENCH_SCENES_DIR R"(/smoke.json"})");
+    folder.write("wrong.json", R"({"groom": {"file": ")" + escaped + R"(.ply"}})");
+    folder.write("base.json", R"({"base": ")" + escaped + R"("})");
+    folder.write("suite.json", R"({"suite": [")" + escaped + R"("]})");
+    folder.write(
+        "axis.json",
+        R"({"sweep": {"/shading/model": [")" + escaped + R"("]}, "description": "x"})");
+    for (const std::string& name :
+         {forged + ".json", std::string("wrong.json"), std::string("base.json"),
+          std::string("suite.json"), std::string("axis.json")}) {
+        const Outcome outcome = runInShell(
+            "'" HAIRBENCH_PROGRAM "' validate '" + folder.file(name).string() + "' 2>&1");
+        EXPECT_THAT(outcome.output, HasSubstr("hairbench: ok"));
+        EXPECT_EQ(outcome.output.find('\x1b'), std::string::npos) << name;
+        EXPECT_EQ(outcome.output.find("\u202e"), std::string::npos) << name;
+        EXPECT_EQ(std::ranges::count(outcome.output, '\n'), 1) << outcome.output;
+    }
+}
+
 // A message has at most 500 bytes, its beginning and its end.
 TEST(Cli, MessagesAreShort) {
     const TemporaryFolder folder;
