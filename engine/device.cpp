@@ -14,7 +14,6 @@
 #include <vector>
 
 #include <sys/resource.h>
-#include <unistd.h>
 #include <zlib.h>
 
 #include "engine/files.h"
@@ -208,23 +207,12 @@ PipelineCache::~PipelineCache() {
     if (file_.empty() || data.empty() || data == loaded_ || data.size() > kMostCacheBytes / 4)
         return;
 
-    // Written to a separate file and renamed, so that another process never reads half a file.
-    std::error_code ignored;
-    std::filesystem::create_directories(file_.parent_path(), ignored);
-    const std::filesystem::path part = file_.string() + "." + std::to_string(getpid());
-    const Leftover leftover(part);
-    const std::string seal = sealOf(data);
-    bool written = false;
-    {
-        std::ofstream stream(part, std::ios::binary);
-        stream.write(data.data(), static_cast<std::streamsize>(data.size()));
-        stream.write(seal.data(), static_cast<std::streamsize>(seal.size()));
-        stream.close();
-        written = !stream.fail();
+    try {
+        replaceFile(file_, [&](std::ostream& stream) {
+            stream.write(data.data(), static_cast<std::streamsize>(data.size())) << sealOf(data);
+        });
+    } catch (const Error&) {  // the next start compiles them again
     }
-    std::error_code error;
-    if (written) std::filesystem::rename(part, file_, error);
-    if (!written || error) std::filesystem::remove(part, ignored);
     trimCaches(file_.parent_path());
 }
 

@@ -3,10 +3,17 @@
 #include <algorithm>
 #include <array>
 #include <cerrno>
+#include <cstdint>
+#include <cstdio>
 #include <cstdlib>
 #include <cstring>
 #include <limits>
+#include <optional>
+#include <utility>
 
+#include <ext/stdio_filebuf.h>
+#include <fcntl.h>
+#include <sys/random.h>
 #include <unistd.h>
 
 #include "engine/error.h"
@@ -28,13 +35,12 @@ std::ifstream opened(const fs::path& path) {
 
 using Writer = std::function<void(std::ostream&)>;
 
-// A file that calls `poll` before every piece written, and keeps the error of a failed write.
-class PolledFile : public std::filebuf {
+// An open file that calls `poll` before every piece written, keeps the error of a failed write, and
+// is closed at the end.
+class PolledFile : public __gnu_cxx::stdio_filebuf<char> {
 public:
-    PolledFile(const fs::path& path, const WritePoll& poll) : poll_(poll) {
-        open(path, std::ios::out | std::ios::binary);
-        if (!is_open()) error_ = errno;
-    }
+    PolledFile(int descriptor, const WritePoll& poll)
+        : stdio_filebuf(descriptor, std::ios::out | std::ios::binary), poll_(poll) {}
 
     int error() const { return error_; }  // errno value; 0: none
 
@@ -84,12 +90,10 @@ private:
     throw Error(path.string(), reason);
 }
 
-// `name` is the file's name in errors.
-void writeFile(
-    const fs::path& path, const fs::path& name, const Writer& write, const WritePoll& poll) {
-    PolledFile file(path, poll);
+// Writes an open file and closes it. `name` is the file's name in errors.
+void writeFile(int descriptor, const fs::path& name, const Writer& write, const WritePoll& poll) {
+    PolledFile file(descriptor, poll);
     const auto fail_here = [&] { fail(name, file.error()); };
-    if (!file.is_open()) fail_here();
     std::ostream stream(&file);
     stream.exceptions(std::ios::badbit);  // to stop at the first failure
     try {
@@ -102,18 +106,73 @@ void writeFile(
     if (poll) poll();
 }
 
-// Whether the path is an open file of the program, like /dev/stdout and the shell's >(command).
-bool isOpenAlready(const fs::path& path) {
-    const fs::path folder = path.parent_path();
-    return folder == "/dev/fd" || folder == "/proc/self/fd" || path == "/dev/stdout" ||
-           path == "/dev/stderr";
+constexpr std::size_t kLongestName = 255;  // bytes, without the folder
+constexpr std::size_t kLongestSuffix = 8;  // ".journal"
+
+// Returns a random name beside the target, so that nobody can guess it and put a link there.
+fs::path partialName(const fs::path& target) {
+    std::uint64_t number = 0;
+    if (getrandom(&number, sizeof number, 0) != sizeof number) fail(target, errno);
+    char suffix[32];
+    const int size = std::snprintf(
+        suffix, sizeof suffix, ".%016llx.partial", static_cast<unsigned long long>(number));
+    const std::string name = target.filename().string();
+    return target.parent_path() /
+           (name.substr(0, kLongestName - static_cast<std::size_t>(size)) + suffix);
+}
+
+// Creates a file and fails if the path exists, even as a link. `name` is the file's name in errors.
+int makeFile(const fs::path& path, const fs::path& name) {
+    const int descriptor = open(path.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+    if (descriptor < 0) fail(name, errno);
+    return descriptor;
+}
+
+// `name` is the file's name in errors.
+void replaceFile(
+    const fs::path& target, const fs::path& name, const Writer& write, const WritePoll& poll) {
+    const fs::path partial = partialName(target);
+    const Leftover leftover(partial);
+    const int descriptor = makeFile(partial, name);
+    std::error_code error;
+    try {
+        writeFile(descriptor, name, write, poll);
+        if (const fs::file_status there = fs::symlink_status(target, error);
+            fs::is_regular_file(there))
+            fs::permissions(partial, there.permissions(), error);
+        fs::rename(partial, target, error);
+        if (error) fail(name, error.value());
+    } catch (...) {
+        fs::remove(partial, error);
+        throw;
+    }
+}
+
+// Returns the descriptor if the path is an open file of the program, like /dev/stdout and the
+// shell's >(command), or a link to one.
+std::optional<int> openAlready(fs::path path) {
+    constexpr int kMostLinks = 40;  // Linux follows as many
+    for (int i = 0; i < kMostLinks; ++i) {
+        if (path == "/dev/stdout") return STDOUT_FILENO;
+        if (path == "/dev/stderr") return STDERR_FILENO;
+        const fs::path folder = path.parent_path();
+        const std::string name = path.filename().string();
+        if ((folder == "/dev/fd" || folder == "/proc/self/fd") && !name.empty() &&
+            name.size() < 8 && name.find_first_not_of("0123456789") == std::string::npos)
+            return std::stoi(name);
+        std::error_code error;
+        const fs::path to = fs::read_symlink(path, error);
+        if (error) break;
+        path = (folder / to).lexically_normal();
+    }
+    return std::nullopt;
 }
 
 // Creates the folder of the file.
 void makePlaceFor(const fs::path& path) {
     std::error_code error;
     const fs::file_type type = fs::status(path, error).type();
-    if ((type == fs::file_type::fifo || type == fs::file_type::socket) && !isOpenAlready(path))
+    if ((type == fs::file_type::fifo || type == fs::file_type::socket) && !openAlready(path))
         throw Error(path.string(), "is a pipe or a socket, which waits for its reader");
     if (type == fs::file_type::block) throw Error(path.string(), "is a disk, not a file to write");
     error.clear();
@@ -148,8 +207,9 @@ std::string readFile(const fs::path& path, std::size_t largest) {
         const std::size_t mebibytes = largest >> 20;
         throw Error(
             path.string(),
-            "is larger than " +
-                (largest == kLargestFile ? "2 GiB" : std::to_string(mebibytes) + " MiB"));
+            "is larger than " + (largest == kLargestFile ? "2 GiB"
+                                 : mebibytes > 0         ? std::to_string(mebibytes) + " MiB"
+                                                         : std::to_string(largest >> 10) + " KiB"));
     };
     std::error_code error;
     if (fs::exists(path, error) && !fs::is_regular_file(path, error) &&
@@ -176,24 +236,34 @@ void writeFileAtomically(const fs::path& path, std::string_view text) {
     });
 }
 
+bool isReplaceable(const fs::path& path) {
+    std::error_code error;
+    return !openAlready(path) && (!fs::exists(path, error) || fs::is_regular_file(path, error));
+}
+
 void writeFileAtomically(const fs::path& path, const Writer& write, const WritePoll& poll) {
     makePlaceFor(path);
+    if (const auto known = openAlready(path)) {
+        const int descriptor = fcntl(*known, F_DUPFD_CLOEXEC, 0);
+        if (descriptor < 0) fail(path, errno);
+        return writeFile(descriptor, path, write, poll);
+    }
     std::error_code error;
     const bool there = fs::exists(path, error);
     if (error) fail(path, error.value());  // circular links, or a name that is too long
-    if (there && !fs::is_regular_file(path, error)) return writeFile(path, path, write, poll);
-    const fs::path target = there ? fs::canonical(path, error) : path;
-    const fs::path partial(target.string() + ".partial");
-    const Leftover leftover(partial);
-    try {
-        writeFile(partial, path, write, poll);
-        if (there) fs::permissions(partial, fs::status(target).permissions(), error);
-        fs::rename(partial, target, error);
-        if (error) fail(path, error.value());
-    } catch (...) {
-        fs::remove(partial, error);
-        throw;
+    if (there && !fs::is_regular_file(path, error)) {
+        const int descriptor = open(path.c_str(), O_WRONLY | O_CLOEXEC);
+        if (descriptor < 0) fail(path, errno);
+        return writeFile(descriptor, path, write, poll);
     }
+    const fs::path target = there ? fs::canonical(path, error) : path;
+    replaceFile(target, path, write, poll);
+}
+
+void replaceFile(const fs::path& path, const Writer& write) {
+    std::error_code ignored;
+    fs::create_directories(path.parent_path(), ignored);
+    replaceFile(path, path, write, {});
 }
 
 fs::path userCacheFolder() {
@@ -210,12 +280,10 @@ void checkWritable(const fs::path& path) {
     const fs::path folder = path.has_parent_path() ? path.parent_path() : fs::path(".");
     const fs::path probe = fs::exists(path, error) ? path : folder;
     if (access(probe.c_str(), W_OK) != 0) fail(path, errno);
-    // A name that is too long, or broken links.
-    for (const fs::path& each : {path, fs::path(path.string() + ".partial")}) {
-        error.clear();
-        const fs::file_status status = fs::status(each, error);
-        if (!fs::status_known(status)) fail(path, error.value());
-    }
+    // A name that is too long, also with the longest suffix, or broken links.
+    error.clear();
+    if (!fs::status_known(fs::status(path, error))) fail(path, error.value());
+    if (path.filename().string().size() > kLongestName - kLongestSuffix) fail(path, ENAMETOOLONG);
 }
 
 }  // namespace engine

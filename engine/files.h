@@ -50,15 +50,24 @@ public:
 // the writing.
 using WritePoll = std::function<void()>;
 
-// Writes a file as "<path>.partial" in the same folder and renames it, so that nobody sees half of
-// it. Creates missing folders, follows a link, and keeps the permissions of an existing file.
-// Anything but a regular file (/dev/stdout, a pipe) is written directly. Throws Error "<path>:
-// <reason>", WriteFailed if the system took only a part, or the exception of the writer or of
-// `poll`. Then it leaves nothing behind and the old file unchanged.
+// Writes a file as "<path>.<random>.partial" in the same folder and renames it, so that nobody sees
+// half of it. Creates missing folders, follows a link at `path`, and keeps the permissions of an
+// existing file. A path that is not replaceable (isReplaceable()) is written directly. Throws Error
+// "<path>: <reason>", WriteFailed if the system took only a part, or the exception of the writer or
+// of `poll`. Then it leaves nothing behind and the old file unchanged.
 void writeFileAtomically(const std::filesystem::path& path, std::string_view text);
 void writeFileAtomically(
     const std::filesystem::path& path, const std::function<void(std::ostream&)>& write,
     const WritePoll& poll = {});
+
+// Does the same for a file of a cache, but replaces whatever the path is, even a link or a pipe.
+void replaceFile(
+    const std::filesystem::path& path, const std::function<void(std::ostream&)>& write);
+
+// Whether the path is a regular file or does not exist, so that a file can be put in its place and
+// others beside it. False for the program's open files (/dev/stdout, the shell's >(command)), pipes
+// and devices.
+bool isReplaceable(const std::filesystem::path& path);
 
 // Returns $XDG_CACHE_HOME/hairbench or ~/.cache/hairbench, for data that can be regenerated; empty
 // if there is no home folder. The folder need not exist.

@@ -10,9 +10,8 @@
 #include <system_error>
 #include <vector>
 
-#include <unistd.h>
-
 #include "benchmarks/report/environment.h"
+#include "engine/error.h"
 #include "engine/files.h"
 
 namespace benchmarks::measure {
@@ -87,23 +86,16 @@ std::optional<std::string> DiskCache::load(const std::string& key) const {
 void DiskCache::store(const std::string& key, const std::string& bytes) const {
     if (!takes(bytes.size())) return;
     const fs::path path = fileOf(key);
-    const fs::path part = path.string() + '.' + std::to_string(getpid());
-    std::error_code ignored;
-    fs::create_directories(options_.folder, ignored);
-    bool written = false;
-    {
-        std::ofstream file(part, std::ios::binary);
-        const Header header = headerOf(key, bytes);
-        file.write(kMagic.data(), kMagic.size());
-        file.write(reinterpret_cast<const char*>(&header), sizeof header);
-        file.write(key.data(), static_cast<std::streamsize>(key.size()));
-        file.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
-        file.close();
-        written = !file.fail();
+    const Header header = headerOf(key, bytes);
+    try {
+        engine::replaceFile(path, [&](std::ostream& file) {
+            file.write(kMagic.data(), kMagic.size());
+            file.write(reinterpret_cast<const char*>(&header), sizeof header);
+            file.write(key.data(), static_cast<std::streamsize>(key.size()));
+            file.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
+        });
+    } catch (const engine::Error&) {  // the next run makes it again
     }
-    std::error_code error;
-    if (written) fs::rename(part, path, error);
-    if (!written || error) fs::remove(part, ignored);
     trim();
 }
 
@@ -124,7 +116,10 @@ void DiskCache::trim() const {
         if (entry.path.extension() == kExtension) {
             bytes += entry.size;
             entries.push_back(entry);
-        } else if (entry.path.stem().extension() == kExtension && now - entry.used > kStale) {
+        } else if (
+            entry.path.filename().string().find(std::string(kExtension) + '.') !=
+                std::string::npos &&
+            now - entry.used > kStale) {
             fs::remove(entry.path, gone);
         }
     }

@@ -7,7 +7,6 @@ failure is one line on stderr.
 
 import json
 import math
-import os
 import sys
 
 import flip_evaluator
@@ -61,8 +60,7 @@ def main():
     figures["light_ratio"] = light / reference_light if reference_light > 0 else None
     for out in sys.argv[3:]:
         colors = mi.Bitmap((255 * error_map + 0.5).astype(np.uint8), mi.Bitmap.PixelFormat.RGB)
-        colors.write(out + ".partial", mi.Bitmap.FileFormat.PNG)
-        os.replace(out + ".partial", out)
+        colors.write(out, mi.Bitmap.FileFormat.PNG)
     print(json.dumps(figures))
 
 

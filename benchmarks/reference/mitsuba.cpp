@@ -544,11 +544,11 @@ private:
 void traceMitsuba(
     const std::filesystem::path& folder, std::uint32_t samples, const std::filesystem::path& out) {
     PassProgress progress(samples);
+    const std::filesystem::path traced = folder / ("traced" + out.extension().string());
     runReferenceTool(
-        "render.py",
-        {(folder / "scene.xml").string(), std::filesystem::absolute(out).string(),
-         std::to_string(samples)},
+        "render.py", {(folder / "scene.xml").string(), traced.string(), std::to_string(samples)},
         [&](std::string_view line) { progress.line(line); });
+    engine::writeFileAtomically(out, engine::readFile(traced));
 }
 
 }  // namespace benchmarks::reference

@@ -7,6 +7,7 @@
 
 #include "benchmarks/scene/json.h"
 #include "engine/error.h"
+#include "engine/files.h"
 #include "engine/pictures.h"
 #include "engine/process.h"
 #include "engine/program_files.h"
@@ -57,11 +58,15 @@ void checkReferenceTool() {
 PictureErrors comparePictures(
     const std::filesystem::path& reference, const std::filesystem::path& picture,
     const std::filesystem::path& map) {
+    const engine::ScratchFolder folder;
+    const std::filesystem::path drawn = folder.path() / "map.png";
     std::vector<std::string> arguments;
-    for (const std::filesystem::path& path : {reference, picture, map})
-        if (!path.empty()) arguments.push_back(std::filesystem::absolute(path).string());
+    for (const std::filesystem::path& path : {reference, picture})
+        arguments.push_back(std::filesystem::absolute(path).string());
+    if (!map.empty()) arguments.push_back(drawn.string());
     std::string text;
     runReferenceTool("compare.py", arguments, [&](std::string_view line) { text += line; });
+    if (!map.empty()) engine::writeFileAtomically(map, engine::readFile(drawn));
     const scene::Json figures = scene::parseJson(text, "what compare.py wrote");
     PictureErrors errors{
         .width = figures.at("width"),

@@ -4,7 +4,6 @@ Writes "passes N" to stdout, then "pass SAMPLES_DONE" at the start of each pass.
 line on stderr.
 """
 
-import os
 import signal
 import sys
 
@@ -34,8 +33,7 @@ def write(image, path):
     if path.lower().endswith(".png"):
         bitmap = bitmap.convert(mi.Bitmap.PixelFormat.RGB, mi.Struct.Type.UInt8, srgb_gamma=True)
         kind = mi.Bitmap.FileFormat.PNG
-    bitmap.write(path + ".partial", kind)
-    os.replace(path + ".partial", path)
+    bitmap.write(path, kind)
 
 
 def main():

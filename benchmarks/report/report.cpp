@@ -524,8 +524,7 @@ void writeReport(
     const scene::Json& before, const EachCase& each_case,
     const std::function<scene::Json()>& behind, const fs::path& path) {
     // No samples file lies beside something that is not a regular file, like /dev/stdout or a pipe.
-    std::error_code ignored;
-    const bool is_file = !fs::exists(path, ignored) || fs::is_regular_file(path, ignored);
+    const bool is_file = engine::isReplaceable(path);
     const bool moves_samples = is_file && hasLargeSamples(each_case);
     const fs::path samples = moves_samples ? samplesFile(path) : fs::path();
     // Written before the report, so that nobody sees the report without its samples.

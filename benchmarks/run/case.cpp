@@ -66,11 +66,13 @@ namespace {
 
 // ---- Pictures of older runs ---------------------------------------------------------------------
 
-// "12.png", or the partial file of a run that was killed. Other files belong to the user.
+// "12.png", or the partial file of a run that was killed, "12.png.0123456789abcdef.partial". Other
+// files belong to the user.
 bool isCasePicture(const std::string& name) {
     const std::size_t digits = name.find_first_not_of("0123456789");
     return digits != 0 && digits != std::string::npos &&
-           (name.substr(digits) == ".png" || name.substr(digits) == ".png.partial");
+           (name.substr(digits) == ".png" ||
+            (name.substr(digits).starts_with(".png.") && name.ends_with(".partial")));
 }
 
 }  // namespace

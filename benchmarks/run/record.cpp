@@ -24,6 +24,7 @@
 #include "benchmarks/scene/json.h"
 #include "engine/error.h"
 #include "engine/files.h"
+#include "engine/shown_text.h"
 
 namespace benchmarks::run {
 namespace {
@@ -144,7 +145,9 @@ std::optional<scene::Json> valueIn(std::string_view line) {
 Journal::Journal(std::filesystem::path path, Lasts lasts) : path_(std::move(path)), lasts_(lasts) {
     std::error_code error;
     if (path_.has_parent_path()) std::filesystem::create_directories(path_.parent_path(), error);
-    file_ = open(path_.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
+    file_ = open(path_.c_str(), O_RDWR | O_CREAT | O_NOFOLLOW | O_CLOEXEC, 0666);
+    if (file_ < 0 && errno == ELOOP)
+        throw engine::Error(path_.string(), "is a link, and its place is the journal's");
     if (file_ < 0) throw engine::Error(path_.string(), std::strerror(errno));
     // Some file systems have no locks; continues without one there.
     if (flock(file_, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK) {
@@ -235,11 +238,6 @@ namespace {
 
 // ---- Record -------------------------------------------------------------------------------------
 
-bool canHaveJournal(const fs::path& out) {
-    std::error_code ignored;
-    return !fs::exists(out, ignored) || fs::is_regular_file(out, ignored);
-}
-
 scene::Json
 journalHead(const RunPlan& plan, const report::ReportHeader& header, const std::string& filter) {
     return {
@@ -285,7 +283,8 @@ bool goesOn(
             name, "there are " + done +
                       " of a run that was not finished: --resume goes on with it, removing the "
                       "file starts anew");
-    std::cerr << name << ": replaces " << done << " of another run: " << *difference << '\n';
+    std::cerr << engine::shownText(name + ": replaces " + done + " of another run: " + *difference)
+              << '\n';
     return false;
 }
 
@@ -332,8 +331,10 @@ fs::path journalFile(const fs::path& report) { return report.string() + ".journa
 RunRecord::RunRecord(
     const RunPlan& plan, const report::ReportHeader& header, const RecordOptions& options)
     : out_(options.out) {
-    if (!canHaveJournal(out_)) {
+    if (!engine::isReplaceable(out_)) {
         if (options.resume) throw engine::Error("--resume", out_.string() + " is no file");
+        std::cerr << "hairbench: " << engine::shownText(out_.string())
+                  << " is no file: this run has no journal, and can't be resumed\n";
         scratch_ = std::make_unique<engine::ScratchFolder>();
     }
     const fs::path file = scratch_ ? scratch_->path() / "journal" : journalFile(out_);
@@ -359,9 +360,11 @@ RunRecord::RunRecord(
         if (found && goesOn(*found, cases, head, options.resume, name)) {
             head = *std::move(found);
             for (const std::size_t line : journal_->damaged())
-                std::cerr << name << ": line " << line << " is damaged: left out\n";
+                std::cerr << engine::shownText(name) << ": line " << line
+                          << " is damaged: left out\n";
             for (; strays > 0; --strays)
-                std::cerr << name << ": a line is no case of this run, or there twice: left out\n";
+                std::cerr << engine::shownText(name)
+                          << ": a line is no case of this run, or there twice: left out\n";
         } else {
             left = CasesLeft(plan);
             done_.clear();

@@ -90,7 +90,7 @@ TEST(Cli, SaysAtOnceThatANameCannotBeWritten) {
     fs::create_symlink("loop.json", folder.file("loop.json"));
     for (const auto& [name, reason] :
          {std::pair{std::string(300, 'a'), "File name too long"},
-          {std::string(250, 'a'), "File name too long"},  // with .partial
+          {std::string(250, 'a'), "File name too long"},  // with .journal
           {std::string("loop.json"), "Too many levels of symbolic links"}}) {
         const Outcome outcome = hairbenchErrors(
             "run " + shippedScene("smoke.json") + " -o '" + folder.file(name).string() + "'");

@@ -199,8 +199,8 @@ TEST_P(GroomInterrupt, LeavesTheOldFileAndNoPart) {
     const fs::path script = folder.write(
         "interrupt.sh", "set -m\n'" HAIRBENCH_PROGRAM "' groom convert '" +
                             folder.file("in/lawn.hair").string() + "' '" + out.string() + "' >'" +
-                            log.string() + "' 2>&1 &\nwhile [ ! -e '" + out.string() +
-                            ".partial' ] && kill -0 $! 2>/dev/null; do :; done\nkill -" +
+                            log.string() + "' 2>&1 &\nwhile ! compgen -G '" + out.string() +
+                            ".*.partial' >/dev/null && kill -0 $! 2>/dev/null; do :; done\nkill -" +
                             GetParam() + " $!\nwait $!\n");
     const int status = std::system(("bash '" + script.string() + "'").c_str());
     EXPECT_EQ(WEXITSTATUS(status), 130);

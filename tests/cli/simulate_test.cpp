@@ -86,9 +86,9 @@ TEST_F(SimulateCli, LeavesNoHalfFileWhenItIsInterrupted) {
         "interrupt.sh", "set -m\n'" HAIRBENCH_PROGRAM "' simulate '" HAIRBENCH_SCENES_DIR
                         "/smoke.json' --frames 1000000 --export " +
                             quoted("out/hair.usda") + " >" + log +
-                            " 2>&1 &\nfor i in $(seq 600); do test -s " +
-                            quoted("out/hair.usda.partial") +
-                            " && break; sleep 0.1; done\nkill -INT $!\nwait $!\n");
+                            " 2>&1 &\nfor i in $(seq 600); do test -s \"$(compgen -G " +
+                            quoted("out/hair.usda.*.partial") +
+                            ")\" && break; sleep 0.1; done\nkill -INT $!\nwait $!\n");
     EXPECT_EQ(runInShell("bash '" + script.string() + "'").status, 130);
     EXPECT_THAT(textOf(folder_.file("log")), HasSubstr("interrupted: nothing is written\n"));
     EXPECT_TRUE(fs::is_empty(folder_.file("out")));

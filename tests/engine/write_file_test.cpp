@@ -2,9 +2,13 @@
 
 #include <csignal>
 #include <filesystem>
+#include <set>
 #include <string>
+#include <thread>
+#include <vector>
 
 #include <gmock/gmock.h>
+#include <fcntl.h>
 #include <gtest/gtest.h>
 #include <sys/resource.h>
 #include <sys/stat.h>
@@ -25,6 +29,13 @@ std::vector<std::string> namesIn(const fs::path& folder) {
         names.push_back(entry.path().filename().string());
     std::ranges::sort(names);
     return names;
+}
+
+// Returns the file that is still being written.
+fs::path partialIn(const fs::path& folder) {
+    for (const auto& entry : fs::directory_iterator(folder))
+        if (entry.path().extension() == ".partial") return entry.path();
+    return {};
 }
 
 // Writes 64 MiB, unless the poll or the disk stops it, as blocks or as single numbers.
@@ -72,6 +83,71 @@ TEST(WriteFile, FollowsALink) {
     EXPECT_EQ(textOf(path), "new");
 }
 
+// Another user of the folder could put a link under a name that can be guessed.
+TEST(WriteFile, WritesThroughNoLinkThatLiesInItsWay) {
+    const TemporaryFolder folder;
+    const fs::path private_file = folder.write("private.txt", "mine");
+    for (const char* name : {"new.txt.partial", "new.txt.0.partial", ".new.txt.partial"})
+        fs::create_symlink("private.txt", folder.file(name));
+    std::set<std::string> partials;
+    for (int i = 0; i < 2; ++i)
+        engine::writeFileAtomically(folder.file("new.txt"), [&](std::ostream& out) {
+            for (const std::string& name : namesIn(folder.path()))
+                if (!fs::is_symlink(folder.file(name)) && name.ends_with(".partial"))
+                    partials.insert(name);
+            out << "new";
+        });
+    EXPECT_EQ(textOf(private_file), "mine");
+    EXPECT_EQ(textOf(folder.file("new.txt")), "new");
+    EXPECT_EQ(partials.size(), 2u);  // a new name each time
+}
+
+TEST(WriteFile, IsWrittenByManyAtATime) {
+    const TemporaryFolder folder;
+    const fs::path path = folder.file("a.txt");
+    std::vector<std::string> errors(4);
+    std::vector<std::thread> threads;
+    for (std::size_t i = 0; i < errors.size(); ++i)
+        threads.emplace_back([&, i] {
+            for (int k = 0; k < 50; ++k) {
+                const auto write = [&] {
+                    engine::writeFileAtomically(path, std::string(1000, 'x'));
+                };
+                if (errorText(write) != "no error") errors[i] = errorText(write);
+            }
+        });
+    for (std::thread& each : threads) each.join();
+    EXPECT_THAT(errors, testing::Each(""));
+    EXPECT_EQ(textOf(path), std::string(1000, 'x'));
+    EXPECT_THAT(namesIn(folder.path()), ElementsAre("a.txt"));
+}
+
+// A shell's "> file" and ">> file" open the file before the program writes on.
+TEST(WriteFile, WritesOnWhatIsOpenAlready) {
+    const TemporaryFolder folder;
+    const fs::path path = folder.write("log.txt", "before ");
+    const int file = open(path.c_str(), O_WRONLY | O_APPEND);
+    ASSERT_GE(file, 0);
+    const fs::path name = "/dev/fd/" + std::to_string(file);
+    fs::create_symlink(name, folder.file("link"));
+    EXPECT_FALSE(engine::isReplaceable(name));
+    EXPECT_FALSE(engine::isReplaceable(folder.file("link")));
+    EXPECT_TRUE(engine::isReplaceable(path));
+    engine::writeFileAtomically(name, "and ");
+    engine::writeFileAtomically(folder.file("link"), "after");
+    EXPECT_EQ(write(file, ".", 1), 1);
+    close(file);
+    EXPECT_EQ(textOf(path), "before and after.");
+}
+
+TEST(ReadFile, SaysHowLargeAFileMayBe) {
+    const TemporaryFolder folder;
+    const fs::path path = folder.write("a.txt", std::string((1 << 16) + 1, 'x'));
+    EXPECT_EQ(
+        errorText([&] { engine::readFile(path, 1 << 16); }),
+        path.string() + ": is larger than 64 KiB");
+}
+
 TEST(WriteFile, LeavesTheOldFileWhereTheWriterFails) {
     const TemporaryFolder folder;
     const fs::path path = folder.write("file.txt", "old");
@@ -89,10 +165,9 @@ TEST(WriteFile, LeavesTheOldFileWhereTheWriterFails) {
 TEST_P(WriteMuch, StopsWithinAMegabyteWhereThePollThrows) {
     struct Stop {};
     const fs::path path = folder_.write("file.txt", "old");
-    const fs::path partial = folder_.file("file.txt.partial");
     std::uintmax_t seen = 0;
     const auto poll = [&] {
-        seen = fs::file_size(partial);
+        seen = fs::file_size(partialIn(folder_.path()));
         if (seen > 3'000'000) throw Stop();
     };
     EXPECT_THROW(

@@ -88,5 +88,29 @@ TEST_F(WrittenReport, GoesWhereThereIsNoFile) {
     EXPECT_FALSE(std::filesystem::exists("/dev/stdout.journal"));
 }
 
+// A file that the shell has opened must not be replaced, and no file goes beside it.
+TEST_F(WrittenReport, GoesIntoAFileThatIsOpen) {
+    const std::filesystem::path out = folder_.file("shell.txt");
+    const Outcome outcome = runInShell(
+        "{ echo before; '" HAIRBENCH_PROGRAM "' run '" + scene_.string() +
+        "' -o /dev/stdout; } 2>&1 >'" + out.string() + "'");
+    EXPECT_EQ(outcome.status, 0);
+    EXPECT_THAT(
+        outcome.output, testing::HasSubstr("/dev/stdout is no file: this run has no journal"));
+    EXPECT_THAT(textOf(out), testing::StartsWith("before\n{\n  \"schema\""));
+    EXPECT_FALSE(std::filesystem::exists("/dev/stdout.journal"));
+    EXPECT_FALSE(std::filesystem::exists("/dev/stdout.pictures"));
+}
+
+TEST_F(WrittenReport, KeepsItsJournalWhereNoLinkLeads) {
+    const std::filesystem::path mine = folder_.write("mine.txt", "");
+    std::filesystem::create_symlink("mine.txt", out_.string() + ".journal");
+    const Outcome outcome = runInShell(
+        "'" HAIRBENCH_PROGRAM "' run '" + scene_.string() + "' -o '" + out_.string() + "' 2>&1");
+    EXPECT_EQ(outcome.status, 2);
+    EXPECT_THAT(outcome.output, testing::HasSubstr("is a link"));
+    EXPECT_EQ(textOf(mine), "");
+}
+
 }  // namespace
 }  // namespace benchmarks::run
