@@ -13,6 +13,7 @@
 #include "benchmarks/scene/json.h"
 #include "benchmarks/scene/settings_json.h"
 #include "engine/error.h"
+#include "engine/shown_text.h"
 
 namespace benchmarks::scene {
 namespace {
@@ -121,15 +122,37 @@ void requireFew(const std::string& axis, std::size_t values) {
                       std::to_string(kMostAxisValues));
 }
 
+}  // namespace
+
+void requireQuick(
+    const std::string& context, std::size_t count, const char* what, const Json& document) {
+    constexpr std::size_t kMost = 20'000'000;  // copied values, which take seconds
+    constexpr std::size_t kSmall = 2'000;  // values; a scene without lists has about 500
+    const std::size_t size = valueCount(document);
+    if (size > kSmall && count > kMost / size)
+        throw engine::Error(
+            context, std::to_string(count) + ' ' + what + " of a scene that has " +
+                         std::to_string(size) + " values: together at most " +
+                         std::to_string(kMost) + " are tried");
+}
+
+namespace {
+
 // Like checkedAxis(), but an axis may have the same value twice, as tied axes do.
 Axis echoedAxis(const Axis& axis, const Json& resolved) {
     if (axis.values.empty()) throw engine::Error(axis.pointer, "an axis needs at least one value");
     requireFew(axis.pointer, axis.values.size());
     Axis echoed{.pointer = axis.pointer, .values = {}, .tied = {}};
+    // Copies only the scene's member that contains the field, because values can be many and scenes
+    // large.
+    Json part = resolved;
+    if (const std::string member = pointerTokens(axis.pointer).front(); resolved.contains(member))
+        part = {{member, resolved[member]}};
+    requireQuick(axis.pointer, axis.values.size(), "values", part);
     for (const Document& value : axis.values) {
-        Json document = resolved;
+        Json document = part;
         patch(document, axis.pointer, value.json());
-        Json echo = writeSettings(readSettings(document));
+        Json echo = echoedMembers(document);
         echoed.values.push_back(
             value.json().is_object() ? value : Document(std::move(valueAt(echo, axis.pointer))));
     }
@@ -190,7 +213,7 @@ std::vector<std::string> axisLabels(const std::vector<std::string>& pointers) {
 }
 
 std::string valueLabel(const Json& value) {
-    return value.is_string() ? value.get<std::string>() : value.dump();
+    return value.is_string() ? engine::shownText(value.get<std::string>()) : value.dump();
 }
 
 namespace {
@@ -281,12 +304,26 @@ Exclusion exclusion(const Json& conditions, const Json& resolved) {
     return fields;
 }
 
+constexpr std::size_t kMostConditions = 100'000;  // values of all fields of /sweep/exclude
+
+void requireFewConditions(const Json& exclude) {
+    std::size_t count = 0;
+    for (const Json& conditions : exclude)
+        if (conditions.is_object())
+            for (const Json& values : conditions) count += values.size();
+    if (count > kMostConditions)
+        throw engine::Error(
+            "/sweep/exclude",
+            std::to_string(count) + " values, it has at most " + std::to_string(kMostConditions));
+}
+
 }  // namespace
 
 SweepMember readSweep(const Json& sweep, const Json& resolved) {
     SweepMember read;
     if (!sweep.is_object())
         throw engine::Error("/sweep", "expected an object, found " + described(sweep));
+    if (sweep.contains("exclude")) requireFewConditions(sweep["exclude"]);
     for (const auto& [key, value] : sweep.items()) {
         if (key == "zip")
             readObjects(key, value, [&](const Json& group) {

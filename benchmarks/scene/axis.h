@@ -41,6 +41,11 @@ Axis parseAxis(std::string_view argument);
 // together.
 Axis checkedAxis(const Axis& axis, const Json& resolved);
 
+// Throws engine::Error "<context>: 10000 cases of a scene that has 300000 values: ..." if so many
+// copies of the document would take minutes. `what` names the copies, here "cases".
+void requireQuick(
+    const std::string& context, std::size_t count, const char* what, const Json& document);
+
 // Returns a short unique name for each pointer: its last token, with as many earlier tokens as it
 // takes to tell two apart, and at least one for an index: "density", "wind.strength", "position.2".
 std::vector<std::string> axisLabels(const std::vector<std::string>& pointers);

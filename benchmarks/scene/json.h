@@ -37,8 +37,13 @@ private:
     std::unique_ptr<const Json> value_;  // absent: JSON null
 };
 
-// Compares their texts: 1 differs from 1.0, and the order of members counts.
-bool operator==(const Document& a, const Document& b);
+// Whether both have the same text, without writing it: 1 differs from 1.0 and 0.0 from -0.0, and
+// the order of members counts.
+bool sameText(const Json& a, const Json& b);
+bool operator==(const Document& a, const Document& b);  // sameText()
+
+// Returns the number of values in the document, including objects and arrays.
+std::size_t valueCount(const Json& document);
 
 // Parses one JSON document. Errors call the text `name`, usually its file:
 //   scene.json:3:17: syntax error while parsing value - unexpected '}'; ...

@@ -285,8 +285,8 @@ Json changedFields(hair::SettingsView settings, hair::SettingsView original) {
     Json object = Json::object();
     for (const hair::Field& field : settings.fields()) {
         Json value = fieldJson(field, settings);
-        // Compares texts, because equal numbers can differ in the sign of zero.
-        if (value.dump() == fieldJson(field, original).dump()) continue;
+        // Equal numbers can differ in the sign of zero.
+        if (sameText(value, fieldJson(field, original))) continue;
         if (const auto* const group = std::get_if<hair::Group>(&field.kind))
             value = changedFields(group->in(settings), group->in(original));
         else if (const auto* const list = std::get_if<hair::List>(&field.kind))
@@ -304,6 +304,15 @@ Json writeFields(hair::SettingsView settings) {
     Json object = Json::object();
     for (const hair::Field& field : settings.fields())
         object[field.name] = fieldJson(field, settings);
+    return object;
+}
+
+Json echoedMembers(const Json& document) {
+    const hair::Settings settings = readSettings(document);
+    const hair::SettingsView view = settings;
+    Json object = Json::object();
+    for (const hair::Field& field : view.fields())
+        if (document.contains(field.name)) object[field.name] = fieldJson(field, view);
     return object;
 }
 

@@ -29,6 +29,10 @@ hair::Settings readSettings(const Json& document);
 // decimal that reads back bit-equal.
 Json writeSettings(const hair::Settings& settings);
 
+// Returns the document's own members as reports echo them: writeSettings() of readSettings()
+// without the other members.
+Json echoedMembers(const Json& document);
+
 // Writes a part of the settings, like writeSettings() for all of them.
 Json writeFields(hair::SettingsView settings);
 

@@ -146,17 +146,50 @@ std::vector<AxisValue> combination(const std::vector<Axis>& axes, std::size_t in
     return values;
 }
 
-bool isExcluded(const hair::Settings& settings, const std::vector<Exclusion>& exclusions) {
-    if (exclusions.empty()) return false;
-    Json document = writeSettings(settings);
-    const auto meets = [&](const Axis& condition) {
-        const Document value(valueAt(document, condition.pointer));
-        return std::ranges::count(condition.values, value) > 0;
+constexpr std::size_t kMostExclusionTests = 10'000'000;  // exclusions times cases; takes seconds
+
+// A scene's exclusions, prepared for lookups by many cases.
+class Exclusions {
+public:
+    explicit Exclusions(std::span<const Exclusion> exclusions) {
+        for (const Exclusion& exclusion : exclusions) {
+            std::vector<Condition>& conditions = exclusions_.emplace_back();
+            for (const Axis& field : exclusion) {
+                const auto known = std::ranges::find(pointers_, field.pointer);
+                conditions.push_back(
+                    {.field = static_cast<std::size_t>(known - pointers_.begin()), .texts = {}});
+                if (known == pointers_.end()) pointers_.push_back(field.pointer);
+                for (const Document& value : field.values)
+                    conditions.back().texts.insert(value.text());
+            }
+        }
+    }
+
+    std::size_t count() const { return exclusions_.size(); }
+
+    bool leaveOut(const hair::Settings& settings) const {
+        if (exclusions_.empty()) return false;
+        Json document = writeSettings(settings);
+        std::vector<std::string> texts;
+        for (const std::string& pointer : pointers_)
+            texts.push_back(Document(valueAt(document, pointer)).text());
+        const auto meets = [&](const Condition& condition) {
+            return condition.texts.contains(texts[condition.field]);
+        };
+        return std::ranges::any_of(exclusions_, [&](const auto& conditions) {
+            return std::ranges::all_of(conditions, meets);
+        });
+    }
+
+private:
+    struct Condition {
+        std::size_t field;  // in pointers_
+        std::unordered_set<std::string> texts;  // of the values that it excludes
     };
-    return std::ranges::any_of(exclusions, [&](const Exclusion& exclusion) {
-        return std::ranges::all_of(exclusion, meets);
-    });
-}
+
+    std::vector<std::string> pointers_;
+    std::vector<std::vector<Condition>> exclusions_;
+};
 
 std::string caseName(
     const std::string& scene, const std::vector<std::string>& labels,
@@ -223,13 +256,20 @@ std::vector<CaseSpec> expand(const Scene& scene, std::span<const Axis> overrides
     try {
         requireIndependent(pointers);
         const std::size_t count = caseCount(axes);
+        const Exclusions exclusions(scene.exclusions);
+        requireQuick("/sweep", count, "cases", scene.resolved.json());
+        if (exclusions.count() > kMostExclusionTests / count)
+            throw engine::Error(
+                "/sweep/exclude", std::to_string(exclusions.count()) + " for " +
+                                      std::to_string(count) + " cases are more than " +
+                                      std::to_string(kMostExclusionTests) + " to try");
         for (std::size_t i = 0; i < count; ++i) {
             CaseSpec spec;
             spec.axes = combination(axes, i);
             spec.name = caseName(scene.name, labels, spec.axes);
             context = scene.path.string() + (axes.empty() ? "" : ": " + spec.name);
             spec.settings = axes.empty() ? scene.settings : settingsOf(scene, spec.axes);
-            if (!axes.empty() && isExcluded(spec.settings, scene.exclusions)) continue;
+            if (!axes.empty() && exclusions.leaveOut(spec.settings)) continue;
             checkSettings(spec.settings);
             if (!names.insert(spec.name).second) throw engine::Error("two cases have this name");
             cases.push_back(std::move(spec));

@@ -1,3 +1,4 @@
+#include <limits>
 #include <type_traits>
 #include <utility>
 
@@ -72,6 +73,35 @@ TEST(Document, IsEqualWhereItsTextIs) {
         scene::Document(scene::Json::parse(R"({"a":1,"b":2})")),
         scene::Document(scene::Json::parse(R"({"b":2,"a":1})")));
     EXPECT_NE(scene::Document(), scene::Document(scene::Json::object()));
+}
+
+TEST(SameText, IsThatOfTheTexts) {
+    const scene::Json values[] = {
+        scene::Json(1),
+        scene::Json(1u),
+        scene::Json(1.0),
+        scene::Json(0.0),
+        scene::Json(-0.0),
+        scene::Json(-1),
+        scene::Json("1"),
+        scene::Json(true),
+        scene::Json(nullptr),
+        scene::Json(std::numeric_limits<double>::quiet_NaN()),
+        scene::Json::array(),
+        scene::Json::array({1, 2}),
+        scene::Json::array({1, 2.0}),
+        scene::Json::array({2, 1}),
+        scene::Json::object(),
+        scene::Json::parse(R"({"a":1,"b":2})"),
+        scene::Json::parse(R"({"b":2,"a":1})"),
+        scene::Json::parse(R"({"a":1,"b":[{}]})"),
+        scene::Json(18446744073709551615u)};
+    for (const scene::Json& a : values)
+        for (const scene::Json& b : values) {
+            if (a.is_null() != b.is_null())
+                continue;  // NaN, which no document has, is written as "null"
+            EXPECT_EQ(scene::sameText(a, b), a.dump() == b.dump()) << a << ' ' << b;
+        }
 }
 
 }  // namespace

@@ -1,5 +1,7 @@
 #include "benchmarks/scene/sweep.h"
 
+#include <ctime>
+
 #include <gmock/gmock.h>
 
 #include "tests/error_text.h"
@@ -134,6 +136,47 @@ TEST_F(Sweep, RefusesMoreCasesThanAnyoneRuns) {
             "{}", {scene::parseAxis("/seed=" + values),
                    scene::parseAxis("/simulation/settle_steps=" + values)}),
         "s.json: /sweep: more than 100000 cases");
+}
+
+std::string listFrom(int first, int count) {
+    std::string list = "[" + std::to_string(first);
+    for (int i = 1; i < count; ++i) list += ',' + std::to_string(first + i);
+    return list + ']';
+}
+
+// 2,000 cases and 100 exclusions of 1,000 values make 200 million pairs; a lookup compares none.
+TEST_F(Sweep, LooksUpManyExcludedValues) {
+    std::string exclude = R"({"/seed": [1, 2]})";
+    for (int i = 0; i < 99; ++i)
+        exclude += R"(,{"/seed": )" + listFrom(10000 + 1000 * i, 1000) + "}";
+    const std::clock_t start = std::clock();
+    const auto found = names(
+        R"({"sweep": {"/seed": )" + listFrom(0, 2000) + R"(, "exclude": [)" + exclude + "]}}");
+    EXPECT_EQ(found.size(), 1998u);
+    EXPECT_EQ(found[1], "s/seed:3");
+    // Comparing every pair would take a minute.
+    EXPECT_LT(std::clock() - start, 20 * CLOCKS_PER_SEC);
+}
+
+TEST_F(Sweep, RefusesMoreExclusionsThanAnyoneNeeds) {
+    std::string exclude = R"({"/seed": [1]})";
+    for (int i = 0; i < 101; ++i) exclude += R"(,{"/seed": )" + listFrom(0, 1000) + "}";
+    EXPECT_EQ(
+        error(R"({"sweep": {"/seed": [1, 2], "exclude": [)" + exclude + "]}}"),
+        "s.json: /sweep/exclude: 101001 values, it has at most 100000");
+}
+
+// Each case copies the points of all edits.
+TEST_F(Sweep, RefusesManyCasesOfALargeScene) {
+    std::string path = R"({"position": [0, 0, 0]})";
+    for (int i = 1; i < 1000; ++i) path += R"(,{"position": [0, 0, 0]})";
+    std::string edits = R"({"path": [)" + path + "]}";
+    for (int i = 1; i < 20; ++i) edits += R"(,{"path": [)" + path + "]}";
+    EXPECT_THAT(
+        error(
+            R"({"groom": {"edits": [)" + edits + R"(]}, "sweep": {"/seed": )" + listFrom(0, 1000) +
+            "}}"),
+        HasSubstr("/sweep: 1000 cases of a scene that has "));
 }
 
 TEST_F(Sweep, ChecksTheRulesBetweenFieldsOfEveryCase) {
