@@ -5,6 +5,7 @@
 #include <new>
 #include <string>
 #include <string_view>
+#include <system_error>
 
 #include <fcntl.h>
 #include <unistd.h>
@@ -49,6 +50,12 @@ int statusOf(int argc, char** argv) {
             report::kUsageError);
     } catch (const std::bad_alloc&) {
         return fail("", "not enough memory", report::kInternalError);
+    } catch (const std::system_error& error) {  // e.g. a thread that could not be started
+        return fail(
+            "",
+            "the system has no more memory, threads or files for it: " + error.code().message() +
+                " (see ulimit)",
+            report::kInternalError);
     } catch (const std::exception& error) {
         return fail("internal error: ", commands::shortMessage(error), report::kInternalError);
     }

@@ -490,7 +490,7 @@ void tryApart(const Device& device, const Description& description) {
     const std::string program = helperProgram(kPipelineTrial).string();
     const std::string& name = description.extensions.front()->name;
     try {
-        runTool({program, device.info().name, file.name()}, kMostOutput);
+        runTool({program, device.info().name, file.name()}, {.output = kMostOutput});
     } catch (const std::system_error&) {
         throw Error(name, "the program that compiles it first is missing: " + program);
     } catch (const Error& error) {

@@ -25,7 +25,7 @@ namespace engine {
 namespace {
 
 // In addition to what the device itself takes.
-constexpr ChildLimits kLimits{.seconds = 30, .bytes = std::size_t{2} << 30};
+const ChildLimits kLimits{.seconds = 30, .bytes = std::size_t{2} << 30};
 
 [[noreturn]] void sayOutOfTime(int) {
     constexpr std::string_view kText = "not done after 30 s of the processor\n";

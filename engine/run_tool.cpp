@@ -3,17 +3,23 @@
 #include <algorithm>
 #include <array>
 #include <cerrno>
+#include <chrono>
 #include <csignal>
+#include <cstdint>
+#include <cstdlib>
 #include <fstream>
 #include <new>
 #include <span>
 #include <system_error>
+#include <thread>
 #include <utility>
 
 #include <fcntl.h>
+#include <linux/landlock.h>
 #include <poll.h>
-#include <spawn.h>
+#include <sys/prctl.h>
 #include <sys/resource.h>
+#include <sys/syscall.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -32,8 +38,8 @@ namespace {
 class File {
 public:
     explicit File(int descriptor) : descriptor_(descriptor) {}
-    File(const File&) = delete;
-    File& operator=(const File&) = delete;
+    File(File&& other) noexcept : descriptor_(std::exchange(other.descriptor_, -1)) {}
+    File& operator=(File&&) = delete;
     ~File() { close(); }
 
     int get() const { return descriptor_; }
@@ -62,37 +68,168 @@ private:
     }
 };
 
+// ---- What a child may open ----------------------------------------------------------------------
+
+constexpr std::uint64_t kRead =
+    LANDLOCK_ACCESS_FS_EXECUTE | LANDLOCK_ACCESS_FS_READ_FILE | LANDLOCK_ACCESS_FS_READ_DIR;
+
+// Returns the rights that the kernel's Landlock knows for reading and changing files and folders,
+// or 0 without Landlock.
+std::uint64_t accessKnown() {
+    const long version = syscall(
+        SYS_landlock_create_ruleset, nullptr, std::size_t{0}, LANDLOCK_CREATE_RULESET_VERSION);
+    std::uint64_t all = version < 1 ? 0 : (LANDLOCK_ACCESS_FS_MAKE_SYM << 1) - 1;
+#ifdef LANDLOCK_ACCESS_FS_TRUNCATE
+    if (version >= 3) all |= LANDLOCK_ACCESS_FS_TRUNCATE;
+#endif
+    return all;
+}
+
+// The system's libraries and the files that they read.
+constexpr const char* kSystemFiles[] = {
+    "/usr",
+    "/lib",
+    "/lib32",
+    "/lib64",
+    "/bin",
+    "/sbin",
+    "/opt",
+    "/nix/store",
+    "/etc/ld.so.cache",
+    "/etc/ld.so.preload",
+    "/etc/localtime",
+    "/etc/locale.alias",
+    "/proc",
+    "/sys/devices/system",
+    "/sys/fs/cgroup",
+    "/dev/urandom",
+    "/dev/zero"};
+
+void allow(const File& rules, const std::filesystem::path& path, std::uint64_t access) {
+    const File file(open(path.c_str(), O_PATH | O_CLOEXEC));
+    if (file.get() < 0) return;
+    std::error_code error;
+    if (!std::filesystem::is_directory(path, error))
+        access &= ~std::uint64_t{LANDLOCK_ACCESS_FS_READ_DIR};
+    const landlock_path_beneath_attr rule{.allowed_access = access, .parent_fd = file.get()};
+    syscall(SYS_landlock_add_rule, rules.get(), LANDLOCK_RULE_PATH_BENEATH, &rule, 0);
+}
+
+// Returns Landlock's rules for a child with these limits, or a closed file without Landlock or
+// limits on reading.
+File rulesFor(const ChildLimits& limits) {
+    const std::uint64_t known = limits.reads ? accessKnown() : 0;
+    if (known == 0) return File(-1);
+    landlock_ruleset_attr handled{};
+    handled.handled_access_fs = known;
+    File rules(static_cast<int>(
+        syscall(SYS_landlock_create_ruleset, &handled, sizeof handled.handled_access_fs, 0)));
+    if (rules.get() < 0) return rules;
+    for (const char* path : kSystemFiles) allow(rules, path, kRead);
+    for (const std::filesystem::path& path : *limits.reads) allow(rules, path, kRead);
+    allow(rules, "/dev/null", LANDLOCK_ACCESS_FS_READ_FILE | LANDLOCK_ACCESS_FS_WRITE_FILE);
+    return rules;
+}
+
+// The environment variables that a program with limits on reading gets.
+constexpr std::string_view kToolVariables[] = {
+    "ASAN_OPTIONS", "HOME", "LANG",   "LC_ALL",       "LC_CTYPE",      "LD_LIBRARY_PATH",
+    "LSAN_OPTIONS", "PATH", "TMPDIR", "TSAN_OPTIONS", "UBSAN_OPTIONS",
+};
+
+std::vector<char*> environmentFor(const ChildLimits& limits) {
+    std::vector<char*> all;
+    for (char** each = environ; *each; ++each) {
+        const std::string_view variable(*each);
+        const std::string_view name = variable.substr(0, variable.find('='));
+        if (!limits.reads || std::ranges::find(kToolVariables, name) != std::end(kToolVariables))
+            all.push_back(*each);
+    }
+    all.push_back(nullptr);
+    return all;
+}
+
+void limit(__rlimit_resource resource, rlim_t value) {
+    rlimit limits{};
+    if (getrlimit(resource, &limits) != 0) return;
+    limits.rlim_cur = std::min(limits.rlim_max, value);
+    setrlimit(resource, &limits);
+}
+
+// Limits a process that was just forked. `bytes` is the size of its address space.
+void limitForked(const ChildLimits& limits, std::size_t bytes, pid_t parent) {
+    setpgid(0, 0);
+    prctl(PR_SET_PDEATHSIG, SIGKILL);
+    if (getppid() != parent) _exit(1);
+    if (limits.seconds > 0) limit(RLIMIT_CPU, limits.seconds);
+    if (limits.bytes > 0) limit(RLIMIT_AS, bytes);
+    if (limits.seconds > 0 || limits.bytes > 0) limit(RLIMIT_CORE, 0);
+    if (limits.reads) limit(RLIMIT_FSIZE, 0);
+}
+
+// ---- A child ------------------------------------------------------------------------------------
+
 // A child process that is ended in any case.
 class Child {
 public:
-    Child(const std::vector<std::string>& arguments, const File& output, const File& errors) {
+    Child(
+        const std::vector<std::string>& arguments, const ChildLimits& limits, const File& output,
+        const File& errors) {
         std::vector<char*> pointers;
         for (const std::string& argument : arguments)
-            pointers.push_back(const_cast<char*>(argument.c_str()));  // posix_spawn's interface
+            pointers.push_back(const_cast<char*>(argument.c_str()));  // execve's interface
         pointers.push_back(nullptr);
-        posix_spawn_file_actions_t actions;
-        posix_spawn_file_actions_init(&actions);
-        posix_spawn_file_actions_addopen(&actions, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
-        posix_spawn_file_actions_adddup2(&actions, output.get(), STDOUT_FILENO);
-        posix_spawn_file_actions_adddup2(&actions, errors.get(), STDERR_FILENO);
-        const int error =
-            posix_spawnp(&id_, pointers.front(), &actions, nullptr, pointers.data(), environ);
-        posix_spawn_file_actions_destroy(&actions);
-        if (error != 0) failWith(error, pointers.front());
+        const std::vector<char*> environment = environmentFor(limits);
+        const File rules = rulesFor(limits);
+        const File nothing(open("/dev/null", O_RDONLY | O_CLOEXEC));
+        Pipe failure;
+        const pid_t parent = getpid();
+        id_ = fork();
+        if (id_ < 0) failWith(errno, "fork");
+        if (id_ == 0) {  // only async-signal-safe calls: other threads may hold locks
+            limitForked(limits, limits.bytes, parent);
+            int error = 0;
+            if (dup2(nothing.get(), STDIN_FILENO) < 0 || dup2(output.get(), STDOUT_FILENO) < 0 ||
+                dup2(errors.get(), STDERR_FILENO) < 0)
+                error = errno;
+            if (rules.get() >= 0 && (prctl(PR_SET_NO_NEW_PRIVS, 1, 0, 0, 0) != 0 ||
+                                     syscall(SYS_landlock_restrict_self, rules.get(), 0) != 0))
+                error = errno;
+            if (error == 0) execvpe(pointers.front(), pointers.data(), environment.data());
+            if (error == 0) error = errno;
+            [[maybe_unused]] const ssize_t written =
+                write(failure.write.get(), &error, sizeof error);
+            _exit(127);
+        }
+        failure.write.close();
+        int error = 0;
+        ssize_t size = 0;
+        while ((size = read(failure.read.get(), &error, sizeof error)) < 0 && errno == EINTR) {
+        }
+        if (size != sizeof error) return;
+        wait();
+        failWith(error, pointers.front());
     }
     explicit Child(pid_t id) : id_(id) {}
     Child(const Child&) = delete;
     Child& operator=(const Child&) = delete;
     ~Child() {
         if (id_ <= 0) return;
-        kill(id_, SIGKILL);
+        kill(-id_, SIGKILL);
+        kill(id_, SIGKILL);  // it may have no group yet
         wait();
     }
 
-    // Returns the child's status as waitpid gives it.
-    int wait() {
+    // Returns the child's status as waitpid gives it. Calls `poll` while it waits.
+    int wait(const std::function<void()>& poll = {}) {
+        constexpr std::chrono::milliseconds kLook{5};
         int status = 0;
-        while (waitpid(id_, &status, 0) < 0 && errno == EINTR) {
+        for (;;) {
+            const pid_t ended = waitpid(id_, &status, poll ? WNOHANG : 0);
+            if (ended == id_ || (ended < 0 && errno != EINTR)) break;
+            if (!poll) continue;
+            poll();
+            std::this_thread::sleep_for(kLook);
         }
         id_ = 0;
         return status;
@@ -116,7 +253,7 @@ void drain(File& output, const Take& take, File& errors, std::string& text, cons
         std::array<pollfd, 2> ready{
             pollfd{output.get(), POLLIN, 0}, pollfd{errors.get(), POLLIN, 0}};
         const int count = poll(ready.data(), ready.size(), idle ? kPollInterval : -1);
-        if (count == 0 && idle) idle();
+        if (idle) idle();
         if (count <= 0) continue;
         for (std::size_t i = 0; i < ready.size(); ++i) {
             if (ready[i].revents == 0) continue;
@@ -147,19 +284,44 @@ std::string describe(int status) {
     return "ended with status " + std::to_string(WEXITSTATUS(status));
 }
 
-void run(const std::vector<std::string>& arguments, const Take& take, const Poll& idle = {}) {
+std::string describe(int status, const ChildLimits& limits) {
+    const bool by_signal = WIFSIGNALED(status);
+    if (by_signal && WTERMSIG(status) == SIGXCPU && limits.seconds > 0)
+        return "not done after " + std::to_string(limits.seconds) + " s of the processor";
+    return describe(status);
+}
+
+// Returns a poll that calls `poll`, and throws when the child has used up its wall-clock time.
+Poll timed(const ChildLimits& limits, const std::string& prefix, const Poll& poll) {
+    if (limits.seconds == 0) return poll;
+    const std::chrono::seconds most(60 + 10 * std::uint64_t{limits.seconds});
+    const auto end = std::chrono::steady_clock::now() + most;
+    return [=] {
+        if (poll) poll();
+        if (std::chrono::steady_clock::now() > end)
+            throw Error(prefix + "not done after " + std::to_string(most.count()) + " s");
+    };
+}
+
+void run(
+    const std::vector<std::string>& arguments, const ChildLimits& limits, const Take& take,
+    const Poll& poll = {}) {
     Pipe output;
     Pipe errors;
-    Child child(arguments, output.write, errors.write);
+    const std::string& program = arguments.front();
+    const Poll idle = timed(limits, program + " was ", poll);
+    Child child(arguments, limits, output.write, errors.write);
     output.write.close();
     errors.write.close();
     std::string text;
     drain(output.read, take, errors.read, text, idle);
-    const int status = child.wait();
+    const int status = child.wait(idle);
     checkInterrupted();  // a terminal's interrupt also ends the child
     if (WIFEXITED(status) && WEXITSTATUS(status) == 0) return;
     const std::string line = WIFEXITED(status) ? lastLine(text) : "";
-    throw Error(line.empty() ? arguments.front() + ' ' + describe(status) : line);
+    const std::string ended = describe(status, limits);
+    throw Error(
+        !line.empty() ? line : program + (ended.starts_with("not done") ? " was " : " ") + ended);
 }
 
 // ---- A fork of this process ---------------------------------------------------------------------
@@ -172,20 +334,13 @@ std::size_t addressSpace() {
     return count * static_cast<std::size_t>(sysconf(_SC_PAGESIZE));
 }
 
-void limit(__rlimit_resource resource, rlim_t value) {
-    rlimit limits{};
-    if (getrlimit(resource, &limits) != 0) return;
-    limits.rlim_cur = std::min(limits.rlim_max, value);
-    setrlimit(resource, &limits);
-}
-
 constexpr int kOutOfMemory = 12;  // exit status of the fork: ENOMEM
 
-[[noreturn]] void
-workAndEnd(const std::function<std::string()>& work, const ChildLimits& limits, int output) {
-    signal(SIGINT, SIG_IGN);  // from a terminal: the parent ends this child
+[[noreturn]] void workAndEnd(
+    const std::function<std::string()>& work, const ChildLimits& limits, int output, pid_t parent) {
+    limitForked(limits, addressSpace() + limits.bytes, parent);
+    signal(SIGINT, SIG_IGN);  // the parent ends this child
     signal(SIGXCPU, SIG_DFL);
-    limitSelf(limits);
     std::string bytes;
     try {
         bytes = work();
@@ -203,12 +358,10 @@ workAndEnd(const std::function<std::string()>& work, const ChildLimits& limits, 
     _exit(0);  // nothing of the parent's is destroyed
 }
 
-std::string describe(int status, const ChildLimits& limits) {
-    if (WIFSIGNALED(status) && WTERMSIG(status) == SIGXCPU)
-        return "not done after " + std::to_string(limits.seconds) + " s of the processor";
+std::string describeCopy(int status, const ChildLimits& limits) {
     if (WIFEXITED(status) && WEXITSTATUS(status) == kOutOfMemory)
         return "not done with " + std::to_string(limits.bytes >> 20) + " MiB of memory";
-    return describe(status);
+    return describe(status, limits);
 }
 
 }  // namespace
@@ -221,32 +374,39 @@ void limitSelf(const ChildLimits& limits) {
 
 std::string runApart(const std::function<std::string()>& work, const ChildLimits& limits) {
     Pipe output;
+    const pid_t parent = getpid();
     const pid_t id = fork();
     if (id < 0) failWith(errno, "fork");
-    if (id == 0) workAndEnd(work, limits, output.write.get());
+    if (id == 0) workAndEnd(work, limits, output.write.get(), parent);
     Child child(id);
     output.write.close();
     std::string bytes, none;
     File no_errors(-1);
-    drain(
-        output.read, [&](std::span<const char> part) { bytes.append(part.data(), part.size()); },
-        no_errors, none, checkInterrupted);
-    const int status = child.wait();
+    const Poll idle = timed(limits, "", checkInterrupted);
+    const Take take = [&](std::span<const char> part) {
+        if (part.size() > limits.output - bytes.size())
+            throw Error("more than " + std::to_string(limits.output) + " bytes came of it");
+        bytes.append(part.data(), part.size());
+    };
+    drain(output.read, take, no_errors, none, idle);
+    const int status = child.wait(idle);
     checkInterrupted();
     if (WIFEXITED(status) && WEXITSTATUS(status) == 0) return bytes;
-    throw Error(describe(status, limits));
+    throw Error(describeCopy(status, limits));
 }
 
-std::vector<std::byte> runTool(const std::vector<std::string>& arguments, std::size_t most) {
+std::vector<std::byte>
+runTool(const std::vector<std::string>& arguments, const ChildLimits& limits) {
     std::vector<std::byte> bytes;
     const Take take = [&](std::span<const char> part) {
         checkInterrupted();
-        if (part.size() > most - bytes.size())
-            throw Error(arguments.front() + " wrote more than " + std::to_string(most) + " bytes");
+        if (part.size() > limits.output - bytes.size())
+            throw Error(
+                arguments.front() + " wrote more than " + std::to_string(limits.output) + " bytes");
         const auto read = std::as_bytes(part);
         bytes.insert(bytes.end(), read.begin(), read.end());
     };
-    run(arguments, take, checkInterrupted);
+    run(arguments, limits, take, checkInterrupted);
     return bytes;
 }
 
@@ -256,7 +416,7 @@ void runTool(
     const std::function<void()>& poll) {
     std::string rest;
     run(
-        arguments,
+        arguments, {},
         [&](std::span<const char> part) {
             rest.append(part.data(), part.size());
             std::size_t begin = 0;

@@ -1,8 +1,10 @@
 #pragma once
 
 #include <cstddef>
+#include <filesystem>
 #include <functional>
 #include <limits>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -10,23 +12,30 @@
 // Runs other programs, and parts of this one, as child processes.
 namespace engine {
 
-// Runs a program without a shell and with empty input, and returns its stdout. Throws Error if it
-// fails, with the first 300 bytes of its last line on stderr, or with its exit status if it wrote
-// none. Throws std::system_error with std::errc::no_such_file_or_directory if there is no such
-// program. Output of more than `most` bytes ends the program and is an error too. An interrupt of
-// this process ends the program and throws Interrupted.
-std::vector<std::byte> runTool(
-    const std::vector<std::string>& arguments,
-    std::size_t most = std::numeric_limits<std::size_t>::max());
-
-// Limits on a child's resources.
+// Limits on a child's resources. Children are in process groups of their own. They end when the
+// thread that started them ends, even by a signal.
 struct ChildLimits {
-    unsigned seconds = 0;  // of CPU time
-    std::size_t bytes = 0;  // of memory, in addition to this process's
+    // Of CPU time; 0: unlimited. The limit on wall-clock time is ten times as long plus a minute.
+    unsigned seconds = 0;
+    // Of memory; 0: unlimited. For a fork of this process, in addition to this process's.
+    std::size_t bytes = 0;
+    std::size_t output = std::numeric_limits<std::size_t>::max();  // bytes on stdout
+    // The only files and folders that a program may read, apart from the system's. It may write
+    // none, and gets only the environment variables in kToolVariables. Without Landlock
+    // (Linux 5.13) the kernel does not enforce the files. Absent: any file and variable.
+    std::optional<std::vector<std::filesystem::path>> reads{};
 };
 
-// Sets these limits for this process from now on.
+// Sets the limits on CPU time and memory for this process from now on.
 void limitSelf(const ChildLimits& limits);
+
+// Runs a program without a shell and with empty input, and returns its stdout. Throws Error if it
+// fails, with the first 300 bytes of its last line on stderr, or with its name and exit status if
+// it wrote none. Throws std::system_error with std::errc::no_such_file_or_directory if there is no
+// such program. Output over the limit ends the program and is an error too. An interrupt of this
+// process ends the program and throws Interrupted.
+std::vector<std::byte>
+runTool(const std::vector<std::string>& arguments, const ChildLimits& limits = {});
 
 // Runs `work` in a fork of this process and returns its result. For work that may never end,
 // exhaust memory or crash. The fork has only the calling thread, so `work` must wait for no other
@@ -35,8 +44,8 @@ void limitSelf(const ChildLimits& limits);
 std::string runApart(const std::function<std::string()>& work, const ChildLimits& limits);
 
 // Runs a program as the function above does, except for interrupts. Passes each line of its stdout
-// to `each_line`, without the line end, as soon as it is complete. Calls `poll` about ten times a
-// second while there is no output. An exception from either ends the program.
+// to `each_line`, without the line end, as soon as it is complete. Calls `poll` at least ten times
+// a second. An exception from either ends the program.
 void runTool(
     const std::vector<std::string>& arguments,
     const std::function<void(std::string_view line)>& each_line,

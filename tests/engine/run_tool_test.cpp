@@ -1,15 +1,23 @@
 #include "engine/run_tool.h"
 
+#include <atomic>
+#include <chrono>
+#include <csignal>
+#include <cstdlib>
+#include <fstream>
 #include <string>
 #include <system_error>
+#include <thread>
 
-#include <atomic>
-#include <csignal>
-
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <linux/landlock.h>
+#include <sys/syscall.h>
+#include <sys/wait.h>
 #include <unistd.h>
 
 #include "tests/error_text.h"
+#include "tests/temporary_folder.h"
 
 namespace engine {
 namespace {
@@ -77,10 +85,10 @@ TEST(RunTool, TakesMuchOnBothOutputs) {
 // Without the limit, this would never end.
 TEST(RunTool, EndsWhatWritesTooMuch) {
     const auto most = [](std::size_t bytes) {
-        return errorText([&] { runTool({"cat", "/dev/zero"}, bytes); });
+        return errorText([&] { runTool({"cat", "/dev/zero"}, {.output = bytes}); });
     };
     EXPECT_EQ(most(1000000), "cat wrote more than 1000000 bytes");
-    EXPECT_EQ(runTool({"printf", "four"}, 4).size(), 4u);
+    EXPECT_EQ(runTool({"printf", "four"}, {.output = 4}).size(), 4u);
 }
 
 TEST(RunTool, HandsOverLines) {
@@ -125,6 +133,91 @@ TEST(RunTool, FailsWithTheLastLine) {
     EXPECT_EQ(failure("echo first >&2; echo 'the reason' >&2; echo; exit 3"), "the reason");
     EXPECT_EQ(failure("exit 3"), "sh ended with status 3");
     EXPECT_EQ(failure("echo words >&2; kill -SEGV $$"), "sh ended by signal 11");
+}
+
+TEST(RunTool, EndsWhatTakesTooMuchOfTheProcessor) {
+    EXPECT_EQ(
+        errorText([] { runTool({"sh", "-c", "while :; do :; done"}, {.seconds = 1}); }),
+        "sh was not done after 1 s of the processor");
+}
+
+#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
+TEST(RunTool, GivesNoMoreMemoryThanIsAllowed) {
+    const std::string grow = "x=1234567890123456; while :; do x=$x$x; done";
+    EXPECT_NE(
+        errorText(
+            [&] { runTool({"sh", "-c", grow}, {.seconds = 10, .bytes = std::size_t{64} << 20}); }),
+        "sh was not done after 10 s of the processor");
+}
+#endif
+
+// prctl(2), PR_SET_PDEATHSIG. Otherwise the child of a killed program would run on for a minute.
+TEST(RunTool, EndsTheProgramWithItsParent) {
+    const TemporaryFolder folder;
+    const std::string script = "echo $$ >'" + folder.file("child").string() + "'; exec sleep 60";
+    const pid_t parent = fork();
+    if (parent == 0) {
+        try {
+            runTool({"sh", "-c", script});
+        } catch (...) {
+        }
+        _exit(0);
+    }
+    const auto waitFor = [](const auto& done) {
+        for (int i = 0; i < 500 && !done(); ++i)
+            std::this_thread::sleep_for(std::chrono::milliseconds(20));
+        return done();
+    };
+    pid_t child = 0;
+    ASSERT_TRUE(waitFor([&] { return bool(std::ifstream(folder.file("child")) >> child); }));
+    EXPECT_EQ(kill(child, 0), 0);
+    EXPECT_EQ(getpgid(child), child);  // a group of its own
+    kill(parent, SIGKILL);
+    waitpid(parent, nullptr, 0);
+    const auto isGone = [&] {
+        char state = 'X';  // an orphan that nobody waits for stays a zombie
+        std::string stat = textOf("/proc/" + std::to_string(child) + "/stat");
+        if (const auto end = stat.rfind(") "); end != std::string::npos) state = stat[end + 2];
+        return state == 'X' || state == 'Z';
+    };
+    EXPECT_TRUE(waitFor(isGone));
+}
+
+TEST(RunTool, GivesVariablesOfAListAlone) {
+    setenv("HAIRBENCH_SECRET", "mine", 1);
+    const auto seen = [](const ChildLimits& limits) {
+        const auto bytes = runTool({"env"}, limits);
+        return std::string(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+    };
+    EXPECT_THAT(seen({}), testing::HasSubstr("HAIRBENCH_SECRET=mine"));
+    EXPECT_THAT(
+        seen({.reads = std::vector<std::filesystem::path>{}}),
+        testing::AllOf(
+            testing::HasSubstr("PATH="), testing::Not(testing::HasSubstr("HAIRBENCH_SECRET"))));
+    unsetenv("HAIRBENCH_SECRET");
+}
+
+// landlock(7).
+TEST(RunTool, OpensOnlyWhatItMayRead) {
+    if (syscall(SYS_landlock_create_ruleset, nullptr, 0, LANDLOCK_CREATE_RULESET_VERSION) < 1)
+        GTEST_SKIP() << "this kernel has no Landlock";
+    const TemporaryFolder folder;
+    const std::string inside = folder.write("own/a.txt", "inside").string();
+    const std::string outside = folder.write("b.txt", "outside").string();
+    std::filesystem::create_symlink("../b.txt", folder.file("own/link"));
+    const auto cat = [&](const std::string& file) {
+        return runTool(
+                   {"cat", file}, {.reads = std::vector<std::filesystem::path>{folder.file("own")}})
+            .size();
+    };
+    EXPECT_EQ(cat(inside), 6u);
+    EXPECT_THROW(cat(outside), Error);
+    EXPECT_THROW(cat(folder.file("own/link").string()), Error);
+    EXPECT_THROW(
+        runTool(
+            {"touch", folder.file("own/new").string()},
+            {.reads = std::vector<std::filesystem::path>{folder.file("own")}}),
+        Error);
 }
 
 TEST(RunTool, SaysThatThereIsNoSuchProgram) {
