@@ -84,7 +84,9 @@ void tintScalp(hair::groom::Mesh& mesh, const std::string& scalp, float own) {
 
 // Returns a check of the files that `owner` names.
 hair::groom::NamedFileCheck checkOf(const Reach& reach, const std::filesystem::path& owner) {
-    return [&reach, owner](const std::filesystem::path& file) { reach.check(file, owner); };
+    return {
+        [&reach, owner](const std::filesystem::path& file) { reach.check(file, owner); },
+        reach.folders(owner)};
 }
 
 hair::groom::Mesh

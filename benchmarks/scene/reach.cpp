@@ -107,6 +107,12 @@ void Reach::check(const fs::path& file, const fs::path& owner) const {
     if (!isBelow(placeOf(file), placeOf(owner).parent_path())) check(file);
 }
 
+std::vector<fs::path> Reach::folders(const fs::path& owner) const {
+    std::vector<fs::path> all = folders_;
+    if (!all.empty()) all.push_back(placeOf(owner).parent_path());
+    return all;
+}
+
 namespace {
 
 // ---- Names of files -----------------------------------------------------------------------------

@@ -41,6 +41,10 @@ public:
     // to it.
     void check(const std::filesystem::path& file, const std::filesystem::path& owner) const;
 
+    // Returns the canonical folders in which the files that `owner` names may be; empty:
+    // everywhere.
+    std::vector<std::filesystem::path> folders(const std::filesystem::path& owner) const;
+
 private:
     std::vector<std::filesystem::path> folders_;  // canonical; empty: every file is allowed
 };

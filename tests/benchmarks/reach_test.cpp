@@ -172,6 +172,14 @@ TEST_F(SceneReach, IsThatOfFilesThatFilesName) {
         AllOf(StartsWith("in/m.obj: "), HasSubstr("skin.png: lies outside of")));
 }
 
+// Another program opens the materials.
+TEST_F(SceneReach, IsThatOfMaterialsToo) {
+    folder.write("private/a.mtl", "newmtl a\nKd 1 0 0\n");
+    folder.write("in/a.obj", std::string("mtllib ../private/a.mtl\n") + kTetrahedron);
+    EXPECT_THAT(error(fieldOf("a.obj")), HasSubstr("lies outside of the scene's folder"));
+    EXPECT_EQ(error(fieldOf("a.obj"), scene::Outside::allowed), "no error");
+}
+
 // The user may name any file on the command line.
 TEST_F(SceneReach, IsNotThatOfTheCommandLine) {
     const fs::path path =

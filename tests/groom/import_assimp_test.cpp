@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <map>
 #include <span>
 #include <sstream>
@@ -7,6 +8,7 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <gmock/gmock.h>
+#include <sys/stat.h>
 
 #include "hair/groom/mesh/import_mesh.h"
 #include "hair/groom/mesh/mesh_stream.h"
@@ -338,6 +340,51 @@ TEST(ImportAssimp, RefusesWhatItsReaderDiesOf) {
         EXPECT_EQ(text.find('\n'), std::string::npos) << text;
         EXPECT_LT(text.size(), 400u) << text;
     }
+}
+
+// Assimp's time to triangulate a face grows with the square of its corners: 4e8 steps here.
+TEST(ImportAssimp, RefusesFacesThatTakeTooLongToCut) {
+    const TemporaryFolder folder;
+    std::string text, face = "f";
+    for (int i = 1; i <= 20000; ++i) {
+        text += "v " + std::to_string(i) + ' ' + std::to_string(i % 7) + " 0\n";
+        face += ' ' + std::to_string(i);
+    }
+    const auto path = folder.write("a.obj", text + face + '\n');
+    EXPECT_EQ(
+        errorText([&] { importMesh(path); }),
+        path.string() + ": face 0 has 20000 corners: faces with so many would take minutes to cut "
+                        "into triangles");
+}
+
+// Files that a mesh names must be in its folders, and a pipe must not wait for its writer.
+TEST(ImportAssimp, OpensFilesOfItsFoldersAlone) {
+    const TemporaryFolder folder;
+    const std::string text = std::string("mtllib ") + "NAME" + "\n" + kObj;
+    folder.write("private.mtl", "newmtl scalp\nKd 1 0 0\n");
+    folder.write("in/own.mtl", "newmtl scalp\nKd 1 0 0\n");
+    std::filesystem::create_symlink("../private.mtl", folder.file("in/link.mtl"));
+    ASSERT_EQ(mkfifo(folder.file("in/pipe.mtl").c_str(), 0600), 0);
+    const auto errorOf = [&](const std::string& name, const NamedFileCheck& check) {
+        std::string mesh = text;
+        mesh.replace(mesh.find("NAME"), 4, name);
+        const auto path = folder.write("in/a.obj", mesh);
+        return errorText([&] { importMesh(path, Textures::skipped, check); });
+    };
+    const NamedFileCheck check(
+        [](const std::filesystem::path&) {}, {std::filesystem::canonical(folder.file("in"))});
+    EXPECT_EQ(errorOf("own.mtl", check), "no error");
+    for (const NamedFileCheck& all :
+         {NamedFileCheck(), NamedFileCheck([](const std::filesystem::path&) {})}) {
+        EXPECT_EQ(errorOf("../private.mtl", all), "no error");
+        const Mesh mesh = importMesh(folder.file("in/a.obj"), Textures::skipped, all);
+        EXPECT_TRUE(std::ranges::any_of(mesh.materials, [](const Material& each) {
+            return each.base_color == glm::vec3(1, 0, 0);
+        }));
+    }
+    for (const char* name : {"../private.mtl", "link.mtl"})
+        EXPECT_THAT(errorOf(name, check), HasSubstr("lies outside of the scene's folder")) << name;
+    EXPECT_THAT(errorOf("pipe.mtl", {}), HasSubstr("pipe.mtl: not a file"));
 }
 
 // If a face names the vertex after the last, assimp makes a triangle with the memory behind the

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <bit>
 #include <cassert>
 #include <cstddef>
@@ -20,6 +21,34 @@
 namespace hair::groom {
 
 static_assert(std::endian::native == std::endian::little, "files are read as they lie in memory");
+
+// Bounds the bytes that a file unfolds to, by shared or compressed data, in proportion to its size.
+// Counted before they are made, so that a small file can't take all memory.
+class Unfolding {
+public:
+    // `file_size` is in bytes and includes the files that it names.
+    explicit Unfolding(std::uint64_t file_size) : most_(kAnyway + kTimes * file_size) {}
+
+    // Adds a file of this size.
+    void allow(std::uint64_t file_size) { most_ += kTimes * file_size; }
+
+    // Counts `bytes` more. `what` names them in the error, e.g. "the arrays". Throws engine::Error.
+    void add(std::uint64_t bytes, std::string_view what) {
+        bytes_ += std::min(bytes, most_ + 1);
+        if (bytes_ <= most_) return;
+        throw engine::Error(
+            std::string(what) + " unfold to more than " + std::to_string(most_ >> 20) +
+            " MiB, which is " + std::to_string(kTimes) + " times the file's size and " +
+            std::to_string(kAnyway >> 20) + " MiB");
+    }
+
+private:
+    static constexpr std::uint64_t kAnyway = std::uint64_t{32} << 20;
+    static constexpr std::uint64_t kTimes = 16;
+
+    std::uint64_t most_;
+    std::uint64_t bytes_ = 0;
+};
 
 [[noreturn]] inline void failAt(std::uint64_t byte, const std::string& reason) {
     throw engine::Error("byte " + std::to_string(byte), reason);

@@ -178,7 +178,8 @@ private:
 // The arrays of a scene, which are in it or in the binary file beside it.
 class EmbreeArrays {
 public:
-    explicit EmbreeArrays(std::filesystem::path path) : path_(std::move(path)) {}
+    EmbreeArrays(const StrandFile& file, Unfolding& unfolding)
+        : path_(file.path), check_(file.check), unfolding_(unfolding) {}
 
     // Returns vectors, which may have NaNs.
     std::vector<glm::vec4> vectors(const XmlElement& element) {
@@ -272,6 +273,7 @@ private:
             failAtLine(
                 element.line, "truncated: the file of bytes beside the scene has " +
                                   std::to_string(bytes.size()) + " of them");
+        unfolding_.add(size * each * sizeof(Value), "arrays in the file of bytes");
         return arrayAt<Value>(bytes, start, size * each);
     }
 
@@ -282,10 +284,15 @@ private:
         std::filesystem::path beside = path_;
         beside.replace_extension(".bin");
         if (!std::filesystem::exists(beside)) beside = path_.string() + ".bin";
-        return bytes_.emplace(engine::readFile(beside));
+        if (check_) check_(beside);
+        bytes_.emplace(engine::readFile(beside));
+        unfolding_.allow(bytes_->size());
+        return *bytes_;
     }
 
     std::filesystem::path path_;
+    NamedFileCheck check_;
+    Unfolding& unfolding_;
     std::optional<std::string> bytes_;  // of the file beside the scene, once it is needed
 };
 
@@ -331,7 +338,8 @@ struct EmbreeStrand {
 
 class EmbreeScene {
 public:
-    explicit EmbreeScene(const StrandFile& file) : arrays_(file.path) {}
+    explicit EmbreeScene(const StrandFile& file)
+        : unfolding_(file.bytes.size()), arrays_(file, unfolding_) {}
 
     StrandSet read(const XmlElement& root) {
         if (root.name != "scene")
@@ -395,11 +403,11 @@ private:
     // Counts the bytes that references read again, because a small scene could otherwise stand for
     // an endless one.
     void repeated(const XmlElement& element, std::size_t bytes) {
-        repeated_ += bytes;
-        if (repeated_ > kMostRepeated)
-            failAtLine(
-                element.line, "what the scene refers to has more than 256 MB, each as often "
-                              "as it is referred to");
+        try {
+            unfolding_.add(bytes, "the scene's references");
+        } catch (const engine::Error& error) {
+            failAtLine(element.line, error.what());
+        }
     }
 
     // Defines nodes for later references, without placing them.
@@ -554,7 +562,6 @@ private:
         const EmbreeBasis& basis = basisOf(element, row);
         std::vector<glm::vec4> positions = positionsOf(element);
         if (basis.name == kHermite) positions = withTangents(element, positions);
-        if (references_ > 0) repeated(element, positions.size() * sizeof(glm::vec4));
         const std::vector<EmbreeStrand> strands =
             strandsOf(element, basis, row.has_pairs, positions.size());
         std::uint32_t pieces = 1;  // between the ends of a segment
@@ -563,9 +570,11 @@ private:
             const std::uint32_t vertices = basis.vertices + (strand.segments - 1) * basis.step;
             pieces = std::max(pieces, (vertices - 1 + strand.segments - 1) / strand.segments);
         }
-        std::uint64_t points = set_.points.size();
+        std::uint64_t added = 0;
         for (const EmbreeStrand& strand : strands)
-            points += std::uint64_t{strand.segments} * pieces + 1;
+            added += std::uint64_t{strand.segments} * pieces + 1;
+        if (references_ > 0) repeated(element, added * kBytesOfPoint);
+        const std::uint64_t points = set_.points.size() + added;
         if (points > std::numeric_limits<std::uint32_t>::max())
             failAtLine(element.line, "the strands have 2^32 points, or more");
         for (const EmbreeStrand& strand : strands) {
@@ -620,12 +629,12 @@ private:
     }
 
     static constexpr int kMostReferences = 64;
-    static constexpr std::size_t kMostRepeated = 256'000'000;
+    static constexpr std::size_t kBytesOfPoint = sizeof(glm::vec3) + sizeof(float);
 
+    Unfolding unfolding_;
     EmbreeArrays arrays_;
     std::map<std::string_view, std::vector<const XmlElement*>> named_;
     int references_ = 0;  // references around the node
-    std::size_t repeated_ = 0;  // bytes
     std::size_t not_numbers_ = 0;
     std::set<std::string_view> left_out_;
     StrandSet set_;

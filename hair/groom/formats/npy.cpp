@@ -384,8 +384,16 @@ std::vector<ZipMember> readMembers(std::span<const std::byte> bytes) {
     const ZipDirectory directory = readDirectory(bytes);
     std::vector<ZipMember> members;
     std::uint64_t at = directory.start;
-    for (std::uint16_t i = 0; i < directory.members; ++i)
+    std::uint64_t packed = 0;
+    for (std::uint16_t i = 0; i < directory.members; ++i) {
+        const std::uint64_t record = at;
         members.push_back(readMember(bytes, directory, at));
+        packed += kLocalSize + members.back().contents.size();
+        if (packed > directory.start)
+            failAt(
+                record + 42, inQuotes(members.back().name) + " shares its bytes with others: all "
+                                                             "members have more than there are");
+    }
     if (at != directory.end) failAt(at, "more in the directory than it says");
     return members;
 }
@@ -433,7 +441,12 @@ InflatedBytes inflatedOf(const ZipMember& member) {
 
 // Calls `read` with the member's array. Errors begin with the byte of the member.
 template <class Read>
-void withArray(const ZipMember& member, const Read& read) {
+void withArray(const ZipMember& member, Unfolding& unfolding, const Read& read) {
+    try {
+        unfolding.add(member.size, "the archive's arrays");
+    } catch (const engine::Error& error) {
+        failAt(member.start, error.what());
+    }
     InflatedBytes inflated;
     std::span<const std::byte> bytes = member.contents;
     if (member.method == kDeflated) {
@@ -531,24 +544,24 @@ const ZipMember* memberNamed(std::span<const ZipMember> members, std::string_vie
     return at == members.end() ? nullptr : &*at;
 }
 
-bool isStrands(const ZipMember& member) {
+bool isStrands(const ZipMember& member, Unfolding& unfolding) {
     if (!member.name.ends_with(kNpyExtension)) return false;
     bool is_strands = false;
-    withArray(member, [&](const NpyArray& array) {
+    withArray(member, unfolding, [&](const NpyArray& array) {
         is_strands = isFloat(array.type) && array.shape.size() == 3 && array.shape[2] == 3;
     });
     return is_strands;
 }
 
 // Returns the member with the positions: by its name, or the only one of their shape.
-const ZipMember& positionsOf(std::span<const ZipMember> members) {
+const ZipMember& positionsOf(std::span<const ZipMember> members, Unfolding& unfolding) {
     if (const ZipMember* named = memberNamed(members, kPositions)) return *named;
     std::string names;
     const ZipMember* found = nullptr;
     std::size_t count = 0;
     for (const ZipMember& member : members) {
         names.append(names.empty() ? "" : ", ").append(inQuotes(keyOf(member)));
-        if (!isStrands(member)) continue;
+        if (!isStrands(member, unfolding)) continue;
         found = &member;
         ++count;
     }
@@ -726,9 +739,10 @@ StrandSet importNpy(const StrandFile& file) { return strandsOf(readNpy(file.byte
 
 StrandSet importNpz(const StrandFile& file) {
     const std::vector<ZipMember> members = readMembers(file.bytes);
-    const ZipMember& positions = positionsOf(members);
+    Unfolding unfolding(file.bytes.size());
+    const ZipMember& positions = positionsOf(members, unfolding);
     StrandSet set;
-    withArray(positions, [&](const NpyArray& array) { set = strandsOf(array); });
+    withArray(positions, unfolding, [&](const NpyArray& array) { set = strandsOf(array); });
     std::string skipped;
     for (const ZipMember& member : members) {
         if (&member == &positions) continue;
@@ -739,7 +753,7 @@ StrandSet importNpz(const StrandFile& file) {
             skipped.append(skipped.empty() ? "" : ", ").append(inQuotes(keyOf(member)));
             continue;
         }
-        withArray(member, [&](const NpyArray& array) {
+        withArray(member, unfolding, [&](const NpyArray& array) {
             row->read(array, {set, set.strandCount(), set.ends.front()});
         });
     }

@@ -15,11 +15,132 @@ import sys
 
 try:
     import numpy as np
-    from pxr import Tf, Usd, UsdGeom
+    from pxr import Ar, Sdf, Tf, Usd, UsdGeom
 
     from usd_prim import Prim, Refused
 except ImportError as error:
     sys.exit(f"{error}: this Python lacks what requirements.txt names")
+
+
+MOST_PRIMS = 50_000  # of a stage, plus one for each 16 bytes of its files
+MOST_UNFOLDED = 32 << 20  # bytes of points, plus 16 times the size of its files
+
+
+class Layers:
+    """The layers of a stage, each checked before it is opened; `size` is that of all files in bytes.
+    With links resolved, files must be in the folders `below`; without folders they may be anywhere."""
+
+    def __init__(self, path, below):
+        self.below = [folder.rstrip("/") + "/" for folder in below]
+        self.size = 0
+        self.counts = {}  # prims that a spec composes to, by layer and path
+        self.layers = {}
+        waiting = [os.path.abspath(path)]
+        while waiting:
+            name = waiting.pop()
+            if name in self.layers:
+                continue
+            self._check(name)
+            layer = Sdf.Layer.FindOrOpen(name)
+            self.layers[name] = layer
+            if not layer:
+                continue
+            assets = list(layer.GetCompositionAssetDependencies()) + self._clips(layer)
+            waiting += [Sdf.ComputeAssetPathRelativeToLayer(layer, asset) for asset in assets if asset]
+
+    def _check(self, name):
+        file = Ar.SplitPackageRelativePathOuter(name)[0]
+        real = os.path.realpath(file)
+        if self.below and not any(real.startswith(folder) for folder in self.below):
+            raise Refused(
+                f"{file}: lies outside of the scene's folder: where that is meant, "
+                "--allow-outside opens it"
+            )
+        if not os.path.exists(real):
+            return  # USD reports it
+        if not os.path.isfile(real):
+            raise Refused(f"{file}: not a file")
+        self.size += os.path.getsize(real)
+
+    @staticmethod
+    def _clips(layer):
+        """Returns the assets of value clips, which USD opens when values are read."""
+        assets = []
+
+        def visit(path):
+            prim = layer.GetPrimAtPath(path) if path.IsPrimPath() else None
+            for clip in dict(prim.GetInfo("clips")).values() if prim and prim.HasInfo("clips") else ():
+                if "templateAssetPath" in clip:
+                    raise Refused(f"{path}: value clips by a template are not read")
+                assets.append(clip.get("manifestAssetPath", Sdf.AssetPath()).path)
+                assets.extend(asset.path for asset in clip.get("assetPaths", ()))
+
+        layer.Traverse(Sdf.Path.absoluteRootPath, visit)
+        return assets
+
+    def check_prims(self, path):
+        """Refuses nested references that make too many prims for the size of the files."""
+        root = self.layers[os.path.abspath(path)]
+        try:
+            count = sum(self._count(root, prim.path) for prim in root.rootPrims) if root else 0
+        except RecursionError:
+            raise Refused("prims and references are nested too deep") from None
+        if count > MOST_PRIMS + self.size // 16:
+            raise Refused(
+                f"its references stand for {count:.3g} prims, more than {MOST_PRIMS} and one for "
+                "each 16 bytes"
+            )
+
+    def _count(self, layer, path):
+        key = (layer.identifier, str(path))
+        if key in self.counts:
+            return self.counts[key]
+        self.counts[key] = 0  # USD refuses a spec that refers to itself
+        spec = layer.GetPrimAtPath(path)
+        if not spec:
+            return 0
+        count = 1 + sum(self._count(layer, child.path) for child in spec.nameChildren)
+        for variants in spec.variantSets:
+            count += sum(
+                self._count(layer, variant.primSpec.path) for variant in variants.variants.values()
+            )
+        for arcs in (spec.referenceList, spec.payloadList):
+            for arc in arcs.GetAddedOrExplicitItems():
+                target = layer
+                if arc.assetPath:
+                    name = Sdf.ComputeAssetPathRelativeToLayer(layer, arc.assetPath)
+                    target = self.layers.get(name)
+                if not target:
+                    continue
+                prim = arc.primPath or Sdf.Path.absoluteRootPath.AppendChild(target.defaultPrim or "_")
+                count += self._count(target, prim)
+        for arcs in (spec.inheritPathList, spec.specializesList):
+            count += sum(self._count(layer, arc) for arc in arcs.GetAddedOrExplicitItems())
+        self.counts[key] = count
+        return count
+
+
+class Unfolded:
+    """The bytes of all prims of a stage together, bounded by the size of its files."""
+
+    def __init__(self, size):
+        self.most = MOST_UNFOLDED + 16 * size
+        self.bytes = 0
+
+    def add(self, array):
+        self.bytes += array.nbytes
+        if self.bytes > self.most:
+            raise Refused(
+                f"its instances unfold to more than {self.most >> 20} MiB, which is 16 times its "
+                f"files' size and {MOST_UNFOLDED >> 20} MiB"
+            )
+
+
+def open_stage(path, below):
+    """Returns the stage, and an Unfolded to count its points."""
+    layers = Layers(path, below)
+    layers.check_prims(path)
+    return Usd.Stage.Open(path), Unfolded(layers.size)
 
 
 class Xforms:
@@ -48,8 +169,8 @@ def metres_per_unit_of(stage):
 class Reader:
     """Reads a stage: `prims`, `metres_per_unit`, `comment`, `warnings`."""
 
-    def __init__(self, path):
-        self.stage = Usd.Stage.Open(path)
+    def __init__(self, path, below):
+        self.stage, unfolded = open_stage(path, below)
         errors = self.stage.GetCompositionErrors()
         self.warnings = [" ".join(str(error).split()) for error in errors]
         self.comment = self.stage.GetRootLayer().documentation
@@ -63,6 +184,7 @@ class Reader:
                 walk.PruneChildren()
             elif prim.IsA(UsdGeom.BasisCurves):
                 self.prims.append(Prim(prim, xforms))
+                unfolded.add(self.prims[-1].points)
                 left_out |= self.prims[-1].left_out()
                 self._warn_of_samples(prim)
             elif prim.IsA(UsdGeom.Curves):
@@ -112,10 +234,10 @@ class Reader:
         ]
 
 
-def read(path):
+def read(path, below=()):
     """Returns a Reader. Raises Refused for every fault of the file."""
     try:
-        return Reader(path)
+        return Reader(path, below)
     except (Tf.ErrorException, UnicodeDecodeError) as error:
         raise Refused(words_of(error, path)) from None
 
@@ -145,7 +267,9 @@ def main():
     stream = open_stream()
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("stage", help=".usd, .usda, .usdc, .usdz")
-    reader = read(parser.parse_args().stage)
+    parser.add_argument("--below", action="append", default=[], help="a folder of files it may name")
+    options = parser.parse_args()
+    reader = read(options.stage, options.below)
     arrays = [
         joined([prim.sizes for prim in reader.prims], "<u4"),
         joined(reader.points(), "<f4"),

@@ -1,8 +1,11 @@
 #include "hair/groom/formats/usd_import.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <cstdlib>
+#include <iterator>
 #include <limits>
 #include <system_error>
 #include <utility>
@@ -141,25 +144,70 @@ std::vector<std::string> linesOf(const std::string& text) {
 
 // ---- The tools ----------------------------------------------------------------------------------
 
-// Runs a script with these arguments, and returns its output, read by `parse`.
+enum class Samples { none, all };  // over time
+
+// Returns limits for a stage of `size` bytes. Importing USD's libraries takes a second, and a few
+// megabytes of a text stage take another. With samples over time a small file can mean much work,
+// because a skeleton moves every vertex.
+engine::ChildLimits limitsFor(std::uintmax_t size, Samples samples) {
+    const bool is_one = samples == Samples::none;
+    return {
+        .seconds = static_cast<unsigned>((is_one ? 20 : 120) + size / (is_one ? 500'000 : 100'000)),
+        .bytes = (std::size_t{is_one ? 4u : 8u} << 30) + 64 * size,
+        .output = is_one ? (std::size_t{64} << 20) + 64 * size : std::size_t{3} << 30};
+}
+
+// Returns the folders with the interpreter's libraries: its environment and the installation that
+// the environment was made from.
+std::vector<std::filesystem::path> librariesOf(const std::filesystem::path& interpreter) {
+    std::error_code error;
+    std::vector<std::filesystem::path> all{interpreter.parent_path().parent_path()};
+    const auto real = std::filesystem::canonical(interpreter, error);
+    if (!error && real.parent_path().has_relative_path())
+        all.push_back(real.parent_path().parent_path());
+    if (const char* home = std::getenv("HOME"); home && *home)
+        all.push_back(std::filesystem::path(home) / ".local/lib");
+    std::erase_if(all, [](const auto& each) { return !each.has_relative_path(); });
+    return all;
+}
+
+// Runs a script on the file, and returns its output, read by `parse`.
 template <class Parse>
 auto readStage(
-    const std::string& tool, const std::vector<std::string>& options,
-    const std::filesystem::path& path, const Parse& parse) {
+    const std::string& tool, Samples samples, const std::filesystem::path& path,
+    const NamedFileCheck& check, const Parse& parse) {
     // -B writes no byte code beside the tool, -E ignores environment variables of Python.
     // An absolute path can't be taken for an option.
-    std::vector<std::string> command(1, engine::pythonInterpreter("python", "HAIRBENCH_PYTHON"));
-    for (const char* option : {"-B", "-E"}) command.emplace_back(option);
-    command.push_back(engine::programFile("hair/groom/formats/" + tool).string());
-    for (const std::string& option : options) command.push_back(option);
+    const std::string python = engine::pythonInterpreter("python", "HAIRBENCH_PYTHON");
+    const std::filesystem::path script = engine::programFile("hair/groom/formats/" + tool);
+    std::vector<std::string> command{python, "-B", "-E", script.string()};
+    if (samples == Samples::all) command.emplace_back("--samples");
+    for (const std::filesystem::path& folder : check.folders())
+        command.push_back("--below=" + folder.string());
     command.push_back(std::filesystem::absolute(path).string());
+    std::error_code unknown;
+    const std::uintmax_t size = std::filesystem::file_size(path, unknown);
+    engine::ChildLimits limits = limitsFor(unknown ? 0 : size, samples);
+#ifdef HAIRBENCH_SANITIZE
+    limits.bytes = 0;
+#endif
+    limits.reads = readsOf(check);
+    std::ranges::move(librariesOf(python), std::back_inserter(*limits.reads));
+    limits.reads->push_back(script.parent_path());
     std::vector<std::byte> bytes;
     try {
-        bytes = engine::runTool(command);
+        bytes = engine::runTool(command, limits);
     } catch (const std::system_error& error) {
+        if (error.code() != std::errc::no_such_file_or_directory)
+            throw engine::Error(
+                "the program that reads USD can't be started: " + error.code().message());
         throw engine::Error(
             "reading USD needs the project's Python environment: run " +
             engine::makesPythonEnvironment("python") + " (" + error.what() + ')');
+    } catch (const engine::Error& error) {
+        const std::string reason = error.what();
+        if (!reason.starts_with(python)) throw;
+        throw engine::Error("usd-core, which reads it," + reason.substr(python.size()));
     }
     try {
         return parse(std::span<const std::byte>(bytes));
@@ -207,34 +255,35 @@ StrandSet readUsdStream(std::span<const std::byte> bytes) {
 StrandSet importUsd(const StrandFile& file) {
     if (file.path.empty())
         throw engine::Error("USD can be read from a file alone, not from memory");
-    return readStage("usd_curves.py", {}, file.path, readUsdStream);
+    return readStage("usd_curves.py", Samples::none, file.path, file.check, readUsdStream);
 }
 
 // ---- Meshes -------------------------------------------------------------------------------------
 
-Mesh importUsdMesh(const std::filesystem::path& path, Textures, const NamedFileCheck&) {
-    return readStage("usd_mesh.py", {}, path, [](std::span<const std::byte> bytes) {
-        return readMeshStream(bytes).mesh;
-    });
+Mesh importUsdMesh(const std::filesystem::path& path, Textures, const NamedFileCheck& check) {
+    return readStage(
+        "usd_mesh.py", Samples::none, path, check,
+        [](std::span<const std::byte> bytes) { return readMeshStream(bytes).mesh; });
 }
 
-UsdSamples readUsdSamples(const std::filesystem::path& path) {
-    return readStage("usd_mesh.py", {"--samples"}, path, [](std::span<const std::byte> bytes) {
-        UsdSamples samples;
-        MeshParser parser(bytes);
-        parser.array(samples.times);
-        parser.array(samples.positions);
-        parser.end();
-        const std::size_t count = samples.times.size();
-        if (count == 0 ? !samples.positions.empty() : samples.positions.size() % count != 0)
-            failAt(8 * count + 8, "positions of some of the vertices");
-        for (std::size_t i = 0; i < count; ++i)
-            if (!(i == 0 ? samples.times[i] == 0.0 : samples.times[i] > samples.times[i - 1]) ||
-                !std::isfinite(samples.times[i]))
-                failAt(8 * i + 8, "times don't ascend from 0");
-        requireFinite(samples.positions, 8 * count + 16, "position");
-        return samples;
-    });
+UsdSamples readUsdSamples(const std::filesystem::path& path, const NamedFileCheck& check) {
+    return readStage(
+        "usd_mesh.py", Samples::all, path, check, [](std::span<const std::byte> bytes) {
+            UsdSamples samples;
+            MeshParser parser(bytes);
+            parser.array(samples.times);
+            parser.array(samples.positions);
+            parser.end();
+            const std::size_t count = samples.times.size();
+            if (count == 0 ? !samples.positions.empty() : samples.positions.size() % count != 0)
+                failAt(8 * count + 8, "positions of some of the vertices");
+            for (std::size_t i = 0; i < count; ++i)
+                if (!(i == 0 ? samples.times[i] == 0.0 : samples.times[i] > samples.times[i - 1]) ||
+                    !std::isfinite(samples.times[i]))
+                    failAt(8 * i + 8, "times don't ascend from 0");
+            requireFinite(samples.positions, 8 * count + 16, "position");
+            return samples;
+        });
 }
 
 }  // namespace hair::groom

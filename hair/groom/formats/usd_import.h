@@ -32,7 +32,7 @@ struct UsdSamples {
     std::vector<double> times;  // [sample], s, ascending from 0; empty: nothing moves
     std::vector<glm::vec3> positions;  // [sample][vertex], m
 };
-UsdSamples readUsdSamples(const std::filesystem::path& path);
+UsdSamples readUsdSamples(const std::filesystem::path& path, const NamedFileCheck& check = {});
 
 // The output of usd_curves.py, little-endian: this header, then the counted arrays in its order,
 // without padding.

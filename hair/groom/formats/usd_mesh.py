@@ -17,7 +17,7 @@ try:
     import numpy as np
     from pxr import Gf, Tf, Usd, UsdGeom, UsdShade, UsdSkel
 
-    from usd_curves import Xforms, joined, metres_per_unit_of, open_stream, words_of
+    from usd_curves import Xforms, joined, metres_per_unit_of, open_stage, open_stream, words_of
     from usd_prim import Refused
 except ImportError as error:
     sys.exit(f"{error}: this Python lacks what requirements.txt names")
@@ -160,8 +160,8 @@ class Mesh:
 class Reader:
     """Reads a stage: its `meshes`, and the unit and axis that take positions to metres, +Y up."""
 
-    def __init__(self, path, samples):
-        self.stage = Usd.Stage.Open(path)
+    def __init__(self, path, below, samples):
+        self.stage, unfolded = open_stage(path, below)
         if samples:
             self._bake()
         xforms = Xforms()
@@ -169,6 +169,7 @@ class Reader:
         for prim in Usd.PrimRange.Stage(self.stage, Usd.TraverseInstanceProxies()):
             if prim.IsA(UsdGeom.Mesh) and self._is_rendered(prim):
                 self.meshes.append(Mesh(prim, xforms))
+                unfolded.add(self.meshes[-1].positions)
         if not sum(len(mesh.triangles) for mesh in self.meshes):
             raise Refused("the stage has no Mesh with faces")
         self.unit = metres_per_unit_of(self.stage)
@@ -267,9 +268,10 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--samples", action="store_true", help="positions over time")
     parser.add_argument("stage", help=".usd, .usda, .usdc, .usdz")
+    parser.add_argument("--below", action="append", default=[], help="a folder of files it may name")
     options = parser.parse_args()
     try:
-        reader = Reader(options.stage, options.samples)
+        reader = Reader(options.stage, options.below, options.samples)
         (reader.write_samples if options.samples else reader.write_mesh)(stream)
     except (Tf.ErrorException, UnicodeDecodeError) as error:
         raise Refused(words_of(error, options.stage)) from None

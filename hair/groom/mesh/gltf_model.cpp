@@ -29,6 +29,7 @@
 
 #include "engine/error.h"
 #include "engine/files.h"
+#include "hair/groom/formats/binary_file.h"
 
 namespace hair::groom {
 namespace {
@@ -731,10 +732,49 @@ void visitMesh(
     }
 }
 
+// Returns the bytes that one use of a primitive takes once it is read. `available` is the size of
+// all buffers; an accessor with more elements is refused elsewhere.
+std::uint64_t unfoldedSize(
+    const tinygltf::Model& model, const tinygltf::Primitive& primitive, std::uint64_t available) {
+    constexpr std::uint64_t kEach = 256;  // bytes of an empty primitive
+    constexpr std::uint64_t kElement = 16;  // most bytes of an attribute at a vertex
+    std::uint64_t elements = 0;
+    const auto add = [&](int accessor) {
+        if (accessor < 0 || static_cast<std::size_t>(accessor) >= model.accessors.size()) return;
+        const std::size_t count = model.accessors[static_cast<std::size_t>(accessor)].count;
+        if (count <= available) elements += count;
+    };
+    for (const auto& [name, accessor] : primitive.attributes) add(accessor);
+    add(primitive.indices);
+    return kEach + kElement * elements;
+}
+
+// Refuses models whose nodes share so much that the result is far larger than the file.
+void checkUnfolding(const tinygltf::Model& model) {
+    constexpr std::uint64_t kLeast = 16;  // bytes of JSON for a node, a primitive or an accessor
+    std::uint64_t available = 0;
+    for (const tinygltf::Buffer& buffer : model.buffers) available += buffer.data.size();
+    std::uint64_t size = available + kLeast * (model.nodes.size() + model.accessors.size());
+    std::vector<std::uint64_t> sizes;
+    for (const tinygltf::Mesh& mesh : model.meshes) {
+        size += kLeast * mesh.primitives.size();
+        sizes.push_back(0);
+        for (const tinygltf::Primitive& primitive : mesh.primitives)
+            sizes.back() += unfoldedSize(model, primitive, available);
+    }
+    Unfolding unfolding(size);
+    const std::string what = std::to_string(model.nodes.size()) + " nodes with " +
+                             std::to_string(model.meshes.size()) + " meshes";
+    for (const tinygltf::Node& node : model.nodes)
+        if (node.mesh >= 0 && static_cast<std::size_t>(node.mesh) < sizes.size())
+            unfolding.add(sizes[static_cast<std::size_t>(node.mesh)], what);
+}
+
 }  // namespace
 
 void forEachPrimitive(
     const tinygltf::Model& model, const std::function<void(const GltfPlace& place)>& visit) {
+    checkUnfolding(model);
     struct Step {
         int node;
         glm::dmat4 parent;

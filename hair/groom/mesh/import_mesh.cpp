@@ -39,15 +39,29 @@ Mesh importAssimp(
         checkPlyFaces(std::as_bytes(std::span(file)));
     }
     const std::string program = engine::helperProgram("hairbench_mesh_reader").string();
+    // Limits for what a file of this size can need. Assimp's trees of text files are about 40 times
+    // as large as the files. A vertex takes 32 bytes here and at least one byte in any format.
+    const std::uintmax_t size = std::filesystem::file_size(path);
+    engine::ChildLimits limits{
+        .seconds = static_cast<unsigned>(8 + size / 2'000'000),
+        .bytes = (std::size_t{512} << 20) + 64 * size,
+        .output = (std::size_t{64} << 20) + 64 * size,
+        .reads = readsOf(check)};
+#ifdef HAIRBENCH_SANITIZE  // sanitizers reserve terabytes of addresses
+    limits.bytes = 0;
+#endif
+    // An absolute path can't be taken for an option.
+    std::vector<std::string> command{program, std::filesystem::absolute(path).string()};
+    for (const std::filesystem::path& folder : check.folders()) command.push_back(folder.string());
+    limits.reads->push_back(program);
     ReadMesh read;
     try {
-        // A vertex takes 32 bytes here and at least one byte in any format.
-        const std::size_t most = (std::size_t{64} << 20) + 64 * std::filesystem::file_size(path);
-        // An absolute path can't be taken for an option.
-        read = readMeshStream(
-            engine::runTool({program, std::filesystem::absolute(path).string()}, most));
-    } catch (const std::system_error&) {
-        throw engine::Error("the program that reads such meshes is missing: " + program);
+        read = readMeshStream(engine::runTool(command, limits));
+    } catch (const std::system_error& error) {
+        if (error.code() == std::errc::no_such_file_or_directory)
+            throw engine::Error("the program that reads such meshes is missing: " + program);
+        throw engine::Error(
+            "the program that reads such meshes can't be started: " + error.code().message());
     } catch (const engine::Error& error) {
         const std::string reason = error.what();
         if (!reason.starts_with(program)) throw;

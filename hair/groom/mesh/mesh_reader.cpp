@@ -1,5 +1,6 @@
-// The program that reads meshes by assimp for import_mesh.cpp: a child process with limits on time
-// and memory, because malformed files make assimp write out of bounds, loop, or take gigabytes.
+// The program that reads meshes by assimp for import_mesh.cpp, which limits its time, its memory
+// and the files that it may open, because malformed files make assimp write out of bounds, loop, or
+// take gigabytes.
 #include <algorithm>
 #include <cstdint>
 #include <exception>
@@ -7,13 +8,15 @@
 #include <iostream>
 #include <new>
 #include <string>
+#include <system_error>
+#include <utility>
 #include <vector>
 
+#include <assimp/DefaultIOSystem.h>
 #include <assimp/Importer.hpp>
 #include <assimp/config.h>
 #include <assimp/postprocess.h>
 #include <assimp/scene.h>
-#include <sys/resource.h>
 
 #include "engine/error.h"
 #include "hair/groom/mesh/mesh_stream.h"
@@ -155,14 +158,101 @@ void appendScene(Mesh& mesh, const aiScene& scene) {
     for (VertexGroup& group : mesh.vertex_groups) group.weights.resize(mesh.positions.size(), 0.0f);
 }
 
+// ---- Files that assimp opens --------------------------------------------------------------------
+
+// Opens only regular files, because a pipe would wait for its writer. With links resolved, they
+// must be in the folders; without folders they may be anywhere.
+class Door : public Assimp::DefaultIOSystem {
+public:
+    explicit Door(std::vector<std::filesystem::path> folders) : folders_(std::move(folders)) {}
+
+    Assimp::IOStream* Open(const char* file, const char* mode = "rb") override {
+        if (mode[0] != 'r' || !lets(file)) return nullptr;
+        return DefaultIOSystem::Open(file, mode);
+    }
+
+    // The default opens the file.
+    bool Exists(const char* file) const override { return lets(file); }
+
+    const std::string& refused() const { return refused_; }  // the first; empty: none
+
+private:
+    bool lets(const std::filesystem::path& file) const {
+        std::error_code error;
+        const std::filesystem::path place = std::filesystem::canonical(file, error);
+        if (error) return false;
+        const auto holds = [&](const std::filesystem::path& folder) {
+            return std::mismatch(folder.begin(), folder.end(), place.begin(), place.end()).first ==
+                   folder.end();
+        };
+        const char* reason = nullptr;
+        if (!std::filesystem::is_regular_file(place, error)) reason = ": not a file";
+        if (!folders_.empty() && std::ranges::none_of(folders_, holds))
+            reason = ": lies outside of the scene's folder: where that is meant, --allow-outside "
+                     "opens it";
+        if (reason && refused_.empty()) refused_ = file.string() + reason;
+        return !reason;
+    }
+
+    std::vector<std::filesystem::path> folders_;
+    mutable std::string refused_;
+};
+
+// ---- Size of the result -------------------------------------------------------------------------
+
+// Refuses files that mean far more than their size: the time to triangulate a face grows with the
+// square of its corners, and nodes may share meshes.
+void checkSizes(const aiScene& scene, std::uintmax_t file_size) {
+    constexpr std::uint64_t kMostSteps = 100'000'000;
+    std::uint64_t steps = 0;
+    for (unsigned i = 0; i < scene.mNumMeshes; ++i) {
+        const aiMesh& mesh = *scene.mMeshes[i];
+        for (unsigned k = 0; k < mesh.mNumFaces; ++k) {
+            const std::uint64_t corners = mesh.mFaces[k].mNumIndices;
+            if (corners > 4) steps += corners * corners;
+            if (steps > kMostSteps)
+                throw engine::Error(
+                    "face " + std::to_string(k) + " has " + std::to_string(corners) +
+                    " corners: faces with so many would take minutes to cut into triangles");
+        }
+    }
+    const std::uint64_t most = (std::uint64_t{32} << 20) + 16 * file_size;
+    constexpr std::uint64_t kVertex = 32, kFace = 16;  // bytes
+    std::uint64_t bytes = 0;
+    std::vector<const aiNode*> nodes{scene.mRootNode};
+    std::size_t count = 0;
+    while (!nodes.empty()) {
+        const aiNode& node = *nodes.back();
+        nodes.pop_back();
+        ++count;
+        for (unsigned i = 0; i < node.mNumMeshes; ++i) {
+            const aiMesh& mesh = *scene.mMeshes[node.mMeshes[i]];
+            bytes += kVertex * mesh.mNumVertices + kFace * mesh.mNumFaces;
+        }
+        if (bytes > most)
+            throw engine::Error(
+                std::to_string(scene.mNumMeshes) + " meshes at " + std::to_string(count) +
+                " nodes unfold to more than " + std::to_string(most >> 20) +
+                " MiB, which is 16 times the file's size and 32 MiB");
+        nodes.insert(nodes.end(), node.mChildren, node.mChildren + node.mNumChildren);
+    }
+}
+
 // ---- The program --------------------------------------------------------------------------------
 
-ReadMesh read(const std::filesystem::path& path) {
+ReadMesh
+read(const std::filesystem::path& path, const std::vector<std::filesystem::path>& folders) {
     Assimp::Importer importer;
+    auto* const door = new Door(folders);
+    importer.SetIOHandler(door);  // takes ownership
     importer.SetPropertyInteger(
         AI_CONFIG_PP_SBP_REMOVE, aiPrimitiveType_POINT | aiPrimitiveType_LINE);
     importer.SetPropertyInteger(AI_CONFIG_PP_RVC_FLAGS, static_cast<int>(kIgnored));
-    const aiScene* scene = importer.ReadFile(path.string(), kSteps);
+    const aiScene* scene = importer.ReadFile(path.string(), 0);
+    if (!door->refused().empty()) throw engine::Error(door->refused());
+    if (!scene) throw engine::Error(importer.GetErrorString());
+    checkSizes(*scene, std::filesystem::file_size(path));
+    scene = importer.ApplyPostProcessing(kSteps);
     if (!scene) throw engine::Error(importer.GetErrorString());
     ReadMesh read;
     for (unsigned i = 0; i < scene->mNumMaterials; ++i) {
@@ -174,33 +264,17 @@ ReadMesh read(const std::filesystem::path& path) {
     return read;
 }
 
-// Limits this process to the time and memory that a file of this size can need. Assimp's trees of
-// text files are about 40 times as large as the files.
-void limitSelf(std::uintmax_t file_size) {
-    const rlim_t seconds = 8 + file_size / 2'000'000;
-    const rlimit time{.rlim_cur = seconds, .rlim_max = seconds + 1};
-    setrlimit(RLIMIT_CPU, &time);
-    const rlimit none{.rlim_cur = 0, .rlim_max = 0};
-    setrlimit(RLIMIT_CORE, &none);
-    setrlimit(RLIMIT_FSIZE, &none);
-#ifndef HAIRBENCH_SANITIZE  // sanitizers reserve terabytes of addresses
-    const rlim_t bytes = (rlim_t{512} << 20) + 64 * file_size;
-    const rlimit memory{.rlim_cur = bytes, .rlim_max = bytes};
-    setrlimit(RLIMIT_AS, &memory);
-#endif
-}
-
 }  // namespace
 }  // namespace hair::groom
 
-// The argument is the file. The mesh goes to standard output in the format of mesh_stream.h, and an
-// error goes to standard error in one line.
+// The arguments are the file and the canonical folders in which it and the files that it names may
+// be; without folders they may be anywhere. The mesh goes to standard output in the format of
+// mesh_stream.h, and an error goes to standard error in one line.
 int main(int argc, char** argv) {
     try {
-        if (argc != 2) throw engine::Error("one argument: a file of a mesh");
-        const std::filesystem::path path = argv[1];
-        hair::groom::limitSelf(std::filesystem::file_size(path));
-        hair::groom::writeMeshStream(std::cout, hair::groom::read(path));
+        if (argc < 2) throw engine::Error("arguments: a file of a mesh, and folders");
+        const std::vector<std::filesystem::path> folders(argv + 2, argv + argc);
+        hair::groom::writeMeshStream(std::cout, hair::groom::read(argv[1], folders));
         std::cout.flush();
         return std::cout ? 0 : 1;
     } catch (const std::bad_alloc&) {

@@ -184,11 +184,54 @@ TEST(EmbreeXml, RefusesEndlessReferences) {
         text += "<assign id=\"" + std::to_string(i + 1) + "\"><Group>" + ref + ref +
                 "</Group></assign>";
     }
-    EXPECT_THAT(errorOfXml(text + "<ref id=\"40\"/></scene>"), HasSubstr("more than 256 MB"));
+    EXPECT_THAT(
+        errorOfXml(text + "<ref id=\"40\"/></scene>"),
+        HasSubstr("the scene's references unfold to more than 32 MiB"));
     EXPECT_THAT(
         errorOfXml("<scene><assign id=\"a\"><Group><ref id=\"a\"/></Group></assign>"
                    "<ref id=\"a\"/></scene>"),
         HasSubstr("one to itself?"));
+}
+
+// 16,000 bytes of points, 20,000 times: 320 MB from a file of 0.5 MB.
+TEST(EmbreeXml, HoldsWhatIsReferredToAgainstTheFile) {
+    std::string positions;
+    for (int i = 0; i < 1000; ++i) positions += "0 0 0 1\n";
+    std::string text = "<scene><assign id=\"a\"><Curves basis=\"linear\"><positions>" + positions +
+                       "</positions><indices>";
+    for (int i = 0; i < 999; ++i) text += std::to_string(i) + ' ';
+    text += "</indices></Curves></assign>";
+    for (int i = 0; i < 20000; ++i) text += "<ref id=\"a\"/>";
+    EXPECT_THAT(errorOfXml(text + "</scene>"), HasSubstr("references unfold to more than"));
+}
+
+// All arrays read the same bytes of the file beside the scene.
+TEST(EmbreeXml, HoldsArraysOfTheFileBesideItAgainstItsSize) {
+    const TemporaryFolder folder;
+    folder.write("scene.bin", std::string(1 << 16, '\0'));
+    std::string text = "<scene>";
+    for (int i = 0; i < 4000; ++i)
+        text += "<Curves basis=\"linear\"><positions ofs=\"0\" size=\"4096\"/><indices>0</indices>"
+                "</Curves>";
+    const auto path = folder.write("scene.xml", text + "</scene>");
+    EXPECT_THAT(
+        errorText([&] { importStrands(path); }),
+        HasSubstr("arrays in the file of bytes unfold to more than"));
+}
+
+TEST(EmbreeXml, AsksBeforeItOpensTheFileBesideIt) {
+    const TemporaryFolder folder;
+    folder.write("private.bin", std::string(64, '\0'));
+    std::filesystem::create_symlink("private.bin", folder.file("scene.bin"));
+    const auto path = folder.write(
+        "scene.xml",
+        "<scene><Curves basis=\"linear\"><positions ofs=\"0\" size=\"2\"/><indices>0</indices>"
+        "</Curves></scene>");
+    const auto refuse = [](const std::filesystem::path& file) {
+        throw engine::Error(file.filename().string(), "refused");
+    };
+    EXPECT_THAT(
+        errorText([&] { importStrands(path, 0, refuse); }), HasSubstr("scene.bin: refused"));
 }
 
 // Embree's own hair0.xml ends curves like this.

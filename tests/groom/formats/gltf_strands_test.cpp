@@ -212,6 +212,32 @@ TEST(ImportGltfStrands, SurvivesWhatItDoesNotRead) {
         ElementsAre(3, 5));
 }
 
+// 20,000 nodes share 16,000 bytes of positions, and 1,500 nodes share 1,500 primitives.
+TEST(ImportGltfStrands, HoldsWhatNodesShareAgainstTheFile) {
+    const auto file = [](int nodes, int primitives, int count) {
+        std::string scene = "0", all = R"({"mesh":0})", mesh;
+        for (int i = 1; i < nodes; ++i) {
+            scene += ',' + std::to_string(i);
+            all += R"(,{"mesh":0})";
+        }
+        for (int i = 0; i < primitives; ++i)
+            mesh += std::string(i > 0 ? "," : "") + R"({"attributes":{"POSITION":0},"mode":3})";
+        const std::string bytes = std::to_string(12 * count);
+        return R"({"asset":{"version":"2.0"},"scenes":[{"nodes":[)" + scene + R"(]}],"nodes":[)" +
+               all + R"(],"meshes":[{"primitives":[)" + mesh +
+               R"(]}],"accessors":[{"bufferView":0,"componentType":5126,"count":)" +
+               std::to_string(count) +
+               R"(,"type":"VEC3"}],"bufferViews":[{"buffer":0,"byteLength":)" + bytes +
+               R"(}],"buffers":[{"byteLength":)" + bytes +
+               R"(,"uri":"data:application/octet-stream;base64,)" +
+               std::string(static_cast<std::size_t>(16 * count), 'A') + R"("}]})";
+    };
+    for (const std::string& text : {file(20000, 1, 1000), file(1500, 1500, 3)})
+        EXPECT_THAT(
+            readError(importGltfStrands, text), HasSubstr(" nodes with 1 meshes unfold to"));
+    EXPECT_EQ(readText(importGltfStrands, file(100, 1, 1000)).ends.size(), 100u);
+}
+
 TEST(ImportGltfStrands, OpensOtherFilesOnlyBesideItsOwn) {
     const TemporaryFolder folder;
     folder.write("data.bin", lineData());

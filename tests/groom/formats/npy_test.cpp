@@ -20,6 +20,44 @@ using testing::HasSubstr;
 using testing::IsEmpty;
 using testing::StartsWith;
 
+// Makes a zip archive (APPNOTE.TXT 6.3) whose directory names one member `records` times, always
+// with the same local header.
+std::string
+zipOf(int records, std::uint32_t method, std::uint32_t size, const std::string& packed) {
+    const std::string name = "positions.npy";
+    Bytes local;
+    local.u32(0x04034b50).u16(20).u16(0).u16(method).u32(0).u32(0);
+    local.u32(static_cast<std::uint32_t>(packed.size())).u32(size);
+    local.u16(static_cast<std::uint32_t>(name.size())).u16(0).text(name).text(packed);
+    Bytes central;
+    for (int i = 0; i < records; ++i) {
+        central.u32(0x02014b50).u16(20).u16(20).u16(0).u16(method).u32(0).u32(0);
+        central.u32(static_cast<std::uint32_t>(packed.size())).u32(size);
+        central.u16(static_cast<std::uint32_t>(name.size())).zeros(12).u32(0).text(name);
+    }
+    Bytes end;
+    end.u32(0x06054b50).u32(0).u16(static_cast<std::uint32_t>(records));
+    end.u16(static_cast<std::uint32_t>(records));
+    end.u32(static_cast<std::uint32_t>(central.str().size()));
+    end.u32(static_cast<std::uint32_t>(local.str().size())).u16(0);
+    return local.str() + central.str() + end.str();
+}
+
+TEST(Npz, RefusesMembersThatShareTheirBytes) {
+    const std::string packed(1000, '\0');
+    EXPECT_THAT(
+        readError(importNpz, zipOf(40, 0, 1000, packed)),
+        HasSubstr("'positions.npy' shares its bytes with others"));
+    EXPECT_THAT(readError(importNpz, zipOf(1, 0, 1000, packed)), HasSubstr("checksum"));
+}
+
+// Deflate unfolds one byte to at most 1032 (RFC 1951), so 1 MB could stand for 1 GB.
+TEST(Npz, HoldsWhatIsInflatedAgainstTheFile) {
+    EXPECT_THAT(
+        readError(importNpz, zipOf(1, 8, 1'000'000'000, std::string(1'000'000, '\0'))),
+        HasSubstr("the archive's arrays unfold to more than"));
+}
+
 // `positions` of make_npy.py.
 double madeNumber(int k) { return (k + 1) / 3.0 - double(k * k) / 7.0; }
 

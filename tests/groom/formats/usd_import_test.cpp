@@ -17,6 +17,15 @@ namespace {
 using testing::ElementsAre;
 using testing::HasSubstr;
 
+// One curve along y.
+std::string basisCurves(const std::string& name, int points = 2) {
+    std::string places = "(0, 0, 0)";
+    for (int i = 1; i < points; ++i) places += ", (0, " + std::to_string(i) + ", 0)";
+    return "def BasisCurves \"" + name + "\" {\nint[] curveVertexCounts = [" +
+           std::to_string(points) + "]\npoint3f[] points = [" + places +
+           "]\nuniform token type = \"linear\"\n}\n";
+}
+
 using UsdImportTest = UsdFiles;
 
 class UsdImportFormatTest : public UsdImportTest,
@@ -149,6 +158,57 @@ TEST_F(UsdImportTest, RefusesNamingThePrim) {
 
 TEST_F(UsdImportTest, FailsWithTheToolsWords) {
     EXPECT_EQ(errorText([] { read("nan.usda"); }), "/wig/hair: points: value 2 is not finite");
+}
+
+// Other layers must be in the scene's folders, and a pipe must not wait for its writer.
+TEST_F(UsdImportTest, OpensFilesOfItsFoldersAlone) {
+    const TemporaryFolder files;
+    const std::string curve = "#usda 1.0\n(defaultPrim = \"c\")\n" + basisCurves("c");
+    files.write("scene/own.usda", curve);
+    files.write("private.usda", curve);
+    std::filesystem::create_symlink("../private.usda", files.file("scene/link.usda"));
+    ASSERT_EQ(mkfifo(files.file("scene/pipe.usda").c_str(), 0600), 0);
+    const auto errorOf = [&](const std::string& arc) {
+        const auto path = files.write("scene/a.usda", "#usda 1.0\n" + arc);
+        const NamedFileCheck check(
+            [](const std::filesystem::path&) {}, {std::filesystem::canonical(files.file("scene"))});
+        return errorText([&] { importStrands(path, 0, check); });
+    };
+    const auto reference = [](const std::string& file) {
+        return "def \"a\" (references = @" + file + "@) {}\n";
+    };
+    EXPECT_EQ(errorOf(reference("./own.usda")), "no error");
+    for (const char* outside : {"../private.usda", "./link.usda"})
+        EXPECT_THAT(errorOf(reference(outside)), HasSubstr("lies outside of the scene's folder"));
+    EXPECT_THAT(
+        errorOf("def \"a\" (payload = @../private.usda@) {}\n"),
+        HasSubstr("lies outside of the scene's folder"));
+    EXPECT_THAT(
+        errorOf("(subLayers = [@../private.usda@])\n"),
+        HasSubstr("lies outside of the scene's folder"));
+    EXPECT_THAT(errorOf(reference("./pipe.usda")), HasSubstr("pipe.usda: not a file"));
+}
+
+// 8^9 curves in about 3 kB, and 1,000 prims that share 100,000 points.
+TEST_F(UsdImportTest, HoldsReferencesAgainstTheFile) {
+    const TemporaryFolder files;
+    std::string nested = "#usda 1.0\n" + basisCurves("l0");
+    for (int i = 1; i < 10; ++i) {
+        nested += "def \"l" + std::to_string(i) + "\" {\n";
+        for (int k = 0; k < 8; ++k)
+            nested += "def \"c" + std::to_string(k) + "\" (references = </l" +
+                      std::to_string(i - 1) + ">) {}\n";
+        nested += "}\n";
+    }
+    EXPECT_THAT(
+        errorText([&] { importStrands(files.write("nested.usda", nested)); }),
+        HasSubstr("its references stand for"));
+    std::string large = "#usda 1.0\n" + basisCurves("l", 100000);
+    for (int i = 0; i < 1000; ++i)
+        large += "def \"c" + std::to_string(i) + "\" (references = </l>) {}\n";
+    EXPECT_THAT(
+        errorText([&] { importStrands(files.write("large.usda", large)); }),
+        HasSubstr("its instances unfold to more than"));
 }
 
 TEST(UsdImport, SaysWhatItNeeds) {
