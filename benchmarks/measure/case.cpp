@@ -1,6 +1,9 @@
 #include "benchmarks/measure/case.h"
 
+#include <algorithm>
+#include <cmath>
 #include <span>
+#include <sstream>
 #include <string>
 
 #include "benchmarks/measure/hair_cache.h"
@@ -144,7 +147,26 @@ void Case::reset() {
     fixed_step_.reset();
 }
 
+std::vector<glm::vec3> Case::guides() const {
+    std::vector<glm::vec3> positions = simulation_.readPositions();
+    const auto broken = hair::simulation::findBroken(
+        positions, groom_.points, groom_.vertices_per_strand,
+        hair::simulation::mostStretch(settings_.simulation));
+    if (!broken) return positions;
+    const double frame = simulation_.time() / double{settings_.run.frame_time};
+    std::ostringstream what;
+    what.precision(3);
+    what << "after " << std::llround(frame) << " frames the simulation has failed: guide "
+         << broken->guide << ", vertex " << broken->vertex;
+    if (std::isnan(broken->stretch))
+        what << " has no finite position";
+    else
+        what << " is " << broken->stretch << " times as far along it as at rest";
+    throw engine::Error("/simulation", what.str());
+}
+
 std::vector<std::uint8_t> Case::picture() const {
+    guides();
     return engine::readOutput(device_, renderer_->target());
 }
 
@@ -154,8 +176,10 @@ std::string Case::pictureHash() const {
 }
 
 std::vector<float> Case::radiance() const {
-    if (renderer_->target().hasRadiance())
+    if (renderer_->target().hasRadiance()) {
+        guides();
         return engine::readRadiance(device_, renderer_->target());
+    }
     const std::vector<std::uint8_t> pixels = picture();
     std::vector<float> light;
     light.reserve(pixels.size() / 4 * 3);
@@ -168,7 +192,7 @@ std::vector<float> Case::radiance() const {
 }
 
 std::string Case::stateHash() const {
-    const std::vector<glm::vec3> positions = simulation_.readPositions();
+    const std::vector<glm::vec3> positions = guides();
     return report::hashBytes(std::as_bytes(std::span(positions)));
 }
 
@@ -180,7 +204,16 @@ void Case::deform(hair::groom::Mesh& mesh) const {
 }
 
 hair::rendering::StrandPoints Case::strands() const {
-    return hair::rendering::evaluateStrandPoints(device_, settings_, view());
+    guides();
+    hair::rendering::StrandPoints strands =
+        hair::rendering::evaluateStrandPoints(device_, settings_, view());
+    for (const hair::gpu::StrandPointRecord& each : strands.records)
+        if (each.width >= 0.0f &&
+            !std::isfinite(each.position.x + each.position.y + each.position.z))
+            throw engine::Error(
+                "/strands", "a point " + std::to_string(each.along) +
+                                " along its strand has no finite position");
+    return strands;
 }
 
 hair::rendering::Renderer Case::rendererOf(const hair::Settings& unread) const {

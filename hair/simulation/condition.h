@@ -1,11 +1,15 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
+#include <glm/vec3.hpp>
+
 #include "engine/device.h"
 #include "hair/gpu_structs.h"
+#include "hair/settings.h"
 
 // Checks of guides: stretched, inside a body, still moving.
 namespace hair::simulation {
@@ -33,6 +37,23 @@ struct ConditionLimits {
 GuideCondition worstOf(
     std::span<const gpu::VertexCondition> vertices, std::uint32_t vertices_per_strand,
     double substep, const ConditionLimits& limits = {});
+
+// A vertex that no simulation of hair may reach.
+struct BrokenVertex {
+    std::uint32_t guide = 0;
+    std::uint32_t vertex = 0;
+    double stretch = 0.0;  // of the guide up to there, over its length at rest; NaN: no position
+};
+
+// Returns the first guide's vertex that has no finite position or that is farther along the guide
+// than `most_stretch` times its distance along the guide at rest. Both spans are [strand][vertex],
+// m.
+std::optional<BrokenVertex> findBroken(
+    std::span<const glm::vec3> positions, std::span<const glm::vec3> rest,
+    std::uint32_t vertices_per_strand, double most_stretch);
+
+// Returns the stretch of whole guides beyond which a simulation with these settings has failed.
+double mostStretch(const SimulationSettings& settings);
 
 // Inspects the `count` vertices of gpu::GuideParameters, with the head at `frame`. Waits for the
 // device.

@@ -94,4 +94,58 @@ TEST_F(SimulateCli, LeavesNoHalfFileWhenItIsInterrupted) {
     EXPECT_TRUE(fs::is_empty(folder_.file("out")));
 }
 
+// Outcomes that are none: NaN and lengths that no hair has, in every command that measures or
+// writes them.
+class WrongOutcome : public SimulateCli {
+protected:
+    // The smoke scene with these members; one small case.
+    std::string scene(const std::string& members) {
+        const fs::path file = folder_.write(
+            "wrong.json", R"({"base": ")" HAIRBENCH_SCENES_DIR R"(/smoke.json",
+                "sweep": {}, "groom": {"guides": 40},
+                "strands": {"density": 1, "tessellation": 1},
+                "run": {"warmup": 2, "frames": 2, "max_time": 0}, )" +
+                              members + "}");
+        return '\'' + file.string() + "' --allow-outside ";
+    }
+
+    void expectRefused(const std::string& command, const std::string& output, const char* reason) {
+        const Outcome outcome = hairbench(command);
+        EXPECT_NE(outcome.status, 0) << command;
+        EXPECT_THAT(outcome.output, testing::ContainsRegex(reason)) << command;
+        EXPECT_FALSE(fs::exists(folder_.file(output))) << command;
+    }
+
+    void expectNothingIsMade(const std::string& members, const char* reason) {
+        const std::string file = scene(members);
+        const fs::path report = folder_.file("r.json");
+        const Outcome run = hairbench("run " + file + "--no-pictures --out " + quoted("r.json"));
+        EXPECT_NE(run.status, 0) << run.output;
+        EXPECT_THAT(textOf(report), testing::ContainsRegex("\"status\": *\"failed\""))
+            << run.output;
+        EXPECT_THAT(textOf(report), testing::ContainsRegex(reason));
+        expectRefused("render " + file + "--frame 3 -o " + quoted("a.png"), "a.png", reason);
+    }
+};
+
+TEST_F(WrongOutcome, OfAForceThatIsNotANumberIsNoMeasurement) {
+    folder_.write(
+        "force.glsl", "vec3 accelerateGuide(GuidePoint point) { return vec3(0.0 / (point.time - "
+                      "point.time)); }\n");
+    const char* const members = R"("simulation": {"force": "force.glsl"})";
+    const char* const reason = "guide 0, vertex [0-9]+ has no finite position";
+    expectNothingIsMade(members, reason);
+    for (const char* const name : {"a.usda", "a.obj"})
+        expectRefused(
+            "simulate " + scene(members) + "--frames 3 --export " + quoted(name), name, reason);
+}
+
+TEST_F(WrongOutcome, OfAForceThatTearsHairIsNoMeasurement) {
+    folder_.write(
+        "force.glsl", "vec3 accelerateGuide(GuidePoint point) { return vec3(0.0, 1e6, 0.0); }\n");
+    expectNothingIsMade(
+        R"("simulation": {"force": "force.glsl", "length": {"method": "iterate"}})",
+        "guide [0-9]+, vertex [0-9]+ is [0-9.e+]+ times as far along it as at rest");
+}
+
 }  // namespace

@@ -106,5 +106,37 @@ TEST_F(GuideConditions, SeesBodiesWhereTheHeadIs) {
     EXPECT_NEAR(Simulation(device(), groom, settings, 1).condition().depth.value, 0.02, 1e-6);
 }
 
+// Two straight guides along x with segments of 1 m: the distance along a guide is its vertex.
+TEST(FindBroken, NamesTheFirstVertexThatNoSimulationMayReach) {
+    const std::vector<glm::vec3> rest{{0, 0, 0}, {1, 0, 0}, {2, 0, 0},
+                                      {0, 1, 0}, {1, 1, 0}, {2, 1, 0}};
+    EXPECT_FALSE(findBroken(rest, rest, 3, 1.0));
+    std::vector<glm::vec3> positions = rest;
+    positions[5] = {3, 1, 0};  // 1 + 2 m from the root where 2 m are at rest
+    EXPECT_FALSE(findBroken(positions, rest, 3, 1.5));
+    const auto longer = findBroken(positions, rest, 3, 1.49);
+    ASSERT_TRUE(longer);
+    EXPECT_EQ(longer->guide, 1u);
+    EXPECT_EQ(longer->vertex, 2u);
+    EXPECT_DOUBLE_EQ(longer->stretch, 1.5);
+    for (const float nowhere : {kNowhere, std::numeric_limits<float>::quiet_NaN()}) {
+        positions[1].z = nowhere;
+        const auto broken = findBroken(positions, rest, 3, 1.49);
+        ASSERT_TRUE(broken);
+        EXPECT_EQ(broken->guide, 0u);
+        EXPECT_EQ(broken->vertex, 1u);
+        EXPECT_TRUE(std::isnan(broken->stretch));
+    }
+}
+
+// The root alone: it has no length.
+TEST(FindBroken, FindsARootWithoutAPosition) {
+    const std::vector<glm::vec3> rest{{0, 0, 0}, {1, 0, 0}};
+    const auto broken =
+        findBroken(std::vector<glm::vec3>{{kNowhere, 0, 0}, {1, 0, 0}}, rest, 2, 2.0);
+    ASSERT_TRUE(broken);
+    EXPECT_EQ(broken->vertex, 0u);
+}
+
 }  // namespace
 }  // namespace hair::simulation
