@@ -1,5 +1,7 @@
 #include <filesystem>
 #include <iostream>
+#include <sstream>
+#include <string>
 
 #include <nlohmann/json.hpp>
 
@@ -19,9 +21,19 @@ std::filesystem::path reportFile(const gate::GateOptions& options) {
            ("gate-" + options.scene.scene.stem().string() + ".json");
 }
 
+// Prints a failure. The lines that a failed process wrote are indented, so they can't pass for the
+// program's own.
+void printFailure(const std::string& text) {
+    std::istringstream lines(text);
+    std::string line;
+    std::getline(lines, line);
+    std::cerr << "hairbench: " << engine::shownText(line) << '\n';
+    while (std::getline(lines, line)) std::cerr << "    " << engine::shownText(line) << '\n';
+}
+
 void printEnd(const gate::GateRun& run) {
     if (run.end == gate::GateRun::End::failed)
-        std::cerr << "hairbench: " << engine::shownText(run.failure) << '\n';
+        printFailure(run.failure);
     else if (run.end == gate::GateRun::End::interrupted)
         std::cerr << "interrupted after " << run.pairs << (run.pairs == 1 ? " pair\n" : " pairs\n");
     else if (run.end == gate::GateRun::End::out_of_time)

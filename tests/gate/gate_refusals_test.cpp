@@ -71,7 +71,7 @@ TEST(GateRefusals, ShowWhatAFailedProcessSaid) {
     builds.writeProgram('B', "test $n -lt 6 || { echo it went wrong >&2; exit 3; }");
     const Outcome gate = builds.gate();
     EXPECT_EQ(gate.status, 1) << gate.output;
-    EXPECT_THAT(gate.output, HasSubstr("ended with status 3:\nit went wrong\n"));
+    EXPECT_THAT(gate.output, HasSubstr("ended with status 3:\n    it went wrong\n"));
     EXPECT_EQ(builds.report()["end"], "failed");
     EXPECT_EQ(builds.report()["pairs"], 2);  // A B B A, and B fails after the next A
 }
