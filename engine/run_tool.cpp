@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <cstdlib>
 #include <fstream>
+#include <memory>
 #include <new>
 #include <span>
 #include <system_error>
@@ -15,8 +16,13 @@
 #include <utility>
 
 #include <fcntl.h>
+#include <linux/filter.h>
 #include <linux/landlock.h>
+#include <linux/seccomp.h>
 #include <poll.h>
+#include <sched.h>
+#include <seccomp.h>
+#include <sys/mman.h>
 #include <sys/prctl.h>
 #include <sys/resource.h>
 #include <sys/syscall.h>
@@ -131,6 +137,93 @@ File rulesFor(const ChildLimits& limits) {
     return rules;
 }
 
+// ---- System calls of a child --------------------------------------------------------------------
+
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+#define HAIRBENCH_SANITIZED 1
+#elif defined(__has_feature)
+#if __has_feature(address_sanitizer) || __has_feature(thread_sanitizer)
+#define HAIRBENCH_SANITIZED 1
+#endif
+#endif
+
+// Calls that a reader of files has no use for: to the network, to other processes, and to parts of
+// the kernel that files have no part in.
+constexpr int kRefusedCalls[] = {
+    SCMP_SYS(socket),
+    SCMP_SYS(socketpair),
+    SCMP_SYS(process_vm_readv),
+    SCMP_SYS(process_vm_writev),
+    SCMP_SYS(pidfd_open),
+    SCMP_SYS(pidfd_getfd),
+    SCMP_SYS(pidfd_send_signal),
+    SCMP_SYS(unshare),
+    SCMP_SYS(setns),
+    SCMP_SYS(mount),
+    SCMP_SYS(umount2),
+    SCMP_SYS(open_by_handle_at),
+    SCMP_SYS(bpf),
+    SCMP_SYS(perf_event_open),
+    SCMP_SYS(userfaultfd),
+    SCMP_SYS(io_uring_setup),
+    SCMP_SYS(keyctl),
+    SCMP_SYS(add_key),
+    SCMP_SYS(request_key),
+    SCMP_SYS(shmget),
+    SCMP_SYS(msgget),
+    SCMP_SYS(semget),
+    SCMP_SYS(mq_open),
+};
+// Calls that a fork of this process, which only computes, has no use for either.
+constexpr int kRefusedToForks[] = {
+    SCMP_SYS(execve), SCMP_SYS(execveat), SCMP_SYS(open),      SCMP_SYS(creat),
+    SCMP_SYS(openat), SCMP_SYS(openat2),  SCMP_SYS(unlink),    SCMP_SYS(unlinkat),
+    SCMP_SYS(rename), SCMP_SYS(renameat), SCMP_SYS(renameat2),
+};
+
+enum class Runs { program, fork };
+
+// Returns a filter that refuses these calls, for setFilter(); none if libseccomp can't make one.
+std::vector<sock_filter> filterFor(Runs runs) {
+    const std::unique_ptr<void, decltype(&seccomp_release)> context(
+        seccomp_init(SCMP_ACT_ALLOW), seccomp_release);
+    if (!context) return {};
+    const auto refuse = [&](int call, int error) {
+        // Fails for calls that this processor does not have.
+        seccomp_rule_add(context.get(), SCMP_ACT_ERRNO(static_cast<std::uint32_t>(error)), call, 0);
+    };
+    for (const int call : kRefusedCalls) refuse(call, EPERM);
+    if (runs == Runs::fork)
+        for (const int call : kRefusedToForks) refuse(call, EPERM);
+#ifndef HAIRBENCH_SANITIZED
+    // The sanitizer for leaks traces its own process, from a process of its own.
+    refuse(SCMP_SYS(ptrace), EPERM);
+    refuse(SCMP_SYS(fork), EPERM);
+    refuse(SCMP_SYS(vfork), EPERM);
+    refuse(SCMP_SYS(clone3), ENOSYS);  // its flags are in memory; glibc then calls clone()
+    seccomp_rule_add(
+        context.get(), SCMP_ACT_ERRNO(EPERM), SCMP_SYS(clone), 1,
+        SCMP_A0(SCMP_CMP_MASKED_EQ, CLONE_THREAD, 0));
+#endif
+    const File exported(memfd_create("filter", MFD_CLOEXEC));
+    if (exported.get() < 0 || seccomp_export_bpf(context.get(), exported.get()) != 0) return {};
+    const off_t size = lseek(exported.get(), 0, SEEK_END);
+    std::vector<sock_filter> filter(static_cast<std::size_t>(size) / sizeof(sock_filter));
+    const std::size_t bytes = filter.size() * sizeof(sock_filter);
+    if (pread(exported.get(), filter.data(), bytes, 0) != static_cast<ssize_t>(bytes)) return {};
+    return filter;
+}
+
+// Sets a filter for this process from now on, where the kernel has filters. Async-signal-safe.
+void setFilter(std::span<sock_filter> filter) {
+    if (filter.empty() || prctl(PR_SET_NO_NEW_PRIVS, 1, 0, 0, 0) != 0) return;
+    const sock_fprog program{
+        .len = static_cast<unsigned short>(filter.size()), .filter = filter.data()};
+    prctl(PR_SET_SECCOMP, SECCOMP_MODE_FILTER, &program);
+}
+
+// ---- Limits of a child --------------------------------------------------------------------------
+
 // The environment variables that a program with limits on reading gets.
 constexpr std::string_view kToolVariables[] = {
     "ASAN_OPTIONS", "HOME", "LANG",   "LC_ALL",       "LC_CTYPE",      "LD_LIBRARY_PATH",
@@ -181,6 +274,8 @@ public:
         pointers.push_back(nullptr);
         const std::vector<char*> environment = environmentFor(limits);
         const File rules = rulesFor(limits);
+        std::vector<sock_filter> filter;
+        if (limits.reads) filter = filterFor(Runs::program);
         const File nothing(open("/dev/null", O_RDONLY | O_CLOEXEC));
         Pipe failure;
         const pid_t parent = getpid();
@@ -195,6 +290,7 @@ public:
             if (rules.get() >= 0 && (prctl(PR_SET_NO_NEW_PRIVS, 1, 0, 0, 0) != 0 ||
                                      syscall(SYS_landlock_restrict_self, rules.get(), 0) != 0))
                 error = errno;
+            setFilter(filter);
             if (error == 0) execvpe(pointers.front(), pointers.data(), environment.data());
             if (error == 0) error = errno;
             [[maybe_unused]] const ssize_t written =
@@ -337,8 +433,10 @@ std::size_t addressSpace() {
 constexpr int kOutOfMemory = 12;  // exit status of the fork: ENOMEM
 
 [[noreturn]] void workAndEnd(
-    const std::function<std::string()>& work, const ChildLimits& limits, int output, pid_t parent) {
+    const std::function<std::string()>& work, const ChildLimits& limits,
+    std::span<sock_filter> filter, int output, pid_t parent) {
     limitForked(limits, addressSpace() + limits.bytes, parent);
+    setFilter(filter);
     signal(SIGINT, SIG_IGN);  // the parent ends this child
     signal(SIGXCPU, SIG_DFL);
     std::string bytes;
@@ -374,10 +472,11 @@ void limitSelf(const ChildLimits& limits) {
 
 std::string runApart(const std::function<std::string()>& work, const ChildLimits& limits) {
     Pipe output;
+    std::vector<sock_filter> filter = filterFor(Runs::fork);
     const pid_t parent = getpid();
     const pid_t id = fork();
     if (id < 0) failWith(errno, "fork");
-    if (id == 0) workAndEnd(work, limits, output.write.get(), parent);
+    if (id == 0) workAndEnd(work, limits, filter, output.write.get(), parent);
     Child child(id);
     output.write.close();
     std::string bytes, none;

@@ -21,8 +21,9 @@ struct ChildLimits {
     std::size_t bytes = 0;
     std::size_t output = std::numeric_limits<std::size_t>::max();  // bytes on stdout
     // The only files and folders that a program may read, apart from the system's. It may write
-    // none, and gets only the environment variables in kToolVariables. Without Landlock
-    // (Linux 5.13) the kernel does not enforce the files. Absent: any file and variable.
+    // none, and gets only the environment variables in kToolVariables. It may call neither the
+    // network nor other processes. Without Landlock (Linux 5.13) the kernel does not enforce the
+    // files. Absent: any file, variable and call.
     std::optional<std::vector<std::filesystem::path>> reads{};
 };
 
@@ -39,7 +40,7 @@ runTool(const std::vector<std::string>& arguments, const ChildLimits& limits = {
 
 // Runs `work` in a fork of this process and returns its result. For work that may never end,
 // exhaust memory or crash. The fork has only the calling thread, so `work` must wait for no other
-// thread. It must not throw. If the child does not return, throws an Error that says how it ended.
+// thread, and can open no file. It must not throw. If the child does not return, throws an Error that says how it ended.
 // An interrupt, or the end of a TimeLimit, ends the child and throws as checkInterrupted() does.
 std::string runApart(const std::function<std::string()>& work, const ChildLimits& limits);
 

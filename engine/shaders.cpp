@@ -149,7 +149,7 @@ struct ExtensionUnit {
     ExtensionUnit(const ShaderExtension& extension, const ReadShader& read, const Stage& stage)
         : head(
               std::string("#version 460\n") + stage.directive +
-              read(extension.interface).value_or("")),
+              read(extension.interface).value_or("") + "bool " + kNextTurn + "();\n"),
           shader(stage.language) {
         const std::array texts{
             head.c_str(), extension.declarations.c_str(), extension.text.c_str()};
@@ -214,7 +214,7 @@ judge(const ShaderExtension& extension, const ReadShader& read, const Stage& sta
     const ShaderExtension stand_in{
         .interface = extension.interface,
         .macro = {},
-        .declarations = stage.layout,
+        .declarations = std::string(stage.layout) + " bool " + kNextTurn + "() { return true; }",
         .name = "main",
         .text = extension.stand_in};
     ExtensionUnit rest(stand_in, read, stage);

@@ -35,6 +35,10 @@ struct ShaderExtension {
     // The extension is linked with it and judged before it is linked with the program's shaders.
     std::string stand_in{};
 };
+// A function of the program's that the conditions of an extension's loops call: false ends the
+// loop.
+inline constexpr const char* kNextTurn = "hairbenchNextTurn";
+
 using ShaderExtensions = std::vector<std::shared_ptr<const ShaderExtension>>;
 
 // Code for pipelines: compiled into the program (shaderCode()), or its replacement.

@@ -7,7 +7,9 @@
 #include <cstdint>
 #include <limits>
 #include <locale>
+#include <map>
 #include <optional>
+#include <ranges>
 #include <regex>
 #include <sstream>
 #include <string_view>
@@ -109,6 +111,7 @@ void checkWords(const std::string& name, const std::string& text) {
 struct Token {
     std::string text;  // a word, or any other single character
     std::size_t line = 1;
+    std::size_t at = 0;  // in the code
 
     bool isWord() const {
         return std::isalpha(static_cast<unsigned char>(text[0])) || text[0] == '_';
@@ -127,7 +130,7 @@ std::vector<Token> tokensOf(const std::string& code) {
         std::size_t end = i + 1;
         if (isIn(code[i]))
             while (end < code.size() && isIn(code[end])) ++end;
-        tokens.push_back({code.substr(i, end - i), line});
+        tokens.push_back({code.substr(i, end - i), line, i});
         i = end - 1;
     }
     return tokens;
@@ -142,6 +145,15 @@ bool isDeclared(const std::vector<Token>& tokens, std::size_t at, bool after_str
     const Token& before = tokens[at - 1];
     if (before.isWord()) return !isOneOf(before.text, kBeforeCalls);
     return before.text == "]" || (before.text == "}" && after_struct);
+}
+
+// Returns the token that closes the parenthesis at `at`, or the end of the tokens.
+std::size_t closing(const std::vector<Token>& tokens, std::size_t at) {
+    for (std::size_t depth = 0; at < tokens.size(); ++at) {
+        if (tokens[at].text == "(") ++depth;
+        if (tokens[at].text == ")" && --depth == 0) break;
+    }
+    return at;
 }
 
 void checkFunctions(const std::string& name, const std::string& text) {
@@ -175,11 +187,7 @@ void checkFunctions(const std::string& name, const std::string& text) {
         if (tokens[i].text != "(" || i == 0 || !tokens[i - 1].isWord() ||
             !isDeclared(tokens, i - 1, after_struct))
             continue;
-        std::size_t end = i, depth = 0;
-        for (; end < tokens.size(); ++end) {
-            if (tokens[end].text == "(") ++depth;
-            if (tokens[end].text == ")" && --depth == 0) break;
-        }
+        const std::size_t end = closing(tokens, i);
         if (end + 1 >= tokens.size() || tokens[end + 1].text != "{")
             throw errorAt(
                 name, tokens[i - 1].line,
@@ -187,6 +195,43 @@ void checkFunctions(const std::string& name, const std::string& text) {
                     "' is declared and not defined, which has no place in "
                     "a file that a scene names");
     }
+}
+
+// Returns the text with engine::kNextTurn in the condition of each loop, so that every loop ends
+// (shaders/extension/turns.glsl). Lines stay as they are. Malformed loops are left to the compiler.
+std::string withBoundLoops(const std::string& name, const std::string& text) {
+    const std::vector<Token> tokens = tokensOf(withoutComments(text));
+    std::map<std::size_t, std::string> inserted;  // by place in the text
+    for (std::size_t i = 0; i + 1 < tokens.size(); ++i) {
+        const bool is_for = tokens[i].text == "for";
+        if ((!is_for && tokens[i].text != "while") || tokens[i + 1].text != "(") continue;
+        const std::size_t end = closing(tokens, i + 1);
+        if (end == tokens.size()) break;
+        std::size_t first = i + 2, last = end;  // of the condition; exclusive
+        if (is_for) {
+            const auto semicolon = [&](std::size_t from) {
+                while (from < end && tokens[from].text != ";") ++from;
+                return from;
+            };
+            first = semicolon(first) + 1;
+            last = semicolon(first);
+            if (last >= end) continue;
+        }
+        if (first + 1 < last && tokens[first].isWord() && tokens[first + 1].isWord())
+            throw errorAt(
+                name, tokens[first].line,
+                "a loop's condition declares a variable: declare it before the loop");
+        const std::string turn = engine::kNextTurn + std::string("()");
+        if (first == last) {
+            inserted[tokens[last].at] = turn;
+        } else {
+            inserted[tokens[first].at] = turn + " && (";
+            inserted[tokens[last].at] = ")";
+        }
+    }
+    std::string bound = text;
+    for (const auto& [at, added] : inserted | std::views::reverse) bound.insert(at, added);
+    return bound;
 }
 
 // ---- Declarations of parameters -----------------------------------------------------------------
@@ -323,12 +368,12 @@ std::string declarationOf(const ExtensionParameter& parameter, std::uint32_t con
 
 }  // namespace
 
-Extension parseExtension(ExtensionKind kind, const std::string& name, std::string text) {
+Extension parseExtension(ExtensionKind kind, const std::string& name, const std::string& text) {
     checkLines(name, text);
     checkWords(name, text);
     checkFunctions(name, text);
     static const std::regex line_form(R"(\s*//\s*@parameter\b(.*))");
-    Extension extension{.kind = kind, .parameters = {}, .shader = {}};
+    Extension extension{.kind = kind, .text = text, .parameters = {}, .shader = {}};
     std::istringstream lines(text);
     std::string declarations;
     std::size_t number = 0;
@@ -353,7 +398,7 @@ Extension parseExtension(ExtensionKind kind, const std::string& name, std::strin
         .macro = part.macro,
         .declarations = std::move(declarations),
         .name = name,
-        .text = std::move(text),
+        .text = withBoundLoops(name, text),
         .function = part.function,
         .stand_in = part.stand_in});
     return extension;

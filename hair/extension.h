@@ -39,14 +39,15 @@ struct ExtensionParameter {
 // A parsed file.
 struct Extension {
     ExtensionKind kind = ExtensionKind::shading;
+    std::string text;  // of the file
     std::vector<ExtensionParameter> parameters;
-    std::shared_ptr<const engine::ShaderExtension> shader;
+    std::shared_ptr<const engine::ShaderExtension> shader;  // its text, with loops that end
 };
 
 // Parses a file's text. `name`: the file's name in errors. Throws engine::Error "<name>:<line>:
 // <reason>" for a malformed declaration and for text that extensions must not contain. Does not
 // compile the functions.
-Extension parseExtension(ExtensionKind kind, const std::string& name, std::string text);
+Extension parseExtension(ExtensionKind kind, const std::string& name, const std::string& text);
 
 // A scene's value for a parameter of the file.
 struct ExtensionValue {

@@ -179,7 +179,7 @@ std::vector<NamedExtension> namedExtensions(const hair::Settings& settings) {
     std::vector<NamedExtension> all;
     for (const ExtensionField& field : kExtensionFields) {
         const auto [file, parameters] = named(settings, field.kind);
-        if (parameters.file) all.push_back({field.pointer, file, parameters.file->shader->text});
+        if (parameters.file) all.push_back({field.pointer, file, parameters.file->text});
     }
     return all;
 }

@@ -5,6 +5,7 @@
 #include "common/across.glsl"
 #include "common/picture.glsl"
 #include "extension/shading.glsl"
+#include "extension/turns.glsl"
 #include "shading/dual_scattering.glsl"
 #include "shading/environment.glsl"
 #include "shading/fiber_bsdf.glsl"
@@ -271,6 +272,7 @@ vec3 workingColor(vec3 display) {
 
 vec3 shadeExtended(PictureParameters picture, StrandFragment fragment, vec3 hair_color) {
     extended_picture = picture;
+    beginTurns();
     return shadeHair(HairPoint(fragment.position, fragment.tangent, cylinderNormal(fragment),
                                fragment.to_eye, fragment.across, fragment.along, fragment.width,
                                hair_color));

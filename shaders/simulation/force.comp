@@ -5,6 +5,7 @@
 
 #include "common/random.glsl"
 #include "extension/force.glsl"
+#include "extension/turns.glsl"
 #include "simulation/guides.glsl"
 
 layout(local_size_x = kGuideGroupSize) in;
@@ -29,6 +30,7 @@ void main() {
     uint vertex = index % guides.vertices_per_strand;
     vec3 position = State(guides.positions).at[index].xyz;
     vec3 before = State(guides.previous).at[index].xyz;
+    beginTurns();
     vec3 added = accelerateGuide(GuidePoint(
         position, (position - before) / guides.step.sub,
         float(vertex) / float(guides.vertices_per_strand - 1u),

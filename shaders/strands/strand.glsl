@@ -4,6 +4,7 @@
 
 #include "common/picture.glsl"
 #include "extension/offset.glsl"
+#include "extension/turns.glsl"
 #include "shading/options.glsl"
 #include "strands/collision.glsl"
 #include "strands/curve.glsl"
@@ -81,6 +82,7 @@ float hairRandom(HairPlace place, uint which) {
 
 // Limits the offset to the length that the host assumes.
 vec3 boundedOffset(HairPlace place) {
+    beginTurns();
     vec3 offset = offsetHair(place);
     float size = length(offset);
     if (!(size <= 1e30)) return vec3(0.0);  // NaN or infinite

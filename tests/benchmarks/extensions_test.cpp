@@ -293,6 +293,32 @@ TEST_F(SceneExtensions, AreTheSameInEveryStage) {
             no_place);
 }
 
+TEST_F(SceneExtensions, LoopsHaveConditionsOfEveryForm) {
+    const auto body = [&](const std::string& statement) {
+        return modelError(
+            "vec3 shadeHair(HairPoint point) {\n    int n = 0;\n" + statement +
+            "\n    return point.color;\n}\n");
+    };
+    for (const char* const loop :
+         {"for (;;) if (++n > 3) break;", "for (int i = (2 + 1); i < (n + 4); ++i) ++n;",
+          "while (n < 3 || (n & 1) == 0) ++n;", "do ++n; while (n < 3);",
+          "while(++n<3){for(int i=0;i<n;++i);}", "for (int i = 0, j = 1; i < j || n > 1;) ++i;",
+          "bool whiles = true, fors = whiles; // while (",
+          "for (/* ; */ int i = 0; i < 3; i++) {}"})
+        EXPECT_EQ(body(loop), "no error") << loop;
+    const std::string at = "in/s.json: /shading/model: in/mine.glsl:3: ";
+    EXPECT_EQ(
+        body("while (bool odd = n > 3) ++n;"),
+        at + "a loop's condition declares a variable: declare it before the loop");
+    for (const char* const malformed : {"while () ++n;", "for (int i = 0) ++n;", "while (n < 3"})
+        EXPECT_THAT(body(malformed), testing::StartsWith(at)) << malformed;
+    EXPECT_EQ(
+        modelError("bool hairbenchNextTurn() { return true; }\n"
+                   "vec3 shadeHair(HairPoint point) { return point.color; }\n"),
+        "in/s.json: /shading/model: in/mine.glsl: 'hairbenchNextTurn' is a function of the "
+        "program's own: rename it");
+}
+
 // Beyond these bounds a driver's compiler may take minutes and gigabytes, or crash.
 TEST_F(SceneExtensions, AreBoundedInSize) {
     const auto with = [&](const std::string& before, const std::string& statement) {

@@ -12,6 +12,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <linux/landlock.h>
+#include <sys/socket.h>
 #include <sys/syscall.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -218,6 +219,41 @@ TEST(RunTool, OpensOnlyWhatItMayRead) {
             {"touch", folder.file("own/new").string()},
             {.reads = std::vector<std::filesystem::path>{folder.file("own")}}),
         Error);
+}
+
+// seccomp(2). Python's own errors name the number of the error, and its module `os` calls the
+// kernel without much between.
+TEST(RunTool, CallsNeitherTheNetworkNorOtherProcesses) {
+    const auto python = [](const std::string& code, ChildLimits limits) {
+        return errorText([&] { runTool({"python3", "-c", code}, limits); });
+    };
+    const ChildLimits limited{.reads = std::vector<std::filesystem::path>{}};
+    EXPECT_EQ(
+        python("import threading as t; a = t.Thread(target=print); a.start(); a.join()", limited),
+        "no error");
+    for (const char* const call :
+         {"import socket; socket.socket()", "import os; os.fork()",
+          "import subprocess as s; s.run(['true'])"}) {
+        EXPECT_EQ(python(call, {}), "no error") << call;
+#ifndef __SANITIZE_ADDRESS__
+        EXPECT_THAT(python(call, limited), testing::HasSubstr("[Errno 1]")) << call;
+#endif
+    }
+}
+
+// Work in a fork computes only.
+TEST(RunApart, OpensAndStartsNothing) {
+    EXPECT_EQ(
+        runApart(
+            [] {
+                std::string text;
+                text += std::ifstream("/proc/self/stat") ? 'o' : '-';
+                text += socket(AF_INET, SOCK_STREAM, 0) >= 0 ? 's' : '-';
+                execl("/bin/true", "true", nullptr);
+                return text;
+            },
+            {.seconds = 10, .bytes = std::size_t{1} << 28}),
+        "--");
 }
 
 TEST(RunTool, SaysThatThereIsNoSuchProgram) {

@@ -30,6 +30,7 @@
 #include "engine/float_pictures.h"
 #include "engine/pictures.h"
 #include "engine/png_text.h"
+#include "engine/shaders.h"
 #include "engine/spirv_judge.h"
 #include "hair/extension.h"
 #include "hair/groom/files.h"
@@ -317,7 +318,7 @@ const fs::path& sceneFolder() {
     return folder;
 }
 
-// A file of GLSL that a scene names, up to what is compiled.
+// A file of GLSL that a scene names, up to the code of a shader that calls it.
 void readExtension(std::string_view bytes) {
     using hair::ExtensionKind;
     for (const ExtensionKind kind :
@@ -329,6 +330,13 @@ void readExtension(std::string_view bytes) {
                     each.minimum <= double{each.original[i]} &&
                         double{each.original[i]} <= each.maximum,
                     "a parameter is in its range");
+        if (kind != ExtensionKind::force) continue;
+        static const engine::ShaderLibrary library;
+        allowRefusal([&] {
+            const auto code = library.extended("simulation/force.comp", {read.shader});
+            expect(
+                engine::shaderBindings(*code).empty(), "an extension has no buffer and no image");
+        });
     }
 }
 
@@ -557,7 +565,12 @@ std::vector<Target> allTargets() {
           {"scenes/portraits", {".json"}},
           {"scenes/truth", {".json"}},
           {"tests/fuzz/seeds/scene", {}}}});
-    all.push_back({"extension", readExtension, {{"scenes/extended", {".glsl"}}}});
+    // The compiler is ended after 20 s of the processor.
+    all.push_back(
+        {"extension",
+         readExtension,
+         {{"scenes/extended", {".glsl"}}, {"tests/fuzz/seeds/extension", {}}},
+         {.seconds = 60}});
     all.push_back({"spirv", readSpirv, {{"tests/fuzz/seeds/spirv", {}}}});
     all.push_back({"report", readReport, {{"tests/fuzz/seeds/report", {}}}, json});
     all.push_back({"merge", mergeReports, {{"tests/fuzz/seeds/merge", {}}}, json});

@@ -161,6 +161,29 @@ TEST_F(ShadingExtensions, KnowsWhereOnAStrandItIsInEveryBackEnd) {
     EXPECT_NEAR(upper[2], upper[0], 0.02 * upper[0]);
 }
 
+// A call has 16,384 turns for all its loops (shaders/extension/turns.glsl). Floats count to 2^24,
+// so the count divided by 16,384 is exact. lavapipe itself ends a loop after 65,535 turns.
+TEST_F(ShadingExtensions, LoopsThatNeverEndEndInEveryBackEnd) {
+    Settings settings = shadedBy(R"(
+float turns() {
+    float count = 0.0;
+    for (int i = 0;; i = 0)
+        while (true) /* a comment ( */ count += 1.0;
+    return count;
+}
+vec3 shadeHair(HairPoint point) {
+    float before = turns(), count = 0.0;
+    do count += 1.0; while (point.width > 0.0 || (point.along >= 0.0));
+    return vec3(before / 16384.0, 0.2 * count, 0.6);
+}
+)");
+    for (const Backend backend : {Backend::tessellation, Backend::software}) {
+        settings.strands.backend = backend;
+        EXPECT_EQ(colorsOf(draw(settings)), (std::set<Color>{kBackground, {255, 51, 153}}))
+            << backendName(backend);
+    }
+}
+
 TEST_F(ShadingExtensions, ReadsItsParameters) {
     Settings settings = shadedBy("// @parameter gain 1 [0, 4] 1: factor\n"
                                  "// @parameter tint (0.2, 0.4, 0.6) [0, 1] 1: colour\n"

@@ -1,0 +1,20 @@
+// A bound on the loops in functions that a scene supplies. Their conditions call hairbenchNextTurn()
+// (hair/extension.cpp), so a loop that would never end costs a moment instead of the device.
+#ifndef HAIRBENCH_EXTENSION_TURNS_GLSL
+#define HAIRBENCH_EXTENSION_TURNS_GLSL
+
+#if defined(HAIRBENCH_EXTENDED_SHADING) || defined(HAIRBENCH_EXTENDED_OFFSET) || \
+    defined(HAIRBENCH_EXTENDED_FORCE)
+
+// Turns of all loops in one call of a scene's function.
+const uint kMostTurns = 16384u;
+
+uint extension_turns;
+
+void beginTurns() { extension_turns = 0u; }
+
+bool hairbenchNextTurn() { return ++extension_turns <= kMostTurns; }
+
+#endif
+
+#endif
