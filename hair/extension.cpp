@@ -216,6 +216,8 @@ std::string withBoundLoops(const std::string& name, const std::string& text) {
             first = semicolon(first) + 1;
             last = semicolon(first);
             if (last >= end) continue;
+        } else if (first == last) {
+            continue;
         }
         if (first + 1 < last && tokens[first].isWord() && tokens[first + 1].isWord())
             throw errorAt(

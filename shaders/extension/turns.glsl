@@ -6,8 +6,9 @@
 #if defined(HAIRBENCH_EXTENDED_SHADING) || defined(HAIRBENCH_EXTENDED_OFFSET) || \
     defined(HAIRBENCH_EXTENDED_FORCE)
 
-// Turns of all loops in one call of a scene's function.
-const uint kMostTurns = 16384u;
+// Turns of all loops in one call of a scene's function. lavapipe ends all loops of an invocation
+// after 65,535 turns together, the program's own too, and an invocation may make several calls.
+const uint kMostTurns = 4096u;
 
 uint extension_turns;
 

@@ -356,7 +356,8 @@ void readExtension(std::string_view bytes) {
 // The SPIR-V of functions that are not the program's own.
 void readSpirv(std::string_view bytes) {
     std::vector<std::uint32_t> words(bytes.size() / sizeof(std::uint32_t));
-    std::memcpy(words.data(), bytes.data(), words.size() * sizeof(std::uint32_t));
+    if (!words.empty())
+        std::memcpy(words.data(), bytes.data(), words.size() * sizeof(std::uint32_t));
     const std::optional<engine::SpirvFault> fault = engine::judgeSpirv(words);
     if (fault) throw engine::Error(fault->text);
 }

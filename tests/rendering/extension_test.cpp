@@ -174,7 +174,7 @@ float turns() {
 vec3 shadeHair(HairPoint point) {
     float before = turns(), count = 0.0;
     do count += 1.0; while (point.width > 0.0 || (point.along >= 0.0));
-    return vec3(before / 16384.0, 0.2 * count, 0.6);
+    return vec3(before / 4096.0, 0.2 * count, 0.6);
 }
 )");
     for (const Backend backend : {Backend::tessellation, Backend::software}) {
