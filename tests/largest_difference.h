@@ -43,7 +43,7 @@ private:
 
 inline double differenceOf(double a, double b) { return std::abs(a - b); }
 
-// Of vectors: the length of what they differ by.
+// Returns the length of the difference of two vectors.
 template <glm::length_t kSize, class A, class B, glm::qualifier kQualifier>
 double
 differenceOf(const glm::vec<kSize, A, kQualifier>& a, const glm::vec<kSize, B, kQualifier>& b) {

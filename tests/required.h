@@ -10,7 +10,7 @@
 
 #include <gtest/gtest.h>
 
-// What some tests need and a machine may lack.
+// Capabilities that some tests need and a machine may lack.
 enum class Need {
     device,
     validation,

@@ -16,7 +16,8 @@ inline std::vector<StopTimes> steadyTimes(const std::map<Stop, double>& times, s
     return stops;
 }
 
-// Of a case with four samples. Marginal costs: 1, 2, 3, 4, 5, 20, 10, 15; in sum 60 ms.
+// Returns the times of a case with four samples. Marginal costs: 1, 2, 3, 4, 5, 20, 10, 15; in sum
+// 60 ms.
 inline std::map<Stop, double> sampleTimes() {
     return {
         {Stop::empty, 1.0},

@@ -1,4 +1,4 @@
-// What stops draw, on a device.
+// Tests the pictures of stops on a device.
 #include <map>
 #include <memory>
 #include <optional>
@@ -35,7 +35,7 @@ protected:
         watch_.emplace(device());
     }
 
-    // Of the settings' first frame; only the last call's may draw.
+    // Returns the views of the settings' first frame. Only those of the last call may draw.
     std::map<Stop, std::unique_ptr<StopView>>
     views(const hair::Settings& settings, const std::set<Stop>& wanted = {}) {
         hair_.emplace(device(), settings, HAIRBENCH_SCENES_DIR, 0, cache_);
@@ -47,7 +47,7 @@ protected:
         return views;
     }
 
-    // What invocations of the stop's watched stage make, in sum.
+    // Returns the sum over the invocations of the stop's watched stage.
     std::uint32_t sumOf(StopView& view) {
         watch_->seeAll();
         engine::FrameLoop loop(device(), engine::Timing::isolated);
@@ -118,7 +118,7 @@ TEST_F(StopViewTest, DrawsWhatItsStagesLeaveToSee) {
     without.render.hair = false;
     const hair::rendering::Pixels hairy = hair::rendering::drawCase(device(), single);
     const hair::rendering::Pixels bald = hair::rendering::drawCase(device(), without);
-    // Of 14,400 pixels; the hair is about 0.3 m and the picture 1.2 m high.
+    // There are 14,400 pixels; the hair is about 0.3 m and the picture 1.2 m high.
     ASSERT_GT(hair::rendering::differingPixels(hairy, bald), 200u);
 
     std::map<Stop, std::unique_ptr<StopView>> all = views(settings_);
@@ -167,7 +167,7 @@ TEST_F(StopViewTest, WatchesAlmostNothingWhileItIsTimed) {
     watch_->seeNone();
     engine::FrameLoop loop(device(), engine::Timing::isolated);
     EXPECT_EQ(all.at(Stop::geometry)->visit(loop, 3).size(), 3u);
-    // Of 4 frames of 60,928 invocations one would be seen with a chance of 6e-5.
+    // One of the 60,928 invocations in each of 4 frames would be seen with a chance of 6e-5.
     EXPECT_EQ(watch_->seen().invocations, 0u);
 }
 

@@ -34,7 +34,7 @@ constexpr Rule kRules[] = {
     {"shaders/", "engine/"},
     {"shaders/", "hair/"},
     {"shaders/", "benchmarks/"},
-    // What the device's results are checked against is no part of the program.
+    // The references for the device's results are no part of the program.
     {"", "hair/reference/", "tests/", "hair/reference/"},
 
     // Rendering knows of the simulation only the strand view that it is given.
@@ -44,8 +44,8 @@ constexpr Rule kRules[] = {
     {"hair/groom/", "hair/simulation/"},
     // The viewer plays cases; nothing that measures knows of it.
     {"benchmarks/", "benchmarks/viewer/", "benchmarks/viewer/", "benchmarks/commands/"},
-    // What C++ and GLSL share has one place for hair, and one for what measuring adds to it, and
-    // one for the viewer.
+    // Structures that C++ and GLSL share have one place for hair, one for measurement, and one for
+    // the viewer.
     {"hair/", "shaders/", "hair/gpu_structs.h"},
     {"benchmarks/", "shaders/", "benchmarks/measure/gpu_structs.h",
      "benchmarks/viewer/difference.cpp"},

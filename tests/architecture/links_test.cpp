@@ -1,4 +1,4 @@
-// What the project's pages point to is there.
+// Tests that the links of the project's pages lead to something.
 #include <cctype>
 #include <filesystem>
 #include <fstream>
@@ -107,8 +107,8 @@ TEST(Links, LeadToWhatIsThere) {
     EXPECT_GT(count, 15u);
 }
 
-// What stands between backticks in a page and looks like a file in a folder. A shader may be named
-// from shaders/, a test from tests/, and a part "x" stands for a name of the reader's own.
+// Returns texts between backticks that look like a file in a folder. A shader may be named from
+// shaders/, a test from tests/, and a part "x" stands for a name of the reader's own.
 std::set<std::string> filesNamedIn(std::istream& page) {
     static const std::regex file(
         R"(`([A-Za-z0-9_.-]+(?:/[A-Za-z0-9_.-]+)*/[A-Za-z0-9_.-]+\.)"

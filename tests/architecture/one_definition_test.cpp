@@ -14,11 +14,11 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-// The one definition rule over a whole program: two types or functions of one name in one namespace
-// are two definitions, of which the linker keeps one in silence. No compiler sees both, so names
-// are read from the sources: a tokenizer, and a reader of declarations in namespaces. What is
-// inside a class belongs to its class, what is inside a function or an anonymous namespace to its
-// file.
+// Tests the one definition rule over a whole program: two types or functions of one name in one
+// namespace are two definitions, and the linker keeps one in silence. No compiler sees both. So the
+// test reads names from the sources, with a tokenizer and a reader of declarations in namespaces.
+// Members belong to their class, and everything in a function or an anonymous namespace belongs to
+// its file.
 namespace {
 
 using testing::ElementsAre;
@@ -145,7 +145,7 @@ private:
     Tokens tokens_;
 };
 
-// What files define: "type benchmarks::Side" -> the files that hold it.
+// Definitions and the files that hold them, by "type benchmarks::Side".
 using Definitions = std::map<std::string, std::set<std::string>>;
 
 std::string joined(Tokens::const_iterator begin, Tokens::const_iterator end) {
@@ -193,7 +193,7 @@ std::string parameterType(Tokens tokens) {
     return joined(tokens.begin(), tokens.end() - (named ? 1 : 0));
 }
 
-// Of the tokens in parentheses: "(const Side&,int)".
+// Returns the types of the parameters in parentheses: "(const Side&,int)".
 std::string parameterTypes(const Tokens& tokens) {
     std::string text = "(";
     Tokens parameter;
@@ -475,7 +475,7 @@ TEST(OneDefinition, HoldsInEverySource) {
     EXPECT_THAT(doubles, IsEmpty());
 }
 
-// What a line of a header begins, by a pattern instead of the reader.
+// Types that a pattern finds at the beginning of a header's lines must be known to the reader.
 TEST(OneDefinition, IsReadFromEveryHeader) {
     static const std::regex pattern(
         R"((?:class|struct|enum class|union) (\w+)(?: final)?(?: :.*)? \{.*)");

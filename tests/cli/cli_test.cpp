@@ -51,7 +51,7 @@ TEST(Cli, SchemaIsTheCommittedOne) {
     EXPECT_TRUE(outcome.output == committed) << "hairbench schema > scenes/scene.schema.json";
 }
 
-// What nobody can read was not said.
+// Output that can't be written is a failure.
 TEST(Cli, FailsWhereStandardOutputIsClosedOrFull) {
     const std::string hair = shippedScene("truth/cantilever.obj");
     for (const std::string& command :
@@ -510,7 +510,7 @@ TEST_F(CliRun, RendersThePictureThatItMeasures) {
     EXPECT_GT(fs::file_size(picture), 1000u);
 }
 
-// docs/extending.md. The hash is what sha256sum says of the file.
+// docs/extending.md. The hash is sha256sum's for the file.
 TEST(Cli, ReportsSayWhichFilesOfGlslCasesWerePlayedWith) {
     if (!hasDevice()) return skipWithout(Need::device, "no Vulkan device");
     const TemporaryFolder folder;

@@ -1,5 +1,5 @@
-"""What `hairbench groom compare` has to say of two grooms, by brute force: the definitions of
-docs/grooms.md, each sample against each segment, in double precision.
+"""Computes the results of `hairbench groom compare` for two grooms by brute force: the definitions
+of docs/grooms.md, each sample against each segment, in double precision.
 
 usage: compare_grooms.py A B SPACING CURVATURE_STEP CONSISTENCY_SAMPLES directed|undirected
 

@@ -63,7 +63,7 @@ TEST_F(GroomCli, ConvertMakesAFileOfGuidesWithTriangles) {
     EXPECT_NEAR(found["lengths"]["maximum"], 0.3, 1e-6);
 }
 
-// Equal straight strands are their guides' mean but for the rounding of floats.
+// Equal straight strands are their guides' mean except for the rounding of floats.
 TEST_F(GroomCli, ConvertChoosesGuidesAndSaysHowGoodTheyAre) {
     folder_.write("lawn.hair", lawn(400).text());
     const Outcome outcome =

@@ -95,7 +95,7 @@ TEST_F(GroomCompareCli, AgreesWithBruteForce) {
             "--scale-a 1 --scale-b 1 --spacing 1.5 --curvature-step 4 --consistency-samples 7 "
             "--threads 2" +
                 std::string(direction == "undirected" ? " --undirected" : ""));
-        // What tells the definitions apart is not to be all or nothing.
+        // Scores between 0 and 1 distinguish the definitions.
         EXPECT_GT(wanted["f1"][2], 0.2);
         EXPECT_LT(wanted["f1"][0], 0.8);
         EXPECT_LT(wanted["strand_consistency"][0], 0.9 * wanted["recall"][0].get<double>());
@@ -158,8 +158,8 @@ TEST_F(GroomCompareCli, PrintsATableAndWritesJson) {
     EXPECT_FALSE(found.contains("penetration"));
 }
 
-// 4 strands of 0.1 to 0.3 m from y = 0 in a box up to y = 0.1 m: their lower 0.1 m, of 0.7 m, but
-// for what is no deeper than 1 mm.
+// Four strands of 0.1 to 0.3 m start at y = 0 in a box that reaches to y = 0.1 m. Their lower 0.1
+// m, of 0.7 m in all, are inside, without the parts less than 1 mm deep.
 TEST_F(GroomCompareCli, SaysWhatIsInsideAHead) {
     folder_.write("four.hair", fourStrands().text());
     folder_.write(

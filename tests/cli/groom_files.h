@@ -48,7 +48,7 @@ protected:
     convert(std::string_view in, std::string_view out, const std::string& options = "") const {
         return hairbench("groom convert " + quoted(in) + " " + quoted(out) + " " + options);
     }
-    // Of a .hair file: what lies after the header.
+    // Returns the data after the header of a .hair file.
     std::string dataOf(std::string_view name) const {
         return textOf(folder_.file(name)).substr(128);
     }

@@ -1,4 +1,5 @@
-// What files that strangers made can have the program do: nothing but be read, or refused.
+// Tests that the program does nothing with files that strangers made, except to read or refuse
+// them.
 #include <chrono>
 #include <filesystem>
 #include <string>

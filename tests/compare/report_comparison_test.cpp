@@ -58,7 +58,7 @@ TEST(ReportComparison, PairsCasesByName) {
     EXPECT_THAT(found.unmatched, ElementsAre("only in A: gone", "only in B: new"));
 }
 
-// What was a pass in one version and is none in the other.
+// A pass of one version may be none in the other.
 TEST(ReportComparison, NamesPassesThatOneReportLacks) {
     const auto passes = [](const std::string& name, const std::vector<const char*>& timed) {
         std::vector<MadeMetric> metrics;

@@ -67,8 +67,8 @@ class Buildah:
 
 
 class Roots:
-    """A root of Debian's for each stage. What follows FROM is followed as far as our file goes; any
-    other instruction is an error."""
+    """A root of Debian's for each stage. Follows the instructions of our file; any other instruction
+    is an error."""
 
     def __init__(self, folder):
         self.folder = folder
@@ -149,7 +149,7 @@ def main():
         statuses = [case["status"] for case in report["cases"]]
         if statuses != ["ok", "ok"]:
             sys.exit(f"container test: the cases of smoke.json are {statuses}, not two that are ok")
-        # What the image does by itself, without the minutes that it takes.
+        # Tests the image's own command without the minutes that it takes.
         listed = image.start([*image.command(), "--list"], results)
         cases = [line for line in listed.splitlines() if line.startswith("thesis/")]
         if len(cases) != 16:

@@ -461,7 +461,7 @@ TEST_F(LesserDevice, BindsAnyNumberOfImagesWithoutPushDescriptors) {
 
 // ---- Shaders ------------------------------------------------------------------------------------
 
-// What a shader asks of devices is in its capabilities: SPIR-V specification, 3.31.
+// A shader's capabilities say what it needs from devices: SPIR-V specification, 3.31.
 TEST(ShaderCapabilities, AreThoseThatFeaturesStandFor) {
     constexpr std::uint32_t kCapability = 17;  // the operation
     constexpr std::uint32_t kShader = 1, kGeometry = 2, kTessellation = 3, kLongIntegers = 11,

@@ -70,9 +70,10 @@ TEST_F(SwiftShader, SkipsStrandsWithTheirReason) {
     }
 }
 
-// Back ends that need none of the stages that it lacks. Edges of strands fall on either side of a
-// sample by rounding, and so does shading of steep strands. A quarter of the scene's strands, as
-// they are what SwiftShader takes its time for; they leave about 0.0066, all of them 0.008.
+// Back ends that need none of the stages that it lacks. By rounding, edges of strands fall on
+// either side of a sample, and shading of steep strands differs. The test has a quarter of the
+// scene's strands, because they take most of SwiftShader's time. They leave about 0.0066, all of
+// them 0.008.
 TEST_F(SwiftShader, DrawsStrandsAsTheOtherDeviceDoes) {
     if (pythonInterpreter().empty()) return skipWithout(Need::python, kNoPython);
     if (hairbench("devices").status != 0) return skipWithout(Need::device, "no other device");

@@ -110,7 +110,7 @@ def check_shading_model(folder: pathlib.Path) -> None:
     matt = [pixel[0] for pixel in read_png(folder / "matt_cylinder.png")[160] if pixel[0] > 0]
     phong = [pixel[0] for pixel in read_png(folder / "phong.png")[160]]
     expect(len(matt) > 80, f"the strand is {len(matt)} pixels wide")
-    # Of a perspective view, 1.4 degrees to each side of the strand's middle.
+    # The view is in perspective: 1.4 degrees to each side of the strand's middle.
     expect(all(abs(value - wanted) < 0.03 * wanted for value in matt), f"{matt} is not {wanted}")
     expect(max(phong) > 230, f"phong is {max(phong)} at most")
     mean = sum(phong) / len(matt)
@@ -134,7 +134,7 @@ def check_backend(folder: pathlib.Path) -> None:
 
 
 def greatest_reach(folder: pathlib.Path, name: str) -> float:
-    """Of a vertex from its root, over the length of the strand at rest up to it."""
+    """Returns the greatest distance of a vertex from its root over the strand's length up to it."""
     greatest = 0.0
     rests, strands = obj_strands(folder / "rest.obj"), obj_strands(folder / name)
     expect(len(rests) == len(strands) > 0, f"{len(strands)} of {len(rests)} strands")

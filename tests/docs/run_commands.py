@@ -19,7 +19,7 @@ BOX = re.compile(r"^```sh run\n(.*?)^```$", re.MULTILINE | re.DOTALL)
 
 
 def project_files(project: pathlib.Path) -> list[str]:
-    """What git has, and what it would take, from the top of the project."""
+    """Returns the files that git has or would take, from the top of the project."""
     listed = subprocess.run(
         ["git", "ls-files", "-z", "--cached", "--others", "--exclude-standard"],
         cwd=project,

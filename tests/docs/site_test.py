@@ -18,7 +18,7 @@ BROWSER = os.environ.get("HAIRBENCH_BROWSER") or next(
     filter(shutil.which, ("chromium", "chromium-browser", "google-chrome")), None
 )
 
-# What a page is like for who opens it. Names of controls are what a screen reader says.
+# Describes a page as a reader meets it. Names of controls are those that a screen reader says.
 LOOK = """
 const named = (each) => (each.getAttribute("aria-label") || each.title || each.textContent ||
     each.labels?.[0]?.textContent || "").trim();
@@ -103,7 +103,7 @@ class Site(unittest.TestCase):
     def expect_whole(self, said: dict) -> None:
         for nothing in ("complaints", "unnamed", "pictures", "missing"):
             self.assertEqual(said[nothing], [], nothing)
-        # What comes from the disk is not among them.
+        # The list leaves out files on the disk.
         self.assertEqual([each for each in said["resources"] if not each.startswith("data:")], [])
         self.assertTrue(said["language"])
         self.assertEqual(said["landmark"], 1)

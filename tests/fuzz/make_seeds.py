@@ -402,7 +402,7 @@ def journal_line(value):
 
 
 def journals():
-    """Of the run that tests/fuzz/targets.cpp makes up."""
+    """Writes journals of the run that tests/fuzz/targets.cpp makes up."""
     head = {
         "schema": "hairbench-journal/2.0.0",
         "header": {

@@ -121,7 +121,7 @@ Target strandTarget(const hair::groom::StrandImporter& row) {
         .seeds = {{"tests/corpus/" + name, {}}}};
 }
 
-// What usd_curves.py writes.
+// Reads the output of usd_curves.py.
 void readUsdStream(std::string_view bytes) {
     checkStrands(hair::groom::readUsdStream(asBytes(bytes)));
 }
@@ -190,8 +190,8 @@ void readAnimation(std::string_view bytes) {
     }
 }
 
-// What the child writes that reads meshes by assimp, or usd_mesh.py: the file may have taken it
-// over. Fuzzing assimp itself would find what it is a child for.
+// Reads the output of the child that reads meshes by assimp, or of usd_mesh.py: the file may have
+// taken it over. Fuzzing assimp itself would find the faults that it is in a child for.
 void readMeshStream(std::string_view bytes) {
     const hair::groom::ReadMesh read = hair::groom::readMeshStream(asBytes(bytes));
     const hair::groom::Mesh& mesh = read.mesh;
@@ -202,7 +202,7 @@ void readMeshStream(std::string_view bytes) {
     expect(read.textures.size() == mesh.materials.size(), "materials have textures");
 }
 
-// What is held against a PLY before assimp has it.
+// Checks a PLY as before assimp gets it.
 void readPlyFaces(std::string_view bytes) { hair::groom::checkPlyFaces(asBytes(bytes)); }
 
 // ---- Pictures -----------------------------------------------------------------------------------

@@ -8,7 +8,7 @@
 #include <string_view>
 #include <vector>
 
-// What is fuzzed: everything that reads a file which a stranger may have made.
+// The targets of fuzzing: everything that reads a file which a stranger may have made.
 namespace fuzz {
 
 // Where files lie to start from, below the project's folder.

@@ -13,7 +13,8 @@
 #include "tests/groom/formats/mutations.h"
 #include "tests/temporary_folder.h"
 
-// What fuzzers start from and what they have found, and damage of other kinds, without a fuzzer.
+// Tests the targets without a fuzzer: on the fuzzers' seeds and findings, and on other kinds of
+// damage.
 namespace fuzz {
 namespace {
 

@@ -4,7 +4,7 @@
 
 #include "tests/rendering/pictures.h"
 
-// What has a golden picture: a feature, and the settings that show it.
+// Features with golden pictures, and the settings that show them.
 namespace hair {
 
 struct Feature {

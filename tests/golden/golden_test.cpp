@@ -37,8 +37,8 @@ protected:
     }
 };
 
-// What was drawn stays in golden/ beside the program, wherever that was started, to look at, and to
-// take over where a change is meant.
+// The drawn pictures stay in golden/ beside the program, wherever it was started. They are there to
+// look at, and to take over after an intended change.
 TEST_F(GoldenTest, FeaturesLookAsTheyDid) {
     const fs::path drawn = HAIRBENCH_DRAWN_DIR;
     std::vector<std::pair<fs::path, fs::path>> pairs;

@@ -87,7 +87,7 @@ protected:
 
     static engine::HazardLog& log() { return *device().hazards(); }
 
-    // What was said of hazards; the layer's own messages are left out.
+    // Returns the messages on hazards, without the layer's own messages.
     static std::string hazards() {
         std::string text;
         for (const std::string& message : device().messages().take())
@@ -157,7 +157,7 @@ TEST_F(FramesHazards, AreNoneInAnySceneOrFeatureAndNoBarrierIsSuperfluous) {
     segments.simulation.colliders = {{.radius = 0.05f}};
     segments.simulation.substeps = 3;  // each after the one before
     silent("segments", segments);
-    // What scenes bring along: docs/extending.md.
+    // Extensions of scenes: docs/extending.md.
     hair::Settings extended = everything();
     extended.simulation.force = "extended/vortex.glsl";
     extended.strands.offset_function = "extended/crimped.glsl";
@@ -204,11 +204,11 @@ TEST_F(FramesHazards, AreNoneInAnySceneOrFeatureAndNoBarrierIsSuperfluous) {
 struct Missed {
     const char* pass;
     std::uint32_t index;  // of the barriers and changes of layout in the pass
-    const char* resource;  // that is touched out of order without it
+    const char* resource;  // accessed out of order without the barrier
 };
 
-// The barriers that frames need, by what the passes do: "resource" is what one wrote or read before
-// and the next one reads or writes. What is left out here is also ordered by another barrier.
+// Expects that frames need these barriers and no others. Without one of them, a pass accesses
+// "resource" after another without order. All other barriers are also covered by one of these.
 void missEach(
     engine::Device& device, const hair::Settings& settings, const std::vector<Missed>& expected) {
     engine::HazardLog& log = *device.hazards();
@@ -250,7 +250,7 @@ void missEach(
     device.messages().take();
 }
 
-// Of everything().
+// For everything().
 const std::vector<Missed> kMissed{
     {"volume", 1, "volume blocks"},  // cleared
     {"volume", 2, "volume samples"},

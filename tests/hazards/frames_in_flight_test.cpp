@@ -30,7 +30,7 @@ struct Ends {
     bool operator==(const Ends&) const = default;
 };
 
-// What the first frames end with, played twice in one stream.
+// Returns the result of the first frames, played twice in one stream.
 Ends ends(
     const engine::Device& device, Case& played, engine::Timing timing,
     const engine::Overlap& overlap) {

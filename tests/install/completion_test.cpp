@@ -1,4 +1,4 @@
-// What shells complete of the program's command line.
+// Tests the shells' completions of the program's command line.
 #include <algorithm>
 #include <filesystem>
 #include <set>
@@ -56,7 +56,7 @@ protected:
                "':$PATH; ";
     }
 
-    // What the program is called with where these keys are typed into a shell with completions.
+    // Returns the arguments of the program if these keys are typed into a shell with completions.
     std::string called(TypedShell& shell, const std::string& keys) const {
         shell.type(keys + '\n');
         const std::string seen = shell.waitFor(".\r\n");

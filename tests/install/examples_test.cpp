@@ -54,7 +54,7 @@ TEST(Examples, WouldBeRefusedWithAnOptionThatThereIsNot) {
     EXPECT_THAT(whyNotParsed({"hairbench"}), Not(IsEmpty()));
 }
 
-// What completions and manual are made of is what --help lists.
+// Completions and the manual are made of the entries that --help lists.
 TEST(ProgramHelp, HasTheCommandsAndOptionsOfHelp) {
     const CommandHelp program = programHelp();
     ASSERT_GT(program.commands.size(), 20u);

@@ -1,5 +1,5 @@
-// What `cmake --install` puts somewhere runs there and wherever it is moved, with nothing of the
-// source tree or the build tree.
+// Tests that an installed tree runs there and wherever it is moved, with nothing from the source
+// tree or the build tree.
 #include <cstdlib>
 #include <filesystem>
 #include <optional>
@@ -144,7 +144,7 @@ def BasisCurves "hair"
     EXPECT_THAT(read.output, HasSubstr("\"strands\": 2"));
 }
 
-// What its messages name, without making anything.
+// Tests the files that its messages name, without making an environment.
 TEST_F(InstalledTree, HasWhatMakesPythonEnvironments) {
     const std::string maker =
         "'" + (tree() / "libexec/hairbench/python-environment").string() + "'";

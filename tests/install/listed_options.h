@@ -16,7 +16,7 @@ inline std::string wordsBelow(const benchmarks::commands::CommandHelp& command) 
     return space == std::string::npos ? "" : name.substr(space + 1);
 }
 
-// What --help prints, asked once.
+// Returns the output of --help, which is called once.
 inline const std::string& helpText(const benchmarks::commands::CommandHelp& command) {
     static std::map<std::string, std::string> texts;
     const std::string words = wordsBelow(command);

@@ -131,7 +131,7 @@ std::vector<std::vector<glm::dvec4>> readCurves(const std::filesystem::path& pat
     return curves;
 }
 
-// What writeMaterialPly() writes: ASCII, positions, normals and, if any, texture coordinates.
+// Reads a file of writeMaterialPly(): ASCII, positions, normals and, if any, texture coordinates.
 MattMesh readPly(const std::filesystem::path& path) {
     std::istringstream file(contentOf(path));
     std::size_t vertices = 0;

@@ -1,8 +1,8 @@
-"""Mean radiances of scenes of Mitsuba 3, to hold our own path tracer against:
+"""Prints the mean radiances of Mitsuba 3's scenes, to compare our own path tracer with:
 mitsuba_means.py SAMPLES DIR ...
 
-Each DIR is what `hairbench export SCENE --mitsuba DIR` wrote. SAMPLES a pixel are traced in 16
-parts of independent seeds; the standard error is of those. Glossy meshes are taken as matt, as in
+`hairbench export SCENE --mitsuba DIR` writes each DIR. SAMPLES a pixel are traced in 16 parts with
+independent seeds, which give the standard error. Glossy meshes are taken as matt, as in
 trace_folder.
 """
 

@@ -137,8 +137,8 @@ void writeFolder(const Drawn& drawn, const std::filesystem::path& folder) {
 
 // ---- Comparison ---------------------------------------------------------------------------------
 
-// What Mitsuba 3.9.1 (scalar_rgb) has for the mean of the picture, linear RGB, and its standard
-// error. HAIRBENCH_TRACED_SCENES=DIR test_path_tracer leaves the scenes in DIR, and
+// The picture's mean by Mitsuba 3.9.1 (scalar_rgb), linear RGB, and its standard error.
+// HAIRBENCH_TRACED_SCENES=DIR test_path_tracer leaves the scenes in DIR, and
 // `.deps/reference/bin/python tests/path_tracer/mitsuba_means.py 1024 DIR/*` prints these lines:
 // 1024 samples a pixel, seeds 0 to 15.
 struct Published {

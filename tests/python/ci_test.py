@@ -1,6 +1,7 @@
-"""What others' CI runs: the shell steps of the action and of docs/comparing.md, on repositories made here.
+"""Tests others' CI: runs the shell steps of the action and of docs/comparing.md on repositories made
+here.
 
-cmake and scripts/setup are stand-ins there, whose builds are the program under test.
+cmake and scripts/setup are stand-ins there; their builds are the program under test.
 """
 
 import json

@@ -13,7 +13,7 @@ from support import REPOSITORY, hairbench
 CORPUS = REPOSITORY / "tests" / "corpus"
 BITS = numpy.uint32  # points are compared by their bits
 
-# What the formats' own rules are for strands: of any length, or all of one.
+# The formats' own rules for strands: of any length, or all of one length.
 ANY_LENGTH = (".hair", ".ply", ".obj", ".gltf", ".glb", ".usda", ".abc", ".data")
 ONE_LENGTH = (".npy", ".npz", ".tfx", ".hgl")
 WITH_WIDTHS = (".hair", ".ply", ".gltf", ".glb", ".usda", ".abc")

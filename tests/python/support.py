@@ -1,4 +1,4 @@
-"""What the tests of the Python module share: the module itself and the files of the repository."""
+"""The module and the repository's files, for all tests of the Python module."""
 
 import os
 import sys

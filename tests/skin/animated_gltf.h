@@ -27,7 +27,7 @@ public:
     int matrices(const std::vector<std::array<float, 16>>& values) {
         return accessor(values, 5126, "MAT4");
     }
-    // Zeros but for some elements.
+    // Adds zeros except for some elements.
     int sparseVectors(
         std::size_t count, const std::vector<std::uint16_t>& places,
         const std::vector<glm::vec3>& values) {

@@ -16,7 +16,7 @@
 
 // A sheet of 8 x 4 squares in the plane y = 0, 2 cm each, that bends: the weight of its second
 // joint grows along x from 0 to 1, and that joint turns about z at x = 4 cm, evenly from 0 to 60
-// degrees in 0.4 s, so that the sheet shears and shrinks as well. What it does is known in closed
+// degrees in 0.4 s, so that the sheet shears and shrinks as well. Its motion is known in closed
 // form.
 struct BendingSheet {
     static constexpr int kAlong = 8;

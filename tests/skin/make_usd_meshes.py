@@ -88,7 +88,7 @@ mesh(stage, "/proxy").CreatePurposeAttr("proxy")
 mesh(stage, "/hidden").CreateVisibilityAttr("invisible")
 stage.Save()
 
-# What is refused.
+# Refused meshes.
 stage = new_stage("refused_corner")
 mesh(stage, "/a", corners=(0, 1, 2, 4))
 stage.Save()

@@ -238,8 +238,8 @@ double energyOf(const Simulation& simulation, const SimulationSettings& settings
     return energy;
 }
 
-// Hair that falls: its energy with a clip that keeps the mesh as it is is that without one, but for
-// roundings of frames, 1e-7 of it, which 30 steps spread.
+// The energy of falling hair is the same with a clip that does not move the mesh and without one,
+// except for roundings of frames, 1e-7 of it, which 30 steps spread.
 TEST_F(GpuSkin, GivesNoEnergyWhereTheMeshStandsStill) {
     const TemporaryFolder folder;
     const auto path = BendingSheet::write(folder);
