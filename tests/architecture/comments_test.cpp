@@ -1,11 +1,15 @@
-// Comments of C++, GLSL and Python keep the rules on sentences in docs/CONTRIBUTING.md.
+// Comments of C++, GLSL and Python keep the rules on sentences in docs/CONTRIBUTING.md and are in
+// British spelling.
 #include <algorithm>
 #include <array>
 #include <cctype>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <map>
+#include <regex>
 #include <set>
+#include <sstream>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -155,6 +159,13 @@ std::vector<std::string> sentencesOf(std::string_view text) {
     return sentences;
 }
 
+std::string lowerCase(std::string text) {
+    std::ranges::transform(text, text.begin(), [](unsigned char c) { return std::tolower(c); });
+    return text;
+}
+
+// ---- Sentences ----------------------------------------------------------------------------------
+
 // Beginnings of noun clauses. "That" before a noun is no such clause: "That point is on the face."
 constexpr std::string_view kBeginnings[] = {
     "Of ",         "What ",      "Whose ",     "Such as ",    "That a ",
@@ -172,8 +183,7 @@ bool isPlain(const std::string& sentence) {
     if (sentence.ends_with('?')) return true;
     if (std::ranges::any_of(kBeginnings, [&](auto each) { return sentence.starts_with(each); }))
         return false;
-    std::string lower = sentence;
-    std::ranges::transform(lower, lower.begin(), [](unsigned char c) { return std::tolower(c); });
+    const std::string lower = lowerCase(sentence);
     return std::ranges::none_of(kWords, [&](const auto& words) {
         const std::size_t first = lower.find(words[0]);
         return first != std::string::npos &&
@@ -190,29 +200,107 @@ std::vector<std::string> riddlesIn(std::string_view text, Language language) {
     return found;
 }
 
-TEST(Comments, HavePlainSentences) {
-    const std::set<std::string> kShaders{".comp", ".frag", ".geom", ".glsl", ".mesh",
-                                         ".task", ".tesc", ".tese", ".vert"};
+// ---- Spelling -----------------------------------------------------------------------------------
+
+// Reads scripts/british.txt, which scripts/test uses for the pages: "color->colour".
+std::map<std::string, std::string> britishWords() {
+    std::map<std::string, std::string> words;
+    std::ifstream file(kCommented / "scripts/british.txt");
+    for (std::string line; std::getline(file, line);) {
+        const std::size_t arrow = line.find("->");
+        if (arrow != std::string::npos) words[line.substr(0, arrow)] = line.substr(arrow + 2);
+    }
+    return words;
+}
+
+// Whether a sentence names a work with its year: titles keep their spelling.
+bool namesAWork(const std::string& sentence) {
+    static const std::regex year(R"(\b(19|20)\d\d\b)");
+    return std::regex_search(sentence, year);
+}
+
+// Returns the words of a sentence in lower case, without identifiers and other code.
+std::vector<std::string> wordsOf(const std::string& sentence) {
+    static const std::regex code("`[^`]*`");
+    static const std::regex word(R"(\(?([A-Za-z]+)('s)?[,.;:?!)]*)");
+    std::istringstream parts(std::regex_replace(sentence, code, ""));
+    std::vector<std::string> words;
+    std::smatch match;
+    for (std::string part; parts >> part;) {
+        if (!std::regex_match(part, match, word)) continue;
+        words.push_back(lowerCase(match[1]));
+    }
+    return words;
+}
+
+// Returns "line: word: British word" for each American word.
+std::vector<std::string> americanIn(std::string_view text, Language language) {
+    static const std::map<std::string, std::string> british = britishWords();
+    std::vector<std::string> found;
+    for (const Comment& comment : CommentReader(text, language).comments())
+        for (const std::string& sentence : sentencesOf(comment.text)) {
+            if (namesAWork(sentence)) continue;
+            for (const std::string& word : wordsOf(sentence))
+                if (const auto better = british.find(word); better != british.end())
+                    found.push_back(
+                        std::to_string(comment.line) + ": " + word + ": " + better->second);
+        }
+    return found;
+}
+
+// ---- Tests --------------------------------------------------------------------------------------
+
+// Calls check(text, language, path) for the project's files with comments.
+template <class Check>
+void eachFile(Check&& check) {
+    const std::set<std::string> in_c{".c", ".comp", ".cpp",  ".frag", ".geom", ".glsl",
+                                     ".h", ".mesh", ".task", ".tesc", ".tese", ".vert"};
     std::size_t count = 0;
     for (const char* const folder :
          {"benchmarks", "docs", "engine", "hair", "scenes", "scripts", "shaders", "tests"})
         for (const auto& entry : fs::recursive_directory_iterator(kCommented / folder)) {
             if (!entry.is_regular_file()) continue;
             const std::string extension = entry.path().extension().string();
-            const bool is_c = extension == ".cpp" || extension == ".h" || extension == ".c" ||
-                              kShaders.contains(extension);
+            const bool is_c = in_c.contains(extension);
             if (!is_c && extension != ".py" && !extension.empty()) continue;
             std::ifstream stream(entry.path(), std::ios::binary);
             const std::string text{std::istreambuf_iterator<char>(stream), {}};
+            const std::string first = text.substr(0, text.find('\n'));
             const bool is_script =
-                text.starts_with("#!") &&
-                text.substr(0, text.find('\n')).find("python") != std::string::npos;
+                first.starts_with("#!") && first.find("python") != std::string::npos;
             if (!is_c && extension != ".py" && !is_script) continue;
             ++count;
-            EXPECT_THAT(riddlesIn(text, is_c ? Language::c : Language::python), IsEmpty())
-                << entry.path().lexically_relative(kCommented);
+            check(
+                text, is_c ? Language::c : Language::python,
+                entry.path().lexically_relative(kCommented));
         }
     EXPECT_GT(count, 1000u);
+}
+
+TEST(Comments, HavePlainSentences) {
+    eachFile([](const std::string& text, Language language, const fs::path& path) {
+        EXPECT_THAT(riddlesIn(text, language), IsEmpty()) << path;
+    });
+}
+
+TEST(Comments, AreInBritishSpelling) {
+    ASSERT_GT(britishWords().size(), 30u);
+    eachFile([](const std::string& text, Language language, const fs::path& path) {
+        EXPECT_THAT(americanIn(text, language), IsEmpty()) << path;
+    });
+}
+
+TEST(Comments, OfIdentifiersAndTitlesKeepTheirSpelling) {
+    EXPECT_THAT(
+        americanIn(
+            R"--(// The color's center, (gray) behavior.
+int color = 0;  // `color`, color.r, linearColor, /shading/color, color_from, "color", colors[3]
+// Okabe and Ito 2008, Color universal design. A fiber: thin.
+)--",
+            Language::c),
+        ElementsAre(
+            "1: color: colour", "1: center: centre", "1: gray: grey", "1: behavior: behaviour",
+            "3: fiber: fibre"));
 }
 
 TEST(Comments, OfCAndGlslAreRead) {
