@@ -19,7 +19,7 @@ inline HairFile fourStrands() {
                                                  4, 0, 4, 4, 10, 4, 4, 20, 4, 4, 30, 4}};
 }
 
-// Strands of 16 points, as many as are asked for, on a lattice.
+// Returns this many strands of 16 points on a lattice.
 inline HairFile lawn(std::uint32_t strands) {
     HairFile file{.segments = std::vector<std::uint16_t>(strands, 15)};
     file.points.reserve(std::size_t{strands} * 48);
@@ -32,7 +32,7 @@ inline HairFile lawn(std::uint32_t strands) {
     return file;
 }
 
-// A folder with files of hair and what `hairbench groom` says of them.
+// Has a folder for files of hair, and runs `hairbench groom` on them.
 class GroomCli : public testing::Test {
 protected:
     std::string quoted(std::string_view name) const {
