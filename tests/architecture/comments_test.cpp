@@ -1,5 +1,5 @@
-// Comments of C++, GLSL and Python keep the rules on sentences in docs/CONTRIBUTING.md and are in
-// British spelling.
+// Tests that comments of C++, GLSL and Python follow the rules on sentences in docs/CONTRIBUTING.md
+// and are in British spelling.
 #include <algorithm>
 #include <array>
 #include <cctype>
@@ -28,12 +28,13 @@ const fs::path kCommented = HAIRBENCH_SOURCE_DIR;
 
 struct Comment {
     std::size_t line = 0;  // first line, from 1
-    std::string text;      // lines joined by spaces
+    std::string text;  // lines joined by spaces
 };
 
 enum class Language { c, python };
 
-// Reads the comments of a file, and in Python strings that are statements. Skips other literals.
+// Reads the comments of a file, and in Python also strings that are statements. Skips other
+// literals.
 class CommentReader {
 public:
     CommentReader(std::string_view text, Language language)
@@ -166,14 +167,14 @@ std::string lowerCase(std::string text) {
 
 // ---- Sentences ----------------------------------------------------------------------------------
 
-// Beginnings of noun clauses. "That" before a noun is no such clause: "That point is on the face."
+// Beginnings of noun clauses. "That" before a noun begins none: "That point is on the face."
 constexpr std::string_view kBeginnings[] = {
     "Of ",         "What ",      "Whose ",     "Such as ",    "That a ",
     "That all ",   "That an ",   "That it ",   "That its ",   "That each ",
     "That every ", "That no ",   "That one ",  "That the ",   "That their ",
     "That there ", "That they ", "That this ", "That these ", "That those "};
 
-// Words that no sentence has, in this order. The second is empty if one is enough.
+// Words that no sentence may have, in this order. The second is empty if one is enough.
 constexpr std::array<std::string_view, 2> kWords[] = {
     {"absent of ", ""}, {"but for ", ""},      {"such that ", ""},         {" is what ", ""},
     {" are what ", ""}, {"whose ", " whose "}, {"the one ", " the other"},
@@ -213,7 +214,7 @@ std::map<std::string, std::string> britishWords() {
     return words;
 }
 
-// Whether a sentence names a work with its year: titles keep their spelling.
+// Whether a sentence cites a work with its year. Titles keep their spelling.
 bool namesAWork(const std::string& sentence) {
     static const std::regex year(R"(\b(19|20)\d\d\b)");
     return std::regex_search(sentence, year);

@@ -27,7 +27,8 @@ StrandCounts fewStrands() {
 }
 
 // From the table of docs/measuring.md. Operations: 81 + 84 per point, 22 per end, 34 per corner, 75
-// per pixel, and 60 per pixel and light. Bytes: 16 per guide vertex, 12 per triangle, 12 per sample.
+// per pixel, and 60 per pixel and light. Bytes: 16 per guide vertex, 12 per triangle and 12 per
+// sample.
 TEST(StrandWork, IsThatOfTheTable) {
     EXPECT_EQ(fewStrands().points(), 290u);
     const auto work = strandWork(Backend::tessellation, fewStrands());
