@@ -117,7 +117,7 @@ class Mesh:
         return (points @ world[:3, :3] + world[3, :3])[self.points]
 
     def normals(self):
-        """Returns area-weighted sums of the triangles' normals at each point, so that no seam shows."""
+        """Sums the triangles' normals, weighted by area, at each point, so that no seam shows."""
         a, b, c = (self.positions[self.triangles[:, i]] for i in range(3))
         sums = np.zeros((self.count, 3))
         for i in range(3):
@@ -134,7 +134,7 @@ class Mesh:
         return times
 
     def materials(self):
-        """Returns names, and the index of its name for each triangle. Names are those of the bound
+        """Returns names, and the index of the name for each triangle. Names are those of the bound
         material, otherwise the mesh, and of GeomSubsets of faces."""
         bound = UsdShade.MaterialBindingAPI(self.prim).ComputeBoundMaterial()[0]
         names = [bound.GetPrim().GetName() if bound else self.prim.GetName()]

@@ -166,7 +166,7 @@ class Prim:
         return None
 
     def _per_strand(self, name):
-        """Returns integers, one for each curve or one for the prim, which may come from a parent."""
+        """Returns integers, one for each curve or one for all. They may come from a parent prim."""
         primvar = UsdGeom.PrimvarsAPI(self.curves).FindPrimvarWithInheritance(name)
         values = primvar.ComputeFlattened(self.time) if primvar else None
         if values is None:
