@@ -24,7 +24,7 @@
 namespace engine {
 namespace {
 
-// In addition to what the device itself takes.
+// Limits in addition to the device's own use.
 constexpr unsigned kSeconds = 30;  // of CPU time
 const ChildLimits kLimits{.seconds = kSeconds, .bytes = std::size_t{2} << 30};
 
@@ -35,7 +35,7 @@ const ChildLimits kLimits{.seconds = kSeconds, .bytes = std::size_t{2} << 30};
     _exit(written > 0 ? 1 : 2);
 }
 
-// Returns none if there is no such device: the parent then reports what it finds itself.
+// Returns null if there is no such device: then nothing is tried, and the parent goes on.
 std::unique_ptr<Device> deviceNamed(const std::string& name) {
     try {
         return std::make_unique<Device>(DeviceOptions{.wanted = name});

@@ -342,7 +342,7 @@ constexpr int kPollInterval = 100;  // ms
 constexpr std::size_t kKeptErrors = std::size_t{1} << 16;  // bytes kept of a child's last errors
 constexpr std::size_t kLongestLine = 300;  // bytes
 
-// Reads both until the child has closed them.
+// Reads stdout and stderr until the child has closed them.
 void drain(File& output, const Take& take, File& errors, std::string& text, const Poll& idle) {
     std::vector<char> part(1 << 16);
     while (output.get() >= 0 || errors.get() >= 0) {
@@ -453,7 +453,7 @@ constexpr int kOutOfMemory = 12;  // exit status of the fork: ENOMEM
         if (count <= 0) _exit(1);
         done += static_cast<std::size_t>(count);
     }
-    _exit(0);  // nothing of the parent's is destroyed
+    _exit(0);  // destroys no object of the parent
 }
 
 std::string describeCopy(int status, const ChildLimits& limits) {

@@ -15,9 +15,10 @@ namespace engine {
 // Limits on a child's resources. Children are in process groups of their own. They end when the
 // thread that started them ends, even by a signal.
 struct ChildLimits {
-    // Of CPU time; 0: unlimited. The limit on wall-clock time is ten times as long plus a minute.
+    // Limit of CPU time; 0: none. The limit of wall-clock time is ten times as long plus a minute.
     unsigned seconds = 0;
-    // Of memory; 0: unlimited. For a fork of this process, in addition to this process's.
+    // Limit of memory; 0: none. A fork of this process gets it in addition to this process's
+    // memory.
     std::size_t bytes = 0;
     std::size_t output = std::numeric_limits<std::size_t>::max();  // bytes on stdout
     // The only files and folders that a program may read, apart from the system's. It may write
@@ -38,10 +39,11 @@ void limitSelf(const ChildLimits& limits);
 std::vector<std::byte>
 runTool(const std::vector<std::string>& arguments, const ChildLimits& limits = {});
 
-// Runs `work` in a fork of this process and returns its result. For work that may never end,
-// exhaust memory or crash. The fork has only the calling thread, so `work` must wait for no other
-// thread, and can open no file. It must not throw. If the child does not return, throws an Error that says how it ended.
-// An interrupt, or the end of a TimeLimit, ends the child and throws as checkInterrupted() does.
+// Runs `work` in a fork of this process and returns its result. This is for work that may never
+// end, exhaust memory or crash. The fork has only the calling thread, so `work` must wait for no
+// other thread, and can open no file. It must not throw. If the child does not return, throws an
+// Error that says how it ended. An interrupt, or the end of a TimeLimit, ends the child and throws
+// as checkInterrupted() does.
 std::string runApart(const std::function<std::string()>& work, const ChildLimits& limits);
 
 // Runs a program as the function above does, except for interrupts. Passes each line of its stdout

@@ -54,7 +54,7 @@ constexpr std::array kNames{
     Range{32, 33},  // OpTypePointer, OpTypeFunction
     Range{248, 248},  // OpLabel
 };
-// Instructions with both.
+// Instructions with a type and a result.
 constexpr std::array kValues{
     Range{1, 1},  // OpUndef
     Range{12, 12},  // OpExtInst
@@ -284,7 +284,7 @@ private:
         case op::kMemberDecorate: {
             const std::size_t at = operation == spirv::kDecorate ? 1 : 2;
             if (words.size() <= at) return fault("is no SPIR-V");
-            // A variable's location or built-in: the fault of the variable itself says more.
+            // For a variable's location or built-in, the fault of the variable itself says more.
             if (!isIn(kDecorations, words[at]) || (words[at] == kSpecId && words.size() != at + 2))
                 return declared(noPlace("SPIR-V's decoration " + std::to_string(words[at])));
             return std::nullopt;

@@ -24,11 +24,11 @@ const Table& tableOf(const LightSettings*) {
          number(
              "color", &S::color, 0, 100, "1",
              "colour of a white matt surface that faces the light, display RGB"),
-         number("strength", &S::strength, 0, 10000, "1", "factor of color"),
+         number("strength", &S::strength, 0, 10000, "1", "factor of colour"),
          number(
              "reference_distance", &S::reference_distance, 0, 1000, "m",
-             "distance at which the light has its color and beyond which it is weaker; 0: the same "
-             "at any distance"),
+             "distance at which the light has its colour and beyond which it is weaker; 0: the "
+             "same at any distance"),
          number("radius", &S::radius, 0, 100, "m", "radius of a sphere light"),
          number(
              "angular_radius", &S::angular_radius, 0, 90, "deg",
@@ -94,7 +94,7 @@ const Table& tableOf(const ShadingSettings*) {
          choice(
              "color_from", &S::color_from,
              {{ColorSource::rgb, "rgb"}, {ColorSource::melanin, "melanin"}},
-             "rgb: color; melanin: the two pigments"),
+             "rgb: colour; melanin: the two pigments"),
          number("color", &S::color, 0, 1, "1", "hair colour, display RGB"),
          number(
              "eumelanin", &S::eumelanin, 0, 100, "1",
@@ -104,7 +104,7 @@ const Table& tableOf(const ShadingSettings*) {
              "red pigment; absorption (0.187, 0.4, 1.05) per fibre radius"),
          number(
              "strand_variation", &S::strand_variation, 0, 0.9, "1",
-             "strands differ in color: each is as of hair that absorbs more or less by up to this "
+             "strands differ in colour: each is as of hair that absorbs more or less by up to this "
              "part"),
          number(
              "tip_lightening", &S::tip_lightening, 0, 0.9, "1",

@@ -4,7 +4,7 @@
 
 #include "engine/error.h"
 
-// The one line that `action` fails with; "no error" if it doesn't.
+// Returns the one-line error that `action` throws, or "no error".
 template <class Action>
 std::string errorText(Action&& action) {
     try {

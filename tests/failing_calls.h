@@ -8,27 +8,27 @@
 
 #include "engine/instance.h"
 
-// Vulkan calls that fail when a test says so, and a count of the objects that they make, by volk's
-// pointers: of the program's only device, from one thread.
+// Makes Vulkan calls fail, and counts the objects that they create, by replacing volk's function
+// pointers. For a program with one device, and for calls from one thread.
 namespace failing {
 
 struct Plan {
     std::string call;  // "vkQueueSubmit2"; empty: none fails
     VkResult result = VK_SUCCESS;
-    std::size_t after = 0;  // calls of it that succeed first
-    std::size_t times = 1;  // that it fails then
+    std::size_t after = 0;  // calls that succeed first
+    std::size_t times = 1;  // calls that then fail
 };
 
 inline Plan plan;
-inline std::size_t failures = 0;  // of the plan, so far
+inline std::size_t failures = 0;  // so far, by the plan
 
 // A function of volk's.
 struct Call {
     std::string name;
-    std::vector<VkResult> results;  // by which it may fail, as the specification has it
-    void (*install)();  // in place of the driver's; counts from here on
+    std::vector<VkResult> results;  // errors that the specification allows
+    void (*install)();  // replaces the driver's function; counts from here on
     const std::size_t* calls;
-    // Objects that it made less those that were destroyed; null where it makes none.
+    // Number of created objects that are not destroyed; null if the function creates none.
     const long* alive = nullptr;
 };
 

@@ -11,8 +11,8 @@
 #include "tests/python.h"
 #include "tests/temporary_folder.h"
 
-// Mean FLIP error of each pair of picture files, reference first, in their order. 1, and a failed
-// test, where it can't be had. Needs pythonInterpreter().
+// Returns the mean FLIP error of each pair of picture files, reference first. If some are missing,
+// fails the test and returns 1 for them. Needs pythonInterpreter().
 inline std::vector<double>
 flipErrors(const std::vector<std::pair<std::filesystem::path, std::filesystem::path>>& pairs) {
     const TemporaryFolder folder;

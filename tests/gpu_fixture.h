@@ -9,12 +9,12 @@
 #include "engine/device.h"
 #include "tests/required.h"
 
-// One validated device for all GPU tests of a program, made for the first and gone before main()
-// returns: later, the validation layer's own globals are gone. With $HAIRBENCH_GPU_ASSISTED shaders
-// are checked, too.
+// One validated device for all GPU tests of a program. The first test creates it. It is destroyed
+// before main() returns, because the validation layer's globals are destroyed after that. With
+// $HAIRBENCH_GPU_ASSISTED the layer also checks shaders.
 class GpuEnvironment : public testing::Environment {
 public:
-    // Null where there is no Vulkan device; missing() says why.
+    // Null without a Vulkan device; missing() gives the reason.
     static engine::Device* device() {
         if (!device_ && missing_.empty()) {
             try {
@@ -42,8 +42,7 @@ private:
 inline testing::Environment* const gpu_environment =
     testing::AddGlobalTestEnvironment(new GpuEnvironment);
 
-// A test is skipped only where there is no Vulkan device, and fails on any validation message that
-// came while it ran.
+// Skips a test only without a Vulkan device. Fails it on any validation message during the test.
 class GpuTest : public testing::Test {
 protected:
     void SetUp() override {

@@ -12,11 +12,11 @@
 #include <glm/vec3.hpp>
 #include <glm/vec4.hpp>
 
-// Folds of what is compared. std::max and std::min drop NaN, which compares as false: a solver that
-// writes nothing else would differ from its reference by 0.
+// Extremes and differences that keep NaN. std::max and std::min drop NaN, because comparisons with
+// it are false. With them, a solver that writes only NaN would differ from its reference by 0.
 
-// The least and the greatest of the values that are added; NaN, which fails every comparison, where
-// one of them was not finite. Throws where there was none.
+// The least and the greatest of the added values. NaN, which fails every comparison, if any value
+// is not finite. Throws without a value.
 class Extremes {
 public:
     void add(double value) {
@@ -43,7 +43,7 @@ private:
 
 inline double differenceOf(double a, double b) { return std::abs(a - b); }
 
-// Of vectors: the length of what they differ by.
+// Returns the length of the difference of two vectors.
 template <glm::length_t kSize, class A, class B, glm::qualifier kQualifier>
 double
 differenceOf(const glm::vec<kSize, A, kQualifier>& a, const glm::vec<kSize, B, kQualifier>& b) {
@@ -51,9 +51,8 @@ differenceOf(const glm::vec<kSize, A, kQualifier>& a, const glm::vec<kSize, B, k
     return glm::distance(Vector(a), Vector(b));
 }
 
-// The largest difference between elements of the same index, numbers or vectors of float or double:
-// NaN where one of them is not finite. Throws where the lengths differ or there is nothing to
-// compare.
+// Returns the largest difference between elements of the same index: numbers or vectors, of float
+// or double. NaN if any is not finite. Throws if the lengths differ or are 0.
 template <std::ranges::sized_range A, std::ranges::sized_range B>
 double largestDifference(const A& a, const B& b) {
     if (std::ranges::size(a) != std::ranges::size(b))

@@ -18,7 +18,7 @@ using testing::ThrowsMessage;
 constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
 
-// Sides of 2, 3 and 6 make a diagonal of 7; 3 and 4 one of 5.
+// Sides of 2, 3 and 6 have a diagonal of 7. Sides of 3 and 4 have one of 5.
 TEST(LargestDifference, IsTheLargestOfNumbersAndOfVectors) {
     EXPECT_EQ(largestDifference(std::vector{1.0f, 2.0f, 3.0f}, std::array{1.5, -1.0, 3.0}), 3.0);
     const std::vector<glm::vec3> a{{1, 1, 1}, {0, 0, 0}, {5, 5, 5}};
@@ -31,7 +31,7 @@ TEST(LargestDifference, IsTheLargestOfNumbersAndOfVectors) {
         5.0);
 }
 
-// Float points are compared in double: 2^-24 would be lost on a float 1 + 1.
+// Compares float points in double precision: a float 1 + 1 would lose 2^-24.
 TEST(LargestDifference, IsOfDoublePrecision) {
     EXPECT_EQ(
         largestDifference(

@@ -1,1 +1,1 @@
-// Nothing: its target makes the precompiled header that all tests share.
+// Empty. Its target makes the precompiled header that all tests share.

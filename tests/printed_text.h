@@ -6,8 +6,8 @@
 
 enum class Printed { to_stdout, to_stderr };
 
-// Returns what `action` prints. Where it throws, prints that and gives the stream back first: else
-// the failure itself, and all tests after it, would print into the capture.
+// Returns the output of `action`. If it throws, restores the stream and prints the output first.
+// Otherwise the failure and all later tests would print into the capture.
 template <class Action>
 std::string printedText(Printed where, Action&& action) {
     const bool is_stdout = where == Printed::to_stdout;

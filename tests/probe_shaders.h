@@ -15,14 +15,15 @@ namespace hair::gpu {
 #include "tests/shaders/probe_structs.h"
 }
 
-// The shaders of tests/shaders/, which ask the program's GLSL functions and are no part of it.
+// The shaders of tests/shaders/. They call the program's GLSL functions, but do not belong to the
+// program.
 namespace probe_shaders {
 
-// As engine::shaderCode() and engine::shaderPaths(): "probe_fiber.comp".
+// Like engine::shaderCode() and engine::shaderPaths(). Paths are e.g. "probe_fiber.comp".
 std::span<const std::uint32_t> shaderCode(std::string_view path);
 std::vector<std::string_view> shaderPaths();
 
-// From now on pipelines of the device can be made of them too.
+// Lets the device make pipelines from these shaders too.
 inline void addTo(const engine::Device& device) {
     engine::ShaderLibrary::Replacements all = device.shaders().replacements();
     for (const std::string_view path : shaderPaths()) {

@@ -6,14 +6,14 @@
 
 #include "tests/cli/run_hairbench.h"
 
-// The interpreter in a folder of .deps/. Empty where there is none.
+// Returns the interpreter in a folder of .deps/; empty if there is none.
 inline std::string interpreterOf(const std::string& environment) {
     const std::string made = HAIRBENCH_SOURCE_DIR "/.deps/" + environment + "/bin/python";
     return std::filesystem::exists(made) ? made : "";
 }
 
-// The interpreter of scripts/setup --python, for tests that hold the program against other
-// people's libraries. Empty where there is none: skipWithout(Need::python, kNoPython).
+// Returns the interpreter of scripts/setup --python, for tests that compare the program with other
+// libraries. If it is empty, skip the test by skipWithout(Need::python, kNoPython).
 inline std::string pythonInterpreter() {
     const char* wanted = std::getenv("HAIRBENCH_PYTHON");
     return wanted && *wanted ? wanted : interpreterOf("python");
@@ -21,7 +21,7 @@ inline std::string pythonInterpreter() {
 
 inline constexpr const char* kNoPython = "no Python environment: run scripts/setup --python";
 
-// Runs a script of the repository. `arguments` are for a shell.
+// Runs a script of the repository. A shell reads `arguments`.
 inline Outcome runPython(
     const std::string& script, const std::string& arguments,
     const std::string& interpreter = pythonInterpreter()) {

@@ -10,13 +10,13 @@
 
 #include <gtest/gtest.h>
 
-// What some tests need and a machine may lack.
+// Capabilities that some tests need and a machine may lack.
 enum class Need {
     device,
     validation,
     gbench,
     python,
-    module,  // of Python
+    module,  // hairbench's Python module
     report,
     browser,
     display,
@@ -29,8 +29,8 @@ inline constexpr std::array<std::string_view, 10> kNeedNames{
     "report", "browser",    "display", "swiftshader", "mesh"};
 static_assert(kNeedNames.size() == static_cast<std::size_t>(Need::mesh) + 1);
 
-// Whether HAIRBENCH_REQUIRE, names that are separated by commas, has it: scripts/test puts there
-// what it has set up. Throws for names that there are none of.
+// Whether HAIRBENCH_REQUIRE, a list with commas, names this need. scripts/test lists there what it
+// has set up. Throws for unknown names.
 inline bool isRequired(Need need) {
     const char* const variable = std::getenv("HAIRBENCH_REQUIRE");
     bool found = false;
@@ -46,8 +46,8 @@ inline bool isRequired(Need need) {
     return found;
 }
 
-// Ends a test that lacks something: skips it, or fails it where that is required. In a test or a
-// SetUp(): if (...) return skipWithout(Need::display, "there is no display");
+// Ends a test that lacks a need: fails it if the need is required, otherwise skips it. In a test or
+// a SetUp(): if (...) return skipWithout(Need::display, "there is no display");
 inline void skipWithout(Need need, const std::string& reason) {
     if (isRequired(need))
         GTEST_FAIL() << reason << "; HAIRBENCH_REQUIRE asks for "

@@ -10,7 +10,7 @@
 
 namespace {
 
-// The variable has another value until the end of a test.
+// Changes the variable until the end of a test.
 class RequiredTest : public testing::Test {
 protected:
     ~RequiredTest() override {

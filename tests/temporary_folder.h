@@ -9,7 +9,7 @@
 
 #include <unistd.h>
 
-// A folder of a test's own, gone with it.
+// A folder for one test. The destructor removes it.
 class TemporaryFolder {
 public:
     TemporaryFolder() {
@@ -28,7 +28,7 @@ public:
     const std::filesystem::path& path() const { return path_; }
     std::filesystem::path file(std::string_view name) const { return path_ / name; }
 
-    // Writes a file, folders included, and returns its path.
+    // Writes a file, creates its folders, and returns its path.
     std::filesystem::path write(std::string_view name, std::string_view content) const {
         const std::filesystem::path path = file(name);
         std::filesystem::create_directories(path.parent_path());
@@ -37,7 +37,7 @@ public:
         return path;
     }
 
-    // `text` without this folder's path, which differs from run to run.
+    // Returns `text` without this folder's path, which differs from run to run.
     std::string relative(std::string text) const {
         const std::string prefix = path_.string() + '/';
         for (auto at = text.find(prefix); at != std::string::npos; at = text.find(prefix)) {

@@ -162,7 +162,7 @@ std::string sideText(const Side& side, const std::optional<BlockReport>& first) 
     return text + '\n';
 }
 
-// Omits what two builds on one machine share. Of the scenes, only cases and results count.
+// Omits what two builds on one machine share. From the scenes, only cases and results count.
 std::string differencesText(const GateRun& run) {
     if (!run.first_a || !run.first_b) return {};
     std::string text;

@@ -20,8 +20,8 @@ using Picture = std::vector<std::uint8_t>;
 // Root of the mean square difference.
 double rootMeanSquare(std::span<const std::uint8_t> a, std::span<const std::uint8_t> b);
 
-// What a level of detail changes from one step of a path to the next beyond what the step changes
-// anyway: root mean square of (b - a) - (full_b - full_a).
+// Returns the change by level of detail between two steps of a path, beyond the change that the
+// steps make in any case: the root mean square of (b - a) - (full_b - full_a).
 double popping(
     std::span<const std::uint8_t> a, std::span<const std::uint8_t> b,
     std::span<const std::uint8_t> full_a, std::span<const std::uint8_t> full_b);

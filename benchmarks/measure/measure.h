@@ -25,8 +25,8 @@ std::vector<std::uint8_t> measure(
     const engine::Device& device, Case& test_case, const hair::RunSettings& run,
     const MeasureHooks& hooks, report::CaseResult& result);
 
-// What of it needs no case, on any stage: metrics of frames and passes, sampling, conditions, trust
-// and hashes.
+// Measures the part that needs no case, on any stage: metrics of frames and passes, sampling,
+// conditions, trust and hashes.
 std::vector<std::uint8_t> measureFrames(
     Stage& stage, const hair::RunSettings& run, const MeasureHooks& hooks,
     report::CaseResult& result);

@@ -32,7 +32,8 @@ double passSum(const engine::FrameRecord& frame);
 // passes are all of the frame, the timestamps are right, and submitting takes no time.
 double passSumOverWall(std::span<const engine::FrameRecord> isolated);
 
-// What submitting and waiting take beside the work: from isolated frames of known work, or none.
+// Time of submitting and waiting beside the work, from isolated frames of known work or without
+// work.
 struct EmptySubmission {
     double median = 0.0;  // ms
     double spread = 0.0;  // ms, from the median to the 95th percentile
@@ -53,11 +54,11 @@ PassSum passSums(std::span<const engine::FrameRecord> isolated, const EmptySubmi
 
 // ---- Metrics of a case --------------------------------------------------------------------------
 
-// What a count should have been, "expected 120" or "expected at least 120"; absent where it is, or
-// where nothing is expected. A GPU may run the stages that make vertices more than once for one of
-// them, as where batches of a patch's vertices share some, but never less often; a processor runs
-// them once. What follows of primitives is exact everywhere. `statistic` is one of
-// engine::kStatisticNames.
+// Returns what a count should have been, "expected 120" or "expected at least 120"; none if it is
+// right, or if nothing is expected. A GPU may run the stages that make vertices more than once for
+// a vertex, for example if batches of a patch's vertices share some, but never less often. A
+// processor runs them once. Counts that follow from primitives are exact everywhere. `statistic` is
+// one of engine::kStatisticNames.
 std::optional<std::string> missedCount(
     std::string_view statistic, std::uint64_t measured, std::optional<std::uint64_t> expected,
     const engine::DeviceInfo& device);

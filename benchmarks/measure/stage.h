@@ -31,15 +31,15 @@ struct SamplingState {
     double max_seconds = 0.0;               // when its last round begins at the latest
 };
 
-// What a run has learnt of its device, from case to case.
+// Facts about its device that a run has learnt in earlier cases.
 struct DeviceKnowledge {
     // MHz, the highest shader clock under full load, by /run/clocks.
     std::map<hair::Clocks, double> held_clock;
     // Names of the passes of frames whose timestamps were checked and are right.
     std::vector<std::vector<std::string>> trusted_passes;
-    // Of frames of these passes, in how many of them planted work was found so far.
+    // For frames with these passes: the number of passes in which planted work was found so far.
     std::map<std::vector<std::string>, std::size_t> checked_passes;
-    std::uint32_t planted_steps = 0;  // of work that is looked for; 0: not known yet
+    std::uint32_t planted_steps = 0;  // length of the planted work; 0: not known yet
     // Stage::timestampRate(), once it was asked for.
     std::optional<std::optional<double>> timestamp_rate;
 };

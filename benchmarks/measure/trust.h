@@ -14,7 +14,7 @@
 // Checks whether times of passes can be trusted.
 namespace benchmarks::measure {
 
-// What a submission and the wait for it may add to a pass by itself, ms.
+// Greatest time that a submission and the wait for it add to a pass by itself, ms.
 inline constexpr double kSubmissionCost = 0.5;
 
 // Largest error of a pass, as a share of the whole frame. A smaller error does not mislead about

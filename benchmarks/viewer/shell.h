@@ -32,7 +32,7 @@
 #include "engine/ui.h"
 #include "engine/window.h"
 
-// What is behind the viewer's window: the window itself, the thread that draws, and files.
+// The parts behind the viewer's panels: the window itself, the thread that draws, and files.
 namespace benchmarks::viewer {
 
 // The last message to the user.

@@ -1,4 +1,4 @@
-"""The documentation as a site, of README.md and docs/ as they are. scripts/docs makes it."""
+"""Makes a site from README.md and docs/, with Sphinx. scripts/docs runs it."""
 
 import json
 import pathlib
@@ -9,8 +9,8 @@ root_doc = "README"
 extensions = ["myst_parser"]
 html_theme = "furo"
 
-# Pages are read where they lie, and all of them have their place here: Sphinx warns of one that has
-# not, and of links that lead nowhere, and scripts/docs takes warnings for errors.
+# The order of the pages. Sphinx warns of a page that is missing here and of broken links, and
+# scripts/docs treats warnings as errors.
 PAGES = {
     "Start": ["docs/index", "docs/install", "docs/tutorial", "docs/viewer", "docs/gallery", "docs/faq"],
     "Measure": [
@@ -46,7 +46,7 @@ PAGES = {
 include_patterns = ["README.md", "docs/*.md", "*/*/README.md", "results/README.md"]
 exclude_patterns = [".*", "build", "results/local"]
 
-# Headings have GitHub's anchors, and text stays as it was written.
+# Headings get GitHub's anchors, and quotes stay as written.
 myst_heading_anchors = 6
 smartquotes = False
 highlight_language = "text"  # of boxes that name none
@@ -62,7 +62,7 @@ html_css_files = ["site.css"]
 
 
 def add_navigation(_app, page: str, text: list[str]) -> None:
-    """The pages' order, which GitHub would show as text if README.md had it."""
+    """Adds the order of the pages to README.md, where GitHub would show it as text."""
     if page != root_doc:
         return
     for caption, pages in PAGES.items():
@@ -70,7 +70,7 @@ def add_navigation(_app, page: str, text: list[str]) -> None:
         text[0] += "\n".join(["", *lines, ""])
 
 
-# A page from the disk may not fetch another one, so the search has all pages in a script of its own.
+# A page on the disk may not fetch another page, so the search has all pages in one script.
 PAGES_SCRIPT = """
 {
     const pages = %s;

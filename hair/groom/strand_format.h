@@ -12,7 +12,7 @@
 #include "hair/groom/groom.h"
 #include "hair/groom/named_files.h"
 
-// What a format of strands implements. The tables of all formats are in files.h.
+// The interface of formats of strands. The tables of all formats are in files.h.
 namespace hair::groom {
 
 // A writer of strands. `write` returns a sentence for each kind of data that the format can't hold

@@ -10,7 +10,7 @@ namespace {
 constexpr glm::dvec3 kEumelanin{0.419, 0.697, 1.37};
 constexpr glm::dvec3 kPheomelanin{0.187, 0.4, 1.05};
 
-// The denominator of equation (9): ln color = -scale sqrt(sigma_a).
+// The denominator of equation (9): ln colour = -scale sqrt(sigma_a).
 double colorScale(const ShadingSettings& shading) {
     const double b = shading.azimuthal_roughness;
     return 5.969 + b * (-0.215 + b * (2.532 + b * (-10.73 + b * (5.574 + b * 0.245))));

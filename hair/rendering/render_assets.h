@@ -55,8 +55,8 @@ inline engine::TargetDescription targetDescription(const RenderSettings& render)
 // The colour of a mass of hair and the absorption in a fibre determine each other: Chiang et al.
 // 2016, A practical and controllable hair and fur model for production path tracing, equation (9).
 
-// Returns sigma_a per radius of a fibre, for red, green and blue: from the pigments, or such that a
-// mass of hair has /shading/color. Linear colours below 1e-4 count as 1e-4.
+// Returns sigma_a per radius of a fibre, for red, green and blue: from the pigments, or from the
+// colour /shading/color that a mass of hair has. Linear colours below 1e-4 count as 1e-4.
 glm::dvec3 absorption(const ShadingSettings& shading);
 
 // Returns the linear RGB of a mass of hair.

@@ -16,8 +16,8 @@
 #include "hair/rendering/strand_view.h"
 #include "hair/settings.h"
 
-// What a back end implements, which draws strands, and what back ends have in common. The list of
-// all back ends, which includes them, is backends.h.
+// The interface of back ends, which draw strands, and what they have in common. The list of all
+// back ends, which includes them, is backends.h.
 namespace hair::rendering {
 
 class PointsPass;

@@ -17,8 +17,8 @@ namespace hair::simulation {
 // The worst value of one kind over all guides.
 struct Worst {
     double value = 0.0;
-    std::uint32_t guide = 0;  // that has the value
-    std::uint32_t guides = 0;  // that have a vertex beyond the limit
+    std::uint32_t guide = 0;  // guide with this value
+    std::uint32_t guides = 0;  // guides with a vertex beyond the limit
 };
 
 struct GuideCondition {

@@ -12,7 +12,7 @@
 #include "hair/gpu_structs.h"
 #include "hair/settings.h"
 
-// What a solver implements. The list of all solvers, which includes them, is solvers.h.
+// The interface of solvers. The list of all solvers, which includes them, is solvers.h.
 namespace hair::simulation {
 
 // Result of /simulation/rest: balanced.

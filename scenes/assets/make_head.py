@@ -412,7 +412,7 @@ def unit(v):
 
 
 class Form(typing.NamedTuple):
-    """What a half of a mesh is made from."""
+    """The parts that make a half of a mesh."""
     sdf: typing.Callable
     axes: list  # of the grid for marching cubes (m)
     detail: list

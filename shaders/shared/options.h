@@ -59,7 +59,7 @@ const uint kEnvironmentNone = 0u;
 const uint kEnvironmentHarmonics = 1u;  // light on a matt surface
 const uint kEnvironmentLights = 2u;  // further lights
 
-// What a picture shows (Show).
+// Contents of a picture (Show).
 const uint kShowShading = 0u;
 const uint kShowTangents = 1u;
 const uint kShowNormals = 2u;

@@ -5,7 +5,7 @@
 // addresses are device addresses.
 
 // The grids' sums are in fixed point. Each block of cells has its own scale. A block is 4 x 4 x 4
-// cells, with equal coordinates but for the lowest two bits.
+// cells, with coordinates that differ only in the lowest two bits.
 const uint kVolumeBlockBits = 2u;
 
 // A share of 1, the groom's whole length, in units of VolumeBlock::share.

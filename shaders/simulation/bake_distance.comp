@@ -106,7 +106,7 @@ void findPoint(uint group) {
     BlockMiddle middle = Middles(push.middles).at[block];
     float reach = 0.5 * sqrt(3.0) * float(kBakeBlock - 1u) * push.field.cell;
     float side = push.sides != kNoAddress ? Sides(push.sides).at[index] : 1.0;
-    float found = middle.distance - reach;  // at most the distance, but for rounding
+    float found = middle.distance - reach;  // at most the distance, except for rounding
     if (found <= push.band || side < 0.0) {
         // The triangle nearest to the middle gives an upper bound of the distance. Rounding errors
         // are below a quarter of a cell.

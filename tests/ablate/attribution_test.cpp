@@ -11,7 +11,7 @@ using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
 
-// Every number here and in sampleTimes() is a sum of powers of two: there is no rounding.
+// Every number here and in sampleTimes() is a sum of powers of two, so nothing is rounded.
 std::vector<double> marginals(const Attribution& attribution) {
     std::vector<double> costs;
     for (const RungCost& rung : attribution.rungs) costs.push_back(rung.marginal.estimate);
@@ -30,7 +30,7 @@ TEST(Attribution, TakesTheRungBelowFromEach) {
     EXPECT_EQ(attribution.rungs[5].time, 35.0);
 }
 
-// Closure 60.5 - 60, discard 14 - 15, multisampling (60 - 45) - (48 - 35).
+// Closure is 60.5 - 60, discard 14 - 15, and multisampling (60 - 45) - (48 - 35).
 TEST(Attribution, KnowsWhatMarginalCostsLeaveOpen) {
     const Residual residual = attribute(steadyTimes(sampleTimes(), 8)).residual;
     EXPECT_EQ(residual.closure.estimate, 0.5);
@@ -40,8 +40,7 @@ TEST(Attribution, KnowsWhatMarginalCostsLeaveOpen) {
     EXPECT_EQ(residual.interaction.estimate, 1.5);
 }
 
-// The pass less the costs measured in another order: 1 + (15 - 1) + (35 - 14) + (45 - 35) +
-// (48 - 35) = 59 of 60.5 ms.
+// The costs in another order are 1 + (15 - 1) + (35 - 14) + (45 - 35) + (48 - 35) = 59 of 60.5 ms.
 TEST(Attribution, ItsInteractionIsThePassLessCostsInAnotherOrder) {
     const std::map<Stop, double> t = sampleTimes();
     const double other = t.at(Stop::empty) + (t.at(Stop::geometry) - t.at(Stop::empty)) +
@@ -72,8 +71,8 @@ TEST(Attribution, SaysWhatWatchingCosts) {
     EXPECT_EQ(watching[1].second.estimate, 0.25);
 }
 
-// A device that gets slower by 0.25 ms from visit to visit, and the same again coming down: the
-// costs are as if it didn't.
+// The device gets slower by 0.25 ms with each visit, on the way up and down. The costs do not
+// change.
 TEST(Attribution, IsBlindToEvenDrift) {
     std::vector<StopTimes> stops = steadyTimes(sampleTimes(), 6);
     for (std::size_t lap = 0; lap < 6; ++lap) {
@@ -88,7 +87,7 @@ TEST(Attribution, IsBlindToEvenDrift) {
     EXPECT_THAT(std::vector(costs.begin() + 1, costs.end()), ElementsAre(2, 3, 4, 5, 20, 10, 15));
 }
 
-// Walsh averages of 1 ... 6 run from 1 to 6 and have the median 3.5; with n = 6 only the extreme
+// Walsh averages of 1 ... 6 run from 1 to 6 and have the median 3.5. With n = 6 only the extreme
 // ranks can be rejected at 5 %: 2 / 2^6 = 3.1 %.
 TEST(Cost, IsTheHodgesLehmannEstimateWithItsInterval) {
     const Cost cost = costOf(std::vector{6.0, 1.0, 4.0, 2.0, 5.0, 3.0});

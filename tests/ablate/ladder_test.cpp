@@ -41,7 +41,7 @@ TEST(Ladder, AddsSamplesLast) {
     EXPECT_EQ(stopOf(settings, Stop::msaa).stages, hair::rendering::StrandStages{});
 }
 
-// At a level of detail of 2, 4 segments have become 1.
+// Level of detail 2 turns 4 segments into 1.
 TEST(Ladder, LeavesOutOneSegmentWhereThereIsNoMore) {
     hair::Settings settings;
     settings.strands.tessellation = 1;

@@ -8,7 +8,7 @@
 
 namespace benchmarks::ablate {
 
-// Laps of one frame a visit, all stops of which take the same time in every lap.
+// Returns laps of one frame a visit. Each stop takes the same time in every lap.
 inline std::vector<StopTimes> steadyTimes(const std::map<Stop, double>& times, std::size_t laps) {
     std::vector<StopTimes> stops;
     for (const auto& [stop, time] : times)
@@ -16,7 +16,8 @@ inline std::vector<StopTimes> steadyTimes(const std::map<Stop, double>& times, s
     return stops;
 }
 
-// Of a case with four samples. Marginal costs: 1, 2, 3, 4, 5, 20, 10, 15; in sum 60 ms.
+// Returns the times of a case with four samples. Marginal costs are 1, 2, 3, 4, 5, 20, 10 and 15,
+// together 60 ms.
 inline std::map<Stop, double> sampleTimes() {
     return {
         {Stop::empty, 1.0},

@@ -14,7 +14,8 @@ using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
 
-// 2 triangles of 3 segments: 6 patches of 5 strands with 4 pieces: 150 ends, 120 lines.
+// 2 triangles of 3 segments give 6 patches. With 5 strands of 4 pieces each they have 150 ends and
+// 120 lines.
 hair::rendering::StrandPlan smallPlan() {
     return hair::rendering::planStrands(2, 3, {.density = 5, .tessellation = 4}, {}, 64);
 }
@@ -98,8 +99,8 @@ TEST(StopCounts, FindAStageThatRanTooMuch) {
         warningsOf(Stop::raster, counts), ElementsAre("raster: samples_passed: 0, expected some"));
 }
 
-// A GPU may evaluate a vertex more than once, never less often; a processor does so once, and lines
-// are counted once everywhere.
+// A GPU may evaluate a vertex more than once. A CPU device evaluates it once. Every device counts
+// lines once.
 TEST(StopCounts, MayBeMoreOnGpusInStagesThatMakeVertices) {
     StopCounts counts = allRan();
     counts.samples_passed = 0;
@@ -142,7 +143,7 @@ TEST(StopCounts, MayBeMoreOnGpusInStagesThatMakeVertices) {
             "empty: samples_passed: 70, expected 0"));
 }
 
-// Counters of absent stages are undefined: what they say is no matter.
+// The counters of absent stages are undefined, so their values do not matter.
 TEST(StopCounts, LeaveOutStagesThatAreNotThere) {
     StopCounts counts = allRan();
     counts.samples_passed = 0;

@@ -1,4 +1,4 @@
-// What stops draw, on a device.
+// Tests the pictures of stops on a device.
 #include <map>
 #include <memory>
 #include <optional>
@@ -16,7 +16,7 @@
 namespace benchmarks::ablate {
 namespace {
 
-// The thesis's hair, 136 root triangles of 7 guide segments, with 16 strands of 4 pieces.
+// The thesis's hair: 136 root triangles of 7 guide segments, with 16 strands of 4 pieces.
 constexpr std::uint64_t kPatches = 136 * 7;
 constexpr std::uint64_t kLines = kPatches * 16 * 4;
 
@@ -27,7 +27,7 @@ protected:
         if (isOver()) return;
         settings_ = hair::rendering::thesisAtRest();
         settings_.strands.density = 16;
-        settings_.strands.root_width = 0.002f;  // m: in a small picture there is more to see
+        settings_.strands.root_width = 0.002f;  // m; thick, to be visible in a small picture
         settings_.strands.tip_width = 0.001f;
         settings_.render.width = 160;
         settings_.render.height = 90;
@@ -35,7 +35,7 @@ protected:
         watch_.emplace(device());
     }
 
-    // Of the settings' first frame; only the last call's may draw.
+    // Returns the views of the settings' first frame. Only those of the last call may draw.
     std::map<Stop, std::unique_ptr<StopView>>
     views(const hair::Settings& settings, const std::set<Stop>& wanted = {}) {
         hair_.emplace(device(), settings, HAIRBENCH_SCENES_DIR, 0, cache_);
@@ -47,7 +47,7 @@ protected:
         return views;
     }
 
-    // What invocations of the stop's watched stage make, in sum.
+    // Returns the sum over the invocations of the stop's watched stage.
     std::uint32_t sumOf(StopView& view) {
         watch_->seeAll();
         engine::FrameLoop loop(device(), engine::Timing::isolated);
@@ -65,7 +65,7 @@ protected:
         return view.picture();
     }
 
-    // Invocations of a stage that makes vertices: on a GPU there may be more.
+    // For invocations of a stage that makes vertices. On a GPU there may be more.
     static void expectRun(std::uint64_t count, std::uint64_t expected) {
         if (device().info().type == "cpu")
             EXPECT_EQ(count, expected);
@@ -118,7 +118,7 @@ TEST_F(StopViewTest, DrawsWhatItsStagesLeaveToSee) {
     without.render.hair = false;
     const hair::rendering::Pixels hairy = hair::rendering::drawCase(device(), single);
     const hair::rendering::Pixels bald = hair::rendering::drawCase(device(), without);
-    // Of 14,400 pixels; the hair is about 0.3 m and the picture 1.2 m high.
+    // The picture has 14,400 pixels and is 1.2 m high, the hair about 0.3 m.
     ASSERT_GT(hair::rendering::differingPixels(hairy, bald), 200u);
 
     std::map<Stop, std::unique_ptr<StopView>> all = views(settings_);
@@ -136,13 +136,14 @@ TEST_F(StopViewTest, DrawsWhatItsStagesLeaveToSee) {
     }
 }
 
-// 0 + 1 + ... + 951.
+// The sum is 0 + 1 + ... + 951.
 TEST_F(StopViewTest, SeesEveryPatchNumber) {
     EXPECT_EQ(
         sumOf(*views(settings_, {Stop::vertex}).at(Stop::vertex)), kPatches * (kPatches - 1) / 2);
 }
 
-// Another camera moves quads and no strand; another width both; the same again neither.
+// Another camera changes the quads but not the strands. Another width changes both, the same
+// settings neither.
 TEST_F(StopViewTest, SeesWhatStagesMake) {
     const auto sums = [&](const hair::Settings& settings) {
         auto all = views(settings, {Stop::tessellation, Stop::geometry});
@@ -167,7 +168,7 @@ TEST_F(StopViewTest, WatchesAlmostNothingWhileItIsTimed) {
     watch_->seeNone();
     engine::FrameLoop loop(device(), engine::Timing::isolated);
     EXPECT_EQ(all.at(Stop::geometry)->visit(loop, 3).size(), 3u);
-    // Of 4 frames of 60,928 invocations one would be seen with a chance of 6e-5.
+    // The chance to see one of the 60,928 invocations in each of 4 frames is 6e-5.
     EXPECT_EQ(watch_->seen().invocations, 0u);
 }
 
@@ -176,7 +177,7 @@ TEST_F(StopViewTest, LeavesOtherBackEndsAlone) {
     EXPECT_THROW(views(settings_), engine::Unsupported);
 }
 
-// The left half of a picture, which a scissor leaves.
+// A scissor leaves the left half of the picture.
 TEST_F(StopViewTest, CountsSamples) {
     std::optional<engine::SamplesQuery> query;
     try {

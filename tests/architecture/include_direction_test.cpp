@@ -13,19 +13,19 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-// Which folder includes what. CMake orders the libraries; it can't see an include that links by
-// chance.
+// Tests which folder may include which. CMake orders the libraries, but it can't see an include
+// that links by chance.
 namespace {
 
 struct Rule {
     std::string_view folder;     // "" is every folder
     std::string_view forbidden;  // what includes start with
-    std::string_view except = "none";  // how the names of files that may begin
-    std::string_view also = "none";    // and another one
+    std::string_view except = "none";  // files with this beginning may include it
+    std::string_view also = "none";    // files with this beginning, too
 };
 
 constexpr Rule kRules[] = {
-    // Downward only: tests -> benchmarks -> hair -> engine.
+    // Includes go only downward: tests -> benchmarks -> hair -> engine.
     {"engine/", "hair/"},
     {"engine/", "benchmarks/"},
     {"engine/", "shaders/"},
@@ -34,24 +34,24 @@ constexpr Rule kRules[] = {
     {"shaders/", "engine/"},
     {"shaders/", "hair/"},
     {"shaders/", "benchmarks/"},
-    // What the device's results are checked against is no part of the program.
+    // The program does not contain the references for the device's results.
     {"", "hair/reference/", "tests/", "hair/reference/"},
 
-    // Rendering knows of the simulation only the strand view that it is given.
+    // Rendering knows nothing of the simulation except the strand view that it gets.
     {"hair/rendering/", "hair/simulation/"},
     {"hair/simulation/", "hair/rendering/"},
     {"hair/groom/", "hair/rendering/"},
     {"hair/groom/", "hair/simulation/"},
-    // The viewer plays cases; nothing that measures knows of it.
+    // The viewer plays cases. No measurement knows of it.
     {"benchmarks/", "benchmarks/viewer/", "benchmarks/viewer/", "benchmarks/commands/"},
-    // What C++ and GLSL share has one place for hair, and one for what measuring adds to it, and
-    // one for the viewer.
+    // C++ includes structures that it shares with GLSL in one place for hair, one for measurement
+    // and one for the viewer.
     {"hair/", "shaders/", "hair/gpu_structs.h"},
     {"benchmarks/", "shaders/", "benchmarks/measure/gpu_structs.h",
      "benchmarks/viewer/difference.cpp"},
     {"tests/", "shaders/"},
 
-    // Each dependency has its place.
+    // Only one place includes each dependency.
     {"engine/", "nlohmann/"},
     {"hair/", "nlohmann/", "hair/groom/mesh/gltf_model.cpp"},
     {"", "CLI/", "benchmarks/commands/command_line_options.h"},
@@ -78,12 +78,12 @@ constexpr Rule kRules[] = {
 
 constexpr std::string_view kFolders[] = {"engine", "hair", "benchmarks", "tests", "shaders"};
 
-// The folders of benchmarks/, each of which includes only itself and those before it.
+// The folders of benchmarks/. Each includes only itself and folders before it.
 constexpr std::string_view kLayers[] = {"scene",  "report",    "measure", "groom", "physics",
                                         "ablate", "reference", "lod",     "run",   "gate",
                                         "doctor", "viewer",    "commands"};
 
-// Where the folder of a file below benchmarks/ stands in kLayers; absent for any other file.
+// Returns the index in kLayers of the folder of a file in benchmarks/; absent for any other file.
 std::optional<std::ptrdiff_t> layerOf(std::string_view file) {
     constexpr std::string_view kRoot = "benchmarks/";
     if (!file.starts_with(kRoot)) return std::nullopt;
@@ -103,7 +103,7 @@ bool isSource(const std::filesystem::path& path) {
     return path.extension() == ".h" || path.extension() == ".cpp";
 }
 
-// Relative to the repository, with '/' on every system.
+// Returns paths relative to the repository, with '/' on every system.
 std::vector<std::string> sources(const std::filesystem::path& root, std::string_view folder) {
     std::vector<std::string> files;
     for (const auto& entry : std::filesystem::recursive_directory_iterator(root / folder)) {
@@ -128,10 +128,10 @@ std::vector<std::string> includes(const std::filesystem::path& file) {
     return found;
 }
 
-using Graph = std::map<std::string, std::vector<std::string>>;  // file -> what it includes
+using Graph = std::map<std::string, std::vector<std::string>>;  // file -> its includes
 
-// The files of a cycle in the order in which they include each other, the first also at the end;
-// empty where there is none.
+// Finds the files of a cycle, in the order in which they include each other, with the first also at
+// the end. Empty without a cycle.
 class CycleSearch {
 public:
     explicit CycleSearch(const Graph& graph) : graph_(graph) {}
@@ -160,7 +160,7 @@ private:
 
     const Graph& graph_;
     std::vector<std::string> path_;
-    std::set<std::string> done_;  // in no cycle
+    std::set<std::string> done_;  // files in no cycle
 };
 
 TEST(IncludeDirection, HoldsInEverySource) {
@@ -205,8 +205,8 @@ TEST(IncludeDirection, NamesOurFilesFromTheRepository) {
     }
 }
 
-// Each `except` and each folder has to be of files that exist, or a rename would switch the rule
-// off.
+// Each `except` and each folder must name existing files. Otherwise a rename would switch off its
+// rule.
 TEST(IncludeDirection, RulesNameWhatExists) {
     const std::filesystem::path root = HAIRBENCH_SOURCE_DIR;
     for (const Rule& rule : kRules) {
@@ -236,7 +236,7 @@ TEST(IncludeDirection, FindsACycle) {
         cycle({{"a.h", {"b.h", "d.h"}}, {"b.h", {"c.h"}}, {"c.h", {"d.h", "b.h"}}, {"d.h", {}}}),
         ElementsAre("b.h", "c.h", "b.h"));
     EXPECT_THAT(cycle({{"a.h", {"a.h"}}}), ElementsAre("a.h", "a.h"));
-    // Two ways to one file are none.
+    // Two paths to one file are no cycle.
     EXPECT_THAT(
         cycle({{"a.h", {"b.h", "c.h"}}, {"b.h", {"d.h"}}, {"c.h", {"d.h", "vector"}}, {"d.h", {}}}),
         testing::IsEmpty());

@@ -1,4 +1,4 @@
-// What the project's pages point to is there.
+// Tests that the links of the project's pages are not broken.
 #include <cctype>
 #include <filesystem>
 #include <fstream>
@@ -28,7 +28,7 @@ std::vector<fs::path> pages() {
     return found;
 }
 
-// A page without what stands in fences and between backticks: no link is meant there.
+// Returns a page without code in fences and between backticks, which has no links.
 std::string prose(std::istream& page) {
     static const std::regex code("`[^`]*`");
     std::string all;
@@ -43,7 +43,8 @@ std::string prose(std::istream& page) {
     return all;
 }
 
-// GitHub's anchor of a heading: lower case, blanks are hyphens, other signs are left out.
+// Returns GitHub's anchor of a heading: in lower case, with hyphens for blanks, without other
+// signs.
 std::string anchorOf(const std::string& heading) {
     std::string anchor;
     for (const char c : heading) {
@@ -72,7 +73,7 @@ std::set<std::string> anchorsIn(std::istream& page) {
     return anchors;
 }
 
-// "file: link: reason" of each that leads nowhere.
+// Returns "file: link: reason" for each broken link.
 std::vector<std::string> brokenLinks(const fs::path& path) {
     static const std::regex link(R"(\]\(([^)\s]+)\))");
     std::ifstream page(path);
@@ -107,8 +108,8 @@ TEST(Links, LeadToWhatIsThere) {
     EXPECT_GT(count, 15u);
 }
 
-// What stands between backticks in a page and looks like a file in a folder. A shader may be named
-// from shaders/, a test from tests/, and a part "x" stands for a name of the reader's own.
+// Returns texts between backticks that look like a file in a folder. Shaders may be relative to
+// shaders/ and tests to tests/. A part "x" stands for any name.
 std::set<std::string> filesNamedIn(std::istream& page) {
     static const std::regex file(
         R"(`([A-Za-z0-9_.-]+(?:/[A-Za-z0-9_.-]+)*/[A-Za-z0-9_.-]+\.)"
@@ -134,7 +135,7 @@ bool isFile(const fs::path& page, const std::string& name) {
 }
 
 TEST(Links, FilesThatPagesNameAreThere) {
-    // A library's header, a file that a patch adds, reports that readers make.
+    // A library's header, and a file that a patch adds.
     const std::set<std::string> others{"re2/re2.h", "hair/groom/formats/csv.cpp"};
     std::size_t count = 0;
     for (const fs::path& path : pages()) {
@@ -148,7 +149,7 @@ TEST(Links, FilesThatPagesNameAreThere) {
     EXPECT_GT(count, 200u);
 }
 
-// The names by which files of a folder record passes.
+// Adds the names of the passes that a folder's files record.
 void addPassNames(const fs::path& folder, std::set<std::string>& names) {
     static const std::regex recorded(R"re(passes\.pass\(\s*"([a-z_]+)")re");
     for (const auto& entry : fs::recursive_directory_iterator(folder)) {
@@ -165,7 +166,7 @@ TEST(Pages, TheFramesHasEveryPass) {
     std::set<std::string> names;
     addPassNames(kRoot / "hair", names);
     addPassNames(kRoot / "benchmarks", names);
-    for (const char* own : {"limit", "work"})  // measure the device, and are in no frame
+    for (const char* own : {"limit", "work"})  // measure the device outside frames
         names.erase(own);
     EXPECT_GE(names.size(), 15u);
     std::stringstream page;
@@ -174,7 +175,7 @@ TEST(Pages, TheFramesHasEveryPass) {
         EXPECT_THAT(page.str(), testing::HasSubstr('`' + name + '`'));
 }
 
-// As GitHub makes them: its own headings in this project, by hand.
+// Headings of this project, with the anchors that GitHub made, copied by hand.
 TEST(Links, AnchorsAreThoseOfGitHub) {
     EXPECT_EQ(anchorOf("8,704 strands, not 5,568"), "8704-strands-not-5568");
     EXPECT_EQ(anchorOf("What tests/architecture holds"), "what-testsarchitecture-holds");

@@ -14,11 +14,11 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-// The one definition rule over a whole program: two types or functions of one name in one namespace
-// are two definitions, of which the linker keeps one in silence. No compiler sees both, so names
-// are read from the sources: a tokenizer, and a reader of declarations in namespaces. What is
-// inside a class belongs to its class, what is inside a function or an anonymous namespace to its
-// file.
+// Tests the one definition rule over a whole program. If two files define types or functions with
+// the same name in the same namespace, the linker silently keeps one. No compiler sees both. So the
+// test reads names from the sources, with a tokenizer and a reader of declarations in namespaces.
+// Members belong to their class, and everything in a function or an anonymous namespace belongs to
+// its file.
 namespace {
 
 using testing::ElementsAre;
@@ -31,8 +31,8 @@ bool isIdentifier(const std::string& token) {
     return isWord(token.front()) && !std::isdigit(static_cast<unsigned char>(token.front()));
 }
 
-// Identifiers, numbers and punctuation; every literal of characters is `""`. Without comments and
-// preprocessor lines: all branches of an #if are read.
+// Splits a source into identifiers, numbers and punctuation. Every character or string literal is
+// `""`. Skips comments and preprocessor lines, so it reads all branches of an #if.
 class Tokenizer {
 public:
     explicit Tokenizer(std::string_view text) : text_(text) {}
@@ -89,7 +89,7 @@ private:
         }
     }
 
-    // 1'000'000 and 1.5e-3f: what separates digits begins no character.
+    // Reads e.g. 1'000'000 and 1.5e-3f. A digit separator begins no character literal.
     void number() {
         const std::size_t begin = at_;
         for (++at_; at_ < text_.size(); ++at_) {
@@ -128,7 +128,7 @@ private:
         tokens_.emplace_back("\"\"");
     }
 
-    // '>' stays alone: two of them end two lists of template arguments.
+    // Each '>' is a token, because ">>" can end two lists of template arguments.
     void punctuation() {
         for (const std::string_view pair : {"::", "->", "==", "!=", "<=", "<<", "&&", "||"})
             if (startsWith(pair)) {
@@ -145,7 +145,7 @@ private:
     Tokens tokens_;
 };
 
-// What files define: "type benchmarks::Side" -> the files that hold it.
+// Files that hold a definition, by e.g. "type benchmarks::Side".
 using Definitions = std::map<std::string, std::set<std::string>>;
 
 std::string joined(Tokens::const_iterator begin, Tokens::const_iterator end) {
@@ -157,7 +157,7 @@ std::string joined(Tokens::const_iterator begin, Tokens::const_iterator end) {
     return text;
 }
 
-// Index past the bracket that closes the one at `open`, or the end.
+// Returns the index after the bracket that closes the one at `open`, or the end.
 std::size_t pastBracket(const Tokens& tokens, std::size_t open) {
     std::size_t depth = 0;
     for (std::size_t i = open; i < tokens.size(); ++i) {
@@ -168,7 +168,7 @@ std::size_t pastBracket(const Tokens& tokens, std::size_t open) {
     return tokens.size();
 }
 
-// The same of '<' and '>'; a comparison has to be in parentheses there.
+// The same for '<' and '>'. A comparison between them must be in parentheses.
 std::size_t pastAngle(const Tokens& tokens, std::size_t open) {
     std::size_t depth = 0;
     for (std::size_t i = open; i < tokens.size(); ++i) {
@@ -183,7 +183,7 @@ std::size_t pastAngle(const Tokens& tokens, std::size_t open) {
     return tokens.size();
 }
 
-// The parameter's type: without default and, where the last word can be one, without name.
+// Returns a parameter's type: without its default and, if the last word can be a name, without it.
 std::string parameterType(Tokens tokens) {
     static const std::set<std::string> kNoName{"const", "int",   "char",   "long", "short",
                                                "bool",  "float", "double", "auto", "unsigned"};
@@ -193,7 +193,7 @@ std::string parameterType(Tokens tokens) {
     return joined(tokens.begin(), tokens.end() - (named ? 1 : 0));
 }
 
-// Of the tokens in parentheses: "(const Side&,int)".
+// Returns the types of the parameters in parentheses: "(const Side&,int)".
 std::string parameterTypes(const Tokens& tokens) {
     std::string text = "(";
     Tokens parameter;
@@ -223,7 +223,7 @@ public:
     Reader(std::string_view text, std::string file, Definitions& definitions)
         : tokens_(Tokenizer(text).tokens()), file_(std::move(file)), definitions_(definitions) {}
 
-    // Whether all brackets had their partners.
+    // Reads the file. Returns whether all brackets match.
     bool read() {
         readScope("");
         return at_ == tokens_.size();
@@ -275,7 +275,7 @@ private:
         }
     }
 
-    // At a '{'. False where it begins an initializer.
+    // Called at a '{'. Returns false if it begins an initializer.
     bool readBody(const std::string& scope, const Tokens& declaration) {
         if (std::ranges::count(declaration, "namespace") > 0) {
             readNamespace(scope, declaration);
@@ -303,7 +303,7 @@ private:
     void readNamespace(const std::string& scope, const Tokens& declaration) {
         const auto key = std::ranges::find(declaration, "namespace");
         const std::string name = joined(key + 1, declaration.end());
-        if (name.empty()) {  // everything in it is the file's own
+        if (name.empty()) {  // everything in it belongs to the file
             skipBrackets();
             return;
         }
@@ -320,8 +320,8 @@ private:
         return at;
     }
 
-    // "Slot", "FrameLoop::Slot", "hash<Side>" where a type's body follows the declaration;
-    // "unnamed" of one that has no name, "" where none follows.
+    // Returns the name if a type's body follows the declaration, e.g. "Slot", "FrameLoop::Slot" or
+    // "hash<Side>", "unnamed" for a type without a name, and "" otherwise.
     static std::string typeName(const Tokens& declaration) {
         static const std::set<std::string> kKeys{"class", "struct", "union", "enum"};
         std::size_t at = pastTemplate(declaration);
@@ -352,7 +352,7 @@ private:
             declaration.begin() + static_cast<std::ptrdiff_t>(at));
     }
 
-    // Index of the '(' before a function's parameters; the end where there is none.
+    // Returns the index of the '(' before a function's parameters, or the end.
     static std::size_t parametersOf(const Tokens& declaration) {
         static const std::set<std::string> kOthers{"decltype", "alignas", "noexcept", "explicit"};
         for (std::size_t at = pastTemplate(declaration); at < declaration.size(); ++at) {
@@ -371,8 +371,8 @@ private:
         return declaration.size();
     }
 
-    // Whether what follows the parameters is an initializer: of a member, "Side() : name_{", or of
-    // what only looks like a function.
+    // Whether an initializer follows the parameters: of a member, "Side() : name_{", or of a
+    // variable that only looks like a function.
     static bool isInitialized(const Tokens& declaration, std::size_t open) {
         bool members = false;
         for (std::size_t at = pastBracket(declaration, open); at < declaration.size(); ++at) {
@@ -398,7 +398,8 @@ private:
         add(scope, "function ", text);
     }
 
-    // Inline ones, and concepts: the others are the file's own, or the linker finds two of them.
+    // Reads inline variables and concepts. Other variables belong to their file, or the linker
+    // finds duplicates.
     void readVariable(const std::string& scope, const Tokens& declaration) {
         const bool is_concept = std::ranges::count(declaration, "concept") > 0;
         if (!is_concept && (declaration.empty() || declaration.front() != "inline")) return;
@@ -421,8 +422,8 @@ struct File {
     std::string text;
 };
 
-// "type benchmarks::Side: a.h b.h" for each thing that several files define, and the names of the
-// files whose brackets do not match.
+// Returns e.g. "type benchmarks::Side: a.h b.h" for each name that several files define, and the
+// files in which brackets do not match.
 std::vector<std::string> doubleDefinitions(const std::vector<File>& files) {
     Definitions definitions;
     std::vector<std::string> found;
@@ -465,8 +466,8 @@ std::vector<File> sources() {
     return files;
 }
 
-// With the tests, which link most of the program and put helpers into its namespaces. Each file
-// that has a main() is a program of its own.
+// Includes the tests, which link most of the program and put helpers into its namespaces. Each file
+// with a main() is a separate program.
 TEST(OneDefinition, HoldsInEverySource) {
     std::vector<std::string> doubles = doubleDefinitions(sources());
     std::erase_if(doubles, [](const std::string& definition) {
@@ -475,7 +476,7 @@ TEST(OneDefinition, HoldsInEverySource) {
     EXPECT_THAT(doubles, IsEmpty());
 }
 
-// What a line of a header begins, by a pattern instead of the reader.
+// The reader must know all types that a pattern finds at the beginning of headers' lines.
 TEST(OneDefinition, IsReadFromEveryHeader) {
     static const std::regex pattern(
         R"((?:class|struct|enum class|union) (\w+)(?: final)?(?: :.*)? \{.*)");
@@ -501,7 +502,7 @@ TEST(OneDefinition, IsReadFromEveryHeader) {
     EXPECT_GT(types, 0u);
 }
 
-// A gate compares two sides and so does a window; neither includes the other's header.
+// A gate compares two sides, and so does a window. Neither includes the other's header.
 TEST(OneDefinition, FindsTwoTypesOfOneName) {
     EXPECT_THAT(
         doubleDefinitions(
@@ -580,7 +581,7 @@ TEST(OneDefinition, AllowsFunctionsThatAreNotOne) {
         EXPECT_THAT(doubleDefinitions(a, b), IsEmpty()) << a << " | " << b;
 }
 
-// Whatever stands before it, a definition is seen.
+// The reader finds a definition after any of these.
 TEST(OneDefinition, ReadsOn) {
     for (const char* const before :
          {"constexpr int kMany[]{1'000, 2};", "const Row kRows[] = {{\"}\", 1}, {\"{\", '}'}};",

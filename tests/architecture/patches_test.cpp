@@ -1,5 +1,5 @@
-// The patches of docs/extending/ fit the source as it stands; scripts/test --extending builds and
-// runs them.
+// Tests that the patches of docs/extending/ apply to the present source. scripts/test --extending
+// builds and runs them.
 #include <algorithm>
 #include <cstddef>
 #include <filesystem>
@@ -34,14 +34,14 @@ std::optional<Lines> sourceLines(const std::string& file) {
     return linesOf(source);
 }
 
-// "file: hunk: reason" of what does not apply, as `git apply` finds it: a hunk's old lines follow
-// one another in the file, after those of the hunk before.
+// Returns "file: hunk: reason" for each hunk that does not apply. As for `git apply`, a hunk's old
+// lines must follow each other in the file, after those of the hunk before.
 Lines misfits(std::istream& patch, const ReadLines& read) {
     static const std::regex heading(R"(@@ -\d+(,(\d+))? \+\d+(,(\d+))? @@.*)");
     Lines found;
     std::string file;
     std::optional<Lines> source;
-    std::size_t after = 0;  // the hunk before
+    std::size_t after = 0;  // end of the hunk before
     const Lines lines = linesOf(patch);
     for (std::size_t i = 0; i < lines.size();) {
         const std::string line = lines[i++];

@@ -1,4 +1,5 @@
-// The committed pictures say what drew them, and are those that scripts/pictures draws.
+// Tests that the committed pictures name the commands that drew them, and are those of
+// scripts/pictures.
 #include <cstdint>
 #include <filesystem>
 #include <fstream>
@@ -36,10 +37,10 @@ TEST(Pictures, AreThoseThatTheScriptDraws) {
     EXPECT_EQ(committed, drawn);
 }
 
-// Ninety minutes of drawing, and drawn before pictures named what drew them.
+// Takes ninety minutes to draw, and is older than the texts that name a picture's commands.
 const std::string kOlder = "shading_models_path_traced.png";
 
-// A program of a commit, without changes, by the commands of today.
+// A program of an unmodified commit drew each picture with today's commands.
 TEST(Pictures, NameTheCommitAndTheCommands) {
     static const std::regex version(R"(hairbench [0-9.]+ \([0-9a-f]{12}\): )");
     const Json all = rows();
@@ -58,8 +59,8 @@ TEST(Pictures, NameTheCommitAndTheCommands) {
     }
 }
 
-// As RFC 9649 has it (section 2.7): a WebP with metadata begins with a VP8X chunk, whose last six
-// bytes are width and height less one.
+// A WebP with metadata begins with a VP8X chunk. Its last six bytes are width and height less one:
+// RFC 9649, section 2.7.
 TEST(Pictures, OfTheGalleryAreAsLargeAsAScreenAndSmallToLoad) {
     const auto number = [](const std::string& bytes, std::size_t at) {
         std::uint32_t value = 0;
@@ -79,7 +80,7 @@ TEST(Pictures, OfTheGalleryAreAsLargeAsAScreenAndSmallToLoad) {
         EXPECT_EQ(number(bytes, 24), 1919u);
         EXPECT_EQ(number(bytes, 27), 1079u);
         EXPECT_NE(page.find("results/pictures/" + name), std::string::npos);
-        // The page says how to draw it, into a file of one's own.
+        // The page has the command that draws it, with another output file.
         std::string command = commands.at(0).get<std::string>();
         command = command.substr(0, command.find(" -o "));
         EXPECT_NE(page.find(command + " -o "), std::string::npos) << command;

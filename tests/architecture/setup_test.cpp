@@ -1,4 +1,4 @@
-// Holds what the project promises about its set-up.
+// Tests the project's promises about its set-up.
 #include <filesystem>
 #include <fstream>
 #include <iterator>
@@ -19,7 +19,7 @@ std::string wholeText(const fs::path& file) {
     return {std::istreambuf_iterator<char>(stream), {}};
 }
 
-// apt, pip and git know their hosts; a script that names one goes past them.
+// apt, pip and git know their hosts. A script that names a host bypasses them.
 TEST(Setup, NamesNoHost) {
     static const std::regex address(R"(\b(https?|ftp|git|ssh)://[A-Za-z0-9])");
     std::size_t read = 0;

@@ -13,16 +13,16 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-// Circles of units. A unit is a .cpp with the header of its name, or one of both alone. Headers
-// without a cycle can still make units that need one another: a.cpp includes b.h, and b.cpp a.h.
-// Then neither unit can be understood, tested or reused without the other.
+// Tests for circles of units. A unit is a .cpp with the header of its name, or only one of them.
+// Even without a cycle of headers, units can depend on each other: a.cpp includes b.h, and b.cpp
+// a.h. Then neither unit can be understood, tested or reused without the other.
 namespace {
 
-using Includes = std::map<std::string, std::vector<std::string>>;  // file -> what it includes
+using Includes = std::map<std::string, std::vector<std::string>>;  // file -> its includes
 
 std::string unitOf(const std::string& file) { return file.substr(0, file.rfind('.')); }
 
-// The edges between units, each with the files that it comes from.
+// Edges between units, with the files that each comes from.
 using Units = std::map<std::string, std::map<std::string, std::vector<std::string>>>;
 
 Units unitsOf(const Includes& files) {
@@ -50,7 +50,7 @@ public:
 private:
     struct Place {
         std::size_t number = 0;  // in the order of the visits
-        std::size_t lowest = 0;  // that is reached from here
+        std::size_t lowest = 0;  // number reached from here
         bool open = true;
     };
 
@@ -85,7 +85,7 @@ private:
     std::vector<std::vector<std::string>> circles_;
 };
 
-// A line for each edge of each circle: "a -> b (a.cpp, a.h)".
+// Returns a line for each edge of each circle: "a -> b (a.cpp, a.h)".
 std::vector<std::string> circularEdges(const Includes& files) {
     const Units units = unitsOf(files);
     const CircleSearch search(units);
@@ -132,7 +132,8 @@ TEST(Units, AreInNoCircle) {
 TEST(Units, OfACircleAreNamedWithTheirEdges) {
     using testing::ElementsAre;
     using testing::IsEmpty;
-    // A registry that is its implementations' interface: no cycle of headers, but one of units.
+    // A registry that is also its implementations' interface makes a circle of units, but no cycle
+    // of headers.
     EXPECT_THAT(
         circularEdges(
             {{"x/list.h", {}},
@@ -144,7 +145,7 @@ TEST(Units, OfACircleAreNamedWithTheirEdges) {
              {"x/part.h", {}},
              {"main.cpp", {"x/list.h"}}}),
         ElementsAre("x/list -> x/one (x/list.cpp)", "x/one -> x/list (x/one.cpp, x/one.h)"));
-    // A longer way round, and two circles with one unit in common are one.
+    // A longer circle. Two circles with a common unit are one circle.
     EXPECT_THAT(
         circularEdges(
             {{"a.cpp", {"b.h"}},
@@ -158,7 +159,7 @@ TEST(Units, OfACircleAreNamedWithTheirEdges) {
         ElementsAre(
             "a -> b (a.cpp)", "b -> c (b.cpp)", "b -> d (b.cpp)", "c -> a (c.cpp)",
             "d -> b (d.cpp)"));
-    // Two ways to one unit, a .cpp with its own header, and what is not ours are no circles.
+    // Two paths to a unit, a .cpp with its own header, and files of libraries are no circles.
     EXPECT_THAT(
         circularEdges(
             {{"a.cpp", {"a.h", "b.h", "c.h"}},

@@ -21,10 +21,10 @@ TEST(CoveredBy, CountsSharesOfPixels) {
     std::vector<std::uint8_t> white(4 * 4, 0);
     std::vector<std::uint8_t> black(4 * 4, 0);
     white[0] = 255;  // all of the first pixel's four samples
-    black[4] = 64;  // the part without hair, in both: a quarter of 255
-    white[4] = 64 + 191;  // three quarters
-    white[8] = black[8] = 200;  // none
-    white[12] = 64;  // one
+    black[4] = 64;  // the part without hair, a quarter of 255, is in both
+    white[4] = 64 + 191;  // hair covers three quarters: three samples
+    white[8] = black[8] = 200;  // no sample
+    white[12] = 64;  // one sample
     const Covered covered = coveredBy(white, black, 4);
     EXPECT_EQ(covered.samples, 4u + 3u + 1u);
     EXPECT_EQ(covered.pixels, 3u);
@@ -33,7 +33,7 @@ TEST(CoveredBy, CountsSharesOfPixels) {
 
 class BackendComparisonTest : public GpuTest {
 protected:
-    // The thesis's hair in the wind, from near by.
+    // Returns a small close-up of the thesis's hair in the wind.
     static hair::Settings smallCase(hair::Backend backend, std::uint32_t samples) {
         hair::Settings settings = scene::loadScene(HAIRBENCH_SCENES_DIR "/thesis.json").settings;
         settings.simulation.settle_steps = 20;
@@ -71,10 +71,10 @@ protected:
         return 0;
     }
 
-    BackendComparison comparison_;  // of a run
+    BackendComparison comparison_;  // for all cases of a run
 };
 
-// Bounds of one sample a pixel: tests/rendering/points_picture_test.cpp.
+// For the bounds with one sample a pixel see tests/rendering/points_picture_test.cpp.
 TEST_F(BackendComparisonTest, HasErrorsToTessellation) {
     const auto error = [&](hair::Backend backend) {
         const auto result = compared(smallCase(backend, 1));
@@ -82,7 +82,7 @@ TEST_F(BackendComparisonTest, HasErrorsToTessellation) {
             EXPECT_THAT(warning, testing::Not(testing::HasSubstr("compare_backends")));
         return only(result, report::ofImage(Measured::flip_tessellation));
     };
-    // The same picture again, of the same state.
+    // Drawing the same state again gives the same picture.
     EXPECT_EQ(error(hair::Backend::tessellation), 0.0);
     const double expanded = error(hair::Backend::expanded);
     EXPECT_GT(expanded, 0.0);
@@ -90,7 +90,7 @@ TEST_F(BackendComparisonTest, HasErrorsToTessellation) {
     const double software = error(hair::Backend::software);
     EXPECT_GT(software, 0.0);
     EXPECT_LE(software, 0.02);
-    // Lines are only a caricature of the strands.
+    // Lines draw the strands only roughly.
     EXPECT_GT(error(hair::Backend::lines), 2.0 * software);
 }
 
@@ -107,7 +107,7 @@ TEST_F(BackendComparisonTest, HasTimesAndLimits) {
     EXPECT_LT(only(tessellation, to_many), 0.2);
 
     for (const auto& result : {tessellation, software}) {
-        // 7 segments of 4 pieces.
+        // 7 segments of 4 pieces have 29 points.
         EXPECT_EQ(count(result, "points"), count(result, "strands") * 29);
         const double pixels = static_cast<double>(count(result, "covered_pixels"));
         const double samples = static_cast<double>(count(result, "covered_samples"));
@@ -130,12 +130,12 @@ TEST_F(BackendComparisonTest, HasTimesAndLimits) {
             EXPECT_NEAR(share->samples[i] * time->samples[i], limit, 1e-9);
         }
     }
-    // The quads of both cover the same samples, except for rounding.
+    // The quads of both back ends cover the same samples, except for rounding.
     EXPECT_NEAR(
         static_cast<double>(count(software, "covered_samples")) /
             static_cast<double>(count(tessellation, "covered_samples")),
         1.0, 0.01);
-    // Points are evaluated in a pass of their own.
+    // The software back end evaluates points in another pass.
     const auto* const points =
         report::findMetric(software.metrics, report::ofPass("points", Measured::time));
     const auto* const strands =
@@ -146,7 +146,7 @@ TEST_F(BackendComparisonTest, HasTimesAndLimits) {
         EXPECT_DOUBLE_EQ(sum->samples[i], points->samples[i] + strands->samples[i]);
 }
 
-// With any colour and light of the hair, the pixels that differ from a picture without hair count.
+// Counts the pixels that differ from a picture without hair, whatever the hair's colour and light.
 TEST_F(BackendComparisonTest, CountsPixelsThatShowHair) {
     hair::Settings settings = smallCase(hair::Backend::tessellation, 1);
     settings.shading.model = hair::ShadingModel::marschner;
@@ -169,7 +169,7 @@ TEST_F(BackendComparisonTest, CountsPixelsThatShowHair) {
     for (std::size_t i = 0; i < with.size(); i += 4)
         differ += !std::equal(&with[i], &with[i] + 3, &without[i]);
     EXPECT_EQ(count(result, "covered_samples"), count(result, "covered_pixels"));
-    // Hair may look like the surface that it hides in some pixels.
+    // In some pixels hair may look like the surface that it hides.
     EXPECT_GE(count(result, "covered_pixels"), differ);
     EXPECT_LE(
         static_cast<double>(count(result, "covered_pixels")), 1.02 * static_cast<double>(differ));

@@ -22,10 +22,10 @@ Bytes plain(std::uint32_t pixels, std::uint8_t r, std::uint8_t g, std::uint8_t b
     return rgba;
 }
 
-// Without edges the error is that of the colours. CIELAB of black and white differs by 100 in L
-// alone. sRGB's green and blue are (87.735, -86.183, 83.179) and (32.297, 79.188, -107.860). With
-// a and b times L / 100 they are apart by 55.438 + |(-101.19, 107.81)| = 203.30. The 0.7th powers
-// are 25.119 and 41.276; 0.4 of the greatest is 16.510, mapped to 0.95.
+// Without edges the error is that of the colours. In CIELAB, black and white differ only in L, by
+// 100. sRGB's green and blue are (87.735, -86.183, 83.179) and (32.297, 79.188, -107.860). With
+// a and b times L / 100 their distance is 55.438 + |(-101.19, 107.81)| = 203.30. To the power 0.7
+// the distances are 25.119 and 41.276; 0.4 of the greatest is 16.510, which maps to 0.95.
 TEST(Flip, OfBlackAndWhiteIsThatOfThePaper) {
     const Bytes black = plain(32 * 24, 0, 0, 0);
     const Bytes white = plain(32 * 24, 255, 255, 255);
@@ -48,7 +48,7 @@ TEST(Flip, RefusesPicturesOfOtherSizes) {
     EXPECT_NE(errorText([] { flipError({}, {}, 0, 0); }), "no error");
 }
 
-// A picture of waves, edges and points; `which` changes the colours and places.
+// Returns a picture of waves, edges and points. `which` changes colours and places.
 Bytes pattern(int width, int height, int which) {
     Bytes rgba;
     for (int y = 0; y < height; ++y)
@@ -63,7 +63,7 @@ Bytes pattern(int width, int height, int which) {
     return rgba;
 }
 
-// Compares with the authors' own program, which uses single precision.
+// Compares with the authors' program, which uses single precision.
 TEST(Flip, IsThatOfItsAuthors) {
     if (pythonInterpreter().empty()) return skipWithout(Need::python, kNoPython);
     const TemporaryFolder folder;

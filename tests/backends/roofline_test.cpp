@@ -11,7 +11,8 @@ namespace {
 
 using hair::Backend;
 
-// 10 strands of 7 segments of 4 pieces: 29 points each, or 35 where segments have their own.
+// Returns 10 strands of 7 segments of 4 pieces. A strand has 29 points, or 35 if segments share
+// none.
 StrandCounts fewStrands() {
     return {
         .guide_vertices = 24,
@@ -25,8 +26,9 @@ StrandCounts fewStrands() {
         .color_bytes = 4};
 }
 
-// The table of docs/measuring.md: 81 + 84 a point, 22 an end, 34 a corner; 75 and 60 a light a
-// pixel; 16 bytes a guide's vertex, 12 a triangle, 12 a sample.
+// From the table of docs/measuring.md. Operations: 81 + 84 per point, 22 per end, 34 per corner, 75
+// per pixel, and 60 per pixel and light. Bytes: 16 per guide vertex, 12 per triangle and 12 per
+// sample.
 TEST(StrandWork, IsThatOfTheTable) {
     EXPECT_EQ(fewStrands().points(), 290u);
     const auto work = strandWork(Backend::tessellation, fewStrands());
@@ -83,7 +85,7 @@ TEST(LeastTime, IsThatOfTheSlowestPart) {
 
 class LimitsTest : public GpuTest {};
 
-// No machine moves a byte in less than 10 fs or needs a second for a megabyte.
+// No machine moves a byte in less than 10 fs or takes a second for a megabyte.
 TEST_F(LimitsTest, AreMeasuredOfEveryStage) {
     const DeviceLimits limits = measureLimits(device());
     ASSERT_EQ(limits.copy_bandwidth.size(), 5u);

@@ -1,5 +1,5 @@
-// The program as a user meets it: its exit status, its one-line errors, the files it writes and
-// leaves alone.
+// Tests the program as a user runs it: its exit status, its one-line errors, and the files that it
+// writes or leaves alone.
 #include <algorithm>
 #include <cstdlib>
 #include <filesystem>
@@ -51,7 +51,7 @@ TEST(Cli, SchemaIsTheCommittedOne) {
     EXPECT_TRUE(outcome.output == committed) << "hairbench schema > scenes/scene.schema.json";
 }
 
-// What nobody can read was not said.
+// A failure to write the output is an error.
 TEST(Cli, FailsWhereStandardOutputIsClosedOrFull) {
     const std::string hair = shippedScene("truth/cantilever.obj");
     for (const std::string& command :
@@ -84,13 +84,13 @@ TEST(Cli, TakesFiniteNumbersOnly) {
     }
 }
 
-// At once, and not after the run.
+// The error comes before the run, not after it.
 TEST(Cli, SaysAtOnceThatANameCannotBeWritten) {
     const TemporaryFolder folder;
     fs::create_symlink("loop.json", folder.file("loop.json"));
     for (const auto& [name, reason] :
          {std::pair{std::string(300, 'a'), "File name too long"},
-          {std::string(250, 'a'), "File name too long"},  // with .journal
+          {std::string(250, 'a'), "File name too long"},  // once ".journal" is added
           {std::string("loop.json"), "Too many levels of symbolic links"}}) {
         const Outcome outcome = hairbenchErrors(
             "run " + shippedScene("smoke.json") + " -o '" + folder.file(name).string() + "'");
@@ -100,8 +100,8 @@ TEST(Cli, SaysAtOnceThatANameCannotBeWritten) {
     }
 }
 
-// A stranger chooses the names of files and cases. A name with a line break and a colour could
-// forge a line of the program.
+// A stranger may have named the files and cases. A line break and a colour in a name could forge a
+// line of the program's output.
 TEST(Cli, ShowsTextsOfFilesOnOneLine) {
     const TemporaryFolder folder;
     const std::string forged = "a\n\x1b[32mhairbench: ok\u202e";
@@ -125,7 +125,7 @@ TEST(Cli, ShowsTextsOfFilesOnOneLine) {
     }
 }
 
-// A message has at most 500 bytes, its beginning and its end.
+// A message has at most 500 bytes. A longer one keeps its beginning and its end.
 TEST(Cli, MessagesAreShort) {
     const TemporaryFolder folder;
     const std::string text =
@@ -193,11 +193,11 @@ TEST(Cli, SetsFieldsWithoutNamingCasesAfterThem) {
     EXPECT_EQ(hairbench("run " + shippedScene("smoke.json") + " --set density --list").status, 2);
 }
 
-// ---- What is refused: one line, status 2, nothing written ---------------------------------------
+// ---- Refusals: one line, status 2, no file written ----------------------------------------------
 
 struct Refusal {
     const char* name;
-    const char* file;  // written in the scene's place; null: none
+    const char* file;  // content of the scene file; null: no file
     const char* reason;
 };
 
@@ -252,7 +252,7 @@ TEST(Cli, ValidateNamesEveryBadScene) {
     EXPECT_THAT(outcome.output, HasSubstr("bad.json: "));
 }
 
-// All of the hair is in a ball as large as the head.
+// All hair starts inside a ball as large as the head.
 TEST(Cli, ValidateSaysWhatIsWrongWithTheHairAtTheStart) {
     const TemporaryFolder folder;
     const fs::path scene = folder.write(
@@ -380,7 +380,7 @@ TEST_F(CliRun, GivesEqualHashesTwice) {
     }
 }
 
-// The folder is one of the test's own.
+// The cache is a folder of the test's own.
 TEST_F(CliRun, TakesSettledHairFromDiskOrNotAndHasTheSameHashes) {
     const fs::path folder = folder_.path() / "cache";
     const auto entries = [&] {
@@ -398,7 +398,7 @@ TEST_F(CliRun, TakesSettledHairFromDiskOrNotAndHasTheSameHashes) {
     const nlohmann::json without = run("without", options + "--no-cache");
     EXPECT_EQ(entries(), 0);
     const nlohmann::json first = run("first", options);
-    EXPECT_EQ(entries(), 2);  // a field and a state, of both cases
+    EXPECT_EQ(entries(), 2);  // a distance field and a state, which both cases share
     const nlohmann::json second = run("second", options);
     EXPECT_EQ(entries(), 2);
     if (old)
@@ -429,7 +429,7 @@ TEST_F(CliRun, ReportsThatABodyIsNotClosed) {
     }
 }
 
-// Every device has one sample a pixel; lavapipe, for one, has neither two nor eight.
+// Every device supports one sample a pixel. Some support neither two nor eight, e.g. lavapipe.
 TEST_F(CliRun, SaysWhyACaseIsSkippedAndGoesOn) {
     const nlohmann::json report = run("skipped", "-a /render/msaa=2,8,1 --frames 1 --warmup 2");
     ASSERT_EQ(report["cases"].size(), 3u);
@@ -471,9 +471,9 @@ TEST_F(CliRun, SkipsOnASoftwareDeviceWhatNeedsAGpusClocksOrQueues) {
 
 TEST_F(CliRun, SavesWhatWasDoneWhenItIsInterrupted) {
     const fs::path out = folder_.path() / "interrupted.json";
-    // Job control, or the shell would have its children ignore the interrupt. Enough frames for
-    // minutes; the interrupt comes once the first case is in the journal, and after a minute in any
-    // case. With this seed the short case is the first.
+    // Without job control the shell's children would ignore the interrupt. The long case has frames
+    // for minutes. The interrupt comes once the first case is in the journal, or after a minute.
+    // With this seed the short case is the first.
     const fs::path script = folder_.write(
         "interrupt.sh", "set -m\n'" HAIRBENCH_PROGRAM "' run " + shippedScene("smoke.json") +
                             " -a /render/msaa=1 -a /run/frames=1,1000000 --order-seed 1 --out '" +
@@ -510,7 +510,7 @@ TEST_F(CliRun, RendersThePictureThatItMeasures) {
     EXPECT_GT(fs::file_size(picture), 1000u);
 }
 
-// docs/extending.md. The hash is what sha256sum says of the file.
+// See docs/extending.md. sha256sum computed the hash of the file.
 TEST(Cli, ReportsSayWhichFilesOfGlslCasesWerePlayedWith) {
     if (!hasDevice()) return skipWithout(Need::device, "no Vulkan device");
     const TemporaryFolder folder;

@@ -1,5 +1,7 @@
-"""Holds the last of the time samples in a .usda against other files of the same frame, bit for bit:
-usage: compare_frames.py FRAMES USDA HAIR OBJ"""
+"""Compares the last time sample in a .usda with other files of the same frame, bit for bit.
+
+usage: compare_frames.py FRAMES USDA HAIR OBJ
+"""
 
 import sys
 
@@ -18,8 +20,8 @@ points = np.array(curves.GetPointsAttr().Get(times[-1]))
 assert not np.array_equal(points, np.array(curves.GetPointsAttr().Get(0))), "nothing moves"
 assert counts.sum() == len(points) == len(curves.GetWidthsAttr().Get())
 
-# Yuksel's format: magic, strands, points, arrays, segments of each strand where they don't differ,
-# defaults and text up to byte 128; then, of points and thickness (arrays 6), the points.
+# Yuksel's format: magic, strands, points, arrays, segments of each strand if all have the same,
+# defaults and text up to byte 128. The arrays follow: points, then thickness (arrays = 6).
 data = open(hair, "rb").read()
 strands, count, arrays, segments = np.frombuffer(data, "<u4", 4, 4)
 assert arrays == 6 and strands == len(counts) and (counts == segments + 1).all()

@@ -1,9 +1,9 @@
-"""What `hairbench groom compare` has to say of two grooms, by brute force: the definitions of
-docs/grooms.md, each sample against each segment, in double precision.
+"""Computes the results of `hairbench groom compare` for two grooms by brute force. Follows the
+definitions of docs/grooms.md and compares each sample with each segment, in double precision.
 
 usage: compare_grooms.py A B SPACING CURVATURE_STEP CONSISTENCY_SAMPLES directed|undirected
 
-A and B are texts, a strand a line: x y z of its points, in metres. Prints JSON.
+A and B are text files with a strand a line: x y z of its points, in metres. Prints JSON.
 """
 
 import json
@@ -26,7 +26,7 @@ def arcs(strand):
 
 
 def along(strand, places):
-    """Points and unit tangents at arc lengths."""
+    """Returns the points and unit tangents at these arc lengths."""
     arc = arcs(strand)
     segment = np.searchsorted(arc, places, side="right") - 1
     segment = np.clip(segment, 0, len(strand) - 2)
@@ -77,7 +77,7 @@ def search(strands, others, spacing, undirected, consistency_samples):
         for strand in range(len(strands)):
             mine = np.flatnonzero(owners == strand)
             count = min(len(mine), consistency_samples)
-            # The middle one of as many runs.
+            # Splits the samples into `count` runs and takes the middle sample of each.
             mine = mine[[(2 * run + 1) * len(mine) // (2 * count) for run in range(count)]]
             together = [
                 found[mine][:, other_owners == other].any(axis=1).sum()
@@ -103,7 +103,7 @@ def curvatures(strands, wanted):
 
 
 def earth_movers(a, b):
-    """The integral of the quantile functions' difference, where each has its steps."""
+    """Integrates the difference of the quantile functions, which are step functions."""
     levels = np.union1d(np.arange(len(a) + 1) / len(a), np.arange(len(b) + 1) / len(b))
     middles = (levels[:-1] + levels[1:]) / 2
     first = np.sort(a)[(middles * len(a)).astype(int)]

@@ -1,4 +1,4 @@
-// `hairbench export`, `reference` and `diff` as a user meets them.
+// Tests `hairbench export`, `reference` and `diff` as a user runs them.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -32,7 +32,7 @@ Point readPoint(std::istream& file) {
     return point;
 }
 
-// A natural spline's second control point is its first point.
+// The spline is natural, so its second control point is the root.
 Point firstRoot(const fs::path& folder) {
     std::ifstream file(folder / "hair.txt");
     std::string line;
@@ -65,21 +65,21 @@ protected:
     TemporaryFolder folder_;
 };
 
-// 136 root triangles of 16 strands, and 7 segments of 2 pieces.
+// There are 136 root triangles with 16 strands each, and 7 segments with 2 pieces each.
 TEST_F(ExportCli, WritesAMitsubaScene) {
     const Outcome outcome =
         hairbench("export " + shippedScene("smoke.json") + "--mitsuba " + quoted("m"));
     EXPECT_EQ(outcome.status, 0) << outcome.output;
     EXPECT_THAT(outcome.output, HasSubstr("frame 0 of smoke, 2176 strands, 32640 points, "));
     const std::string hair = textOf(folder_.file("m/hair.txt"));
-    // Two control points more than points, and an empty line.
+    // Each strand has two control points more than points, and an empty line.
     EXPECT_EQ(std::ranges::count(hair, '\n'), 32640 + 2176 * 3);
     const std::string text = textOf(folder_.file("m/scene.xml"));
     for (const char* part : {R"(value="hair.txt")", R"(value="head_0.ply")", R"(value="320")"})
         EXPECT_THAT(text, HasSubstr(part));
 }
 
-// Roots move as the head does, rigidly, so a root keeps its distance to a vertex of the head.
+// Roots move rigidly with the head, so a root keeps its distance to a vertex of the head.
 TEST_F(ExportCli, MovesTheHeadWithTheHair) {
     for (const char* frame : {"0", "20"}) {
         const Outcome outcome = hairbench(
@@ -90,7 +90,7 @@ TEST_F(ExportCli, MovesTheHeadWithTheHair) {
     const fs::path before = folder_.file("0");
     const fs::path after = folder_.file("20");
     EXPECT_GT(distance(firstVertex(before), firstVertex(after)), 1e-3);  // m: it nods
-    // Floats of positions below 1 m, after a few operations in single precision.
+    // Positions are floats below 1 m, after a few operations in single precision.
     EXPECT_NEAR(
         distance(firstRoot(before), firstVertex(before)),
         distance(firstRoot(after), firstVertex(after)), 1e-6);
@@ -128,7 +128,7 @@ TEST_F(ExportCli, RendersAndComparesReferences) {
     const Outcome same = hairbench(
         "diff --json " + quoted("wide.exr") + quoted("wide.exr") + "-o " + quoted("map.png"));
     ASSERT_EQ(same.status, 0) << same.output;
-    // A picture against itself: no error, and a ratio of signal to noise without bound.
+    // A picture has no error against itself, and its PSNR is infinite.
     const nlohmann::json expected{{"width", 64},        {"height", 36}, {"rmse", 0.0},
                                   {"psnr_db", nullptr}, {"ssim", 1.0},  {"flip", 0.0}};
     EXPECT_EQ(nlohmann::json::parse(same.output), expected);
@@ -141,8 +141,8 @@ TEST_F(ExportCli, RendersAndComparesReferences) {
     EXPECT_EQ(std::ranges::count(other.output, '\n'), 1) << other.output;
 }
 
-// In the middle of a pass, which takes minutes. Job control, or the shell would have its children
-// ignore the interrupt.
+// The interrupt comes in the middle of a pass, which takes minutes. Without job control the shell's
+// children would ignore it.
 TEST_F(ExportCli, LeavesNothingWhenItIsInterrupted) {
     if (!hasReferencePython()) GTEST_SKIP() << kNoReference;
     const std::string log = quoted("log");
@@ -158,7 +158,7 @@ TEST_F(ExportCli, LeavesNothingWhenItIsInterrupted) {
     EXPECT_TRUE(fs::is_empty(folder_.file("scratch")));
 }
 
-// Binary PPM of one colour; stated errors follow by hand.
+// The pictures are binary PPM of one colour, so their errors can be computed by hand.
 TEST_F(ExportCli, ComparesFlatPicturesAsOneComputesByHand) {
     if (!hasReferencePython()) GTEST_SKIP() << kNoReference;
     const auto flat = [&](const char* name, int value) {
@@ -174,7 +174,7 @@ TEST_F(ExportCli, ComparesFlatPicturesAsOneComputesByHand) {
     // Pictures are in single precision.
     EXPECT_NEAR(figures.at("rmse"), 0.2, 1e-6);
     EXPECT_NEAR(figures.at("psnr_db"), -20.0 * std::log10(0.2), 1e-4);
-    // Without variance SSIM is (2 a b + C1) / (a^2 + b^2 + C1), C1 = 0.01^2.
+    // For pictures without variance SSIM is (2 a b + C1) / (a^2 + b^2 + C1), with C1 = 0.01^2.
     const double a = 100.0 / 255.0;
     const double b = 151.0 / 255.0;
     EXPECT_NEAR(figures.at("ssim"), (2 * a * b + 1e-4) / (a * a + b * b + 1e-4), 1e-5);

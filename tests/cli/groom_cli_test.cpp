@@ -1,4 +1,4 @@
-// `hairbench groom convert` as a user meets it.
+// Tests `hairbench groom convert` as a user runs it.
 #include <algorithm>
 #include <filesystem>
 #include <string>
@@ -17,7 +17,7 @@ using testing::ContainsRegex;
 using testing::HasSubstr;
 using testing::Not;
 
-// Points survive every format to the bit; a strand's own number of points does where it may.
+// Every format keeps all bits of the points. It keeps the strands' point counts if they may differ.
 TEST_F(GroomCli, ConvertsThereAndBack) {
     folder_.write("four.hair", fourStrands().text());
     for (const std::string extension : {".ply", ".obj", ".gltf", ".glb", ".usda", ".abc"}) {
@@ -63,7 +63,7 @@ TEST_F(GroomCli, ConvertMakesAFileOfGuidesWithTriangles) {
     EXPECT_NEAR(found["lengths"]["maximum"], 0.3, 1e-6);
 }
 
-// Equal straight strands are their guides' mean but for the rounding of floats.
+// Equal straight strands equal the mean of their guides, except for rounding of floats.
 TEST_F(GroomCli, ConvertChoosesGuidesAndSaysHowGoodTheyAre) {
     folder_.write("lawn.hair", lawn(400).text());
     const Outcome outcome =
@@ -92,7 +92,7 @@ TEST_F(GroomCli, ConvertAddsFollowersInTheFilesUnit) {
     EXPECT_LT(found["bounding_box"]["minimum"][0], 0.0);
 }
 
-// .hgl is in metres, whatever IN is in; the radius is in IN's unit.
+// .hgl is in metres, whatever the unit of IN. The radius is in IN's unit.
 TEST_F(GroomCli, ConvertTakesAStatedUnitToMetresForGuides) {
     folder_.write(
         "cm.usda", "#usda 1.0\n(\n    metersPerUnit = 0.01\n)\ndef BasisCurves \"hair\"\n{\n"
@@ -141,7 +141,7 @@ TEST_P(GroomRefusal, IsOneLineWithStatus2AndWritesNothing) {
 INSTANTIATE_TEST_SUITE_P(
     , GroomRefusal,
     testing::Values(
-        // Before anything is read: there is no such file either.
+        // Refused before IN is read: none.hair does not exist either.
         RefusedGroom{
             "UnknownExtension", "none.hair", "out.foo", "",
             "can't be written as \".foo\"; known are .hair"},
@@ -176,7 +176,7 @@ TEST_F(GroomCli, RefusesOptionsThatMakeNoSense) {
     EXPECT_EQ(hairbench("groom convert " + quoted("four.hair")).status, 2);
 }
 
-// ---- Nothing half done --------------------------------------------------------------------------
+// ---- Incomplete files ---------------------------------------------------------------------------
 
 std::vector<std::string> namesIn(const fs::path& folder) {
     std::vector<std::string> names;
@@ -188,14 +188,14 @@ std::vector<std::string> namesIn(const fs::path& folder) {
 
 class GroomInterrupt : public testing::TestWithParam<const char*> {};
 
-// The signal comes as soon as the temporary file is there, a long time before a million points are
-// written as text.
+// The signal comes as soon as the temporary file exists, long before a million points are written
+// as text.
 TEST_P(GroomInterrupt, LeavesTheOldFileAndNoPart) {
     const TemporaryFolder folder;
     folder.write("in/lawn.hair", lawn(65536).text());
     const fs::path out = folder.write("out/lawn.obj", "old");
     const fs::path log = folder.file("log");
-    // Job control, or the shell would have its children ignore the interrupt.
+    // Without job control the shell's children would ignore the interrupt.
     const fs::path script = folder.write(
         "interrupt.sh", "set -m\n'" HAIRBENCH_PROGRAM "' groom convert '" +
                             folder.file("in/lawn.hair").string() + "' '" + out.string() + "' >'" +
@@ -228,7 +228,7 @@ TEST_F(GroomCli, SaysWhereItCannotWrite) {
     EXPECT_THAT(full.output, HasSubstr("full.hair: cannot be written: No space left on device\n"));
 }
 
-// `ulimit -f` counts half or whole kilobytes; the file would have three megabytes.
+// `ulimit -f` counts in units of 0.5 or 1 kB; the file would have 3 MB.
 TEST_F(GroomCli, LeavesNothingWhereThereIsNoRoom) {
     folder_.write("in/lawn.hair", lawn(4096).text());
     folder_.write("out/lawn.hair", "old");

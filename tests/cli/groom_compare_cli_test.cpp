@@ -1,4 +1,4 @@
-// `hairbench groom compare` as a user meets it, and against brute force in numpy.
+// Tests `hairbench groom compare` as a user runs it, and against brute force in numpy.
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
@@ -33,7 +33,7 @@ protected:
     }
 };
 
-// Curls of 5 to 40 points and 20 to 150 mm on a patch of 15 mm, in metres.
+// Returns curls of 5 to 40 points and 20 to 150 mm on a patch of 15 mm, in metres.
 HairFile curls(std::uint32_t seed, int count) {
     std::mt19937 random(seed);
     const auto uniform = [&](double low, double high) {
@@ -58,7 +58,7 @@ HairFile curls(std::uint32_t seed, int count) {
     return file;
 }
 
-// A strand a line, each number to the bit.
+// Writes a strand a line, with enough digits to keep all bits.
 std::string lines(const HairFile& file) {
     std::ostringstream text;
     text << std::setprecision(9);
@@ -70,8 +70,8 @@ std::string lines(const HairFile& file) {
     return text.str();
 }
 
-// The program has floats for distances and lengths, a part in 1.7e7; shares are counts of samples,
-// none of which is that near to a threshold here.
+// The program computes distances and lengths in floats, with a relative error of 1 / 1.7e7. Shares
+// are counts of samples, and no sample here is that near to a threshold.
 void expectNear(const nlohmann::json& found, double wanted, const std::string& what) {
     EXPECT_NEAR(found.get<double>(), wanted, 1e-6 * std::max(std::abs(wanted), 1e-3)) << what;
 }
@@ -95,7 +95,7 @@ TEST_F(GroomCompareCli, AgreesWithBruteForce) {
             "--scale-a 1 --scale-b 1 --spacing 1.5 --curvature-step 4 --consistency-samples 7 "
             "--threads 2" +
                 std::string(direction == "undirected" ? " --undirected" : ""));
-        // What tells the definitions apart is not to be all or nothing.
+        // Only scores between 0 and 1 distinguish the definitions.
         EXPECT_GT(wanted["f1"][2], 0.2);
         EXPECT_LT(wanted["f1"][0], 0.8);
         EXPECT_LT(wanted["strand_consistency"][0], 0.9 * wanted["recall"][0].get<double>());
@@ -158,8 +158,8 @@ TEST_F(GroomCompareCli, PrintsATableAndWritesJson) {
     EXPECT_FALSE(found.contains("penetration"));
 }
 
-// 4 strands of 0.1 to 0.3 m from y = 0 in a box up to y = 0.1 m: their lower 0.1 m, of 0.7 m, but
-// for what is no deeper than 1 mm.
+// Four strands of 0.1 to 0.3 m start at y = 0 in a box that reaches to y = 0.1 m. The lower 0.1 m
+// of each is inside, 0.4 of 0.7 m in all. Parts less than 1 mm deep do not count.
 TEST_F(GroomCompareCli, SaysWhatIsInsideAHead) {
     folder_.write("four.hair", fourStrands().text());
     folder_.write(
@@ -169,7 +169,7 @@ TEST_F(GroomCompareCli, SaysWhatIsInsideAHead) {
     const nlohmann::json found = compareJson(
         "four.hair", "four.hair",
         "--scale-a 0.01 --scale-b 0.01 --spacing 4 --mesh " + quoted("box.obj"));
-    // Samples 2, 6 ... 98 mm up are 98 to 2 mm deep.
+    // Samples at heights of 2, 6 ... 98 mm are 98 to 2 mm deep.
     EXPECT_EQ(found["penetration"]["first"]["samples_inside"], 100);
     EXPECT_EQ(found["penetration"]["first"]["strands_inside"], 4);
     EXPECT_NEAR(found["penetration"]["first"]["share"], 100.0 / 175.0, 1e-12);

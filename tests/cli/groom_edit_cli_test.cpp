@@ -1,4 +1,4 @@
-// `hairbench groom filter`, `smooth`, `resample` and `fix` as a user meets them.
+// Tests `hairbench groom filter`, `smooth`, `resample` and `fix` as a user runs them.
 #include <filesystem>
 #include <string>
 
@@ -67,15 +67,15 @@ TEST_F(GroomEditCli, SmoothsBendsAndKeepsLengths) {
     EXPECT_EQ(edit("smooth", "bend.hair", "--scale 0.01 --length 50").status, 0);
     const nlohmann::json found = json("out.hair", "--scale 0.01");
     EXPECT_NEAR(found["lengths"]["mean"], 0.2, 1e-7);
-    EXPECT_GT(found["bounding_box"]["maximum"][0], 0.1);  // the corner is cut, the tip goes on
+    EXPECT_GT(found["bounding_box"]["maximum"][0], 0.1);  // the corner is cut, the tip stays
     EXPECT_LT(found["bounding_box"]["maximum"][1], 0.13);
 }
 
 TEST_F(GroomEditCli, FixLeavesNothingThatInfoFindsInStrands) {
     HairFile file = fourStrands();
-    file.segments.push_back(2);  // the first once more
+    file.segments.push_back(2);  // a copy of the first strand
     file.points.insert(file.points.end(), {0, 0, 0, 0, 5, 0, 0, 10, 0});
-    file.segments.push_back(1);  // without length
+    file.segments.push_back(1);  // a strand without length
     file.points.insert(file.points.end(), {2, 0, 2, 2, 0, 2});
     file.segments.push_back(2);  // a segment without length
     file.points.insert(file.points.end(), {7, 0, 7, 7, 9, 7, 7, 9, 7});
@@ -88,7 +88,7 @@ TEST_F(GroomEditCli, FixLeavesNothingThatInfoFindsInStrands) {
                             HasSubstr("left out: strands equal to one before them: 1\n"),
                             HasSubstr("left out: points at the place of the one before: 1\n"),
                             ContainsRegex("wrote: .*out.hair, 5 strands, 15 points\n")));
-    EXPECT_TRUE(json("out.hair", "--scale 1")["odd"].empty());  // in metres now
+    EXPECT_TRUE(json("out.hair", "--scale 1")["odd"].empty());  // "out.hair" is in metres
 }
 
 TEST_F(GroomEditCli, RefusesInOneLineWithStatus2) {

@@ -19,7 +19,7 @@ inline HairFile fourStrands() {
                                                  4, 0, 4, 4, 10, 4, 4, 20, 4, 4, 30, 4}};
 }
 
-// Strands of 16 points, as many as are asked for, on a lattice.
+// Returns this many strands of 16 points on a lattice.
 inline HairFile lawn(std::uint32_t strands) {
     HairFile file{.segments = std::vector<std::uint16_t>(strands, 15)};
     file.points.reserve(std::size_t{strands} * 48);
@@ -32,7 +32,7 @@ inline HairFile lawn(std::uint32_t strands) {
     return file;
 }
 
-// A folder with files of hair and what `hairbench groom` says of them.
+// Has a folder for files of hair, and runs `hairbench groom` on them.
 class GroomCli : public testing::Test {
 protected:
     std::string quoted(std::string_view name) const {
@@ -48,7 +48,7 @@ protected:
     convert(std::string_view in, std::string_view out, const std::string& options = "") const {
         return hairbench("groom convert " + quoted(in) + " " + quoted(out) + " " + options);
     }
-    // Of a .hair file: what lies after the header.
+    // Returns the data after the header of a .hair file.
     std::string dataOf(std::string_view name) const {
         return textOf(folder_.file(name)).substr(128);
     }

@@ -1,4 +1,4 @@
-// `hairbench groom info` as a user meets it.
+// Tests `hairbench groom info` as a user runs it.
 #include <algorithm>
 #include <string>
 
@@ -23,7 +23,7 @@ TEST_F(GroomCli, InfoSaysWhatIsInAFile) {
     EXPECT_THAT(outcome.output, HasSubstr("40.0 x 300 x 40.0 mm"));
     EXPECT_THAT(outcome.output, ContainsRegex("widths +70.0 µm everywhere\n"));
     EXPECT_THAT(outcome.output, ContainsRegex("colour +0.5 0.25 0.125 everywhere\n"));
-    // 10, 10, 20 and 30 cm: quartiles by linear interpolation, as numpy's.
+    // Lengths are 10, 10, 20 and 30 cm. Quartiles interpolate linearly, as numpy's do.
     EXPECT_THAT(outcome.output, ContainsRegex("length +100 +100 +150 +225 +300 +175 +mm\n"));
     EXPECT_THAT(outcome.output, HasSubstr("nothing odd\n"));
 }
@@ -47,11 +47,11 @@ TEST_F(GroomCli, InfoGivesTheSameAsJson) {
 
 TEST_F(GroomCli, InfoListsWhatIsOddAndWhatToDo) {
     HairFile file = fourStrands();
-    file.segments.push_back(2);  // the first once more
+    file.segments.push_back(2);  // a copy of the first strand
     file.points.insert(file.points.end(), {0, 0, 0, 0, 5, 0, 0, 10, 0});
-    file.segments.push_back(1);  // without length
+    file.segments.push_back(1);  // a strand without length
     file.points.insert(file.points.end(), {2, 0, 2, 2, 0, 2});
-    file.thickness = 1.0f;  // the description's own default, in centimetres of hair: ropes
+    file.thickness = 1.0f;  // the format's default; hair in cm is then as thick as rope
     folder_.write("odd.hair", file.text());
     const Outcome outcome = info("odd.hair", "--scale 0.01");
     EXPECT_EQ(outcome.status, 0);
@@ -70,7 +70,7 @@ TEST_F(GroomCli, InfoListsWhatIsOddAndWhatToDo) {
 
 TEST_F(GroomCli, InfoHoldsTheRootsAgainstAMesh) {
     folder_.write("four.hair", fourStrands().text());
-    // Roots at (0, 0) and (4, 0) cm are on the floor, the others beyond its edge at z = 2 cm.
+    // Roots at (0, 0) and (4, 0) cm are on the floor. The others are beyond its edge at z = 2 cm.
     folder_.write(
         "floor.obj", "v 0 0 0\nv 0.04 0 0\nv 0 0 0.02\nv 0.04 0 0.02\nf 1 3 2\nf 2 3 4\n");
     const nlohmann::json found = json("four.hair", "--scale 0.01 --mesh " + quoted("floor.obj"));

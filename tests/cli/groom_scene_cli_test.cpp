@@ -1,4 +1,4 @@
-// `hairbench groom scene` as a user meets it: what it guesses of files that the test has made.
+// Tests `hairbench groom scene` as a user runs it: its guesses about files that the test wrote.
 #include <cmath>
 #include <filesystem>
 #include <numbers>
@@ -20,7 +20,7 @@ using testing::ContainsRegex;
 using testing::HasSubstr;
 using testing::Not;
 
-// How a file of the test lies: metres in its unit, and z up in place of y (the front then is -y).
+// Unit and up axis of a file: metres per unit, and whether z is up, with -y as the front.
 struct FileLay {
     double metres = 1.0;
     bool z_up = false;
@@ -30,7 +30,7 @@ struct HeadPoint {
     double x, y, z;  // m, +y up, front +z
 };
 
-// An ellipsoid as wide, high and deep as a head, no two of its axes alike.
+// Returns a point on an ellipsoid as wide, high and deep as a head, with three different axes.
 HeadPoint onHead(double elevation, double azimuth, double factor = 1.0) {
     const double level = std::abs(elevation) < 1.57 ? std::cos(elevation) : 0.0;  // at the poles
     return {
@@ -46,8 +46,8 @@ std::vector<double> inFile(const HeadPoint& p, const FileLay& lay) {
 constexpr int kRings = 40;
 constexpr int kAround = 80;
 
-// Edges of 1 cm at most: flat faces are off the ellipsoid by 0.2 mm. `open` leaves out the lowest
-// rings.
+// Returns the ellipsoid as OBJ. Edges are at most 1 cm long, so flat faces are off by 0.2 mm.
+// `open` leaves out the lowest rings.
 std::string headObj(const FileLay& lay, bool open = false) {
     constexpr double kPi = std::numbers::pi;
     std::ostringstream text;
@@ -69,7 +69,7 @@ std::string headObj(const FileLay& lay, bool open = false) {
     return text.str();
 }
 
-// 480 strands that stand off the upper and hind part of the head as far as that is thick.
+// Returns 480 strands that stand off the upper and hind part of the head, as long as its radius.
 std::string hairOnHead(const FileLay& lay, const HeadPoint& moved = {0, 0, 0}) {
     HairFile file{.thickness = static_cast<float>(80e-6 / lay.metres)};
     for (int ring = 0; ring < 12; ++ring)
@@ -135,7 +135,7 @@ TEST_P(GroomSceneVariants, GuessesUnitsAndAxes) {
     const Outcome valid = hairbench("validate " + quoted("mine.json"));
     EXPECT_EQ(valid.status, 0) << valid.output;
     if (variant.hair.z_up) return;
-    // On the head that the scene has, in metres, roots are as far off as its faces are flat.
+    // The scene's head is in metres. Roots are off its faces because the faces are flat.
     const Outcome found = hairbench(
         "groom info " + quoted("mine.hair") + " --json --scale " +
         std::to_string(variant.hair.metres) + " --mesh " + quoted(std::string(groom["mesh"])));
@@ -213,7 +213,7 @@ TEST_F(GroomSceneCli, RendersAFrameWithHairInIt) {
     double squares = 0;
     for (std::size_t i = 0; i < bare.rgba.size(); ++i)
         squares += std::pow((bare.rgba[i] - hair.rgba[i]) / 255.0, 2);
-    // Hair that changes a tenth of the pixels by a tenth has a root mean square of 0.03.
+    // A change of a tenth in a tenth of the pixels has a root mean square of 0.03.
     EXPECT_GT(std::sqrt(squares / static_cast<double>(bare.rgba.size())), 0.03);
 }
 
@@ -222,7 +222,8 @@ TEST_F(GroomSceneCli, DrawsASheetOfFourViews) {
     const Outcome outcome = scene("--sheet " + quoted("sheet.png"));
     if (outcome.status == 77) GTEST_SKIP() << outcome.output;
     ASSERT_EQ(outcome.status, 0) << outcome.output;
-    // PNG: after a signature of 8 bytes and 8 of the header chunk's name and length, big-endian.
+    // Width and height follow the signature (8 bytes) and the header chunk's length and name (8
+    // bytes), big-endian.
     EXPECT_EQ(
         textOf(folder_.file("sheet.png")).substr(16, 8), std::string("\0\0\5\0\0\0\1\x40", 8));
     EXPECT_EQ(scene("--force --sheet " + quoted("sheet.jpg")).status, 2);

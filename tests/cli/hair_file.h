@@ -6,9 +6,9 @@
 #include <string_view>
 #include <vector>
 
-// A .hair file from the format's description (Yuksel,
+// A .hair file by the format's description (Yuksel,
 // http://www.cemyuksel.com/research/hairmodels): a header of 128 bytes, then segments per strand
-// (uint16) where they differ, then the points.
+// (uint16) if they differ, then the points.
 struct HairFile {
     std::vector<std::uint16_t> segments;  // [strand]
     std::vector<float> points;            // [point][3]

@@ -1,4 +1,4 @@
-// hairbench lod --reference as a user meets it.
+// Tests `hairbench lod --reference` as a user runs it.
 #include <string>
 
 #include <gmock/gmock.h>

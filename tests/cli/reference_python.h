@@ -6,7 +6,7 @@
 inline constexpr const char* kNoReference =
     "no Python environment for references: run scripts/setup --reference";
 
-// Whether there is the environment of scripts/setup --reference.
+// Whether the environment of scripts/setup --reference exists.
 inline bool hasReferencePython() {
     const char* wanted = std::getenv("HAIRBENCH_REFERENCE_PYTHON");
     return std::filesystem::exists(

@@ -30,12 +30,12 @@ inline Outcome runInShell(const std::string& command) {
     return outcome;
 }
 
-// What it says on stdout and stderr. `before` goes before the program's name.
+// Runs hairbench and returns its stdout and stderr. `before` goes before the program's name.
 inline Outcome hairbench(const std::string& arguments, const std::string& before = "") {
     return runInShell(before + "'" HAIRBENCH_PROGRAM "' " + arguments + " 2>&1");
 }
 
-// What it says on stderr.
+// Runs hairbench and returns its stderr.
 inline Outcome hairbenchErrors(const std::string& arguments, const std::string& before = "") {
     return runInShell(before + "'" HAIRBENCH_PROGRAM "' " + arguments + " 2>&1 >/dev/null");
 }

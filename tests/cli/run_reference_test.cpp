@@ -1,4 +1,4 @@
-// /run/reference as a user meets it.
+// Tests /run/reference as a user runs it.
 #include <filesystem>
 #include <string>
 
@@ -32,7 +32,7 @@ protected:
         return "'" + folder_.file(name).string() + "' ";
     }
 
-    // The picture of the first case, of another size where `more` says so.
+    // Draws the first case's picture, with further options in `more`, e.g. another size.
     void drawTruth(const std::string& more = "") const {
         const Outcome outcome = hairbench(
             "render " + quoted("still.json") + "-a /strands/density=4 " + more + "-o " +

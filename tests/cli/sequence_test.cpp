@@ -1,4 +1,4 @@
-// `hairbench render` of one frame and of several, as a user meets it.
+// Tests `hairbench render` of one frame and of several, as a user runs it.
 #include <algorithm>
 #include <filesystem>
 #include <string>
@@ -46,7 +46,7 @@ TEST_F(SequenceCli, WritesEveryFrameAsItIsByItself) {
     EXPECT_NE(textOf(folder_.file("five.png")), textOf(folder_.file("out/001.png")));
 }
 
-// Every strand is a pixel wide at least, so thousands of them are more than one fragment a pixel.
+// Every strand is at least a pixel wide, so thousands of them give more than one fragment a pixel.
 TEST_F(SequenceCli, SaysWhatListsOfFragmentsHaveNoRoomFor) {
     const std::string lists = "-a /render/coverage=analytic -a /strands/density=64 "
                               "-a /render/transparency=fragment_list -a /render/list_length=";
@@ -57,7 +57,7 @@ TEST_F(SequenceCli, SaysWhatListsOfFragmentsHaveNoRoomFor) {
     EXPECT_THAT(long_lists.output, testing::Not(HasSubstr("did not fit")));
 }
 
-// The first bytes of an OpenEXR file are its magic number, 20000630.
+// An OpenEXR file begins with its magic number, 20000630.
 TEST_F(SequenceCli, WritesLinearLightAsExr) {
     for (const char* options : {"", "-a '/render/tone_map=\"agx\"' "}) {
         const Outcome outcome = hairbench(smallSmoke() + options + "-o " + quoted("a.exr"));
@@ -77,7 +77,7 @@ TEST_F(SequenceCli, RefusesWhatHasNoPlaceBeforeItBegins) {
     EXPECT_TRUE(fs::is_empty(folder_.path()));
 }
 
-// Job control, or the shell would have its children ignore the interrupt.
+// Without job control the shell's children would ignore the interrupt.
 TEST_F(SequenceCli, KeepsWholePicturesWhenItIsInterrupted) {
     const std::string log = quoted("log");
     const fs::path script = folder_.write(

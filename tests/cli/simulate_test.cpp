@@ -1,4 +1,4 @@
-// `hairbench simulate` as a user meets it.
+// Tests `hairbench simulate` as a user runs it.
 #include <algorithm>
 #include <filesystem>
 #include <string>
@@ -34,7 +34,7 @@ protected:
     TemporaryFolder folder_;
 };
 
-// 136 root triangles of 16 strands, and 7 segments of 2 pieces.
+// There are 136 root triangles with 16 strands each, and 7 segments with 2 pieces each.
 TEST_F(SimulateCli, WritesTheSameStrandsInEveryFormat) {
     const Outcome moving = simulate("hair.usda", "--frames 3");
     EXPECT_EQ(moving.status, 0) << moving.output;
@@ -68,7 +68,7 @@ TEST_F(SimulateCli, RefusesAFormatThatItDoesNotKnowBeforeItBegins) {
     EXPECT_TRUE(fs::is_empty(folder_.path()));
 }
 
-// A head that nods towards a camera with level of detail by distance: other strands are drawn.
+// The head nods towards the camera. Level of detail by distance then draws other strands.
 TEST_F(SimulateCli, RefusesStrandsThatComeAndGo) {
     const Outcome outcome = hairbench(
         "simulate '" HAIRBENCH_SCENES_DIR "/nod.json' --frames 20 -a '/lod/mode=\"distance\"'"
@@ -79,7 +79,7 @@ TEST_F(SimulateCli, RefusesStrandsThatComeAndGo) {
     EXPECT_TRUE(fs::is_empty(folder_.path()));
 }
 
-// Job control, or the shell would have its children ignore the interrupt.
+// Without job control the shell's children would ignore the interrupt.
 TEST_F(SimulateCli, LeavesNoHalfFileWhenItIsInterrupted) {
     const std::string log = quoted("log");
     const fs::path script = folder_.write(
@@ -94,11 +94,11 @@ TEST_F(SimulateCli, LeavesNoHalfFileWhenItIsInterrupted) {
     EXPECT_TRUE(fs::is_empty(folder_.file("out")));
 }
 
-// Outcomes that are none: NaN and lengths that no hair has, in every command that measures or
-// writes them.
+// Invalid outcomes, NaN and impossible strand lengths, in every command that measures or writes
+// them.
 class WrongOutcome : public SimulateCli {
 protected:
-    // The smoke scene with these members; one small case.
+    // Writes the smoke scene with these members and one small case.
     std::string scene(const std::string& members) {
         const fs::path file = folder_.write(
             "wrong.json", R"({"base": ")" HAIRBENCH_SCENES_DIR R"(/smoke.json",

@@ -1,4 +1,5 @@
-// What files that strangers made can have the program do: nothing but be read, or refused.
+// Tests that the program does nothing with files that strangers made, except to read or refuse
+// them.
 #include <chrono>
 #include <filesystem>
 #include <string>
@@ -52,7 +53,7 @@ TEST(StrangersScene, OpensNothingOutsideOfItsFolder) {
     EXPECT_EQ(hairbench("run --list --allow-outside " + scene).status, 0);
 }
 
-// Meshes and USD are read by other programs.
+// Other programs read meshes and USD.
 TEST(StrangersNames, AreNotRunByAShell) {
     const TemporaryFolder folder;
     const std::string trap = ";touch PWNED;`touch PWNED`$(touch PWNED)'\"\n&|x";
@@ -73,7 +74,7 @@ TEST(StrangersNames, AreNotRunByAShell) {
     }
 }
 
-// --filter of today's std::regex would end the program by a signal.
+// With std::regex such a --filter would end the program by a signal.
 TEST(StrangersNames, MatchExpressionsOfAnyKind) {
     const TemporaryFolder folder;
     const std::string value(200'000, 'a');
@@ -89,7 +90,7 @@ TEST(StrangersNames, MatchExpressionsOfAnyKind) {
     }
 }
 
-// A pipe without a reader would be waited for, after all the work; a folder can't be written.
+// The program would wait for a reader of a pipe after all the work. A folder can't be written.
 TEST(OutputFiles, ArePlainOnesOrRefusedAtOnce) {
     const TemporaryFolder folder;
     ASSERT_EQ(mkfifo(folder.file("pipe.json").c_str(), 0600), 0);

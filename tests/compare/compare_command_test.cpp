@@ -4,7 +4,7 @@
 #include "tests/compare/made_report.h"
 #include "tests/temporary_folder.h"
 
-// hairbench compare as a user runs it.
+// Tests `hairbench compare` as a user runs it.
 namespace benchmarks::report {
 namespace {
 

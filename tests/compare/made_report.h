@@ -10,7 +10,7 @@
 
 namespace benchmarks::report {
 
-// A report with what comparisons read of one, made up.
+// Returns a made-up report with the members that comparisons read.
 inline scene::Json madeReport(const std::string& device_type = "discrete") {
     scene::Json report = {{"schema", "hairbench-report/1.1.0"}};
     report["environment"] = {
@@ -29,7 +29,7 @@ inline scene::Json madeReport(const std::string& device_type = "discrete") {
 
 struct MadeMetric {
     std::string name;
-    std::vector<double> samples;  // in rising or falling order: the median is the middle one
+    std::vector<double> samples;  // in any order in which the median is in the middle
     std::string unit = "ms";
     std::string hint = "lower";
     std::string mode = "isolated";

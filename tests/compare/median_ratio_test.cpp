@@ -11,7 +11,8 @@
 namespace benchmarks::report {
 namespace {
 
-// 1 ... 20, in turns below and above the median: as many as they are count as independent.
+// Returns 1 ... 20 times `factor`, alternately below and above the median, so that all count as
+// independent.
 std::vector<double> inTurns(double factor) {
     std::vector<double> values;
     for (int i = 1; i <= 10; ++i)
@@ -20,8 +21,9 @@ std::vector<double> inTurns(double factor) {
 }
 
 TEST(MedianRatio, IsBoundedByBothIntervals) {
-    // At 2.5 % for each of 20 samples 4 are cut off at either end: P(Binomial(20, 1/2) <= 4) is
-    // 0.59 %, of <= 5 2.07 % (any table), so the intervals are from the 5th to the 16th.
+    // At 2.5 % for each report, 4 of 20 samples are cut off at either end, because
+    // P(Binomial(20, 1/2) <= 4) is 0.59 % and P(<= 5) is 2.07 % (any table). So the intervals are
+    // from the 5th to the 16th.
     const Comparison found = compareMedians(inTurns(1.0), inTurns(2.0), 0.02, 0.05);
     EXPECT_NEAR(found.lower, 10.0 / 16.0 - 1.0, 1e-12);
     EXPECT_NEAR(found.upper, 32.0 / 5.0 - 1.0, 1e-12);
@@ -30,13 +32,13 @@ TEST(MedianRatio, IsBoundedByBothIntervals) {
 TEST(MedianRatio, IsUnknownOfFewSamples) {
     const std::vector<double> few{1.0, 2.0, 3.0};
     const Comparison found = compareMedians(few, inTurns(1.0), 0.02, 0.05);
-    EXPECT_EQ(found.lower, -1.0);  // to 0 and to infinity
+    EXPECT_EQ(found.lower, -1.0);  // the ratio is between 0 and infinity
     EXPECT_EQ(found.upper, std::numeric_limits<double>::infinity());
 }
 
 TEST(MedianRatio, HasThePOfTheLevelAtWhichTheIntervalsPart) {
-    // Both medians inside the 5th to 16th of 20: B's 5th over A's 16th is above 1.02 from a factor
-    // of 16 / 5 * 1.02 on. The level of that pair of intervals is twice 2 * 0.59 %.
+    // Each interval runs from the 5th to the 16th of 20 samples. B's 5th over A's 16th exceeds 1.02
+    // if the factor exceeds 16 / 5 * 1.02. The level of the pair of intervals is twice 2 * 0.59 %.
     const Comparison found = compareMedians(inTurns(1.0), inTurns(3.3), 0.02, 0.05);
     EXPECT_NEAR(found.p, 4.0 * 0.005909, 0.02 * 0.0236);
     EXPECT_NEAR(found.change, 2.3, 1e-12);
@@ -65,7 +67,7 @@ TEST(MedianRatio, SaysNothingBeyondWhatManyMetricsAllow) {
     EXPECT_EQ(all[0].verdict, Verdict::inconclusive);  // 0.01 * 10 is more than 0.05
 }
 
-// Samples of one distribution, where any verdict but `same` or `inconclusive` is false.
+// All samples are from one distribution, so only `same` and `inconclusive` are right.
 TEST(MedianRatio, RaisesNoMoreFalseAlarmsThanItsLevel) {
     Noise noise(41);
     constexpr int kTrials = 1000;
@@ -91,8 +93,8 @@ TEST(MedianRatio, FindsALargeChange) {
         for (double& each : b) each = 1.1 * std::exp(0.05 * noise.normal());
         found += compareMedians(a, b, 0.02, 0.05).p <= 0.05;
     }
-    // Each median's standard error is 0.0063: the change is 8 % of the threshold away, nine of the
-    // difference's.
+    // Each median's standard error is 0.0063. The change of 10 % is 8 points above the threshold,
+    // nine standard errors of the difference.
     EXPECT_GE(found, kTrials * 95 / 100);
 }
 

@@ -13,8 +13,8 @@ using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
 
-// 40 samples about `middle`, 1 % around it, in an order without a trend; made so that the median is
-// the sample in the middle.
+// Returns 41 samples within 1 % of `middle`, in an order without a trend. The median is the sample
+// in the middle of the order.
 std::vector<double> about(double middle) {
     std::vector<double> samples;
     for (int i = 0; i < 41; ++i) samples.push_back(middle * (1.0 + 0.0005 * ((17 * i) % 41 - 20)));
@@ -58,7 +58,7 @@ TEST(ReportComparison, PairsCasesByName) {
     EXPECT_THAT(found.unmatched, ElementsAre("only in A: gone", "only in B: new"));
 }
 
-// What was a pass in one version and is none in the other.
+// A version may lack a pass of the other version.
 TEST(ReportComparison, NamesPassesThatOneReportLacks) {
     const auto passes = [](const std::string& name, const std::vector<const char*>& timed) {
         std::vector<MadeMetric> metrics;
@@ -145,7 +145,7 @@ TEST(ReportComparison, JudgesWhatIsAskedFor) {
     EXPECT_EQ(found.changes[0].metric.name(), "fps");
     EXPECT_EQ(found.changes[0].comparison.verdict, Verdict::regressed);
     EXPECT_NEAR(found.changes[0].comparison.change, 1.0, 1e-9);  // a frame takes twice as long
-    // Bytes are counted: one sample is enough to know that there are 3 % more.
+    // Bytes are counted, so one sample shows that there are 3 % more.
     EXPECT_EQ(found.changes[1].comparison.verdict, Verdict::regressed);
     EXPECT_EQ(
         errorText([&] {
@@ -155,7 +155,7 @@ TEST(ReportComparison, JudgesWhatIsAskedFor) {
 }
 
 TEST(ReportComparison, LeavesOutWhatIsTooShort) {
-    // A GPU's timestamps tell microseconds.
+    // A GPU's timestamps resolve microseconds, so its times may be shorter.
     for (const auto& [type, scale] : {std::pair("cpu", 1.0), std::pair("discrete", 0.04)}) {
         const auto report = [&, type = type, scale = scale](double a, double b) {
             scene::Json made = reportOf({madeCase(

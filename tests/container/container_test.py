@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
-"""Makes the image of scripts/Containerfile and measures in it: by podman or buildah where they are,
-else its steps run in minimal roots of the same release. Called by scripts/test --container, as
-root."""
+"""Builds the image of scripts/Containerfile and measures in it, with podman or buildah. Without
+either, runs the image's steps in minimal roots of the same release. scripts/test --container calls
+this as root."""
 
 import fnmatch
 import json
@@ -27,7 +27,7 @@ SMOKE = [
 
 
 def instructions(text):
-    """[(name, rest)] of a Containerfile: lines joined, comments left out."""
+    """Returns [(name, rest)] of a Containerfile: joins continued lines, leaves out comments."""
     lines = [line for line in text.splitlines() if not line.lstrip().startswith("#")]
     joined = re.sub(r"\\\n\s*", " ", "\n".join(lines))
     return [tuple(line.split(None, 1)) for line in joined.splitlines() if line.strip()]
@@ -67,8 +67,8 @@ class Buildah:
 
 
 class Roots:
-    """A root of Debian's for each stage. What follows FROM is followed as far as our file goes; any
-    other instruction is an error."""
+    """Makes a Debian root for each stage. Follows the instructions that our file uses; any other
+    instruction is an error."""
 
     def __init__(self, folder):
         self.folder = folder
@@ -131,7 +131,7 @@ class Roots:
         return self.arguments
 
     def give_back(self):
-        pass  # the folder goes
+        pass  # the folder is temporary
 
 
 def main():
@@ -149,7 +149,7 @@ def main():
         statuses = [case["status"] for case in report["cases"]]
         if statuses != ["ok", "ok"]:
             sys.exit(f"container test: the cases of smoke.json are {statuses}, not two that are ok")
-        # What the image does by itself, without the minutes that it takes.
+        # Only lists the cases of the image's own command, which takes minutes.
         listed = image.start([*image.command(), "--list"], results)
         cases = [line for line in listed.splitlines() if line.startswith("thesis/")]
         if len(cases) != 16:

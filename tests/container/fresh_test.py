@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
-"""Runs the two commands of the README as a new user would: in a fresh minimal root of a release that has nothing but
-git, with no cache, and with the distribution's mirror and Python's index as the only hosts that have an address. Holds
-that scripts/bench leaves a table, a report and its page, and that scripts/test passes; writes what it saw into the table
-of docs/install.md. Called by scripts/test --fresh, as root."""
+"""Runs the two commands of the README as a new user would: in a fresh minimal root of a release with only git and no
+cache. Only the distribution's mirror and Python's index have an address there. Checks that scripts/bench leaves a
+table, a report and its page, and that scripts/test passes. Writes the results into the table of docs/install.md.
+scripts/test --fresh calls this as root."""
 
 import re
 import resource
@@ -22,7 +22,7 @@ INSTALL = REPOSITORY / "docs" / "install.md"
 NAMES = {"bookworm": "Debian 12", "trixie": "Debian 13", "noble": "Ubuntu 24.04"}
 HEAD = "| release | run on | commit | Mesa | `scripts/bench` | `scripts/test` |"
 
-# A Python that asks its own pip where packages are.
+# A Python script that asks its own pip for its package indices.
 INDEX_HOSTS = """
 from pip._internal.configuration import Configuration
 from pip._internal.models.index import PyPI
@@ -38,14 +38,14 @@ def output(*command):
 
 
 def index_hosts(folder):
-    """The hosts that pip on this machine takes packages from."""
+    """Returns the hosts that pip on this machine takes packages from."""
     run(output(REPOSITORY / "scripts" / "python-environment", "--base"), "-m", "venv", folder)
     said = output(folder / "bin" / "python", "-c", INDEX_HOSTS)
     return [urlsplit(line).hostname for line in said.splitlines()]
 
 
 def mirror_hosts(place):
-    """The hosts that the root's apt takes packages from."""
+    """Returns the hosts that the root's apt takes packages from."""
     files = [place / "etc/apt/sources.list", *(place / "etc/apt/sources.list.d").iterdir()]
     said = "\n".join(each.read_text() for each in files if each.is_file())
     said = re.sub(r"#.*", "", said)
@@ -53,7 +53,7 @@ def mirror_hosts(place):
 
 
 def allow_only(place, hosts):
-    """Gives these hosts their addresses and leaves the root without a resolver: no other host can be found."""
+    """Writes these hosts' addresses into the root, which has no resolver and so finds no other host."""
     lines = ["127.0.0.1 localhost"]
     for host in hosts:
         address = output("getent", "ahostsv4", host).split()[0]
@@ -64,7 +64,7 @@ def allow_only(place, hosts):
 
 
 def measured(place, command):
-    """Runs a command in the clone; says its wall-clock and processor seconds and what it printed."""
+    """Runs a command in the clone. Returns its wall-clock and processor seconds and its output."""
     print(f"fresh test: {command}", file=sys.stderr, flush=True)
     before = resource.getrusage(resource.RUSAGE_CHILDREN)
     start = time.monotonic()
@@ -83,7 +83,7 @@ def measured(place, command):
 
 
 def keep(log):
-    """The log, where it outlives the root."""
+    """Copies the log to where it outlives the root, and returns that path."""
     kept = Path(tempfile.gettempdir()) / "hairbench-fresh.log"
     shutil.copyfile(log, kept)
     return kept
@@ -119,7 +119,7 @@ def main(release):
         scratch = Path(scratch)
         place = scratch / "root"
         root.make(place, release, "git", "ca-certificates")
-        # A network with certificates of its own.
+        # The network may use certificates of its own.
         shutil.copyfile("/etc/ssl/certs/ca-certificates.crt", place / "etc/ssl/certs/ca-certificates.crt")
         allow_only(place, [*mirror_hosts(place), *index_hosts(scratch / "venv")])
         run("git", "clone", "--quiet", "--no-hardlinks", REPOSITORY, place / "root/hairbench")

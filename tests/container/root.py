@@ -1,4 +1,4 @@
-"""Minimal roots of Debian, and what runs in them."""
+"""Makes minimal roots of Debian and runs commands in them."""
 
 import shlex
 import subprocess
@@ -12,7 +12,7 @@ def run(*command, **options):
 
 
 def mirror():
-    """The archive that this machine's own apt installs from, and its components."""
+    """Returns the archive that this machine's own apt installs from, and its components."""
     said = run("apt-get", "indextargets", "--format", "$(REPO_URI) $(COMPONENT)", "Created-By: Packages",
                stdout=subprocess.PIPE).stdout
     found = [line.split() for line in said.splitlines() if "security" not in line]
@@ -23,12 +23,12 @@ def mirror():
 
 
 def make(root, suite, *packages):
-    """A root of the suite with what is essential, apt, and these packages alone, from where this
-    machine's own apt gets packages."""
+    """Makes a root of the suite with only the essential packages, apt and these packages. Takes them
+    from the sources of this machine's own apt."""
     sources = [
         path for path in (Path("/etc/apt/sources.list"), *Path("/etc/apt").glob(
             "sources.list.d/*.sources")) if path.is_file() and suite in path.read_text()]
-    if not sources:  # this machine is of another release
+    if not sources:  # this machine has another release
         uri, components = mirror()
         sources = [f"deb {uri} {suite} {' '.join(components)}"]
     include = [f"--include={','.join(packages)}"] if packages else []
@@ -36,7 +36,7 @@ def make(root, suite, *packages):
 
 
 def command_inside(root, command):
-    """The command that runs a command there, with processes, devices and an environment of its own."""
+    """Returns the command line that runs a command there, with its own processes, devices and environment."""
     path = "/usr/local/sbin:/usr/local/bin:/usr/sbin:/usr/bin:/sbin:/bin"
     mounts = f"mount --rbind /dev {root}/dev && mount --rbind /sys {root}/sys && exec \"$@\""
     return ["unshare", "--mount", "--pid", "--fork", f"--mount-proc={root}/proc", "sh", "-c", mounts, "sh", "chroot",

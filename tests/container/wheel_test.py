@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
-"""Installs a wheel into a root of Debian 12 with Python and a Vulkan driver alone, and measures
-there: the first result has to be there 60 s after pip install began. Called by scripts/test
---wheel, as root. Usage: wheel_test.py WHEEL
+"""Installs a wheel into a root of Debian 12 with only Python and a Vulkan driver, and measures there.
+The first result must be there 60 s after pip install began. scripts/test --wheel calls this as root.
+
+usage: wheel_test.py WHEEL
 """
 
 import json
@@ -18,7 +19,7 @@ import root
 
 REPOSITORY = Path(__file__).resolve().parents[2]
 MOST_SECONDS = 60
-# Libraries that every desktop has, or that come with the Vulkan driver (PEP 600's own list).
+# Libraries that every desktop has (the list of PEP 600), or that come with the Vulkan driver.
 SYSTEM_LIBRARIES = re.compile(
     r"lib(c|m|dl|rt|pthread|stdc\+\+|gcc_s|X11|z)\.so\.\d+|ld-linux-x86-64\.so\.2")
 
@@ -28,7 +29,7 @@ def fail(reason):
 
 
 def check_files(wheel):
-    """Nothing of the build machine is in it, and each library is its own or the system's."""
+    """Checks that it has no path of the build machine, and that each library is its own or the system's."""
     with zipfile.ZipFile(wheel) as archive, tempfile.TemporaryDirectory() as folder:
         archive.extractall(folder)
         names = archive.namelist()
@@ -69,7 +70,7 @@ def main():
         if statuses != ["ok", "ok"]:
             fail(f"the cases of smoke.json are {statuses}, not two that are ok")
         root.inside(place, [program, "report", "/root/smoke.json", "-o", "/root/smoke.html"])
-        # A mesh that assimp reads runs a program of its own, and the module finds them all.
+        # Reading a mesh by assimp runs another program. The module finds all of them.
         said = root.inside(
             place, ["/root/venv/bin/python", "-c",
                     "import hairbench; print(hairbench.program()); print(hairbench.scenes());"

@@ -260,8 +260,8 @@ def xml_files():
 """.encode()
 
 
-# What a reader must not believe: counts that ask for gigabytes, products that wrap in 32 bits,
-# arrays that lie on each other.
+# Contents that a reader must not believe: counts that ask for gigabytes, products that wrap in 32
+# bits, arrays that overlap.
 def hostile_hair_files():
     yield "four_billion_strands.hair", hair(2**32 - 1, 0, {1: b""}, default_segments=2**32 - 1)
     yield "four_billion_points.hair", hair(1, 2**32 - 1, {1: b""}, default_segments=2**32 - 2)

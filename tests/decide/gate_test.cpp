@@ -15,7 +15,7 @@ using Step = gate::Gate::Step;
 
 const std::vector<gate::GateMetric> kOneMetric(1);
 
-// Runs pairs whose medians of one metric are 10 and 10 * ratio(pair).
+// Runs pairs with the medians 10 and 10 * ratio(pair) of one metric.
 template <class Ratio>
 std::size_t play(gate::Gate& gate, Ratio ratio) {
     std::size_t blocks = 0;
@@ -24,7 +24,7 @@ std::size_t play(gate::Gate& gate, Ratio ratio) {
     return blocks;
 }
 
-// -1, 1, -1 ... times a growing spread: no two magnitudes alike, median 0.
+// Returns -1, 1, -1 ... times a growing spread: all magnitudes differ, and the median is 0.
 double wobble(std::size_t pair) {
     return (pair % 2 == 0 ? -1.0 : 1.0) * (1.0 + 0.01 * static_cast<double>(pair));
 }
@@ -63,7 +63,7 @@ TEST(Gate, SaysSameOfWhatIsInsideTheBand) {
     gate::Gate gate(kOneMetric);
     EXPECT_EQ(play(gate, [](std::size_t i) { return 1.0 + 0.005 * wobble(i); }), 24u);
     EXPECT_EQ(gate.comparisons()[0].verdict, Verdict::same);
-    // A significant change that is too small to matter is none either.
+    // A significant change that is too small to matter is none, either.
     gate::Gate slower(kOneMetric);
     play(slower, [](std::size_t i) { return 1.01 + 0.001 * wobble(i); });
     EXPECT_EQ(slower.comparisons()[0].verdict, Verdict::same);
@@ -77,14 +77,15 @@ TEST(Gate, GoesOnWhileItCannotTellAndGivesUpAt48) {
 }
 
 TEST(Gate, EndsAt24WhenThatIsEnough) {
-    // Noise at first, then none: 12 pairs say nothing, 24 do.
+    // There is noise at first and none later: 12 pairs decide nothing, and 24 do.
     gate::Gate gate(kOneMetric);
     const auto ratio = [](std::size_t i) { return 1.06 + (i < 12 ? 0.06 : 0.001) * wobble(i); };
     EXPECT_EQ(play(gate, ratio), 48u);
     EXPECT_EQ(gate.comparisons()[0].verdict, Verdict::regressed);
 }
 
-// One metric is slower by 50 %, the other can't be told. Nobody needs the other to fail a build.
+// One metric is slower by 50 %, and the other can't be decided. To fail a build the other is not
+// needed.
 TEST(Gate, EndsWithARegressionUnlessAllAreWanted) {
     const auto pair_of = [](gate::Gate& gate) {
         const bool b = gate.next() == Step::run_b;
@@ -104,8 +105,8 @@ TEST(Gate, EndsWithARegressionUnlessAllAreWanted) {
     EXPECT_EQ(all.comparisons()[1].pairs, 48u);
 }
 
-// Of two metrics the first is slower at 12 pairs and not any more afterwards: what was said stays.
-// The second keeps the gate going.
+// The first of two metrics is slower at 12 pairs and no more later: its verdict stays. The second
+// keeps the gate going.
 TEST(Gate, TakesNoVerdictBack) {
     gate::Gate gate(std::vector<gate::GateMetric>(2), {}, true);
     while (gate.next() != Step::decided) {
@@ -120,7 +121,7 @@ TEST(Gate, TakesNoVerdictBack) {
     EXPECT_EQ(gate.pairs(), 48u);
 }
 
-// Stopped after 20 pairs it still says what it said at 12.
+// After 20 pairs the gate still gives the verdict of 12.
 TEST(Gate, KeepsTheLastVerdictsWhenItIsStopped) {
     gate::Gate gate(std::vector<gate::GateMetric>(2), {}, true);
     while (gate.pairs() < 20) {
@@ -134,7 +135,7 @@ TEST(Gate, KeepsTheLastVerdictsWhenItIsStopped) {
     EXPECT_EQ(gate.comparisons()[1].verdict, Verdict::inconclusive);
 }
 
-// What decides nothing neither keeps a gate going nor ends it.
+// A metric that decides nothing neither keeps a gate going nor ends it.
 TEST(Gate, DoesNotWaitForWhatDecidesNothing) {
     gate::Gate gate(std::vector<gate::GateMetric>{{}, {.decides = false}, {.decides = false}});
     while (gate.next() != Step::decided) {
@@ -150,7 +151,7 @@ TEST(Gate, DoesNotWaitForWhatDecidesNothing) {
 
 TEST(Gate, DecidesNothingBetweenDecisions) {
     gate::Gate gate(kOneMetric);
-    for (int i = 0; i < 26; ++i)  // 13 pairs, far apart; the 12th had been enough
+    for (int i = 0; i < 26; ++i)  // 13 pairs, far apart; 12 were enough
         if (gate.next() != Step::decided) gate.add({gate.next() == Step::run_a ? 1.0 : 2.0 + i});
     EXPECT_EQ(gate.pairs(), 12u);
     gate::Gate early(kOneMetric);
@@ -160,15 +161,15 @@ TEST(Gate, DecidesNothingBetweenDecisions) {
 }
 
 TEST(Gate, NeedsMoreThanTheMachinesOwnNoise) {
-    // Pairs of one build differ by 2 %: a 3 % change is no news on such a machine.
+    // Pairs of one build differ by 2 %: on such a machine a change of 3 % is not significant.
     std::vector<double> calibration;
     for (std::size_t i = 0; i < 12; ++i) calibration.push_back(0.02 * wobble(i));
     gate::Gate gate(std::vector<gate::GateMetric>{{.calibration = calibration}});
     play(gate, [](std::size_t i) { return 1.03 + 0.001 * wobble(i); });
     const Comparison found = gate.comparisons()[0];
     EXPECT_EQ(found.verdict, Verdict::same);
-    // Magnitudes 1.00 ... 1.11: the MAD of both sides is about their middle, 1.055, and the median
-    // about 0; by hand to a percent.
+    // The magnitudes are 1.00 ... 1.11. Both signs have their MAD about the middle, 1.055, and the
+    // median is about 0; worked out by hand to a percent.
     EXPECT_NEAR(found.decisive_change, 3.0 * 1.4826 * 0.02 * 1.055, 0.001);
 }
 

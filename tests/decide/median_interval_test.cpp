@@ -13,7 +13,7 @@
 namespace benchmarks::report {
 namespace {
 
-// A stationary AR(1) series of variance 1.
+// Returns a stationary AR(1) series of variance 1.
 std::vector<double> series(Noise& noise, std::size_t n, double correlation) {
     std::vector<double> values(n);
     values[0] = noise.normal();
@@ -30,7 +30,7 @@ TEST(MedianInterval, IsScipys) {
         EXPECT_EQ(interval.estimate, row["estimate"].get<double>()) << values.size();
         EXPECT_EQ(interval.lower, row["lower"].get<double>()) << values.size();
         EXPECT_EQ(interval.upper, row["upper"].get<double>()) << values.size();
-        // Sums of logarithms: 1,001 times a rounding error.
+        // Sums of logarithms have 1,001 times a rounding error.
         EXPECT_NEAR(interval.confidence, row["confidence"], 1e-11) << values.size();
     }
 }
@@ -45,7 +45,7 @@ TEST(MedianInterval, OfTooFewIsInfinite) {
 TEST(MedianInterval, IsWiderForFewerEffectiveSamples) {
     std::vector<double> values;
     for (int i = 1; i <= 1000; ++i) values.push_back(i);
-    // A quarter of the samples: twice the width, but for whole ranks of the 250.
+    // A quarter of the samples gives twice the width, except for whole ranks of the 250.
     const MedianInterval all = medianInterval(values, 0.05);
     const MedianInterval quarter = medianInterval(values, 0.05, 250.0);
     EXPECT_NEAR((quarter.upper - quarter.lower) / (all.upper - all.lower), 2.0, 0.1);
@@ -53,18 +53,19 @@ TEST(MedianInterval, IsWiderForFewerEffectiveSamples) {
 }
 
 TEST(MedianInterval, OfManySamplesDoesNotUnderflow) {
-    // 2^-10000 is no double. Half width in ranks: 1.96 sqrt(n) / 2 = 98, and half a rank.
+    // 2^-10000 is not a double. The half width in ranks is 1.96 sqrt(n) / 2 = 98, plus half a rank.
     std::vector<double> values;
     for (int i = 0; i < 10000; ++i) values.push_back(i);
     const MedianInterval interval = medianInterval(values, 0.05);
     EXPECT_NEAR(0.5 * (interval.upper - interval.lower), 98.0, 1.0);
-    // One rank more at either end is 2 * 2 / sqrt(n) * 0.058, the normal density at 1.96.
+    // One rank more at either end adds 2 * 2 / sqrt(n) * 0.058, where 0.058 is the normal density
+    // at 1.96.
     EXPECT_GE(interval.confidence, 0.95);
     EXPECT_LE(interval.confidence, 0.95 + 0.0024);
 }
 
 TEST(EffectiveSamples, OfWhiteNoiseAreNearlyAll) {
-    // Theory: all. Where the sum of correlations is cut off biases it downward by a few times
+    // In theory it is all. The cut-off of the sum of correlations biases it downward by a few times
     // 1 / sqrt(n).
     Noise noise(3);
     double sum = 0.0;
@@ -73,7 +74,7 @@ TEST(EffectiveSamples, OfWhiteNoiseAreNearlyAll) {
 }
 
 TEST(EffectiveSamples, OfACorrelatedSeriesAreThoseOfTheory) {
-    // Being above the median is correlated by 2/pi asin(c) where normal values are by c.
+    // If normal values have the correlation c, being above the median has 2/pi asin(c).
     constexpr double kCorrelation = 0.9;
     constexpr std::size_t kCount = 4000;
     double time = 1.0;
@@ -83,7 +84,8 @@ TEST(EffectiveSamples, OfACorrelatedSeriesAreThoseOfTheory) {
     double mean = 0.0;
     for (int trial = 0; trial < 50; ++trial)
         mean += effectiveSamples(series(noise, kCount, kCorrelation)) / 50;
-    // The estimate's own noise, some 15 % each, falls to 2 %; its bias of second order stays.
+    // The noise of each estimate, some 15 %, falls to 2 % in the mean. Its second-order bias
+    // remains.
     EXPECT_NEAR(mean, kCount / time, 0.15 * kCount / time);
 }
 
@@ -110,12 +112,14 @@ double coverage(double correlation, bool effective) {
 }
 
 TEST(MedianInterval, CoversTheMedianOfDependentSamples) {
-    // At 95 % asked for: independent ones at least that, less 4 deviations of 1,000 trials; the
-    // effective number of dependent ones is itself uncertain, which costs a few percent.
+    // The interval is for 95 %. Independent samples reach it, less 4 standard deviations of 1,000
+    // trials. The effective number of dependent samples is itself uncertain, which costs a few
+    // percent.
     EXPECT_GE(coverage(0.0, false), 0.95 - 0.028);
     EXPECT_GE(coverage(0.0, true), 0.95 - 0.028);
     EXPECT_GE(coverage(0.8, true), 0.90);
-    // Frames taken for independent would lie: half the true width covers at most 70 %.
+    // Dependent frames treated as independent would mislead: half the true width covers at most 70
+    // %.
     EXPECT_LE(coverage(0.8, false), 0.75);
 }
 
@@ -124,7 +128,7 @@ double precisionOf(const std::vector<double>& values) {
 }
 
 TEST(Precision, IsReachedWhenTheMedianIsKnown) {
-    // 5 % noise: the median is known to 1 % by about (1.96 * 1.2533 * 5)^2 = 151 samples.
+    // With 5 % noise the median is known to 1 % after about (1.96 * 1.2533 * 5)^2 = 151 samples.
     Noise noise(6);
     std::vector<double> frames;
     std::size_t reached = 0;
@@ -134,7 +138,7 @@ TEST(Precision, IsReachedWhenTheMedianIsKnown) {
     }
     EXPECT_GT(reached, 50u);
     EXPECT_LT(reached, 400u);
-    EXPECT_EQ(precisionOf(std::vector(6, 4.0)), 0.0);  // the fewest that have an interval at 5 %
+    EXPECT_EQ(precisionOf(std::vector(6, 4.0)), 0.0);  // the fewest with an interval at 5 %
     EXPECT_EQ(precisionOf(std::vector(5, 4.0)), std::numeric_limits<double>::infinity());
 }
 

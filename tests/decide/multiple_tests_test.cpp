@@ -22,7 +22,7 @@ TEST(FalseDiscovery, IsScipys) {
 }
 
 TEST(FalseDiscovery, RejectsWhatThePaperRejects) {
-    // Benjamini and Hochberg 1995, section 3.1: 15 tests of which 4 are rejected at 5 %.
+    // Benjamini and Hochberg 1995, section 3.1: 4 of 15 tests are rejected at 5 %.
     const std::vector<double> p{0.0001, 0.0004, 0.0019, 0.0095, 0.0201, 0.0278, 0.0298, 0.0344,
                                 0.0459, 0.3240, 0.4262, 0.5719, 0.6528, 0.7590, 1.0000};
     int rejected = 0;

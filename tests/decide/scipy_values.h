@@ -4,7 +4,7 @@
 
 #include <nlohmann/json.hpp>
 
-// What scipy says of stored data: scipy_values.py beside it says how the numbers were made.
+// Returns scipy's results for stored data. scipy_values.py makes them.
 inline const nlohmann::json& scipyValues() {
     static const nlohmann::json values = nlohmann::json::parse(
         std::ifstream(HAIRBENCH_SOURCE_DIR "/tests/decide/scipy_values.json"));

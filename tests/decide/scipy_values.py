@@ -1,10 +1,10 @@
 #!/usr/bin/env python3
-"""Writes scipy_values.json: what scipy makes of stored data, for the tests beside it.
+"""Writes scipy_values.json, scipy's results for stored data, for the tests beside it.
 
     python scipy_values.py > scipy_values.json
 
 The committed numbers are from scipy 1.17.1 and numpy of its time. Intervals of the signed-rank test
-are found without Walsh averages' ranks, by asking scipy's test which medians it rejects.
+do not use the ranks of Walsh averages: scipy's test says which medians it rejects.
 """
 
 import itertools
@@ -26,7 +26,7 @@ def signed_rank(values, alpha):
     """p-values, and the ends of the interval of medians that are not rejected at alpha."""
     x = np.array(values)
     ties = len(set(np.abs(x))) < len(x) or 0.0 in x
-    # Exhaustive where there are ties: no random numbers in it.
+    # With ties the test is exhaustive, so it needs no random numbers.
     method = stats.PermutationMethod(n_resamples=np.inf) if ties else "exact"
     row = {"values": values, "alpha": alpha}
     for side in ("two-sided", "greater", "less"):
@@ -35,13 +35,14 @@ def signed_rank(values, alpha):
     row["estimate"] = float(np.median(averages))
     if ties:
         return row
-    # The p-value changes at Walsh averages only, so it is asked for between them and beyond.
+    # The p-value changes only at Walsh averages, so it is computed between and beyond them.
     ends = sorted(set(averages))
     points = [ends[0] - 1] + [(a + b) / 2 for a, b in zip(ends, ends[1:])] + [ends[-1] + 1]
     p = [stats.wilcoxon(x - point, method="exact").pvalue for point in points]
     kept = [i for i in range(len(p)) if p[i] > alpha]
     row["lower"], row["upper"] = ends[kept[0] - 1], ends[kept[-1]]
-    # What is just outside is rejected at its own p-value, the most that the interval may miss.
+    # Medians just outside are rejected at their own p-value, the greatest error rate of the
+    # interval.
     row["confidence"] = 1 - p[kept[0] - 1]
     return row
 
@@ -55,7 +56,7 @@ def median_interval(values, alpha):
         "estimate": float(np.median(x)),
         "lower": float(interval.low),
         "upper": float(interval.high),
-        # Of the ranks that were found; both ends lie equally deep.
+        # Confidence of the ranks found; both ends are equally deep.
         "confidence": 1 - 2 * stats.binom.cdf(sorted(values).index(interval.low), len(x), 0.5),
     }
 

@@ -12,7 +12,8 @@
 namespace benchmarks::report {
 namespace {
 
-// Both sum the same probabilities of at most 64 differences; p-values may cancel to some 1e-14.
+// Both sides sum the same probabilities of at most 64 differences. Cancellation may cost p-values
+// some 1e-14.
 constexpr double kRounding = 1e-12;
 
 TEST(SignedRank, HasScipysPValues) {
@@ -59,13 +60,13 @@ TEST(SignedRank, DistributionIsThatOfTheTables) {
 }
 
 TEST(SignedRank, DistributionOf64IsExact) {
-    // Sums up to 4 are made by 1, 1, 1, 2 and 2 sets of different ranks.
+    // The sums 0 to 4 have 1, 1, 1, 2 and 2 sets of different ranks.
     const std::vector<double> distribution = signedRankDistribution(64);
     ASSERT_EQ(distribution.size(), 64u * 65 / 2 + 1);
     EXPECT_DOUBLE_EQ(distribution[0], std::ldexp(1.0, -64));
     EXPECT_DOUBLE_EQ(distribution[4], std::ldexp(7.0, -64));
     EXPECT_NEAR(distribution.back(), 1.0, kRounding);
-    // Symmetric about an even mean, 1040.
+    // The distribution is symmetric about an even mean, 1040.
     EXPECT_NEAR(distribution[1039] + distribution[1040], 1.0, kRounding);
 }
 
@@ -77,7 +78,7 @@ TEST(SignedRank, SmallestPOfNPairs) {
 }
 
 TEST(SignedRank, HasNoIntervalOfTooFew) {
-    // 2^(1 - 5) is more than 5 %.
+    // 2^(1 - 5) exceeds 5 %.
     const MedianInterval interval = signedRankInterval(std::vector{1.0, 2.0, 3.0, 4.0, 5.0}, 0.05);
     EXPECT_EQ(interval.estimate, 3.0);
     EXPECT_TRUE(std::isinf(interval.lower) && std::isinf(interval.upper));
@@ -85,7 +86,7 @@ TEST(SignedRank, HasNoIntervalOfTooFew) {
     EXPECT_EQ(signedRankInterval(std::vector{7.0}, 0.05).estimate, 7.0);
 }
 
-// At each end of the interval the two agree: a median beyond it is rejected, one within is not.
+// Test and interval agree at both ends: a median beyond an end is rejected, and one within is not.
 TEST(SignedRank, IntervalAndTestAreDual) {
     Noise noise(1);
     for (int trial = 0; trial < 100; ++trial) {
@@ -101,7 +102,7 @@ TEST(SignedRank, IntervalAndTestAreDual) {
 }
 
 TEST(SignedRank, IntervalOfTiesIsWideEnough) {
-    // Differences of -1, 0 or 1 grains of a coarse clock, symmetric about 0.
+    // Differences are -1, 0 or 1 ticks of a coarse clock, symmetric about 0.
     Noise noise(2);
     constexpr int kTrials = 2000;
     int missed = 0;

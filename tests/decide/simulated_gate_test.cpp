@@ -10,8 +10,8 @@
 #include "benchmarks/report/statistics.h"
 #include "tests/decide/noise.h"
 
-// Gates on a machine with the noise of shared machines: every block is off by 0.4 %, and the
-// machine's speed walks at random, by a standard deviation of 1.5 % over the 24 blocks of 12 pairs.
+// Tests gates with the noise of shared machines: every block is off by 0.4 %, and the machine's
+// speed does a random walk with a standard deviation of 1.5 % over the 24 blocks of 12 pairs.
 namespace benchmarks::report {
 namespace {
 
@@ -23,7 +23,7 @@ class Machine {
 public:
     explicit Machine(Noise& noise) : noise_(noise) {}
 
-    // The median of a block that takes 1 ms on a quiet machine, times exp(cost).
+    // Returns the median of a block that takes 1 ms on a quiet machine, times exp(cost).
     double run(double cost) {
         walked_ += kWalk / std::sqrt(kWalkBlocks) * noise_.normal();
         return std::exp(cost + walked_ + kBlockNoise * noise_.normal());
@@ -89,8 +89,8 @@ TEST(SimulatedGates, FindASlowdownOf3PercentIn12Pairs) {
     EXPECT_GE(found, kGates * 9 / 10);
 }
 
-// Of 48 pairs, the median absolute deviation is known well enough for tau to stay below 3 %; of 12
-// it is not always.
+// From 48 pairs the median absolute deviation is known well enough that tau stays below 3 %. From
+// 12 it is not always.
 TEST(SimulatedGates, FindASlowdownOf3PercentWhenCalibrated) {
     Noise noise(16);
     int found = 0;
@@ -100,8 +100,8 @@ TEST(SimulatedGates, FindASlowdownOf3PercentWhenCalibrated) {
     EXPECT_GE(found, kCalibrated * 9 / 10);
 }
 
-// A slowdown at the threshold is where a verdict is most often wrong: at most alpha / 2 on either
-// side, over all three tries.
+// At the threshold verdicts are most often wrong: at most alpha / 2 on either side, over all three
+// tries.
 TEST(SimulatedGates, KeepTheirLevelAtTheThreshold) {
     Noise noise(12);
     int regressed = 0;
@@ -110,7 +110,7 @@ TEST(SimulatedGates, KeepTheirLevelAtTheThreshold) {
     EXPECT_LE(regressed, mostOf(kGates, VerdictRule{}.alpha / 2.0));
 }
 
-// Without a threshold only the order of the blocks stands between a drift and a verdict.
+// Without a threshold only the order of the blocks protects a verdict from drift.
 constexpr VerdictRule kNoThreshold{.threshold = 0.0};
 
 TEST(SimulatedGates, KeepTheirLevelWithoutAThreshold) {
@@ -120,8 +120,8 @@ TEST(SimulatedGates, KeepTheirLevelWithoutAThreshold) {
     EXPECT_LE(alarms, mostOf(kGates, kNoThreshold.alpha));
 }
 
-// All of A before all of B: the machine's drift is taken for the build's, in about half
-// of the gates. It shows that the tests above can fail.
+// If all blocks of A ran before those of B, about half of the gates would take the machine's drift
+// for the build's. This shows that the tests above can fail.
 TEST(SimulatedGates, WouldCryWolfIfBuildsTookNoTurns) {
     Noise noise(14);
     int alarms = 0;
@@ -138,8 +138,8 @@ TEST(SimulatedGates, WouldCryWolfIfBuildsTookNoTurns) {
     EXPECT_GE(alarms, kGates * 4 / 10);
 }
 
-// 30 metrics of which 10 really are slower, all exactly at or far beyond the threshold: the share
-// of false ones among the regressed, on average over gates.
+// 10 of 30 metrics are really slower; all are exactly at or far beyond the threshold. Tests the
+// share of false ones among the regressed, averaged over gates.
 TEST(SimulatedGates, KeepTheRateOfFalseDiscoveries) {
     Noise noise(15);
     constexpr std::size_t kMetrics = 30;

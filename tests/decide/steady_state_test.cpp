@@ -33,7 +33,7 @@ TEST(Trend, OfNothingIsNone) {
         "median slope: fewer than two samples");
 }
 
-// White noise of 10 %, against which no tolerance helps: the exact test's level bounds the rate.
+// With white noise of 10 % no tolerance helps: the exact test's level bounds the error rate.
 TEST(SteadyState, OfWhiteNoiseIsSeen) {
     Noise noise(7);
     constexpr int kWindows = 5000;
@@ -47,7 +47,8 @@ TEST(SteadyState, OfWhiteNoiseIsSeen) {
 }
 
 TEST(SteadyState, IsNotSeenInAWarmUp) {
-    // Caches warm up: 5 % more at first, gone by e every 10 frames; 0.5 % noise.
+    // Caches warm up: times start 5 % higher and approach the final value by a factor of e every 10
+    // frames; noise is 0.5 %.
     Noise noise(8);
     int found_early = 0;
     int found_late = 0;
@@ -59,7 +60,7 @@ TEST(SteadyState, IsNotSeenInAWarmUp) {
         found_late += measure::isSteady(frames);
     }
     EXPECT_EQ(found_early, 0);
-    EXPECT_EQ(found_late, 200);  // what is left of the drift is far below the tolerance
+    EXPECT_EQ(found_late, 200);  // the remaining drift is far below the tolerance
 }
 
 TEST(SteadyState, TakesASmallDriftForNone) {

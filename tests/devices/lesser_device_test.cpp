@@ -1,6 +1,6 @@
-// Devices that lack something: what needs it is skipped with one line, and what doesn't is as it is
-// elsewhere. They are made of the device that is here, by taking away what it has; the validation
-// layer says what is used all the same.
+// Tests devices that lack features. Cases that need them are skipped with one line; all others have
+// the same results as elsewhere. The devices are made from the present one by hiding features. The
+// validation layer reports any use of a hidden feature.
 #include <algorithm>
 #include <functional>
 #include <memory>
@@ -37,13 +37,13 @@ Mask without(std::vector<Feature> features) {
     };
 }
 
-// The least that runs.
+// Hides everything that the program can do without.
 void bare(DeviceInfo& info) {
     info.features.clear();
     info.limits.maxTessellationGenerationLevel = 0;
 }
 
-// Devices are made one after the other: volk's functions are those of the last one.
+// Devices are made one after the other, because volk's functions belong to the last one.
 class LesserDevice : public testing::Test {
 protected:
     void SetUp() override {
@@ -68,7 +68,7 @@ protected:
 
     using Pixels = std::vector<std::uint8_t>;
 
-    // The third frame.
+    // Returns the picture of the third frame.
     Pixels pictureOf(const hair::Settings& settings) {
         measure::Case played(device(), settings, HAIRBENCH_SCENES_DIR);
         engine::FrameLoop loop(device(), engine::Timing::isolated);
@@ -78,7 +78,7 @@ protected:
         return played.picture();
     }
 
-    // Why the case is skipped.
+    // Returns the reason for which the case is skipped.
     std::string skipped(const hair::Settings& settings) {
         try {
             const measure::Case made(device(), settings, HAIRBENCH_SCENES_DIR);
@@ -119,7 +119,7 @@ hair::Settings onlyGuides() {
     return settings;
 }
 
-// ---- What is skipped ----------------------------------------------------------------------------
+// ---- Skipped cases ------------------------------------------------------------------------------
 
 TEST_F(LesserDevice, StrandsNeedTheStagesOfTheirBackEnd) {
     hair::Settings pulled = smallCase();
@@ -141,7 +141,8 @@ TEST_F(LesserDevice, StrandsNeedTheStagesOfTheirBackEnd) {
     EXPECT_EQ(skipped(pulled), "/strands/backend: mesh: the device has no task and mesh stages");
 }
 
-// The next in the order of processors that needs nothing which the device lacks.
+// Takes the first back end, in the order for this type of device, of which the device lacks no
+// feature.
 TEST_F(LesserDevice, StrandsAreDrawnByWhatTheDeviceHas) {
     hair::Settings settings = smallCase();
     settings.strands.backend = hair::Backend::automatic;
@@ -247,8 +248,8 @@ TEST_F(LesserDevice, PipelinesNameTheStageThatIsMissing) {
         "strands/strand.geom: the device has no geometry stages");
 }
 
-// A strand's vertices are exchanged in shared memory: 116 bytes for each invocation, which has at
-// most 32 vertices.
+// Invocations exchange a strand's vertices in shared memory. Each needs 116 bytes and has at most
+// 32 vertices.
 TEST_F(LesserDevice, ShapeNeedsSharedMemoryForItsStrands) {
     const auto withShared = [](std::uint32_t bytes) {
         return [bytes](DeviceInfo& info) { info.limits.maxComputeSharedMemorySize = bytes; };
@@ -265,15 +266,15 @@ TEST_F(LesserDevice, ShapeNeedsSharedMemoryForItsStrands) {
     EXPECT_EQ(skipped(settings), "not skipped");
 }
 
-// ---- What is not --------------------------------------------------------------------------------
+// ---- Cases with the same results ----------------------------------------------------------------
 
-// The extension builds on one of windows; devices that show nothing have neither.
+// The extension needs one for windows. Devices without a window have neither.
 TEST_F(LesserDevice, HasNoFencesOfPresentsWithoutAWindow) {
     EXPECT_FALSE(device().has(Feature::present_fences));
     make([](DeviceInfo& info) { EXPECT_FALSE(info.features.contains(Feature::present_fences)); });
 }
 
-// Four invocations of four vertices, where there is memory for more of fewer.
+// The memory leaves room for only four invocations, so each has four vertices instead of fewer.
 TEST_F(LesserDevice, ShapeMovesStrandsTheSameInLittleSharedMemory) {
     make([](DeviceInfo& info) { info.limits.maxComputeSharedMemorySize = 4 * 116; });
     hair::SimulationSettings settings = hair::simulation::windy();
@@ -281,7 +282,7 @@ TEST_F(LesserDevice, ShapeMovesStrandsTheSameInLittleSharedMemory) {
     hair::simulation::expectNearReference(device(), hair::simulation::wavyGroom(5, 16), settings);
 }
 
-// Bytes that a buffer of this name holds.
+// Returns the bytes of the buffers of this name.
 std::uint64_t bytesOf(const engine::Device& device, const std::string& name) {
     std::uint64_t bytes = 0;
     for (const auto& [entry, size] : device.memory().bytes())
@@ -289,14 +290,14 @@ std::uint64_t bytesOf(const engine::Device& device, const std::string& name) {
     return bytes;
 }
 
-// 100 strands without 64-bit integers, and by dispatches of 64, by the range of a buffer and by a
-// sixteenth of the device's memory, and of 32 where there is room for none: a strand's state knows
-// nothing of the others.
+// Moves 100 strands without 64-bit integers, and in smaller dispatches: of 64 strands because of
+// the range of a buffer or a sixteenth of the device's memory, and of 32 without memory. The
+// results are the same, because strands do not depend on each other.
 class LesserDeviceRods
     : public LesserDevice,
       public testing::WithParamInterface<std::pair<hair::Solver, std::uint32_t>> {};
 
-// With the vec4 of scratch memory that each has for a vertex.
+// Each solver with its vec4 of scratch memory per vertex.
 INSTANTIATE_TEST_SUITE_P(
     , LesserDeviceRods,
     testing::Values(
@@ -332,7 +333,7 @@ TEST_P(LesserDeviceRods, MoveStrandsTheSameOnAnyDevice) {
     EXPECT_EQ(played(32), whole);
 }
 
-// Sums are of integers: the same whether two of them are added at once or each by itself.
+// Sums are of integers, so adding two at once or each by itself gives the same.
 TEST_F(LesserDevice, HairFeelsHairTheSameWithoutAtomicsOnLongIntegers) {
     hair::SimulationSettings settings = hair::simulation::windy();
     settings.hair_hair = {.friction = 0.3f, .repulsion = 0.3f, .crowding = 0.5f, .resolution = 32};
@@ -365,8 +366,8 @@ TEST_F(LesserDevice, DrawsEverythingButStrandsWithoutAnyFeature) {
     EXPECT_EQ(pictureOf(settings), there);
 }
 
-// The nearest piece by two 32-bit minima is that by one of 64 bits; how points are read, and how
-// many strands an invocation has, is of no account.
+// Two 32-bit minima find the same nearest piece as one of 64 bits. The way in which points are read
+// and the number of strands per invocation do not matter.
 TEST_F(LesserDevice, CoversTheSameSamplesByAllVariants) {
     hair::Settings settings = smallCase();
     settings.strands.backend = hair::Backend::software;
@@ -390,7 +391,7 @@ TEST_F(LesserDevice, CoversTheSameSamplesByAllVariants) {
     }
 }
 
-// Where a device has no isolines, its limit of them is 0.
+// Without tessellation a device's limit for isolines is 0.
 TEST_F(LesserDevice, PullsTheSameStrandsWithoutTessellation) {
     hair::Settings settings = smallCase();
     settings.strands.backend = hair::Backend::pulling_geometry;
@@ -418,7 +419,7 @@ TEST_F(LesserDevice, HasNoStatisticsWhereTheyAreMissing) {
     EXPECT_THAT(loop.finish().front().statistics, IsEmpty());
 }
 
-// More sets than a pool holds, of pipelines of both kinds, in frames that follow one another.
+// Binds more descriptor sets than a pool holds, for pipelines of both kinds, in several frames.
 TEST_F(LesserDevice, BindsAnyNumberOfImagesWithoutPushDescriptors) {
     make(without({Feature::push_descriptors}));
     const engine::Target target(device(), {.width = 8, .height = 8, .msaa = 1, .ssaa = 2});
@@ -452,7 +453,7 @@ TEST_F(LesserDevice, BindsAnyNumberOfImagesWithoutPushDescriptors) {
     const Pixels pixels = engine::readOutput(device(), target);
     ASSERT_EQ(pixels.size(), 8u * 8u * 4u);
     for (std::size_t i = 0; i < pixels.size(); i += 4) {
-        // Stored to the nearest of 255 steps: 63.75, 127.5 and 191.25.
+        // 63.75, 127.5 and 191.25 are stored to the nearest of 255 steps.
         EXPECT_EQ(pixels[i], 64);
         EXPECT_THAT(pixels[i + 1], testing::AnyOf(127, 128));
         EXPECT_EQ(pixels[i + 2], 191);
@@ -461,7 +462,7 @@ TEST_F(LesserDevice, BindsAnyNumberOfImagesWithoutPushDescriptors) {
 
 // ---- Shaders ------------------------------------------------------------------------------------
 
-// What a shader asks of devices is in its capabilities: SPIR-V specification, 3.31.
+// A shader's capabilities list the features that it needs: SPIR-V specification, 3.31.
 TEST(ShaderCapabilities, AreThoseThatFeaturesStandFor) {
     constexpr std::uint32_t kCapability = 17;  // the operation
     constexpr std::uint32_t kShader = 1, kGeometry = 2, kTessellation = 3, kLongIntegers = 11,
@@ -472,7 +473,7 @@ TEST(ShaderCapabilities, AreThoseThatFeaturesStandFor) {
             engine::shaderCode(path), [&](engine::SpirvInstruction instruction) {
                 if (instruction.operation != kCapability) return;
                 const std::uint32_t capability = instruction.operands[0];
-                // Those are part of Vulkan, or asked of every device.
+                // Vulkan has these, or hairbench requires them of every device.
                 if (capability == kShader || capability == kSampledBuffer ||
                     capability == kImageQuery || capability == kPhysicalAddresses)
                     return;

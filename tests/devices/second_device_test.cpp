@@ -1,5 +1,5 @@
-// Other drivers than the one that is used as a rule. SwiftShader is Vulkan by another compiler,
-// without tessellation, geometry stages, 64-bit integers, push descriptors and pipeline statistics.
+// Tests a second driver. SwiftShader implements Vulkan with another compiler, and without
+// tessellation, geometry stages, 64-bit integers, push descriptors and pipeline statistics.
 #include <algorithm>
 #include <filesystem>
 #include <stdexcept>
@@ -20,7 +20,7 @@ namespace {
 namespace fs = std::filesystem;
 using testing::HasSubstr;
 
-// The loader then looks at this driver alone.
+// Makes the loader use only this driver.
 std::string withDriver(const fs::path& icd) { return "VK_DRIVER_FILES='" + icd.string() + "' "; }
 
 class SwiftShader : public testing::Test {
@@ -70,9 +70,10 @@ TEST_F(SwiftShader, SkipsStrandsWithTheirReason) {
     }
 }
 
-// Back ends that need none of the stages that it lacks. Edges of strands fall on either side of a
-// sample by rounding, and so does shading of steep strands. A quarter of the scene's strands, as
-// they are what SwiftShader takes its time for; they leave about 0.0066, all of them 0.008.
+// Tests back ends that need none of the missing stages. By rounding, edges of strands fall on
+// either side of a sample, and the shading of steep strands differs. The test draws a quarter of
+// the scene's strands, because they take most of SwiftShader's time. Their error is about 0.0066;
+// that of all strands is 0.008.
 TEST_F(SwiftShader, DrawsStrandsAsTheOtherDeviceDoes) {
     if (pythonInterpreter().empty()) return skipWithout(Need::python, kNoPython);
     if (hairbench("devices").status != 0) return skipWithout(Need::device, "no other device");
@@ -113,7 +114,7 @@ TEST_F(SwiftShader, PassesThePhysicsOfEverySolver) {
     EXPECT_EQ(outcome.status, 0) << outcome.output;
 }
 
-// Pixels of which two pictures have other colours.
+// Returns the number of pixels with different colours.
 std::size_t differing(const engine::Pixels& a, const engine::Pixels& b) {
     if (a.rgba.size() != b.rgba.size() || a.rgba.empty())
         throw std::invalid_argument("pictures of different sizes");
@@ -123,9 +124,9 @@ std::size_t differing(const engine::Pixels& a, const engine::Pixels& b) {
     return count;
 }
 
-// Guides are quads of one colour. A device may put their corners on a grid of sixteenths of a
-// pixel, so an edge is up to 1/32 pixel off and as large a share of the pixels along it is on its
-// other side; quads a pixel wide have two edges to a pixel, on two devices: 1/8.
+// Guides are quads of one colour. A device may round their corners to sixteenths of a pixel, so an
+// edge is up to 1/32 pixel off, and the same share of the pixels along it falls on its other side.
+// Quads a pixel wide have two edges per pixel, and there are two devices: 1/8.
 TEST_F(SwiftShader, DrawsTheGuidesAsTheOtherDeviceDoes) {
     const auto draw = [&](const std::string& name, const std::string& guides, bool here) {
         const fs::path picture = folder_.path() / name;
@@ -142,13 +143,13 @@ TEST_F(SwiftShader, DrawsTheGuidesAsTheOtherDeviceDoes) {
     const engine::Pixels here = draw("here.png", "true", true);
     const engine::Pixels empty = draw("empty.png", "false", true);
     const std::size_t guides = differing(here, empty);
-    // 86 guides, each more than a tenth of the picture's 720 rows long and a pixel or more wide;
-    // two of three may lie behind others.
+    // There are 86 guides. Each is longer than a tenth of the picture's 720 rows and at least a
+    // pixel wide. Two of three may be hidden by others.
     EXPECT_GT(guides, 86u * 72u / 3u);
     EXPECT_LT(differing(here, draw("there.png", "true", false)), guides / 8);
 }
 
-// The loader hides drivers of a subset of Vulkan from who doesn't ask for them.
+// The loader hides drivers of a subset of Vulkan from programs that don't ask for them.
 TEST_F(SwiftShader, IsFoundWhereItSaysThatItIsASubset) {
     nlohmann::json description = nlohmann::json::parse(textOf(HAIRBENCH_SWIFTSHADER_ICD));
     description["ICD"]["is_portability_driver"] = true;

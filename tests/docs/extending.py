@@ -1,10 +1,11 @@
-"""Applies the patches of docs/extending/ to a copy of the project, builds it and runs what the page says.
+"""Applies the patches of docs/extending/ to a copy of the project, builds it and runs the page's
+commands.
 
 extending.py PROJECT FOLDER
 
-FOLDER has the copy and its build, which are kept for the next time. All patches are applied, one after
-another, and built once. The boxes of docs/extending.md that begin with ```sh patched then run in the
-copy, one for each patch, and what they made is checked.
+FOLDER keeps the copy and its build for the next run. The script applies all patches one after
+another and builds once. Then it runs the boxes of docs/extending.md that begin with ```sh patched,
+one for each patch, in the copy and checks their results.
 """
 
 import csv
@@ -43,7 +44,7 @@ def check_metric(folder: pathlib.Path) -> None:
     wanted = [abs(b - a) for a, b in zip(times, times[1:])]
     expect(len(wanted) > 2, f"{len(times)} samples")
     expect(jitter["unit"] == "ms" and jitter["hint"] == "lower", f"{jitter}")
-    # Samples are written with so many digits.
+    # The report rounds samples to five digits after the point.
     expect(
         len(jitter["samples"]) == len(wanted)
         and all(abs(a - b) < 1e-5 for a, b in zip(jitter["samples"], wanted)),
@@ -76,7 +77,7 @@ def check_format(folder: pathlib.Path) -> None:
 
 
 def read_png(path: pathlib.Path) -> list[list[tuple[int, ...]]]:
-    """Rows of pixels of a picture with 8 bits a channel."""
+    """Returns the rows of pixels of a picture with 8 bits a channel."""
     data = path.read_bytes()
     place, packed = 8, b""
     while place < len(data):
@@ -110,7 +111,7 @@ def check_shading_model(folder: pathlib.Path) -> None:
     matt = [pixel[0] for pixel in read_png(folder / "matt_cylinder.png")[160] if pixel[0] > 0]
     phong = [pixel[0] for pixel in read_png(folder / "phong.png")[160]]
     expect(len(matt) > 80, f"the strand is {len(matt)} pixels wide")
-    # Of a perspective view, 1.4 degrees to each side of the strand's middle.
+    # The view is in perspective: the strand reaches 1.4 degrees to each side of its middle.
     expect(all(abs(value - wanted) < 0.03 * wanted for value in matt), f"{matt} is not {wanted}")
     expect(max(phong) > 230, f"phong is {max(phong)} at most")
     mean = sum(phong) / len(matt)
@@ -126,7 +127,7 @@ def check_backend(folder: pathlib.Path) -> None:
         expect(strips["backend"]["name"] == "strips", f"{strips['backend']}")
         expect(strips["counts"] == pulling["counts"], "it draws other strands")
         far = median(strips, "image.flip.tessellation")
-        # FLIP of two roundings of one colour: a picture of other strands has 0.05 and more.
+        # The limit allows two roundings of one colour. A picture of other strands has 0.05 and more.
         expect(
             far <= median(pulling, "image.flip.tessellation") + 1e-4 and far < 1e-3,
             f"{samples} samples: {far} from tessellation",
@@ -134,7 +135,7 @@ def check_backend(folder: pathlib.Path) -> None:
 
 
 def greatest_reach(folder: pathlib.Path, name: str) -> float:
-    """Of a vertex from its root, over the length of the strand at rest up to it."""
+    """Returns the greatest ratio of a vertex's distance from the root to the rest length up to it."""
     greatest = 0.0
     rests, strands = obj_strands(folder / "rest.obj"), obj_strands(folder / name)
     expect(len(rests) == len(strands) > 0, f"{len(strands)} of {len(rests)} strands")
@@ -162,7 +163,7 @@ CHECKS = {
 
 
 def sync(source: pathlib.Path, target: pathlib.Path) -> None:
-    """Makes target's files those of source; what is equal keeps its time, for the build."""
+    """Makes target's files equal to source's. Equal files keep their times, which saves builds."""
     files = {each.relative_to(source) for each in source.rglob("*") if each.is_file()}
     kept = target / "build"
     for each in list(target.rglob("*")):
@@ -181,7 +182,7 @@ def sync(source: pathlib.Path, target: pathlib.Path) -> None:
 def patched_copy(project: pathlib.Path, tree: pathlib.Path) -> None:
     with tempfile.TemporaryDirectory(prefix="hairbench-extending-") as fresh:
         copy_project(project, pathlib.Path(fresh))
-        # Git would leave out all that is not below a repository that it finds itself in.
+        # If a folder above had a repository, git would take paths as relative to that and skip them.
         alone = {**os.environ, "GIT_CEILING_DIRECTORIES": str(pathlib.Path(fresh).parent)}
         for name in CHECKS:
             patch = project / "docs/extending" / f"{name}.patch"

@@ -2,9 +2,8 @@
 
 run_commands.py PROJECT PROGRAM
 
-A box of commands that begins with ```sh run is a script for sh. Those of one page run one after
-another, in one folder: a copy of the files that git has, which starts anew for each page. A command
-that fails ends its page.
+A box that begins with ```sh run is a script for sh. The boxes of one page run one after another in
+one folder. Each page gets a new copy of the files that git knows. A failed command ends its page.
 """
 
 import pathlib
@@ -19,7 +18,7 @@ BOX = re.compile(r"^```sh run\n(.*?)^```$", re.MULTILINE | re.DOTALL)
 
 
 def project_files(project: pathlib.Path) -> list[str]:
-    """What git has, and what it would take, from the top of the project."""
+    """Returns the files that git tracks or would add, relative to the project."""
     listed = subprocess.run(
         ["git", "ls-files", "-z", "--cached", "--others", "--exclude-standard"],
         cwd=project,
@@ -38,7 +37,7 @@ def copy_project(project: pathlib.Path, folder: pathlib.Path) -> None:
 
 
 def run_box(box: str, folder: pathlib.Path, programs: pathlib.Path) -> "subprocess.CompletedProcess[str]":
-    """Runs a box's commands in folder, which find what is in programs; what they say is in stdout."""
+    """Runs a box's commands in folder, with programs in PATH. stdout of the result has all output."""
     return subprocess.run(
         ["sh", "-eu", "-c", f'PATH="{programs}:$PATH"\n{box}'],
         cwd=folder,

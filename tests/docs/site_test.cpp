@@ -1,4 +1,4 @@
-// The documentation's site, by the test beside this file.
+// Tests the documentation's site by the script beside this file.
 #include <string>
 
 #include <gtest/gtest.h>

@@ -1,6 +1,6 @@
 """Builds the documentation's site and opens pages of it in headless Chromium.
 
-The status is 77 where there is no Chromium.
+Exits with status 77 without Chromium.
 """
 
 import json
@@ -18,7 +18,7 @@ BROWSER = os.environ.get("HAIRBENCH_BROWSER") or next(
     filter(shutil.which, ("chromium", "chromium-browser", "google-chrome")), None
 )
 
-# What a page is like for who opens it. Names of controls are what a screen reader says.
+# Describes a page as a reader sees it. Controls have the names that a screen reader says.
 LOOK = """
 const named = (each) => (each.getAttribute("aria-label") || each.title || each.textContent ||
     each.labels?.[0]?.textContent || "").trim();
@@ -55,7 +55,7 @@ const show = (text) => {
 };
 """
 
-# Windows are 500 pixels wide at least, frames as narrow as they are asked to be.
+# Windows are at least 500 pixels wide; frames can be narrower.
 FRAME = """<!doctype html><html style="color-scheme: light dark"><body>
 <script>SHOW; addEventListener("message", (event) => show(event.data));</script>
 <iframe src="watched.html" width="WIDTH" height="900" style="border: 0"></iframe></body></html>
@@ -77,7 +77,7 @@ class Site(unittest.TestCase):
     def look(
         self, page: str, *options: str, query: str = "", width: int = 1280, more: str = ""
     ) -> dict:
-        """The page, watched from its head on, as it is after four seconds of its own time."""
+        """Returns the state of the page after four seconds of virtual time, watched from its head on."""
         file = self.site / page
         watch = (PROJECT / "tests/report_page/watch.js").read_text()
         text = file.read_text().replace("<head>", f"<head><script>{watch}</script>{more}", 1)
@@ -103,7 +103,7 @@ class Site(unittest.TestCase):
     def expect_whole(self, said: dict) -> None:
         for nothing in ("complaints", "unnamed", "pictures", "missing"):
             self.assertEqual(said[nothing], [], nothing)
-        # What comes from the disk is not among them.
+        # The browser's list leaves out files on the disk.
         self.assertEqual([each for each in said["resources"] if not each.startswith("data:")], [])
         self.assertTrue(said["language"])
         self.assertEqual(said["landmark"], 1)
@@ -115,7 +115,7 @@ class Site(unittest.TestCase):
         self.assertEqual(said["panels"], [])  # they are there
 
     def test_fits_a_narrow_dark_screen(self) -> None:
-        # One with tables that are wider than that.
+        # This page has tables that are wider.
         said = self.look(
             "docs/performance.html", "--blink-settings=preferredColorScheme=0", width=360
         )
@@ -147,7 +147,7 @@ class Site(unittest.TestCase):
         self.assertGreater(len(said["complaints"]), 0)
 
     def test_knows_every_page(self) -> None:
-        """Sphinx says of a page without a place, and of a link that leads nowhere, that they are."""
+        """Sphinx warns of a page outside every contents list and of a broken link."""
         with tempfile.TemporaryDirectory() as folder:
             source = pathlib.Path(folder) / "source"
             (source / "docs").mkdir(parents=True)

@@ -29,12 +29,12 @@ TEST(DoctorChecks, HaveNamesOfTheirOwn) {
     EXPECT_EQ(names.size(), doctorChecks().size());
 }
 
-// One thing that is wrong with a good machine, and what the check of it has to say.
+// A fault of a good machine, and what its check must say.
 struct Fault {
     const char* check;
     Health health;
     void (*make)(Facts&);
-    const char* says;  // part of what was seen
+    const char* says;  // part of the finding
     bool software = false;
 };
 
@@ -83,7 +83,7 @@ const Fault kFaults[] = {
          for (double& each : f.repeat.frame) each *= 50;
      },
      "CPU time", true},
-    // A device's frames do not depend on what the CPU's time scatters by.
+    // A GPU's frames do not depend on the scatter of CPU time.
     {"noise", Health::ok,
      [](Facts& f) {
          for (double& each : f.repeat.cpu) each *= 100;
@@ -147,7 +147,7 @@ TEST(DoctorChecks, SeeEachFault) {
         const Finding finding = findingOf(facts, fault.check);
         EXPECT_EQ(finding.health, fault.health) << fault.check << ": " << finding.seen;
         EXPECT_THAT(finding.seen, HasSubstr(fault.says)) << fault.check;
-        // Whoever is told of a fault is told what to do about it.
+        // A fault comes with advice.
         if (finding.health == Health::warn || finding.health == Health::bad) {
             EXPECT_THAT(finding.advice, Not(IsEmpty())) << fault.check << ": " << finding.seen;
         }

@@ -17,8 +17,8 @@ using testing::IsEmpty;
 
 constexpr int kNoDevice = 77;
 
-// Whether timings can be trusted here is the machine's affair; that the doctor says so in every way
-// alike is its own.
+// Whether timings can be trusted here depends on the machine. The table, the report and the status
+// must agree.
 TEST(DoctorCommand, SaysTheSameInItsTableItsReportAndItsStatus) {
     const TemporaryFolder folder;
     const std::string out = folder.file("new/doctor.json").string();
@@ -44,7 +44,7 @@ TEST(DoctorCommand, SaysTheSameInItsTableItsReportAndItsStatus) {
         bad = bad || finding["verdict"] == "bad";
     }
     EXPECT_EQ(outcome.status == 3, bad);
-    // It needs no file and leaves none but the one that was asked for.
+    // It needs no file and leaves only the requested one.
     EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder.path()), {}), 1);
 }
 

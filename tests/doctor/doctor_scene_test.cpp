@@ -66,7 +66,7 @@ TEST_F(DoctorSceneTest, ShowsMovingHairInEveryPassOfTheFrame) {
     EXPECT_EQ(measure::passNames(frames), passes);
     const std::string state = test_case.stateHash();
 
-    // Hair is whatever is not like the corner, which is background.
+    // Pixels that differ from the corner, which is background, are hair.
     const std::vector<std::uint8_t> pixels = test_case.picture();
     std::size_t hair = 0;
     for (std::size_t i = 0; i < pixels.size(); i += 4)

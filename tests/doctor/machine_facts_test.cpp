@@ -30,7 +30,7 @@ TEST(LayerLibrary, IsToldByItsName) {
 
 using LoadedLayersTest = GpuTest;
 
-// This program's device has it.
+// This program's device uses that layer.
 TEST_F(LoadedLayersTest, NamesTheValidationLayer) {
     EXPECT_THAT(loadedLayers(), Contains(HasSubstr("khronos_validation")));
 }
@@ -101,7 +101,7 @@ TEST_F(OnBatteryTest, DoesNotCareForAMouse) {
     EXPECT_EQ(onBattery(), std::nullopt);
 }
 
-// A counter that advances by 32 ticks at a time, read no sooner than 96 ticks after the last time.
+// The counter advances by 32 ticks at a time and is read at least 96 ticks after the last time.
 TEST(TimestampSteps, AreWhatStampsDifferBy) {
     const auto steps = timestampSteps(std::array<std::uint64_t, 6>{0, 0, 96, 224, 224, 224 + 320});
     ASSERT_TRUE(steps);

@@ -1,4 +1,4 @@
-// Which reports may be kept beside others.
+// Tests which reports may be kept beside others.
 #include "benchmarks/doctor/reports.h"
 
 #include <cstddef>
@@ -29,7 +29,7 @@ const fs::path kResults = HAIRBENCH_SOURCE_DIR "/results";
 
 class KeptReport : public testing::Test {
 protected:
-    // Two cases of a trusted report on a software device, changed.
+    // Examines two cases of a trusted report on a software device after `change`.
     ReportExamination examine(const std::function<void(json&)>& change) {
         json report = json::parse(engine::readFile(kResults / "thesis-llvmpipe-ff656b85a1cb.json"));
         json& cases = report.at("cases");
@@ -58,7 +58,7 @@ TEST_F(KeptReport, HasTheFormThatItsSchemaSays) {
     EXPECT_THAT(
         refusal([](json& report) { report["cases"][1]["status"] = "fine"; }),
         StartsWith("/cases/1/status: "));
-    // A mark excuses times, not the form.
+    // The mark "untrusted" excuses times but not a wrong form.
     EXPECT_THAT(
         refusal([](json& report) {
             report["untrusted"] = "why not";
@@ -67,7 +67,7 @@ TEST_F(KeptReport, HasTheFormThatItsSchemaSays) {
         StartsWith("/cases/0: "));
 }
 
-// Bounds are those of docs/measuring.md.
+// The bounds are from docs/measuring.md.
 TEST_F(KeptReport, IsRefusedForWhatTheDoctorWouldNotTrust) {
     const auto first = [](json& report) -> json& { return report["cases"][0]; };
     EXPECT_THAT(
@@ -103,7 +103,7 @@ TEST_F(KeptReport, IsAcceptedWithAWarningForWhatNeedsCare) {
     EXPECT_THAT(examinationText(examination), HasSubstr("5.0 %"));
 }
 
-// Others' load disturbs the processor's own frames alone.
+// Load by other processes disturbs only frames of a software device.
 TEST_F(KeptReport, OfAGpuMayHaveBusyProcessors) {
     EXPECT_TRUE(isAccepted(examine([](json& report) {
         report["environment"]["device"]["type"] = "discrete";
@@ -125,7 +125,7 @@ TEST_F(KeptReport, IsOneOfHairbench) {
     EXPECT_THAT(errorText([&] { examineReport(file); }), HasSubstr("is no report of hairbench"));
 }
 
-// As whoever adds a report by a pull request asks.
+// Checks them like the pull request that adds a report.
 TEST(CommittedReports, AreAllAccepted) {
     std::string files;
     std::size_t count = 0;
@@ -147,7 +147,7 @@ TEST(CommittedReports, AreAllAccepted) {
 TEST(CommittedReports, AreRefusedByStatusThree) {
     const TemporaryFolder folder;
     folder.write("a.json", R"({"schema": "hairbench-report/1.5.0"})");
-    folder.write("b.schema.json", "{}");  // passed over
+    folder.write("b.schema.json", "{}");  // skipped
     const Outcome outcome = hairbenchErrors(
         "doctor --reports '" + folder.file("a.json").string() + "' '" +
         folder.file("b.schema.json").string() + "' '" + folder.file("none.json").string() + "'");

@@ -14,7 +14,7 @@ using scene::Json;
 using testing::ElementsAre;
 using testing::HasSubstr;
 
-// 4 frames of 10, 10, 10 and 20 ms are 4 in 50 ms: 80 a second.
+// Four frames of 10, 10, 10 and 20 ms are 4 frames in 50 ms: 80 a second.
 Json rulesReport() {
     const Json frames = {
         {"unit", "ms"},
@@ -81,7 +81,7 @@ TEST(Rules, SayWhatTheyCannotJudge) {
     }
 }
 
-// Each fault is one of the rule that it is about, and of no other.
+// Each fault breaks the named rule and no other.
 TEST(Rules, AreNotMetByWhatAReportLacks) {
     struct Lack {
         std::size_t rule;  // from 1

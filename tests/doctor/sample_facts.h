@@ -7,7 +7,7 @@
 
 namespace benchmarks::doctor {
 
-// A machine without fault: a discrete device with held clocks, on mains, idle.
+// Returns a machine without faults: a discrete device with locked clocks, on mains, idle.
 inline Facts goodFacts() {
     Facts facts;
     facts.device = {.name = "Fast", .type = "discrete"};
@@ -40,7 +40,7 @@ inline Facts goodFacts() {
     return facts;
 }
 
-// The same with a software device.
+// Returns the same with a software device.
 inline Facts softwareFacts() {
     Facts facts = goodFacts();
     facts.device = {.name = "Soft", .type = "cpu"};
@@ -49,7 +49,7 @@ inline Facts softwareFacts() {
     return facts;
 }
 
-// What the check of this name says.
+// Returns the finding of the check of this name.
 inline Finding findingOf(const Facts& facts, const std::string& check) {
     const std::vector<Finding> findings = judgeAll(facts);
     const auto found = std::ranges::find(findings, check, &Finding::check);

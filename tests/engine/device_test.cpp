@@ -86,7 +86,7 @@ TEST_F(DeviceTest, TreatsALimitOnTheSizeOfFilesAsOneOnMemoryInFiles) {
     limited(256, [&] {
         const Device small({.wanted = ""});
         EXPECT_TRUE(!is_in_file || small.freeBytes() <= 128u << 20) << small.freeBytes();
-        // More than there may be: refused, or there where memory is in no file.
+        // Exceeds the limit: refused, or allowed if the driver's memory is in no file.
         error = errorText([&] {
             const Buffer large(
                 small, {.size = 300u << 20, .usage = Usage::readback, .name = "large"});

@@ -54,7 +54,7 @@ TEST_F(TransferTest, SaysWhichBufferTheDeviceHasNoRoomFor) {
     } catch (const Error& error) {
         EXPECT_THAT(error.what(), testing::HasSubstr("buffer 'a petabyte' of 1125899906842624 B"));
     }
-    device().messages().take();  // the validation layer also complains about the size
+    device().messages().take();  // the validation layer also reports the size
 }
 
 }  // namespace

@@ -10,7 +10,7 @@
 
 namespace benchmarks::report {
 
-// The made-up report as it is read back from its file.
+// Returns the made-up report as read back from its file.
 inline scene::Json writtenReport() { return scene::Json::parse(writtenText(sampleReport())); }
 
 inline std::string exported(std::string_view format) {

@@ -35,7 +35,7 @@ TEST(Exporters, WriteWhatParsesAndHoldsNoNull) {
     for (const Exporter& exporter : exporters()) {
         const std::string text = exported(exporter.name);
         EXPECT_TRUE(text.ends_with('\n')) << exporter.name;
-        // A bare NaN or Infinity is no JSON, and a null is no number.
+        // A bare NaN or Infinity is not JSON, and null is not a number.
         for (const char* bad : {"NaN", "nan", "Infinity", "inf", "null"})
             EXPECT_THAT(text, Not(HasSubstr(bad))) << exporter.name;
         const bool is_json = std::string_view(exporter.extension) == ".json";

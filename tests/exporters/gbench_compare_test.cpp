@@ -13,14 +13,14 @@ namespace {
 
 using testing::HasSubstr;
 
-// Where Debian's libbenchmark-tools puts it; HAIRBENCH_GBENCH_COMPARE names another.
+// Returns the path of compare.py: HAIRBENCH_GBENCH_COMPARE, or that of Debian's libbenchmark-tools.
 std::string comparePy() {
     const char* wanted = std::getenv("HAIRBENCH_GBENCH_COMPARE");
     const std::string path = wanted && *wanted ? wanted : "/usr/share/benchmark/compare.py";
     return std::filesystem::exists(path) ? path : "";
 }
 
-// It wants numpy and scipy.
+// Returns a Python with numpy and scipy, which compare.py needs.
 std::string interpreter() {
     for (const std::string& python :
          {std::string(HAIRBENCH_SOURCE_DIR "/.deps/reference/bin/python"), pythonInterpreter(),
@@ -46,7 +46,7 @@ TEST(Gbench, IsReadByGoogleBenchmarksComparePy) {
         "'" + python + "' -B '" + script + "' --no-color benchmarks '" + a.string() + "' '" +
         b.string() + "' 2>&1");
     EXPECT_EQ(outcome.status, 0) << outcome.output;
-    // Name, change of time and of CPU time, times in us without decimals.
+    // Name, change of time, change of CPU time, and times in us without decimals.
     EXPECT_THAT(
         outcome.output, testing::ContainsRegex("backend:tessellation/frame.time +\\+0.5000 +"
                                                "\\+0.5000 +3000 +4500 +3000 +4500"));

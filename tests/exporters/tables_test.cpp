@@ -46,7 +46,7 @@ TEST(Csv, QuotesWhatWouldBreakARow) {
         HasSubstr(",skipped,\"says \"\"no\"\",\nthen stops\",,"));
 }
 
-// Spreadsheets run what begins so (OWASP, CSV Injection). Numbers keep their signs.
+// Spreadsheets run cells with these beginnings (OWASP, CSV Injection). Numbers keep their signs.
 TEST(Csv, HasNoFormulas) {
     const std::pair<const char*, const char*> rows[] = {
         {"=1+1", "'=1+1"},

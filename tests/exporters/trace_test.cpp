@@ -25,7 +25,7 @@ Report framesAndPasses() {
     return report;
 }
 
-// "name start+length" in us of each slice of a track.
+// Returns "name start+length" in us for each slice of a track.
 std::vector<std::string> slices(const scene::Json& trace, int track) {
     std::vector<std::string> found;
     for (const scene::Json& event : trace["traceEvents"])
@@ -52,7 +52,7 @@ TEST(Perfetto, LaysFramesOneAfterAnother) {
             "frame 1 2000.0+4000.0", "cpu.record 2000.0+250.0", "cpu.submit 2250.0+500.0"));
 }
 
-// Nanoseconds are counted in 63 bits.
+// Times must fit into 63 bits of nanoseconds.
 TEST(Perfetto, RefusesWhatIsNoTimeOfAFrame) {
     for (const double time : {-1.0, 1e13, 1e300}) {
         Report report = framesAndPasses();
@@ -76,7 +76,7 @@ TEST(Perfetto, NamesCasesAndTracks) {
                    "thread_name: isolated passes", "thread_name: CPU of overlapped frames"));
 }
 
-// A viewer shows slices of a track as a stack: one that ends after the one it began in is lost.
+// A viewer shows slices of a track as a stack. It loses a slice that ends after its parent.
 TEST(Perfetto, NestsSlicesExactly) {
     Report report = framesAndPasses();
     for (Metric& metric : report.cases[0].metrics)
@@ -91,7 +91,7 @@ TEST(Perfetto, NestsSlicesExactly) {
         if (event["name"].get<std::string>().starts_with("frame"))
             frame_end = end;
         else
-            // Both are whole ns: the doubles' rounding is far below a half.
+            // Both are whole ns, and the rounding of doubles is far below 0.5 ns.
             EXPECT_LE(end, frame_end + 1e-6) << event;
     }
     EXPECT_EQ(frame_ends.size(), 2u);

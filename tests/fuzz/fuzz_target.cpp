@@ -11,8 +11,8 @@
 #include "engine/error.h"
 #include "tests/fuzz/targets.h"
 
-// The libFuzzer program of all targets. Which one it fuzzes $HAIRBENCH_FUZZ_TARGET says, or else
-// the name that it is called by, as OSS-Fuzz calls it: fuzz_scene.
+// One libFuzzer program for all targets. $HAIRBENCH_FUZZ_TARGET chooses the target, otherwise the
+// program's own name does. OSS-Fuzz calls it e.g. fuzz_scene.
 namespace {
 
 const fuzz::Target* chosen = nullptr;
@@ -35,7 +35,7 @@ void chooseTarget(std::string_view program) {
     }
 }
 
-// A line for each: its name, then what it is fuzzed with, as libFuzzer has it.
+// Prints a line for each target: its name and its options for libFuzzer.
 void listTargets() {
     for (const fuzz::Target& target : fuzz::targets())
         std::printf(
@@ -50,7 +50,7 @@ void listSeeds() {
 
 }  // namespace
 
-// --targets lists what there is to fuzz, --seeds the files to start from. Called by libFuzzer.
+// --targets lists the targets, --seeds the files to start from. Called by libFuzzer.
 extern "C" __attribute__((visibility("default"))) int
 LLVMFuzzerInitialize(const int* argc, const char* const* const* argv) {
     const std::span<const char* const> arguments(*argv, static_cast<std::size_t>(*argc));
@@ -66,12 +66,12 @@ LLVMFuzzerInitialize(const int* argc, const char* const* const* argv) {
         listSeeds();
         std::exit(0);
     }
-    std::cerr.rdbuf(nullptr);  // what the program says of each file
+    std::cerr.rdbuf(nullptr);  // silences messages on each file
     return 0;
 }
 
-// Bytes are refused with an engine::Error or make what they ought to. Called by libFuzzer. Why they
-// are refused $HAIRBENCH_FUZZ_SAYS has it say.
+// A target refuses the bytes with an engine::Error or reads them as it should. With
+// $HAIRBENCH_FUZZ_SAYS it prints the reason for a refusal. Called by libFuzzer.
 extern "C" __attribute__((visibility("default"))) int
 LLVMFuzzerTestOneInput(const unsigned char* bytes, std::size_t size) {
     try {

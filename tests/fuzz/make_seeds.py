@@ -1,9 +1,9 @@
 #!/usr/bin/env python3
-"""Writes the files of tests/fuzz/seeds that other programs or descriptions of formats give.
+"""Writes the files of tests/fuzz/seeds, with other programs or from descriptions of formats.
 
-Pictures are Pillow's and OpenEXR's, which are asked for by name in tests/corpus/README.md; meshes,
-their animations and the streams of children are written by hand from their descriptions; reports
-are those of results/, cut to a few cases and samples.
+Pillow and OpenEXR write pictures; tests/corpus/README.md names their versions. Meshes, animations
+and the streams of child processes are written by hand from their descriptions. Reports are those of
+results/, cut to a few cases and samples.
 """
 import json
 import struct
@@ -59,7 +59,7 @@ def float_pictures():
     import numpy
     import OpenEXR
 
-    # Radiance: two rows of eight pixels, run-length encoded, and one of flat pixels.
+    # Radiance: two run-length encoded rows of eight pixels, and a picture of flat pixels.
     row = b"\x02\x02\x00\x08" + b"\x08abcdefgh" + 3 * b"\x88z"
     write(
         "float_picture",
@@ -235,7 +235,7 @@ def name(text):
 
 
 def mesh_stream():
-    """hair/groom/mesh/mesh_stream.h: what hairbench_mesh_reader writes of a square."""
+    """Returns the output of hairbench_mesh_reader for a square: hair/groom/mesh/mesh_stream.h."""
     positions = struct.pack("<12f", *TRIANGLES)
     normals = struct.pack("<12f", *(4 * [0, 0, 1]))
     coordinates = struct.pack("<8f", 0, 0, 1, 0, 1, 1, 0, 1)
@@ -250,7 +250,7 @@ def mesh_stream():
 
 
 def usd_stream():
-    """hair/groom/formats/usd_import.h: what usd_curves.py writes of two strands."""
+    """Returns the output of usd_curves.py for two strands: hair/groom/formats/usd_import.h."""
     sections = [
         (struct.pack("<2I", 3, 2), 4),
         (struct.pack("<15f", *range(15)), 12),
@@ -273,7 +273,7 @@ def usd_stream():
 
 
 def spirv():
-    """SPIR-V specification, 2.3 and 3.49: main() calls a sine within a branch."""
+    """Returns a main() that calls a sine within a branch: SPIR-V specification, 2.3 and 3.49."""
 
     def text(characters):
         data = characters.encode() + b"\0"
@@ -334,7 +334,7 @@ def spirv():
 
 
 def cut(report, cases):
-    """The report with some of its cases, each with few metrics and samples."""
+    """Returns the report with some of its cases, each with few metrics and samples."""
     report = dict(report)
     report["scene"] = dict(report["scene"])
     run = report["scene"]["document"].get("run", {})
@@ -358,7 +358,7 @@ def text(value):
 
 
 def with_sidecar(report):
-    """The report with its first metric's samples beside it."""
+    """Returns the report, with its first metric's samples moved to a file beside it."""
     report = json.loads(json.dumps(report))
     case = report["cases"][0]
     metric, value = next(iter(case["metrics"].items()))
@@ -393,7 +393,7 @@ def reports():
 
 
 def journal_line(value):
-    """benchmarks/run/record.h: a value, and the 64-bit FNV-1a of its text."""
+    """Returns a value with the 64-bit FNV-1a of its text: benchmarks/run/record.h."""
     line = text(value)
     sum_ = 0xCBF29CE484222325
     for byte in line.encode():
@@ -402,7 +402,7 @@ def journal_line(value):
 
 
 def journals():
-    """Of the run that tests/fuzz/targets.cpp makes up."""
+    """Writes journals of the made-up run in tests/fuzz/targets.cpp."""
     head = {
         "schema": "hairbench-journal/2.0.0",
         "header": {

@@ -52,13 +52,13 @@ namespace report = benchmarks::report;
 namespace run = benchmarks::run;
 namespace scene = benchmarks::scene;
 
-// ---- What targets have in common ----------------------------------------------------------------
+// ---- Helpers ------------------------------------------------------------------------------------
 
 void expect(bool holds, const std::string& promise) {
     if (!holds) throw std::logic_error("not so: " + promise);
 }
 
-// Calls what may refuse what it is given, as the program would say it.
+// Calls an action that may refuse its input with an engine::Error.
 template <class Action>
 void allowRefusal(Action&& action) {
     try {
@@ -67,13 +67,13 @@ void allowRefusal(Action&& action) {
     }
 }
 
-// Readers that take a path read from here. $TMPDIR says where, best in memory.
+// Returns the folder for readers that take a path. It is in $TMPDIR, best in memory.
 const TemporaryFolder& scratch() {
     static const TemporaryFolder folder;
     return folder;
 }
 
-// Texts that one file holds, each behind a record separator as in RFC 7464, but the first.
+// Splits a file into texts at record separators, as in RFC 7464 but without one before the first.
 std::vector<std::string_view> textsIn(std::string_view bytes) {
     std::vector<std::string_view> texts;
     for (std::size_t begin = 0; begin <= bytes.size();) {
@@ -88,7 +88,7 @@ std::span<const std::byte> asBytes(std::string_view bytes) {
     return std::as_bytes(std::span(bytes));
 }
 
-// Beside the program where the project's folder is not there, as on somebody else's machine.
+// Returns the project's folder, or the program's own folder if there is none on this machine.
 fs::path projectFolder() {
     std::error_code error;
     if (const fs::path built = HAIRBENCH_SOURCE_DIR; fs::exists(built / "scenes", error))
@@ -103,7 +103,7 @@ void checkStrands(const hair::groom::StrandSet& set) {
     expect(broken.empty(), broken);
 }
 
-// The importers that read from memory, each once: those of two formats can be one.
+// Returns the importers that read from memory, each once: two formats may share an importer.
 std::vector<const hair::groom::StrandImporter*> importers() {
     std::vector<const hair::groom::StrandImporter*> all;
     for (const hair::groom::StrandImporter& row : hair::groom::strandImporters())
@@ -122,7 +122,7 @@ Target strandTarget(const hair::groom::StrandImporter& row) {
         .seeds = {{"tests/corpus/" + name, {}}}};
 }
 
-// What usd_curves.py writes.
+// Reads the output of usd_curves.py.
 void readUsdStream(std::string_view bytes) {
     checkStrands(hair::groom::readUsdStream(asBytes(bytes)));
 }
@@ -153,7 +153,7 @@ void checkMesh(const hair::groom::Mesh& mesh) {
         expect(std::abs(glm::length(normal) - 1.0f) < 1e-3f, "normals have unit length");
 }
 
-// A glTF mesh as scenes use it. It is to name no other file.
+// A glTF mesh as scenes use it. It must not name another file.
 struct GltfFile {
     fs::path path;
     hair::groom::Mesh mesh;
@@ -170,7 +170,7 @@ GltfFile readGltfFile(std::string_view bytes) {
 
 void readMesh(std::string_view bytes) { checkMesh(readGltfFile(bytes).mesh); }
 
-// Skins, morph targets and keyframes of the same.
+// Reads the skins, morph targets and keyframes of a glTF mesh.
 void readAnimation(std::string_view bytes) {
     const GltfFile file = readGltfFile(bytes);
     const std::vector<std::string> clips = hair::groom::animationNames(file.path);
@@ -191,8 +191,8 @@ void readAnimation(std::string_view bytes) {
     }
 }
 
-// What the child writes that reads meshes by assimp, or usd_mesh.py: the file may have taken it
-// over. Fuzzing assimp itself would find what it is a child for.
+// Reads the output of the child process with assimp, or of usd_mesh.py. A file may have taken over
+// the child. Fuzzing assimp itself would find the faults for which it runs in a child.
 void readMeshStream(std::string_view bytes) {
     const hair::groom::ReadMesh read = hair::groom::readMeshStream(asBytes(bytes));
     const hair::groom::Mesh& mesh = read.mesh;
@@ -203,7 +203,7 @@ void readMeshStream(std::string_view bytes) {
     expect(read.textures.size() == mesh.materials.size(), "materials have textures");
 }
 
-// What is held against a PLY before assimp has it.
+// Checks a PLY as the program does before assimp gets it.
 void readPlyFaces(std::string_view bytes) { hair::groom::checkPlyFaces(asBytes(bytes)); }
 
 // ---- Pictures -----------------------------------------------------------------------------------
@@ -219,8 +219,8 @@ void putBigEndian(std::string& bytes, std::size_t at, std::uint32_t value) {
         bytes[at + i] = static_cast<char>(value >> (24 - 8 * i) & 0xff);
 }
 
-// Where the deflated data's own checksum begins, and what it ought to be (RFC 1950); nothing where
-// they have no end.
+// Returns the place of the deflated data's checksum and its right value (RFC 1950), or nothing if
+// the data have no end.
 std::optional<std::pair<std::size_t, std::uint32_t>> adlerOf(std::string_view data) {
     constexpr std::size_t kHeader = 2;
     constexpr std::size_t kMost = std::size_t{16} << 20;
@@ -244,16 +244,16 @@ std::optional<std::pair<std::size_t, std::uint32_t>> adlerOf(std::string_view da
     return std::pair{end, static_cast<std::uint32_t>(sum)};
 }
 
-// The file with the checksums that its chunks and its data ought to have, where it is a PNG: with
-// wrong ones nothing behind them would be reached.
+// Returns the file, with right checksums of chunks and data if it is a PNG. With wrong checksums
+// readers would refuse the file before they read on.
 std::string withChecksums(std::string file) {
     constexpr std::size_t kSignature = 8;
-    constexpr std::size_t kFrame = 12;  // bytes of a chunk beside its data
+    constexpr std::size_t kFrame = 12;  // bytes of a chunk without its data
     if (!engine::isPng(file)) return file;
     const std::string_view view = file;
     std::string data;
-    std::vector<std::size_t> places;  // of its bytes in the file
-    std::vector<std::pair<std::size_t, std::size_t>> chunks;  // where they begin, their data's size
+    std::vector<std::size_t> places;  // of the bytes of `data` in the file
+    std::vector<std::pair<std::size_t, std::size_t>> chunks;  // start, and size of the data
     for (std::size_t at = kSignature; view.size() - at >= kFrame;) {
         const std::size_t size = bigEndian(view.substr(at));
         if (size > view.size() - at - kFrame) break;
@@ -302,15 +302,16 @@ void copyScenes(const fs::path& from, const fs::path& to, const std::string& lef
             fs::copy(entry.path(), to);
 }
 
-// A folder in one with the shipped scenes, which has them too: scenes are built on others that lie
-// beside them, or above.
+// Returns a folder within another one, both with the shipped scenes, because a scene's base may be
+// beside the scene or above it.
 const fs::path& sceneFolder() {
     static const fs::path folder = [] {
         const fs::path own = scratch().file("scenes/fuzzed");
         fs::create_directories(own);
         const fs::path shipped = projectFolder() / "scenes";
         copyScenes(shipped, own.parent_path());
-        // Which says up to where scenes may name files: not in the inner one.
+        // scene.schema.json marks the topmost folder of which scenes may name files, so the inner
+        // folder has none.
         copyScenes(shipped, own, "scene.schema.json");
         copyScenes(shipped / "portraits", own);
         return own;
@@ -318,8 +319,8 @@ const fs::path& sceneFolder() {
     return folder;
 }
 
-// Code of the shader that calls a scene's force. The program compiles it in a child with limits,
-// which would make this slow.
+// Returns the code of the shader that calls a scene's force. The program compiles it in a child
+// with limits, which would make this slow.
 engine::CompiledShader compiledForce(const hair::Extension& extension) {
     constexpr const char* kShader = "simulation/force.comp";
     static const engine::ShaderCompiler compiler;
@@ -332,7 +333,7 @@ engine::CompiledShader compiledForce(const hair::Extension& extension) {
     return compiler.compile(kShader, read, {extension.shader});
 }
 
-// A file of GLSL that a scene names, up to the code of a shader that calls it.
+// Reads a GLSL file that a scene names, and compiles it with a shader that calls it.
 void readExtension(std::string_view bytes) {
     using hair::ExtensionKind;
     for (const ExtensionKind kind :
@@ -353,7 +354,7 @@ void readExtension(std::string_view bytes) {
     }
 }
 
-// The SPIR-V of functions that are not the program's own.
+// Reads the SPIR-V of functions of scenes.
 void readSpirv(std::string_view bytes) {
     std::vector<std::uint32_t> words(bytes.size() / sizeof(std::uint32_t));
     if (!words.empty())
@@ -362,7 +363,7 @@ void readSpirv(std::string_view bytes) {
     if (fault) throw engine::Error(fault->text);
 }
 
-// A sweep may have 100,000 cases, for which nobody waits here.
+// A sweep may have 100,000 cases, which would take too long here.
 constexpr std::size_t kMostCases = 64;
 
 bool hasFewCases(const scene::Scene& scene) {
@@ -374,7 +375,7 @@ bool hasFewCases(const scene::Scene& scene) {
     return true;
 }
 
-// A scene, a suite or a screenshot with a scene in it, in a folder of scenes, up to its cases.
+// Reads a scene, a suite or a screenshot with a scene in it, in a folder of scenes, and its cases.
 void readScene(std::string_view bytes) {
     const fs::path path = sceneFolder() / "fuzzed.json";
     scratch().write("scenes/fuzzed/fuzzed.json", withChecksums(std::string(bytes)));
@@ -397,7 +398,7 @@ void readScene(std::string_view bytes) {
 
 bool isJson(std::string_view format) { return format != "csv" && format != "markdown"; }
 
-// All that reads a report, once it is one.
+// Calls everything that takes a valid report.
 void useReport(const scene::Json& report) {
     for (const report::Exporter& exporter : report::exporters())
         allowRefusal([&] {
@@ -410,7 +411,7 @@ void useReport(const scene::Json& report) {
     allowRefusal([&] { benchmarks::doctor::rulesText(benchmarks::doctor::judgeRules(report)); });
 }
 
-// Two reports beside each other.
+// Compares two reports.
 void compareThem(const scene::Json& a, const scene::Json& b) {
     allowRefusal([&] {
         const report::ReportComparison comparison = report::compareReports(a, b, {});
@@ -419,7 +420,7 @@ void compareThem(const scene::Json& a, const scene::Json& b) {
     });
 }
 
-// A report, and behind it the samples that lie beside it.
+// Reads a report, followed by the samples file beside it.
 void readReport(std::string_view bytes) {
     const std::vector<std::string_view> texts = textsIn(bytes);
     const fs::path path = scratch().write("report.json", texts.front());
@@ -435,7 +436,7 @@ void readReport(std::string_view bytes) {
     });
 }
 
-// Reports of a sweep's parts.
+// Merges the reports of a sweep's parts.
 void mergeReports(std::string_view bytes) {
     constexpr std::size_t kMostParts = 4;
     std::vector<fs::path> paths;
@@ -457,7 +458,7 @@ void mergeReports(std::string_view bytes) {
 
 // ---- Journals -----------------------------------------------------------------------------------
 
-// A run of four cases, whose header a made-up report has.
+// Returns a run of four cases with the header of a made-up report.
 const run::RunPlan& plan() {
     static const run::RunPlan made = [] {
         run::RunPlan plan{.name = "s", .scene = {}, .case_count = 8};
@@ -480,8 +481,8 @@ const report::ReportHeader& header() {
     return made;
 }
 
-// The journal with the checksums that its lines ought to have: with wrong ones nothing behind them
-// would be reached.
+// Returns the journal with right checksums of its lines. With wrong checksums the reader would stop
+// there.
 std::string withHashes(std::string_view journal) {
     constexpr std::string_view kStart = R"({"hash":")";
     constexpr std::string_view kMiddle = R"(","line":)";
@@ -501,7 +502,7 @@ std::string withHashes(std::string_view journal) {
     return mended;
 }
 
-// A run that goes on with the journal, up to its report.
+// Resumes a run from the journal, up to its report.
 void resume(std::string_view journal) {
     const fs::path out = scratch().file("run.json");
     scratch().write(run::journalFile(out).filename().string(), journal);
@@ -536,10 +537,10 @@ std::vector<Target> allTargets() {
     for (const hair::groom::StrandImporter* const row : importers())
         all.push_back(strandTarget(*row));
     const std::vector<std::string> gltf{".glb", ".gltf"};
-    // Texts of JSON are long for what they say.
+    // JSON needs many bytes for its content.
     const Limits json{.length = 16384};
-    // 16 kB of PNG can be 128 megapixels of a bit each: the most that any picture may have is the
-    // limit, in four channels of 16 bits, or of three floats.
+    // 16 kB of PNG can hold 128 megapixels of one bit. So the limit is the greatest picture that is
+    // allowed, with four channels of 16 bits, or three floats.
     const Limits picture{.length = 16384, .allocation = 8 * kMostPixels / kMebibyte};
     const Limits light{.length = 16384, .allocation = 12 * kMostPixels / kMebibyte};
     all.push_back({"usd_stream", readUsdStream, {{"tests/fuzz/seeds/usd_stream", {}}}});

@@ -13,7 +13,7 @@
 #include "tests/groom/formats/mutations.h"
 #include "tests/temporary_folder.h"
 
-// What fuzzers start from and what they have found, and damage of other kinds, without a fuzzer.
+// Tests the targets without a fuzzer, on seeds, findings and damaged seeds.
 namespace fuzz {
 namespace {
 
@@ -21,7 +21,7 @@ using hair::groom::Dice;
 
 class FuzzTarget : public testing::TestWithParam<std::string> {
 protected:
-    // `what` says of which bytes.
+    // `what` describes the bytes.
     void expectRefusedOrRead(const std::string& bytes, const std::string& what) {
         try {
             target_.read(bytes);
@@ -34,7 +34,7 @@ protected:
     const Target& target_ = targetNamed(GetParam());
 };
 
-// A seed that is refused teaches a fuzzer nothing of what is behind the refusal.
+// From a seed that is refused, a fuzzer does not reach the code after the refusal.
 TEST_P(FuzzTarget, ReadsItsSeeds) {
     const auto seeds = seedsOf(target_);
     EXPECT_FALSE(seeds.empty());
@@ -49,7 +49,7 @@ TEST_P(FuzzTarget, RefusesOrReadsWhatWasFound) {
 
 using Json = nlohmann::ordered_json;
 
-// A value of the document, itself perhaps.
+// Returns a random value of the document, or the document itself.
 Json& anyValue(Json& document, Dice& dice) {
     Json* value = &document;
     while (value->is_structured() && !value->empty() && dice.below(8) != 0)
@@ -57,8 +57,9 @@ Json& anyValue(Json& document, Dice& dice) {
     return *value;
 }
 
-// The texts, each a line or between record separators, with a value of one in another's place, or a
-// value that is wrong almost everywhere; empty where that one is no JSON.
+// Takes texts of JSON in lines or between record separators. Chooses a text and replaces one of its
+// values by another of its values, or by one that is wrong almost everywhere. Returns "" if the
+// chosen text is no JSON.
 std::string misshapen(const std::string& texts, Dice& dice) {
     const std::vector<Json> wrong{
         nullptr,
@@ -87,7 +88,7 @@ std::string misshapen(const std::string& texts, Dice& dice) {
     return texts.substr(0, begin) + document.dump() + texts.substr(end);
 }
 
-// HAIRBENCH_MUTATIONS says how many of each target; the same in every run.
+// Tries $HAIRBENCH_MUTATIONS mutations of each target, the same in every run.
 TEST_P(FuzzTarget, RefusesOrReadsDamagedSeeds) {
     const char* const wanted = std::getenv("HAIRBENCH_MUTATIONS");
     const int count = wanted ? std::atoi(wanted) : 40;

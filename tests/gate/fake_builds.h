@@ -14,14 +14,14 @@
 
 namespace benchmarks::gate {
 
-// Two programs that measure nothing: the n-th process of the gate, from 0, copies a report that the
-// test made beforehand. Each writes down that it ran and how it was called.
+// Two programs that measure nothing. The n-th process of the gate, from 0, copies a report that the
+// test made before, and logs that it ran and with which arguments.
 class FakeBuilds {
 public:
-    // Two for warming up and 48 pairs, twice over: with calibration.
+    // Two for warm-up and 48 pairs, twice because of calibration.
     static constexpr int kProcesses = 2 + 4 * 48;
 
-    // `report(side, n)`: of 'A' or 'B' if it is the n-th process.
+    // `report(side, n)` returns the report of 'A' or 'B' if it is the n-th process.
     explicit FakeBuilds(const std::function<scene::Json(char, int)>& report) {
         for (int n = 0; n < kProcesses; ++n)
             for (const char side : {'A', 'B'})
@@ -31,7 +31,7 @@ public:
         for (const char side : {'A', 'B'}) writeProgram(side, "");
     }
 
-    // What the program does beside; "$n" is the process's number, "$4" the report's place.
+    // Adds shell commands to the program; "$n" is the process's number and "$4" the report's path.
     void writeProgram(char side, const std::string& also) {
         const std::string folder = folder_.path().string();
         const auto path = folder_.write(
@@ -53,7 +53,7 @@ public:
     Outcome gate(const std::string& more = "") const { return hairbench(arguments() + more); }
     scene::Json report() const { return scene::Json::parse(textOf(reportFile())); }
 
-    // One line for each process that ran.
+    // Returns one line for each process that ran.
     std::vector<std::string> calls() const {
         std::vector<std::string> lines;
         std::ifstream log(folder_.file("log"));
@@ -61,7 +61,7 @@ public:
         return lines;
     }
 
-    // "ABABBA..."
+    // Returns for example "ABABBA...".
     std::string order() const {
         std::string sides;
         for (const std::string& line : calls()) sides += line.front();
@@ -72,8 +72,8 @@ private:
     TemporaryFolder folder_;
 };
 
-// One case whose frame takes 10 ms and a share more in B, on a machine whose processes are off by
-// 0.4 % and whose speed walks (docs/comparing.md).
+// One case with a frame of 10 ms, and a share more in B. Processes differ by 0.4 %, and the
+// machine's speed drifts (docs/comparing.md).
 class FakeMachine {
 public:
     explicit FakeMachine(double slowdown, double block_noise = 0.004) : slowdown_(slowdown) {

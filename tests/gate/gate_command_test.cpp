@@ -2,7 +2,7 @@
 
 #include "tests/gate/fake_builds.h"
 
-// The gate as a user runs it, on programs that stand for builds.
+// Tests the gate as a user runs it, with programs in place of builds.
 namespace benchmarks::gate {
 namespace {
 
@@ -25,8 +25,8 @@ TEST(GateCommand, FailsASlowerBuild) {
     EXPECT_EQ(gate.status, 10) << gate.output;
     EXPECT_THAT(gate.output, HasSubstr("verdict: regressed"));
     const scene::Json change = builds.report()["changes"][0];
-    // The estimate of 12 pairs whose differences have a standard deviation of
-    // sqrt(2) * 0.4 % and a bit of drift: four standard errors.
+    // Estimate from 12 pairs. Differences have a standard deviation of sqrt(2) * 0.4 % and some
+    // drift. The tolerance is four standard errors.
     EXPECT_NEAR(change["change"].get<double>(), 0.05, 4.0 * 0.008 / std::sqrt(12.0));
 }
 
@@ -73,8 +73,8 @@ TEST(GateCommand, HandsOptionsToTheRuns) {
     EXPECT_THAT(calls.at(1), HasSubstr(both + "--set /seed=5 --filter x"));
 }
 
-// What is seen of a GPU whose strands take 8 ms and 50 % more in B. Of wind and resolve nothing can
-// be said: a hundredth of the frame, and a pass that is off by 10 % from process to process.
+// Results of a GPU where strands take 8 ms, and 50 % more in B. Wind and resolve can't be decided:
+// they are a hundredth of the frame, and a pass that differs by 10 % between processes.
 FakeBuilds slowStrands() {
     return FakeBuilds([noise = Noise(5)](char side, int) mutable {
         const auto off = [&](double share) { return 1.0 + share * noise.normal(); };
@@ -103,13 +103,13 @@ TEST(GateCommand, EndsWhenItsAnswerIsKnown) {
     const FakeBuilds all = slowStrands();
     EXPECT_EQ(all.gate("--all").status, 10);
     EXPECT_GT(all.report()["pairs"], 12);
-    // Of passes that are a hundredth each nothing would be left to wait for.
+    // Without passes of a hundredth of the frame there is nothing to wait for.
     const FakeBuilds large_only = slowStrands();
     EXPECT_EQ(large_only.gate("--all --smallest-share 0.5").status, 10);
     EXPECT_EQ(large_only.report()["pairs"], 12);
 }
 
-// No time at all: nothing is known, and said so.
+// Without any time nothing is known, and the gate says so.
 TEST(GateCommand, SaysWhatItKnowsWhenTimeIsOver) {
     FakeBuilds builds(FakeMachine(0.05));
     const Outcome none = builds.gate("--max-minutes 0.000001 --fail-on inconclusive");
@@ -121,7 +121,7 @@ TEST(GateCommand, SaysWhatItKnowsWhenTimeIsOver) {
 }
 
 TEST(GateCommand, GoesOnWhileItCannotTell) {
-    // Of a slowdown at the threshold nothing can be said.
+    // A slowdown at the threshold can't be decided.
     const FakeBuilds builds(FakeMachine(0.02, 0.02));
     const Outcome gate = builds.gate();
     EXPECT_EQ(gate.status, 0) << gate.output;
@@ -143,7 +143,7 @@ TEST(GateCommand, DecidesFirstWhereAskedTo) {
 }
 
 TEST(GateCommand, CalibratesWithAAlone) {
-    // Pairs of one build differ by sqrt(2) * 3 %: a slowdown of 5 % is no news there.
+    // Pairs of one build differ by sqrt(2) * 3 %, so a slowdown of 5 % is not significant.
     const FakeBuilds builds(FakeMachine(0.05, 0.03));
     const Outcome gate = builds.gate("--calibrate 48");
     EXPECT_EQ(gate.status, 0) << gate.output;

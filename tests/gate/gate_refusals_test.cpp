@@ -7,7 +7,7 @@
 
 #include "tests/gate/fake_builds.h"
 
-// Gates that end before a verdict on times.
+// Tests gates that end before a verdict on times.
 namespace benchmarks::gate {
 namespace {
 
@@ -73,7 +73,7 @@ TEST(GateRefusals, ShowWhatAFailedProcessSaid) {
     EXPECT_EQ(gate.status, 1) << gate.output;
     EXPECT_THAT(gate.output, HasSubstr("ended with status 3:\n    it went wrong\n"));
     EXPECT_EQ(builds.report()["end"], "failed");
-    EXPECT_EQ(builds.report()["pairs"], 2);  // A B B A, and B fails after the next A
+    EXPECT_EQ(builds.report()["pairs"], 2);  // A B B A; B fails after the next A
 }
 
 TEST(GateRefusals, PassOnWhatAProcessFoundAtFault) {
@@ -110,7 +110,7 @@ TEST(GateRefusals, NameWhatIsWrongWithTheOptions) {
     EXPECT_THAT(hairbench(a + " --b nonsense").output, HasSubstr("not found"));
 }
 
-// B's fourth process waits for the signal that the test sends to the gate alone.
+// B's fourth process waits for the signal that the test sends only to the gate.
 TEST(GateRefusals, SaveWhatIsDoneWhenInterrupted) {
     FakeBuilds builds(FakeMachine(0.0));
     const std::string waiting = builds.folder().file("waiting").string();
@@ -120,7 +120,7 @@ TEST(GateRefusals, SaveWhatIsDoneWhenInterrupted) {
                  waiting + "; while :; do sleep 0.05; done; }");
     Outcome gate{};
     std::atomic<bool> over = false;
-    // The shell becomes the gate, so that its id is the gate's.
+    // The shell becomes the gate, so it has the gate's process id.
     const std::string id_file = builds.folder().file("id").string();
     std::thread user([&] {
         gate = runInShell(
@@ -141,8 +141,7 @@ TEST(GateRefusals, SaveWhatIsDoneWhenInterrupted) {
     EXPECT_EQ(report["blocks"].size(), 2u + 4u + 1u);  // warm-up, two pairs, A of the third
 }
 
-// The 13th pair of a gate that goes on for the sake of another pass: B's block waits for the
-// signal.
+// The gate takes a 13th pair because of another pass. B's block of it waits for the signal.
 TEST(GateRefusals, GiveTheLastVerdictsWhenInterruptedLater) {
     FakeBuilds builds([noise = Noise(6)](char side, int) mutable {
         scene::Json made = report::madeReport();

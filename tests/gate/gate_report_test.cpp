@@ -5,7 +5,7 @@
 #include "tests/gate/fake_builds.h"
 #include "tests/required.h"
 
-// What the gate writes down.
+// Tests the gate's report.
 namespace benchmarks::gate {
 namespace {
 
@@ -16,7 +16,7 @@ std::vector<std::string> errorsOf(const FakeBuilds& builds) {
         textOf(HAIRBENCH_SOURCE_DIR "/results/gate.schema.json"), textOf(builds.reportFile()));
 }
 
-// Two cases of two metrics, with noise of a processes' own.
+// Returns a report of two cases with two metrics, with noise that depends on the process.
 scene::Json twoCases(char side, int n) {
     scene::Json report = report::madeReport();
     Noise noise(static_cast<std::uint64_t>(2 * n + (side == 'B')));
@@ -75,7 +75,7 @@ TEST(GateReport, SchemaRefusesWhatIsNoReport) {
                      .empty());
 }
 
-// Pairs from the blocks, differences from the medians, verdicts from the differences.
+// Recomputes pairs from blocks, differences from medians and verdicts from differences.
 TEST(GateReport, HoldsAllThatItsVerdictsFollowFrom) {
     const FakeBuilds builds(twoCases);
     builds.gate("--calibrate 12");
@@ -100,7 +100,7 @@ TEST(GateReport, HoldsAllThatItsVerdictsFollowFrom) {
     }
     for (std::size_t i = 0; i < count; ++i) {
         const scene::Json& change = report["changes"][i];
-        // Each verdict follows from the pairs that it was passed at.
+        // Each verdict follows from the pairs at the time of the verdict.
         std::vector<std::vector<double>> first = differences;
         for (std::vector<double>& each : first) each.resize(change["pairs"].get<std::size_t>());
         const std::vector<report::Comparison> again =
@@ -112,7 +112,7 @@ TEST(GateReport, HoldsAllThatItsVerdictsFollowFrom) {
     }
 }
 
-// A made report's pairs of A with itself come in both orders too.
+// Pairs of A with itself come in both orders, too.
 TEST(GateReport, CancelsADriftInTheCalibration) {
     const FakeBuilds builds([](char, int n) {
         scene::Json report = report::madeReport();
@@ -126,8 +126,8 @@ TEST(GateReport, CancelsADriftInTheCalibration) {
         EXPECT_NEAR(calibration[i], i % 2 == 0 ? 0.01 : -0.01, 1e-12);
 }
 
-// A rate falls where its cost rises: by 1 % from process to process, and B's by a quarter more. In
-// the calibration, too, only differences of the cost are above 0 where the second is worse.
+// A rate falls where its cost rises: by 1 % from process to process, and in B by a quarter more. In
+// the calibration, too, a difference of costs is above 0 only if the second is worse.
 TEST(GateReport, TurnsRatesRoundInEveryDifference) {
     const FakeBuilds builds([](char side, int n) {
         scene::Json report = report::madeReport();
@@ -148,7 +148,8 @@ TEST(GateReport, TurnsRatesRoundInEveryDifference) {
         EXPECT_NEAR(differences[i], std::log(1.25) + (i % 2 == 0 ? 0.01 : -0.01), 1e-12);
 }
 
-// The software itself, as plumbing: what it decides of times is the machine's affair.
+// A gate on the real program tests only that everything fits together: its verdicts depend on the
+// machine.
 TEST(GateReport, IsOfItsSchemaForARealGate) {
     const TemporaryFolder folder;
     const auto out = folder.file("gate.json");

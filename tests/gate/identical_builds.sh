@@ -1,8 +1,8 @@
 #!/bin/sh
-# Gates of a build with itself, each of which has to find nothing:
+# Runs gates of a build with itself, which must find nothing:
 #   tests/gate/identical_builds.sh build/release [GATES [OPTION ...]]
-# Some ten minutes for 20 on two cores; not part of the tests, which pass on a busy machine too.
-# Options go to the gate, as --metrics 'time$'.
+# Takes some ten minutes for 20 gates on two cores. It is not part of the tests, which must pass on
+# a busy machine, too. Options go to the gate, for example --metrics 'time$'.
 set -u
 build=${1:?a build folder}
 gates=${2:-20}

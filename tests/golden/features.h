@@ -4,17 +4,17 @@
 
 #include "tests/rendering/pictures.h"
 
-// What has a golden picture: a feature, and the settings that show it.
+// Features with golden pictures, and the settings that show them.
 namespace hair {
 
 struct Feature {
-    const char* name;  // of tests/golden/pictures/<name>.png
+    const char* name;  // its picture is tests/golden/pictures/<name>.png
     void (*show)(Settings&);
-    // A feature whose picture this one must differ from: that it is seen at all.
+    // Another feature. The pictures must differ, otherwise this feature has no visible effect.
     const char* differs_from = "plain";
 };
 
-// The thesis's head of hair from near by, small.
+// Returns settings for a small close-up of the thesis's head of hair.
 inline Settings plainSettings() {
     Settings settings = rendering::thesisAtRest();
     settings.simulation.solver = Solver::none;
@@ -28,7 +28,7 @@ inline Settings plainSettings() {
     return settings;
 }
 
-// Linear light from the side, with shadows.
+// Adds linear light from the side, with shadows.
 inline void lit(Settings& settings) {
     settings.render.tone_map = ToneMap::srgb;
     settings.render.background = {0.05f, 0.05f, 0.06f};
@@ -262,7 +262,7 @@ inline const std::vector<Feature>& features() {
              s.lod = {.mode = LodMode::distance, .near_distance = 0.3f, .far_distance = 0.6f};
          }},
         {"strands", [](Settings& s) { s.render.show = Show::strands; }, "tangents"},
-        // Nodding, with the mouth open and the brows where they are at rest.
+        // The head nods with its mouth open and its brows at rest.
         {"skinned",
          [](Settings& s) {
              s.groom.grow.mesh = "assets/head_talk.glb";

@@ -1,4 +1,4 @@
-"""Mean FLIP error of pairs of pictures: lines of REFERENCE<tab>PICTURE on stdin, a figure a line on stdout."""
+"""Computes mean FLIP errors. Reads lines of REFERENCE<tab>PICTURE from stdin, prints one error each."""
 
 import sys
 

@@ -11,15 +11,16 @@
 #include "tests/required.h"
 #include "tests/temporary_folder.h"
 
-// Pictures of features against those that people have looked at: tests/golden/README.md.
+// Compares pictures of features with golden ones that people have looked at. See
+// tests/golden/README.md.
 namespace hair {
 namespace {
 
 namespace fs = std::filesystem;
 
-// Mean FLIP error. Software pictures are the same from run to run and nearly so between Mesa's
-// versions; what is left is rounding that moves an edge over a sample. One pixel of other colour in
-// 160 x 128 is 5e-5, spread by FLIP's filters to some 2e-4: room for ten of them.
+// Mean FLIP error. Software pictures are the same in every run. Between versions of Mesa, rounding
+// moves a few edges over a sample. One pixel of another colour in 160 x 128 is 5e-5, which FLIP's
+// filters spread to about 2e-4. So this allows ten such pixels.
 constexpr double kTolerance = 0.002;
 
 fs::path goldenPicture(const std::string& name) {
@@ -37,8 +38,8 @@ protected:
     }
 };
 
-// What was drawn stays in golden/ beside the program, wherever that was started, to look at, and to
-// take over where a change is meant.
+// The drawn pictures stay in golden/ beside the program, wherever it was started. One can look at
+// them, and take them over as golden pictures after an intended change.
 TEST_F(GoldenTest, FeaturesLookAsTheyDid) {
     const fs::path drawn = HAIRBENCH_DRAWN_DIR;
     std::vector<std::pair<fs::path, fs::path>> pairs;
@@ -61,7 +62,7 @@ TEST_F(GoldenTest, FeaturesLookAsTheyDid) {
         EXPECT_LE(figures[i], kTolerance) << "see " << pairs[i].second;
 }
 
-// A golden picture that looks like the one without the feature would hold nothing.
+// A golden picture that looks the same without its feature would test nothing.
 TEST_F(GoldenTest, FeaturesAreSeen) {
     std::vector<std::pair<fs::path, fs::path>> pairs;
     std::vector<const char*> names;

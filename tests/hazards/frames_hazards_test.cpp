@@ -16,19 +16,19 @@
 #include "tests/gpu_fixture.h"
 #include "tests/temporary_folder.h"
 
-// Whether the passes order what they do: no barrier is missing, each that is taken out is missed,
-// and none is there for nothing.
+// Tests the barriers of the passes: none is missing, removing any needed one is a hazard, and none
+// is superfluous.
 namespace benchmarks::measure {
 namespace {
 
 namespace fs = std::filesystem;
 using testing::HasSubstr;
 
-// As many as can be, for what the host has waited for is no hazard.
+// As many frames in flight as possible: after the host has waited for a frame, it causes no hazard.
 constexpr engine::Overlap kOverlap{.frames = engine::FrameLoop::kMaxSlots};
 constexpr std::uint32_t kFrames = kOverlap.frames;
 
-// As the settings are, but small: what is recorded doesn't depend on sizes.
+// Makes settings small and quick to play. Recorded commands do not depend on sizes.
 hair::Settings made(hair::Settings settings) {
     settings.render.width = 32;
     settings.render.height = 24;
@@ -41,7 +41,7 @@ hair::Settings made(hair::Settings settings) {
     return settings;
 }
 
-// Everything that moves hair at once, and most of what draws it.
+// Returns settings with everything that moves hair and most passes that draw it.
 hair::Settings everything() {
     hair::Settings settings = made(hair::plainSettings());
     hair::lit(settings);
@@ -57,7 +57,7 @@ hair::Settings everything() {
     return settings;
 }
 
-// 16 curls side by side.
+// Writes 16 curls side by side.
 fs::path writeCurls(const TemporaryFolder& folder) {
     hair::groom::StrandSet set{.metres_per_unit = 1.0};
     for (int strand = 0; strand < 16; ++strand) {
@@ -87,7 +87,7 @@ protected:
 
     static engine::HazardLog& log() { return *device().hazards(); }
 
-    // What was said of hazards; the layer's own messages are left out.
+    // Returns the messages on hazards, without the layer's own messages.
     static std::string hazards() {
         std::string text;
         for (const std::string& message : device().messages().take())
@@ -95,7 +95,7 @@ protected:
         return text;
     }
 
-    // Adds the places of barriers in some frames to `places`, and those that the frames need to
+    // Plays frames and adds the places of their barriers to `places`, and of the needed barriers to
     // `needed`.
     static void play(
         const hair::Settings& settings, std::set<std::string>& places,
@@ -116,7 +116,7 @@ protected:
     }
 };
 
-// A message would fail the test. Guides move, so that frames depend on one another by them.
+// Any message fails the test. Guides move, so that frames depend on each other.
 TEST_F(FramesHazards, AreNoneInAnySceneOrFeatureAndNoBarrierIsSuperfluous) {
     std::set<std::string> places;
     std::set<std::string> needed;
@@ -136,7 +136,7 @@ TEST_F(FramesHazards, AreNoneInAnySceneOrFeatureAndNoBarrierIsSuperfluous) {
     at_rest.strands.curl.radius = 0.004f;
     silent("at rest", made(at_rest));
     silent("everything", everything());
-    // Frames of half a step: every other one draws and moves nothing.
+    // Frames last half a step, so every other frame draws but moves nothing.
     for (const float curl : {0.0f, 0.004f}) {
         hair::Settings skinned = hair::plainSettings();
         skinned.groom.grow.mesh = "assets/head_talk.glb";
@@ -155,16 +155,16 @@ TEST_F(FramesHazards, AreNoneInAnySceneOrFeatureAndNoBarrierIsSuperfluous) {
     hair::Settings segments = everything();
     segments.simulation.collision.parts = hair::CollisionParts::segments;
     segments.simulation.colliders = {{.radius = 0.05f}};
-    segments.simulation.substeps = 3;  // each after the one before
+    segments.simulation.substeps = 3;
     silent("segments", segments);
-    // What scenes bring along: docs/extending.md.
+    // For extensions of scenes see docs/extending.md.
     hair::Settings extended = everything();
     extended.simulation.force = "extended/vortex.glsl";
     extended.strands.offset_function = "extended/crimped.glsl";
     extended.shading.model = hair::ShadingModel::extension;
     extended.shading.model_file = "extended/toon.glsl";
     silent("a scene's own functions", extended);
-    // Strands that keep what their guides' mean lacks.
+    // Strands of a groom file that keep their residuals to the mean of their guides.
     const TemporaryFolder folder;
     for (const hair::Backend backend : {hair::Backend::tessellation, hair::Backend::expanded}) {
         hair::Settings residuals = everything();
@@ -204,11 +204,11 @@ TEST_F(FramesHazards, AreNoneInAnySceneOrFeatureAndNoBarrierIsSuperfluous) {
 struct Missed {
     const char* pass;
     std::uint32_t index;  // of the barriers and changes of layout in the pass
-    const char* resource;  // that is touched out of order without it
+    const char* resource;  // accessed out of order without the barrier
 };
 
-// The barriers that frames need, by what the passes do: "resource" is what one wrote or read before
-// and the next one reads or writes. What is left out here is also ordered by another barrier.
+// Expects that frames need these barriers and no others. If one is removed, two passes access
+// `resource` without order. One of these covers each of the other barriers.
 void missEach(
     engine::Device& device, const hair::Settings& settings, const std::vector<Missed>& expected) {
     engine::HazardLog& log = *device.hazards();
@@ -250,7 +250,7 @@ void missEach(
     device.messages().take();
 }
 
-// Of everything().
+// For everything().
 const std::vector<Missed> kMissed{
     {"volume", 1, "volume blocks"},  // cleared
     {"volume", 2, "volume samples"},
@@ -284,7 +284,7 @@ TEST_F(FramesHazards, EachBarrierThatIsTakenOutIsMissed) {
     missEach(device(), everything(), kMissed);
 }
 
-// Task and mesh stages read what vertex stages do, after the same barriers.
+// Task and mesh stages read the same resources as vertex stages, after the same barriers.
 TEST_F(FramesHazards, EachBarrierIsMissedByMeshStages) {
     if (!device().has(engine::Feature::mesh_shader))
         return skipWithout(Need::mesh, "the device has no task and mesh stages");
@@ -293,7 +293,7 @@ TEST_F(FramesHazards, EachBarrierIsMissedByMeshStages) {
     missEach(device(), settings, kMissed);
 }
 
-// Hair that is drawn as it is simulated, and blended by weights, into the output.
+// Guides are drawn without offsets, and weighted blending writes to the output.
 TEST_F(FramesHazards, EachBarrierOfWeightedBlendingIsMissed) {
     hair::Settings settings = made(hair::plainSettings());
     settings.simulation.solver = hair::Solver::ftl;
@@ -302,8 +302,8 @@ TEST_F(FramesHazards, EachBarrierOfWeightedBlendingIsMissed) {
         device(), settings,
         {{"simulate", 0, "guide accelerations"},
          {"simulate", 1, "guide positions"},  // drawn
-         {"simulate", 2, "guide positions"},  // blown at and moved by the next frame
-         {"simulate", 3, "guide positions"},  // of the next frame, still drawn by the frame before
+         {"simulate", 2, "guide positions"},  // read by the next frame's wind and solver
+         {"simulate", 3, "guide positions"},  // still drawn, written by the next frame
          {"scene", 0, "output"},
          {"scene", 1, "depth"},
          {"strands", 0, "weighted sum"},
@@ -315,7 +315,7 @@ TEST_F(FramesHazards, EachBarrierOfWeightedBlendingIsMissed) {
          {"composite", 3, "output"}});
 }
 
-// Nothing but the frames of guides at rest.
+// Guides are at rest; only their frames (normals) are computed.
 TEST_F(FramesHazards, FramesOfGuidesWaitForThoseWhoDraw) {
     hair::Settings settings = made(hair::plainSettings());
     settings.strands.curl.radius = 0.004f;
@@ -328,7 +328,7 @@ TEST_F(FramesHazards, FramesOfGuidesWaitForThoseWhoDraw) {
          {"strands", 0, "output"}});
 }
 
-// The second step of a frame writes to the copy of the guides that the first one has left.
+// A frame's second step works in place, on the copy of the guides that the first step wrote.
 TEST_F(FramesHazards, EachBarrierOfSeveralStepsIsMissed) {
     hair::Settings settings = made(hair::plainSettings());
     settings.simulation.solver = hair::Solver::ftl;

@@ -11,7 +11,7 @@
 #include "tests/golden/features.h"
 #include "tests/gpu_fixture.h"
 
-// Frames of which several are on their way at once, and what of one may run beside the next.
+// Tests several frames in flight, and the passes of one frame that may overlap with the next.
 namespace benchmarks::measure {
 namespace {
 
@@ -30,7 +30,7 @@ struct Ends {
     bool operator==(const Ends&) const = default;
 };
 
-// What the first frames end with, played twice in one stream.
+// Plays the first frames twice in one stream and returns their result.
 Ends ends(
     const engine::Device& device, Case& played, engine::Timing timing,
     const engine::Overlap& overlap) {
@@ -47,7 +47,7 @@ Ends ends(
 
 using FramesInFlight = GpuTest;
 
-// With offsets, shadows and substeps.
+// Expects the same result for every overlap, with offsets, shadows and substeps.
 void expectEqualEnds(const engine::Device& device, hair::Solver solver, float steps) {
     hair::Settings settings = movingHair(solver);
     hair::lit(settings);
@@ -78,15 +78,15 @@ TEST_F(FramesInFlight, EndAlikeHoweverManyThereAre) {
         expectEqualEnds(device(), solver, 1.0f);
 }
 
-// The copies of the guides then change places in some frames only, and in frames of two steps once.
+// The copies of the guides then swap only in some frames. A frame of several steps swaps them once.
 TEST_F(FramesInFlight, EndAlikeWhereFramesAreShorterOrLongerThanSteps) {
     expectEqualEnds(device(), hair::Solver::shape, 0.4f);
     expectEqualEnds(device(), hair::Solver::shape, 2.5f);
 }
 
-// Whether nothing orders what the strands' draws of a frame read, in the vertex and in the fragment
-// stage, before what the next frame's `simulate` writes: a use of a buffer of their own, planted in
-// both, is then a hazard.
+// Whether nothing orders a frame's strand draws (vertex and fragment stage) before the next frame's
+// `simulate`. Plants a read of an extra buffer in the draws and a write in `simulate`: these are a
+// hazard if nothing orders them.
 bool mayRunBeside(const engine::Device& device, const hair::Settings& settings) {
     Case played(device, settings, HAIRBENCH_SCENES_DIR);
     engine::HazardLog& log = *device.hazards();
@@ -130,14 +130,14 @@ TEST_F(FramesInFlight, TheNextSimulationMayRunBesideTheDrawing) {
     }
 }
 
-// As docs/design.md says: a resolve by compute is between them.
+// A resolve by compute is between them: see docs/design.md.
 TEST_F(FramesInFlight, AResolveByComputeIsWaitedFor) {
     hair::Settings settings = movingHair(hair::Solver::shape);
     settings.render.ssaa = 2;
     EXPECT_FALSE(mayRunBeside(device(), settings));
 }
 
-// Lets what runs beside drawing wait for one picture less than it should.
+// Lets work beside drawing wait for one frame less than it should.
 class EagerPasses : public engine::Passes {
 public:
     explicit EagerPasses(engine::Passes& passes) : passes_(passes) { slot_ = passes.slot(); }
@@ -155,7 +155,7 @@ private:
     engine::Passes& passes_;
 };
 
-// Nothing but semaphores is between the queues, so what is missing there is a hazard.
+// Only semaphores order the two queues, so a missing wait is a hazard.
 TEST_F(FramesInFlight, TheSecondQueueWaitsForThePicturesOfTheCopyThatItOverwrites) {
     Case played(device(), movingHair(hair::Solver::shape), HAIRBENCH_SCENES_DIR);
     const auto messages = [&](bool eager) {

@@ -1,4 +1,4 @@
-// What shells complete of the program's command line.
+// Tests the shells' completions of the program's command line.
 #include <algorithm>
 #include <filesystem>
 #include <set>
@@ -33,8 +33,8 @@ std::set<std::string> firstWords(const std::string& text) {
     return words;
 }
 
-// A folder with the completions of a shell, and a program `hairbench` that lists scenes as ours
-// does and otherwise prints what it is called with.
+// Has a folder with a shell's completions, and a stand-in `hairbench` that lists scenes as the real
+// program does and otherwise prints its arguments.
 class Completion : public testing::Test {
 protected:
     fs::path completionsOf(const std::string& shell) const {
@@ -56,7 +56,7 @@ protected:
                "':$PATH; ";
     }
 
-    // What the program is called with where these keys are typed into a shell with completions.
+    // Types these keys into a shell with completions and returns the program's arguments.
     std::string called(TypedShell& shell, const std::string& keys) const {
         shell.type(keys + '\n');
         const std::string seen = shell.waitFor(".\r\n");
@@ -69,7 +69,7 @@ protected:
 
 TEST_F(Completion, IsReadByItsShellWithoutAWord) {
     for (const std::string& shell : shellNames()) {
-        if (!isThere(shell)) continue;  // bash at least
+        if (!isThere(shell)) continue;  // at least bash is there
         const Outcome read = runInShell(shell + " -n '" + completionsOf(shell).string() + "' 2>&1");
         EXPECT_EQ(read.status, 0) << shell;
         EXPECT_EQ(read.output, "") << shell;

@@ -1,4 +1,4 @@
-// The examples of --help are command lines of the commands that they are of.
+// The examples in a command's --help parse as command lines of this command.
 #include <algorithm>
 #include <string>
 #include <vector>
@@ -16,7 +16,7 @@ using testing::HasSubstr;
 using testing::IsEmpty;
 using testing::Not;
 
-// The words that a shell hands to the program: up to a pipe or a redirection, without quotes.
+// Returns the words that a shell passes to the program, up to a pipe or a redirection, unquoted.
 std::vector<std::string> shellWords(const std::string& line) {
     const std::size_t end = std::min(line.find(" |"), line.find(" >"));
     const Outcome outcome = runInShell("printf '%s\\n' " + line.substr(0, end));
@@ -47,14 +47,14 @@ TEST(Examples, AreInTheHelpOfTheirCommand) {
     }
 }
 
-// So that what parses is worth something.
+// The parser of this test refuses wrong command lines.
 TEST(Examples, WouldBeRefusedWithAnOptionThatThereIsNot) {
     EXPECT_THAT(whyNotParsed({"hairbench", "run", "smoke", "--no-such"}), HasSubstr("--no-such"));
     EXPECT_THAT(whyNotParsed({"hairbench", "render", "smoke"}), HasSubstr("--out"));
     EXPECT_THAT(whyNotParsed({"hairbench"}), Not(IsEmpty()));
 }
 
-// What completions and manual are made of is what --help lists.
+// Completions and the manual are made from the entries that --help lists.
 TEST(ProgramHelp, HasTheCommandsAndOptionsOfHelp) {
     const CommandHelp program = programHelp();
     ASSERT_GT(program.commands.size(), 20u);

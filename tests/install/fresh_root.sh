@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
-# fresh_root.sh PACKAGE: installs a .deb with all that it recommends in a fresh minimal root of this
-# system's release, where there is no source tree. There, as a user who has nothing, a shipped scene is
-# measured, its report made a page, a mesh is read, and a window is opened. Prints how long it took. Needs mmdebstrap and the
-# distribution's mirror, and root or the right to make user namespaces.
+# fresh_root.sh PACKAGE: installs a .deb and the packages that it recommends in a fresh minimal root
+# of this system's release, without a source tree. There a new user measures a shipped scene, makes a
+# page of its report, reads a mesh and opens a window. Prints how long that took. Needs mmdebstrap,
+# the distribution's mirror, and root or the right to make user namespaces.
 set -euo pipefail
 package=$(realpath "$1")
 # shellcheck source=/dev/null

@@ -1,5 +1,5 @@
-// What `cmake --install` puts somewhere runs there and wherever it is moved, with nothing of the
-// source tree or the build tree.
+// Tests that an installed tree runs in place and after a move, without files of the source tree or
+// the build tree.
 #include <cstdlib>
 #include <filesystem>
 #include <optional>
@@ -40,8 +40,8 @@ protected:
 
     static fs::path tree() { return folder->file("moved/there"); }
 
-    // The installed program in a folder of the test's own, for a user who has nothing; `before` are
-    // variables of the environment.
+    // Runs the installed program in a folder of the test's own, with an empty home folder. `before`
+    // sets environment variables.
     Outcome run(const std::string& arguments, const std::string& before = "") const {
         return runInShell(
             "cd '" + own.file("work").string() + "' && unset HAIRBENCH_PYTHON HAIRBENCH_PLOTLY " +
@@ -56,20 +56,20 @@ protected:
 };
 std::optional<TemporaryFolder> InstalledTree::folder;
 
-// Files that name a folder of the machine that built them.
+// Returns the files that contain the path of this folder.
 std::string filesThatName(const std::string& folder, const std::string& files) {
     return runInShell("grep -rlaF '" + folder + "' " + files).output;
 }
 
 TEST_F(InstalledTree, DoesNotNameTheMachineThatBuiltIt) {
     std::string files = "'" + (tree() / "share").string() + "'";
-#ifdef NDEBUG  // else asserts name their files
+#ifdef NDEBUG  // otherwise asserts contain the paths of their files
     files = "'" + tree().string() + "'";
 #endif
     EXPECT_EQ(filesThatName(HAIRBENCH_SOURCE_DIR, files), "");
     EXPECT_EQ(filesThatName(HAIRBENCH_BUILD_DIR, files), "");
     EXPECT_EQ(filesThatName(folder->file("first").string(), "'" + tree().string() + "'"), "");
-    // So that a name would be found.
+    // The search finds names.
     EXPECT_THAT(filesThatName("scene.schema.json", files), HasSubstr("thesis.json"));
 }
 
@@ -81,7 +81,7 @@ TEST_F(InstalledTree, KnowsItsScenesFromAnywhere) {
     EXPECT_EQ(checked.status, 0) << checked.output;
     EXPECT_THAT(
         checked.output, HasSubstr((tree() / "share/hairbench/scenes/thesis.json").string()));
-    // A scene of the user's own that is built on a shipped one, whose files are in its reach.
+    // A scene of the user's own has a shipped scene as its base, and may use the base's files.
     own.write(
         "work/mine.json",
         R"({"base": ")" + (tree() / "share/hairbench/scenes/rest.json").string() + R"("})");
@@ -94,7 +94,7 @@ TEST_F(InstalledTree, RunsAShippedScene) {
     ASSERT_EQ(outcome.status, 0) << outcome.output;
     const fs::path report = own.file("work/results/local/smoke.json");
     EXPECT_EQ(nlohmann::json::parse(textOf(report)).at("cases").size(), 1u);
-    EXPECT_THAT(  // by the schema that is installed, whatever the doctor says of this machine
+    EXPECT_THAT(  // by the installed schema, whatever the doctor finds on this machine
         run("doctor --reports results/local/smoke.json").output,
         HasSubstr("results/local/smoke.json: "));
 
@@ -144,7 +144,7 @@ def BasisCurves "hair"
     EXPECT_THAT(read.output, HasSubstr("\"strands\": 2"));
 }
 
-// What its messages name, without making anything.
+// Tests that the files exist that its messages name, without making an environment.
 TEST_F(InstalledTree, HasWhatMakesPythonEnvironments) {
     const std::string maker =
         "'" + (tree() / "libexec/hairbench/python-environment").string() + "'";

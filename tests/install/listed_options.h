@@ -9,14 +9,14 @@
 #include "benchmarks/commands/command_help.h"
 #include "tests/cli/run_hairbench.h"
 
-// The command's words without the program's name: "groom info".
+// Returns the command's words without the program's name: "groom info".
 inline std::string wordsBelow(const benchmarks::commands::CommandHelp& command) {
     const std::string name = benchmarks::commands::typedName(command);
     const std::size_t space = name.find(' ');
     return space == std::string::npos ? "" : name.substr(space + 1);
 }
 
-// What --help prints, asked once.
+// Returns the output of --help, which runs once for each command.
 inline const std::string& helpText(const benchmarks::commands::CommandHelp& command) {
     static std::map<std::string, std::string> texts;
     const std::string words = wordsBelow(command);
@@ -25,7 +25,7 @@ inline const std::string& helpText(const benchmarks::commands::CommandHelp& comm
     return text->second;
 }
 
-// The options in what --help prints, as CLI11 lists them: "  -o,--out FILE ...".
+// Returns the options in the output of --help, as CLI11 lists them: "  -o,--out FILE ...".
 inline std::set<std::string> listedOptions(const benchmarks::commands::CommandHelp& command) {
     static const std::regex line_pattern("  (-[-,a-zA-Z]*).*");
     std::set<std::string> options;
@@ -39,7 +39,7 @@ inline std::set<std::string> listedOptions(const benchmarks::commands::CommandHe
     return options;
 }
 
-// The commands in what --help prints: "  run                         plays ...".
+// Returns the commands in the output of --help: "  run                         plays ...".
 inline std::set<std::string> listedCommands(const benchmarks::commands::CommandHelp& command) {
     static const std::regex line_pattern("  ([a-z]+) .*");
     std::set<std::string> commands;

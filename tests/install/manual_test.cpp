@@ -1,4 +1,4 @@
-// The pages of the manual.
+// Tests the pages of the manual.
 #include <string>
 
 #include <gmock/gmock.h>
@@ -18,7 +18,7 @@ bool hasTool(const std::string& tool) {
     return runInShell("command -v " + tool + " >/dev/null").status == 0;
 }
 
-// As roff has it.
+// Escapes hyphens for roff.
 std::string withMinuses(const std::string& text) {
     std::string result;
     for (const char each : text) result += each == '-' ? "\\-" : std::string{each};
@@ -37,7 +37,7 @@ TEST(Manual, NamesEveryCommandAndOption) {
     }
 }
 
-// Every page, as the two programs that show them read it.
+// mandoc and groff, which show such pages, find no fault in any page.
 TEST(Manual, IsWithoutFault) {
     const TemporaryFolder folder;
     ASSERT_EQ(hairbench("man --out '" + folder.path().string() + "'").status, 0);
@@ -46,7 +46,7 @@ TEST(Manual, IsWithoutFault) {
     EXPECT_EQ(
         runInShell("ls " + pages + " | wc -l").output,
         std::to_string(withCommandsBelow(program).size()) + '\n');
-    if (hasTool("mandoc")) {  // a page that is made has no date
+    if (hasTool("mandoc")) {  // generated pages have no date
         const std::string lint = "mandoc -T lint -W warning " + pages;
         EXPECT_EQ(runInShell(lint + " | grep -v 'missing date'").output, "");
     }

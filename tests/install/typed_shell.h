@@ -12,7 +12,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-// A shell at a terminal, as a person types into it.
+// A shell in a terminal, with the keys that a person would type.
 class TypedShell {
 public:
     explicit TypedShell(const std::vector<std::string>& words) {
@@ -40,8 +40,8 @@ public:
             throw std::runtime_error("the terminal takes no keys");
     }
 
-    // What the terminal shows from the last wait on, up to and with `text`; all of it where the
-    // text does not come within some seconds.
+    // Returns the terminal's output since the last wait, up to the end of `text`, or all of it if
+    // the text does not come within 30 s.
     std::string waitFor(const std::string& text) {
         using Clock = std::chrono::steady_clock;
         const auto end = Clock::now() + std::chrono::seconds(30);

@@ -11,7 +11,7 @@ namespace {
 
 constexpr PciAddress kAddress{.domain = 0, .bus = 3, .device = 0, .function = 0};
 
-// The files as Linux's documentation of amdgpu shows them.
+// The files have the form in Linux's documentation of amdgpu.
 class AmdgpuTest : public testing::Test {
 protected:
     void write(const std::string& name, const std::string& text) {
@@ -63,7 +63,8 @@ TEST_F(AmdgpuTest, ReadsPowerAndLoad) {
     EXPECT_EQ(reading.load, 0.97);
 }
 
-// The table as the kernel's headers lay it out: 120 bytes, version 1.3, the status from byte 112.
+// The table has the layout of the kernel's headers: 120 bytes, version 1.3, and the status from
+// byte 112.
 TEST_F(AmdgpuTest, NamesWhatHoldsTheClockBack) {
     write("pp_dpm_sclk", "0: 500Mhz\n1: 2100Mhz *\n");
     const auto reasons = [&](int bit, char minor = 3) {
@@ -85,7 +86,7 @@ TEST_F(AmdgpuTest, NamesWhatHoldsTheClockBack) {
     EXPECT_EQ(reasons(32), Reasons{"thermal limit"});
     EXPECT_EQ(reasons(55), Reasons{"thermal limit"});
     EXPECT_EQ(reasons(56), Reasons());
-    EXPECT_EQ(reasons(32, 4), Reasons());  // laid out otherwise
+    EXPECT_EQ(reasons(32, 4), Reasons());  // has another layout
 }
 
 TEST_F(AmdgpuTest, ReadsAgainEveryTime) {

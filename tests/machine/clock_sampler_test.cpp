@@ -26,7 +26,7 @@ void waitForReads(const std::atomic<int>& reads, int count) {
     while (reads < count) std::this_thread::sleep_for(std::chrono::milliseconds(1));
 }
 
-// What a driver is asked for at the end of a round would be an answer of an idle device.
+// A reading at the end of a round would be that of an idle device.
 TEST(ClockSampler, ReadsNothingForWhoTakes) {
     std::atomic<int> reads = 0;
     ClockSampler sampler(std::make_unique<CountingSource>(reads));
@@ -40,7 +40,7 @@ TEST(ClockSampler, ReadsAgainAndAgainWhileARoundRuns) {
     sampler.begin();
     waitForReads(reads, 3);
     const std::vector<ClockReading> readings = sampler.take();
-    ASSERT_GE(readings.size(), 2u);  // the third may still be on its way
+    ASSERT_GE(readings.size(), 2u);  // the third may not have arrived yet
     for (std::size_t i = 0; i < readings.size(); ++i)
         EXPECT_EQ(readings[i].clock_mhz, 1001.0 + static_cast<double>(i));
 }
@@ -57,7 +57,7 @@ TEST(ClockSampler, ForgetsTheRoundBefore) {
     EXPECT_EQ(readings.front().clock_mhz, 1001.0 + static_cast<double>(before));
 }
 
-// A driver that keeps what it says for a second tells of the time before the round.
+// A driver that caches readings for a second reports the time before the round.
 TEST(ClockSampler, LeavesOutWhatIsOlderThanTheRound) {
     struct Old : ClockSource {
         explicit Old(std::atomic<int>& count) : reads(count) {}

@@ -41,7 +41,7 @@ TEST_F(EnvironmentTest, HasTheDevicesIdentity) {
 }
 
 // The specification's least values (Vulkan 1.3, Required Limits), for a device with tessellation
-// and geometry shaders as every device here has.
+// and geometry shaders like every device here.
 TEST_F(EnvironmentTest, HasLimitsThatMeetTheSpecification) {
     const auto limits = describe(engine::Validation::off).device.limits;
     const auto limit = [&](const std::string& name) {
@@ -87,7 +87,7 @@ TEST(BuildRecord, SaysHowTheProgramWasBuilt) {
 #ifdef NDEBUG
     EXPECT_THAT(build.flags, HasSubstr("-DNDEBUG"));
 #endif
-    // The suffix and the flag are the same statement.
+    // Suffix and flag say the same.
     if (!build.commit.empty())
         EXPECT_EQ(build.dirty, build.commit.ends_with("-dirty"));
     else

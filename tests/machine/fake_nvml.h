@@ -1,7 +1,7 @@
 #ifndef FAKE_NVML_H
 #define FAKE_NVML_H
 
-/* What the made-up NVML says, and how it was used. */
+/* The answers of the fake NVML, and how it was used. */
 struct FakeNvml {
     int init_result; /* 0 is success, here and below */
     int handle_result;

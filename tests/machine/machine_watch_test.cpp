@@ -61,7 +61,7 @@ TEST(PciAddress, IsWrittenAsTheSystemDoes) {
         addressText({.domain = 0x10000, .bus = 2, .device = 0, .function = 0}), "10000:02:00.0");
 }
 
-// Two packages of which one has begun anew: 3 J and 1.000001 J, by hand.
+// There are two packages, and one counter has wrapped: 3 J and 1.000001 J, worked out by hand.
 TEST(EnergyCounters, AddPackagesUp) {
     const TemporaryFolder folder;
     const auto write = [&](const char* package, const char* microjoules) {
@@ -87,7 +87,7 @@ using MachineWatchTest = GpuTest;
 TEST_F(MachineWatchTest, TellsSharesOfTheProcessorsTime) {
     MachineWatch watch(device());
     watch.begin();
-    // Some ticks of /proc/stat.
+    // Lasts for some ticks of /proc/stat.
     const auto start = std::chrono::steady_clock::now();
     while (std::chrono::steady_clock::now() - start < std::chrono::milliseconds(100)) {
     }
@@ -110,7 +110,7 @@ TEST_F(MachineWatchTest, KnowsNoClockOfASoftwareDevice) {
     EXPECT_FALSE(isThrottled(conditions, 0, 0));
 }
 
-// Clocks that may be locked or not, and whether they are.
+// Whether clocks can be locked, and whether they are.
 struct MadeUpClocks {
     bool may_lock = true;
     bool held = false;
@@ -130,7 +130,7 @@ private:
     MadeUpClocks& clocks_;
 };
 
-// Why the clocks can't be had so; empty: they can.
+// Returns the reason why the clocks can't be locked or left as `asked`; empty if they can.
 std::string refusal(hair::Clocks asked, std::unique_ptr<ClockSource> source, const char* type) {
     engine::DeviceInfo device;
     device.name = "Card 7";

@@ -53,7 +53,7 @@ TEST(MemoryMetrics, OfNothingAreNone) {
     EXPECT_TRUE(memoryMetrics(engine::MemoryLedger()).empty());
 }
 
-// The longer name's row counts where one name begins another.
+// If a name is a prefix of another, the longer name's row counts.
 TEST(MemoryPurpose, TellsSimilarNamesApart) {
     EXPECT_EQ(memoryPurpose("picture parameters"), "shading");
     EXPECT_EQ(memoryPurpose("picture"), "transfers");
@@ -67,7 +67,7 @@ TEST(MemoryPurpose, TellsSimilarNamesApart) {
 
 class MemoryOfCasesTest : public GpuTest {
 protected:
-    // Holds a case against the table and the allocator while it lives, drawn once.
+    // Compares a case with the table and the allocator while it exists, drawn once.
     static void expectAccounted(const char* name, const hair::Settings& settings) {
         SCOPED_TRACE(name);
         const std::uint64_t before = device().allocatedBytes();
@@ -83,7 +83,7 @@ protected:
             EXPECT_EQ(sumOf(metrics, "memory.purpose."), total(ledger));
             for (const auto& [entry, bytes] : ledger.bytes())
                 EXPECT_NE(memoryPurpose(entry.name), "other") << entry.name;
-            // A 32-bit colour and depth of every rendered pixel at least.
+            // At least a 32-bit colour and depth for every rendered pixel.
             const hair::RenderSettings& render = settings.render;
             EXPECT_GE(
                 valueOf(metrics, "memory.purpose.targets"),

@@ -19,7 +19,7 @@ constexpr PciAddress kNvidiaAddress{.domain = 0, .bus = 0x65, .device = 0, .func
 constexpr int kNotSupported = 3;  // NVML_ERROR_NOT_SUPPORTED
 constexpr int kUnknown = 999;     // NVML_ERROR_UNKNOWN
 
-// A made-up library in a healthy state, and what it says.
+// A fake library in a healthy state, with its answers.
 class Fake {
 public:
     explicit Fake(const char* path) : path_(path), library_(dlopen(path, RTLD_NOW)) {
@@ -170,7 +170,8 @@ TEST(Nvml, SaysNothingWhereEveryFunctionIsMissing) {
     EXPECT_FALSE(reading.idle);
 }
 
-// nvml.h: NVML_CLOCK_LIMIT_ID_RANGE_START is 0xffffff00, and NVML_CLOCK_LIMIT_ID_TDP the next one.
+// In nvml.h NVML_CLOCK_LIMIT_ID_RANGE_START is 0xffffff00, and NVML_CLOCK_LIMIT_ID_TDP is the next
+// value.
 TEST(Nvml, LocksAtTheDesignPowersClockUntilItGoes) {
     const Fake fake(FAKE_NVML);
     {
@@ -184,7 +185,7 @@ TEST(Nvml, LocksAtTheDesignPowersClockUntilItGoes) {
 
 TEST(Nvml, LocksNothingForAUserWhoMayNot) {
     const Fake fake(FAKE_NVML);
-    fake->locked_least = fake->locked_most = 1410;  // an administrator's
+    fake->locked_least = fake->locked_most = 1410;  // set by an administrator
     fake->lock_result = 4;  // NVML_ERROR_NO_PERMISSION
     {
         const auto source = fake.open();

@@ -13,13 +13,13 @@ std::optional<ProcessorTicks> ticksOf(const std::string& text) {
     return readProcessorTicks(folder.write("stat", text));
 }
 
-// ms that so many ticks take.
+// Returns the duration of `ticks` in ms.
 double milliseconds(double ticks) {
     return ticks * 1000.0 / static_cast<double>(sysconf(_SC_CLK_TCK));
 }
 
-// proc_stat(5): user nice system idle iowait irq softirq steal guest guest_nice, where guest time
-// is in user time already.
+// proc_stat(5): user nice system idle iowait irq softirq steal guest guest_nice. User time includes
+// guest time.
 TEST(ProcessorTicks, AddUpWhatProcStatMeans) {
     const auto ticks = ticksOf("cpu  100 20 30 1000 50 4 6 70 9 1\ncpu0 1 2 3 4 5 6 7 8 9 10\n");
     ASSERT_TRUE(ticks);
@@ -45,7 +45,8 @@ TEST(ProcessorLoad, IsWhatIsBusyLessOwn) {
     EXPECT_DOUBLE_EQ(load->steal, 20.0 / 200.0);
 }
 
-// Own time is known to the nanosecond, and busy time in ticks that may not have been counted yet.
+// The process's own time is known to the nanosecond. Busy time is in ticks that may not be counted
+// yet.
 TEST(ProcessorLoad, IsNeverNegative) {
     const auto load = loadBetween(
         {.busy = 1000, .steal = 10, .total = 5000}, {.busy = 1003, .steal = 10, .total = 5010},

@@ -162,8 +162,7 @@ TEST(MemoryRoom, IsWhatAnOlderControlGroupLeaves) {
     root.write("proc/self/cgroup", "9:name=systemd:/\n4:cpu,memory:/job/7\n0::/\n");
     root.write("sys/fs/cgroup/memory/memory.limit_in_bytes", "9223372036854771712\n");
     root.write("sys/fs/cgroup/memory/memory.usage_in_bytes", "123456789\n");
-    EXPECT_EQ(freeInControlGroup(root.path()), std::nullopt);  // this value means that there is no
-                                                               // limit
+    EXPECT_EQ(freeInControlGroup(root.path()), std::nullopt);  // means no limit
     // Inside a container, the group's folder is the root of the mount.
     root.write("sys/fs/cgroup/memory/memory.limit_in_bytes", "200000000\n");
     root.write("sys/fs/cgroup/memory/memory.stat", "cache 1\ntotal_inactive_file 23456789\n");

@@ -34,8 +34,8 @@ struct Machine {
         return std::vector<std::string>();
     };
     double held = 0.0;  // MHz, before and then after
-    FrameTime judged = &engine::FrameRecord::wall;  // the other times are those of a machine that
-                                                    // slows down
+    // Other times than the judged one are those of a machine that slows down.
+    FrameTime judged = &engine::FrameRecord::wall;
     int frames = 10;
     double now = 100.0;  // s
     int rounds = 0;

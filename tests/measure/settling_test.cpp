@@ -73,8 +73,8 @@ TEST(Settling, LeavesOutAFewRoundsThatStandApart) {
         return settlingRounds(
             levels(30, [&](double i) { return (i < count ? 1.2 : 1.0) + 0.002 * noise.normal(); }));
     };
-    EXPECT_EQ(slow(3.0), 1u);  // for the remaining two it happens once in binomial(29, 2) / 2 =
-                               // 203: not significant
+    // For the remaining two it happens once in binomial(29, 2) / 2 = 203: not significant.
+    EXPECT_EQ(slow(3.0), 1u);
     EXPECT_EQ(slow(4.0), 2u);
     EXPECT_EQ(slow(1.0), 0u);
 }

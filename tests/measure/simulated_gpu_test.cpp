@@ -192,8 +192,8 @@ TEST(SimulatedGpu, AShortFrameIsNoReasonToDoubtItsPasses) {
     EXPECT_NEAR(medianIn(result, "frame.overlap"), 0.0, 0.01 * gpu.truth());
 }
 
-// A host that has waited for more than 0.3 ms wakes up 0.15 ms later, as one with an H200 did. Of a
-// frame of 0.8 ms, 0.23 ms are its submission, and nothing is wrong with its passes.
+// A host that has waited for more than 0.3 ms wakes up 0.15 ms later, as one with an H200 did. A
+// frame of 0.8 ms then has 0.23 ms of submission, and nothing is wrong with its passes.
 TEST(SimulatedGpu, AHostThatFallsAsleepIsNoReasonToDoubtPasses) {
     GpuModel model;
     model.passes = {{"simulate", 84e3}, {"strands", 1500e3}};

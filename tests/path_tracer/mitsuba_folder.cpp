@@ -26,7 +26,7 @@ using namespace hair::reference;
 
 // ---- XML ----------------------------------------------------------------------------------------
 
-// An element of what writeMitsubaScene() writes, which has neither text nor comments.
+// An XML element of writeMitsubaScene(), which writes neither text nor comments.
 struct Element {
     std::string tag;
     std::map<std::string, std::string> attributes;
@@ -39,7 +39,7 @@ struct Element {
     bool is(std::string_view its_tag, std::string_view type) const {
         return tag == its_tag && attribute("type") == type;
     }
-    // The child with this name.
+    // Returns the child with this name, or null.
     const Element* find(std::string_view name) const {
         for (const Element& child : children)
             if (child.attribute("name") == name) return &child;
@@ -65,7 +65,7 @@ public:
         at_ = text_.find('<', at_);
     }
 
-    // The element that begins here; then what is behind it.
+    // Reads the element that begins here, and moves past it.
     Element read() {
         Element element;
         ++at_;
@@ -114,7 +114,7 @@ std::string contentOf(const std::filesystem::path& path) {
 
 // ---- Geometry -----------------------------------------------------------------------------------
 
-// Lines "x y z radius", an empty one after each strand.
+// Reads lines "x y z radius" with an empty line after each strand.
 std::vector<std::vector<glm::dvec4>> readCurves(const std::filesystem::path& path) {
     std::istringstream lines(contentOf(path));
     std::vector<std::vector<glm::dvec4>> curves(1);
@@ -131,7 +131,7 @@ std::vector<std::vector<glm::dvec4>> readCurves(const std::filesystem::path& pat
     return curves;
 }
 
-// What writeMaterialPly() writes: ASCII, positions, normals and, if any, texture coordinates.
+// Reads a file of writeMaterialPly(): ASCII, positions, normals and, if any, texture coordinates.
 MattMesh readPly(const std::filesystem::path& path) {
     std::istringstream file(contentOf(path));
     std::size_t vertices = 0;

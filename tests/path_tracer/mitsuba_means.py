@@ -1,9 +1,9 @@
-"""Mean radiances of scenes of Mitsuba 3, to hold our own path tracer against:
-mitsuba_means.py SAMPLES DIR ...
+"""Prints the mean radiances of scenes by Mitsuba 3, to compare with our own path tracer.
 
-Each DIR is what `hairbench export SCENE --mitsuba DIR` wrote. SAMPLES a pixel are traced in 16
-parts of independent seeds; the standard error is of those. Glossy meshes are taken as matt, as in
-trace_folder.
+usage: mitsuba_means.py SAMPLES DIR ...
+
+`hairbench export SCENE --mitsuba DIR` writes each DIR. Traces SAMPLES a pixel in 16 parts with
+independent seeds, which give the standard error. Takes glossy meshes as matt, as trace_folder does.
 """
 
 import os
@@ -17,7 +17,7 @@ PARTS = 16
 
 
 def matt(scene):
-    """The scene's XML with `diffuse` instead of `principled`."""
+    """Returns the scene's XML with `diffuse` instead of `principled`."""
     scene = re.sub(r'\s*<float name="(metallic|roughness)"[^>]*/>', "", scene)
     return scene.replace('type="principled"', 'type="diffuse"').replace(
         'name="base_color"', 'name="reflectance"'
@@ -31,7 +31,7 @@ def main():
     for folder in sys.argv[2:]:
         with open(os.path.join(folder, "scene.xml"), encoding="utf-8") as file:
             xml = matt(file.read())
-        path = os.path.join(folder, "matt.xml")  # its files are named from its folder
+        path = os.path.join(folder, "matt.xml")  # it names files relative to its folder
         with open(path, "w", encoding="utf-8") as file:
             file.write(xml)
         scene = mi.load_file(path)

@@ -1,4 +1,4 @@
-// Our path tracer against Mitsuba 3, which shares nothing with it, on the same files.
+// Compares our path tracer with Mitsuba 3, which shares no code with it, on the same files.
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
@@ -29,8 +29,8 @@ namespace {
 
 // ---- Scenes -------------------------------------------------------------------------------------
 
-// Radii are not much smaller than the scenes: Mitsuba moves the origins of rays by 9e-5 (1 + the
-// greatest coordinate in cm), which is below 1 % of a radius then.
+// Radii are not much smaller than the scenes. Mitsuba moves the origins of rays by 9e-5 (1 + the
+// greatest coordinate in cm), which is then below 1 % of a radius.
 
 float numberOf(std::uint32_t index, std::uint32_t purpose) { return random01(3, index, purpose); }
 
@@ -59,12 +59,12 @@ Drawn withCamera(const glm::vec3& color, float distance, float field_of_view) {
     settings.render.height = 24;
     settings.render.background = glm::vec3(0);
     settings.shading.color = color;
-    settings.shading.cuticle_tilt = 5;  // more than hair's, so that its sign shows
+    settings.shading.cuticle_tilt = 5;  // greater than in hair, so that a wrong sign shows
     settings.shading.lights.clear();
     return drawn;
 }
 
-// A wide fibre from the lower left to the upper right, lit from the front and from behind.
+// Returns a wide fibre from the lower left to the upper right, lit from the front and from behind.
 Drawn fiber() {
     Drawn drawn = withCamera({0.5f, 0.3f, 0.15f}, 12, 20);
     addStrand(drawn, {{-6, -2, -0.4f}, {6, 2, 0.4f}}, 0.5f, 0.5f);
@@ -74,7 +74,7 @@ Drawn fiber() {
     return drawn;
 }
 
-// Six layers of upright fibres, with a sphere of light.
+// Returns six layers of upright fibres, with a spherical light.
 Drawn bundle(const glm::vec3& light) {
     Drawn drawn = withCamera({0.5f, 0.3f, 0.15f}, 8, 24);
     for (std::uint32_t i = 0; i < 6 * 24; ++i) {
@@ -88,7 +88,7 @@ Drawn bundle(const glm::vec3& light) {
     return drawn;
 }
 
-// Fair, curved, tapered hair on a matt floor, with a point of light.
+// Returns fair, curved, tapered hair on a matt floor, with a point light.
 Drawn tuft(const glm::vec3& light) {
     Drawn drawn = withCamera({0.8f, 0.65f, 0.45f}, 9, 26);
     for (std::uint32_t i = 0; i < 160; ++i) {
@@ -137,14 +137,14 @@ void writeFolder(const Drawn& drawn, const std::filesystem::path& folder) {
 
 // ---- Comparison ---------------------------------------------------------------------------------
 
-// What Mitsuba 3.9.1 (scalar_rgb) has for the mean of the picture, linear RGB, and its standard
-// error. HAIRBENCH_TRACED_SCENES=DIR test_path_tracer leaves the scenes in DIR, and
-// `.deps/reference/bin/python tests/path_tracer/mitsuba_means.py 1024 DIR/*` prints these lines:
-// 1024 samples a pixel, seeds 0 to 15.
+// Mean and standard error of the picture by Mitsuba 3.9.1 (scalar_rgb), linear RGB, with 1024
+// samples a pixel and seeds 0 to 15. HAIRBENCH_TRACED_SCENES=DIR test_path_tracer writes the scenes
+// to DIR. `.deps/reference/bin/python tests/path_tracer/mitsuba_means.py 1024 DIR/*` prints these
+// numbers.
 struct Published {
     const char* name;
     std::function<Drawn()> draw;
-    std::uint32_t samples;  // a pixel, of ours
+    std::uint32_t samples;  // of our path tracer, per pixel
     glm::dvec3 mean;
     glm::dvec3 error;
 };
@@ -177,7 +177,7 @@ const Published kPublished[]{
      {0.001246, 0.001114, 0.000853}},
 };
 
-// The folder of a scene's files.
+// Has the folder with a scene's files.
 class SceneFolder {
 public:
     explicit SceneFolder(const Published& published) : path_(temporary_.path()) {
@@ -193,7 +193,7 @@ private:
     std::filesystem::path path_;
 };
 
-// Both means within three standard errors of their difference.
+// Expects means to be equal within three standard errors of their difference.
 void expectNear(
     const TracedPicture& ours, const glm::dvec3& mean, const glm::dvec3& error, double most) {
     const glm::dvec3 our_mean = ours.mean();
@@ -222,7 +222,7 @@ INSTANTIATE_TEST_SUITE_P(
     Scenes, PathTracerAgainstMitsuba, testing::ValuesIn(kPublished),
     [](const auto& scene) { return std::string(scene.param.name); });
 
-// The program that is installed, and not only what it said once.
+// Runs the installed Mitsuba, instead of using its recorded means.
 TEST(PathTracerAgainstMitsuba, HasTheMeanLightOfOneThatRunsNow) {
     if (!hasReferencePython()) GTEST_SKIP() << kNoReference;
     constexpr std::uint32_t kSamples = 128;

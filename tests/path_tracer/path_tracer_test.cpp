@@ -1,4 +1,4 @@
-// The path tracer against what is known without it.
+// Compares the path tracer with results that are known independently.
 #include "hair/reference/path_tracer.h"
 
 #include <array>
@@ -22,14 +22,14 @@ using rendering::brownFiber;
 using rendering::makeFiber;
 using rendering::whiteFiber;
 
-// Control points of a straight fibre.
+// Returns the control points of a straight fibre.
 std::vector<glm::dvec4> straight(const glm::dvec3& root, const glm::dvec3& tip, double radius) {
     std::vector<glm::dvec4> control;
     for (int i = -1; i <= 2; ++i) control.emplace_back(root + double(i) * (tip - root), radius);
     return control;
 }
 
-// A fibre across the whole of a narrow picture.
+// Returns a fibre across the whole of a narrow picture.
 TracedScene oneFiber(const rendering::Fiber& fiber) {
     TracedScene scene;
     scene.fiber = fiber;
@@ -37,7 +37,8 @@ TracedScene oneFiber(const rendering::Fiber& fiber) {
     return scene;
 }
 
-// From so far away that rays are parallel: they see the middle half of the fibre's width.
+// Returns a camera so far away that rays are parallel. They see the middle half of the fibre's
+// width.
 TracedCamera farCamera() {
     return {
         .position = {0, 0, 1000},
@@ -46,14 +47,14 @@ TracedCamera farCamera() {
         .height = 8};
 }
 
-// Round its middle, where |h| <= 0.5, a fibre is as bright as what it scatters is in the mean over
-// h, which the midpoint rule knows.
+// The fibre's middle, |h| <= 0.5, is as bright as the mean over h of the light that it scatters,
+// which the midpoint rule gives.
 TEST(PathTracer, SeesWhatOneFiberScatters) {
     TracedScene scene = oneFiber(makeFiber(brownFiber()));
     const glm::dvec3 to_light = glm::normalize(glm::dvec3(0.3, 0.8, 0.4));
     scene.directions = {{-to_light, glm::dvec3(2)}};
     const TracedPicture picture = PathTracer(scene).trace(farCamera(), 256, 1);
-    // x towards the tip, and the eye at the azimuth 0: y is towards it.
+    // x points to the tip. The eye is at azimuth 0, so y points to it.
     const glm::dvec3 wo(0, 1, 0);
     const glm::dvec3 wi(to_light.x, to_light.z, -to_light.y);
     constexpr int kPlaces = 1000;
@@ -65,12 +66,12 @@ TEST(PathTracer, SeesWhatOneFiberScatters) {
     const glm::dvec3 error = picture.standardError();
     for (int c = 0; c < 3; ++c) {
         EXPECT_LT(error[c] / expected[c], 0.01);
-        // Rays are 0.0005 rad apart and the camera is not at an infinite distance: 0.001 of h.
+        // The camera is at a finite distance. Rays differ by 0.0005 rad, which is 0.001 of h.
         EXPECT_NEAR(mean[c] / expected[c], 1, 3 * error[c] / expected[c] + 0.002) << c;
     }
 }
 
-// A tuft of fibres that cross.
+// Returns a tuft of crossing fibres.
 TracedScene tangle(const rendering::Fiber& fiber) {
     TracedScene scene;
     scene.fiber = fiber;
@@ -90,8 +91,8 @@ TracedCamera nearCamera() {
     return {.position = {0, 0, 6}, .field_of_view = 30, .width = 12, .height = 12};
 }
 
-// In light of one radiance from everywhere, hair that absorbs nothing can't be seen. Paths that end
-// unfinished, after 63 fibres, are all that is missing.
+// In uniform light from all directions, hair that absorbs nothing is invisible. Only paths that are
+// cut off after 63 fibres are missing.
 TEST(PathTracer, KeepsAllLightInAWhiteFurnace) {
     TracedScene scene = tangle(makeFiber(whiteFiber(0.3f, 0.3f)));
     scene.background = glm::dvec3(1);
@@ -101,7 +102,7 @@ TEST(PathTracer, KeepsAllLightInAWhiteFurnace) {
     EXPECT_NEAR(picture.mean().g, 1, 4 * error + 0.001);
 }
 
-// A sphere of light is as bright as a point where it is small, and the two are sampled differently.
+// A small spherical light is as bright as a point light, although they are sampled differently.
 TEST(PathTracer, HasOneLightFromPointsAndSmallSpheres) {
     TracedScene scene = tangle(makeFiber(whiteFiber(0.7f, 0.7f)));
     const glm::dvec3 position(3, 5, 8);
@@ -127,7 +128,7 @@ TEST(PathTracer, IsTheSamePictureAgain) {
     EXPECT_NE(first.radiances, tracer.trace(nearCamera(), 2, 8).radiances);
 }
 
-// Light that a matt floor sends to the eye: reflectance / pi times the irradiance.
+// A matt floor has the radiance reflectance / pi times the irradiance.
 TEST(PathTracer, SeesAMattFloor) {
     TracedScene scene;
     MattMesh& floor = scene.meshes.emplace_back();

@@ -1,6 +1,8 @@
-// Traces scenes of `hairbench export SCENE --mitsuba DIR` by our own path tracer:
-// trace_folder DIR SAMPLES [OUT.exr] [SEED]. Prints the picture's mean radiance, linear RGB, and
-// its standard error, as mitsuba_means.py beside this file does for Mitsuba.
+// Traces a scene of `hairbench export SCENE --mitsuba DIR` with our own path tracer. Prints the
+// picture's mean radiance, linear RGB, and its standard error, as mitsuba_means.py beside this file
+// does for Mitsuba.
+//
+// usage: trace_folder DIR SAMPLES [OUT.exr] [SEED]
 #include <cstdint>
 #include <cstdlib>
 #include <exception>

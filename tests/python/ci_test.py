@@ -1,6 +1,7 @@
-"""What others' CI runs: the shell steps of the action and of docs/comparing.md, on repositories made here.
+"""Tests CI for other repositories: runs the shell steps of the action and of docs/comparing.md in
+repositories made here.
 
-cmake and scripts/setup are stand-ins there, whose builds are the program under test.
+cmake and scripts/setup are stand-ins, and both builds are the program under test.
 """
 
 import json
@@ -17,7 +18,8 @@ from support import REPOSITORY, hairbench, need_device
 
 ACTION = REPOSITORY / ".github" / "actions" / "gate"
 SMOKE = str(REPOSITORY / "scenes" / "smoke.json")
-# One case of 64 x 36 px. The time is over once both builds have warmed up: that shows what differs.
+# One case of 64 x 36 px. The time is up after both builds have warmed up, which already shows any
+# difference of pictures and counts.
 TINY = ("--axis /render/msaa=1 --set /render/width=64 --set /render/height=36 --max-time 0"
         " --max-minutes 0.001")
 
@@ -36,7 +38,7 @@ done
 
 
 def evaluated(text, names):
-    """GitHub's expressions in ${{ }}: names with dots, of which || takes the first not empty."""
+    """Evaluates GitHub's expressions in ${{ }}: names with dots, and a || b, the first not empty."""
     def value(match):
         for name in match[1].split("||"):
             if names.get(name.strip(), ""):
@@ -67,14 +69,14 @@ class Repository(unittest.TestCase):
         path.chmod(0o755)
 
     def shell(self, script, **variables):
-        # As GitHub and GitLab run steps.
+        # GitHub and GitLab run steps in this way.
         return subprocess.run(
             ["bash", "--noprofile", "--norc", "-eo", "pipefail", "-c", script], cwd=self.work,
             env=self.environment | variables, text=True, stdout=subprocess.PIPE,
             stderr=subprocess.STDOUT, timeout=500)
 
     def make_branches(self):
-        """main went on after the branch left it: only the commit 'old' is the branch's base."""
+        """Makes a branch and then another commit on main, so that the branch's base is 'old'."""
         scripts = self.work / "scripts"
         scripts.mkdir(parents=True)
         for name in ("ci-gate", "gate-table"):
@@ -137,7 +139,7 @@ class Action(Repository):
         return (self.folder / "summary").read_text()
 
     def made_builds(self, slower):
-        """Command lines that measure nothing but leave a report whose strands pass is made up."""
+        """Returns command lines that measure nothing but write a report with a made-up strands pass."""
         sides = []
         for name, time in (("a", 3.0), ("b", 3.0 * slower)):
             metric = {"unit": "ms", "hint": "lower", "mode": "isolated", "median": time, "mad": 0.0,
@@ -214,7 +216,7 @@ class GitLab(Repository):
         self.tool("apt-get", '#!/bin/sh\necho "apt-get $*" >>"$STAND_IN_LOG"\n')
         variables = job["variables"] | {
             "SCENE": SMOKE, "CI_MERGE_REQUEST_DIFF_BASE_SHA": "main",
-            # Other strands: pictures differ, which the warm-up shows.
+            # Another density changes the pictures, which the warm-up shows.
             "OPTIONS": TINY + " --set-b /strands/density=2"}
         self.assertEqual(set(variables) - set(job["variables"]),
                          {"CI_MERGE_REQUEST_DIFF_BASE_SHA"})

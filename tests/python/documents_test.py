@@ -1,4 +1,4 @@
-"""Runs what docs/results.md and docs/notebook.ipynb show, in their order."""
+"""Runs the examples of docs/results.md and docs/notebook.ipynb in order."""
 
 import contextlib
 import io
@@ -15,7 +15,7 @@ from support import REPOSITORY, need_device  # noqa: E402
 
 
 def examples(name):
-    """The Python of a page of docs/, a piece for each block or cell."""
+    """Returns the Python code of a page of docs/, one text for each block or cell."""
     path = REPOSITORY / "docs" / name
     if path.suffix == ".md":
         return re.findall(r"^```python\n(.*?)^```$", path.read_text(), re.M | re.S)
@@ -49,7 +49,7 @@ class Documents(unittest.TestCase):
 
     def test_the_notebook(self):
         cells = json.loads((REPOSITORY / "docs" / "notebook.ipynb").read_text())["cells"]
-        self.assertFalse(any(cell.get("outputs") for cell in cells))  # they would be a machine's
+        self.assertFalse(any(cell.get("outputs") for cell in cells))  # outputs would depend on the machine
         names, _ = self.play("notebook.ipynb")
         triangles = names["frame"]["counts.root_triangles"].iloc[0]
         strands = [triangles * density for density in names["DENSITIES"]]
@@ -58,7 +58,7 @@ class Documents(unittest.TestCase):
         for line in lines:
             self.assertEqual(list(line.get_xdata()), strands)
             self.assertTrue(all(time > 0 for time in line.get_ydata()))
-        # More strands hide more of the head: no two pictures are equal, and none is of one colour.
+        # More strands hide more of the head, so the pictures differ. None is of one colour.
         pictures = [panel.get_images()[0].get_array() for panel in names["panels"]]
         self.assertEqual(len(pictures), len(names["DENSITIES"]))
         for i, picture in enumerate(pictures):

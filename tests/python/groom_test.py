@@ -1,4 +1,4 @@
-"""Grooms as arrays, held against files of the corpus that are read here without hairbench."""
+"""Compares grooms as arrays with files of the corpus, which the tests read without hairbench."""
 
 import struct
 import tempfile
@@ -13,14 +13,14 @@ from support import REPOSITORY, hairbench
 CORPUS = REPOSITORY / "tests" / "corpus"
 BITS = numpy.uint32  # points are compared by their bits
 
-# What the formats' own rules are for strands: of any length, or all of one.
+# Formats with strands of any number of points, and formats with the same number for all.
 ANY_LENGTH = (".hair", ".ply", ".obj", ".gltf", ".glb", ".usda", ".abc", ".data")
 ONE_LENGTH = (".npy", ".npz", ".tfx", ".hgl")
 WITH_WIDTHS = (".hair", ".ply", ".gltf", ".glb", ".usda", ".abc")
 
 
 def numbers(count, seed):
-    """Lengths of the order of hair's, with all bits of their mantissas in use."""
+    """Returns lengths as of hair that use all bits of their mantissas."""
     return numpy.random.default_rng(seed).uniform(-0.3, 0.3, count).astype(numpy.float32)
 
 
@@ -44,7 +44,7 @@ class GroomTest(unittest.TestCase):
 
 class ReadGroom(GroomTest):
     def test_has_the_points_of_a_list_of_strands(self):
-        # USC-HairSalon: int32 strands, then for each int32 points and its float32 coordinates.
+        # USC-HairSalon: int32 strand count, then for each strand int32 point count and float32 xyz.
         data = (CORPUS / "data" / "three_strands.data").read_bytes()
         place, points, offsets = 4, [], [0]
         for _ in range(struct.unpack_from("<i", data)[0]):
@@ -82,7 +82,7 @@ class ReadGroom(GroomTest):
         self.assertEqual(set(numpy.diff(groom.offsets)), {positions.shape[1]})
 
     def test_gives_one_width_to_all_points(self):
-        # A header alone may have the width: bytes 20 to 23.
+        # The width may be only in the header: bytes 20 to 23.
         data = bytearray((CORPUS / "hair" / "points_only.hair").read_bytes())
         struct.pack_into("<f", data, 20, 0.5)
         path = self.folder / "one_width.hair"
@@ -131,7 +131,7 @@ class WriteGroom(GroomTest):
     def test_writes_what_others_read(self):
         groom = hairbench.Groom(numbers(36, 1).reshape(-1, 3), [0, 4, 8, 12], abs(numbers(12, 2)))
         with warnings.catch_warnings():
-            warnings.simplefilter("error")  # nothing is lost, and nothing was there but this
+            warnings.simplefilter("error")  # no warning: nothing is lost
             hairbench.write_groom(self.folder / "groom.npz", groom)
         archive = numpy.load(self.folder / "groom.npz")
         self.assert_bits(archive["positions"], groom.points.reshape(3, 4, 3))

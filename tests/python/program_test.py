@@ -1,4 +1,4 @@
-"""run() and gate() as calls of the program, and of stand-ins that say and do what is asked."""
+"""Tests run() and gate() with the program, and with stand-ins that print and do what a test needs."""
 
 import json
 import os
@@ -43,7 +43,7 @@ class InFolder(unittest.TestCase):
         self.folder = Path(holder.name)
 
     def stand_in(self, script):
-        """The program from here on is this shell script."""
+        """Replaces the program by this shell script until the test ends."""
         path = self.folder / "stand_in"
         path.write_text("#!/bin/sh\n" + script)
         path.chmod(0o700)
@@ -91,7 +91,7 @@ class Run(InFolder):
         self.assertEqual((result.status, result.verdict), (0, "ok"))
 
     def test_survives_a_program_that_says_a_lot(self):
-        # More than a pipe holds, on both.
+        # Both outputs are longer than a pipe's buffer.
         self.stand_in("seq 100000; seq 100000 >&2\n")
         result = hairbench.run("made.json", out=self.folder / "r.json", progress=None)
         self.assertTrue(result.text.endswith("100000\n"))
@@ -156,7 +156,7 @@ class Run(InFolder):
 
 
 class Gate(InFolder):
-    """Builds that measure nothing but write a report that is made here."""
+    """Tests gate() on builds that measure nothing but write a made-up report."""
 
     def side(self, name, factor):
         report = made_report()

@@ -1,5 +1,5 @@
-// The Python module in benchmarks/python, its documents, and what runs in others' CI, by the tests
-// beside this file.
+// Tests the Python module in benchmarks/python, its documents, and the CI steps for other
+// repositories, by the scripts beside this file.
 #include <cstdlib>
 #include <string>
 

@@ -1,4 +1,4 @@
-"""read_report() against a report made by hand, the JSON of a measured one and the tables of README and docs."""
+"""Compares read_report() with a report made by hand, a measured one's JSON and the tables of README and docs."""
 
 import json
 import math
@@ -14,7 +14,7 @@ MEASURED_ON_A_GPU = REPOSITORY / "results" / "thesis-h200-bbe05d81e193.json"
 
 
 def table(page, beginning):
-    """The rows of the table of a page that has a line beginning so, each by its headings."""
+    """Returns the rows, by headings, of the page's table that has a line with this beginning."""
     lines = (REPOSITORY / page).read_text().splitlines()
     start = next(i for i, line in enumerate(lines) if line.startswith(beginning))
     heads = [each.strip() for each in lines[start].strip("|").split("|")]
@@ -124,7 +124,7 @@ class MeasuredReport(unittest.TestCase):
         self.assertEqual(count, len(self.frame))
         self.assertGreater(count, 16 * 10)
 
-    # The program printed the tables, to three digits.
+    # The program printed the tables to three digits.
     def assert_printed(self, printed, value, row):
         self.assertAlmostEqual(value / float(printed), 1, delta=0.0051, msg=str(row))
 

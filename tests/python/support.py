@@ -1,4 +1,4 @@
-"""What the tests of the Python module share: the module itself and the files of the repository."""
+"""Gives all tests of the Python module access to the module and the repository's files."""
 
 import os
 import sys
@@ -13,7 +13,7 @@ from hairbench.program import call  # noqa: E402
 
 
 def need_device(test: unittest.TestCase) -> None:
-    """Skips the test without a Vulkan device, or fails it where HAIRBENCH_REQUIRE asks for one."""
+    """Skips the test without a Vulkan device, or fails it if HAIRBENCH_REQUIRE asks for one."""
     if call(["devices"], None).status == 0:
         return
     if "device" in os.environ.get("HAIRBENCH_REQUIRE", "").split(","):

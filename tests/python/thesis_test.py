@@ -1,6 +1,6 @@
-"""scripts/reproduce-thesis makes every figure and table, says what it could not make, and asks
-hairbench for nothing that it does not know: a stand-in draws and measures in its place, and has it
-list the cases that it is asked for."""
+"""Tests that scripts/reproduce-thesis makes every figure and table and reports those that it could
+not make. A stand-in draws and measures instead of hairbench, but has hairbench list the cases, so
+an unknown option or case fails."""
 
 import importlib.machinery
 import importlib.util
@@ -111,7 +111,7 @@ class ReproduceThesis(unittest.TestCase):
         for defect in THESIS.DEFECTS:
             self.assertIn(defect.pointer, page)
             self.assertIn(defect.here, page)
-        # Twelve figures, three that a device without 8 samples can draw, two for each defect.
+        # Figures, three more that a device without 8 samples can draw, and two for each defect.
         shown = re.findall(r'<img src="([^"]*)" alt="([^"]+)"', page)
         self.assertEqual(len(shown), len(THESIS.FIGURES) + 3 + 2 * len(THESIS.DEFECTS))
         for file, _ in shown:
@@ -121,13 +121,13 @@ class ReproduceThesis(unittest.TestCase):
         for strands in ("5,568", "8,704", "5,576"):
             self.assertIn(strands, page)
         self.assertIn("0.5 ms (0.25 to 0.75)", page)
-        # Device, driver and commit, as text whatever they are called.
+        # Device, driver and commit are escaped text.
         for fact in ("Card &lt;7&gt; (discrete)", "drv, 1.2, Vulkan 1.3.0", "commit abcdef"):
             self.assertIn(fact, page)
 
     def test_says_what_an_original_costs(self):
         self.assertEqual(self.reproduce("--only", "defect taper").returncode, 0)
-        # Its frames take 4 ms in the place of 2, the pass half of each.
+        # The defect's frames take 4 ms instead of 2, and the pass takes half of each.
         self.assertIn("<td>4 ms</td><td>2 ms</td><td>2.00 times</td>", self.page())
         self.assertIn("<td>2 ms</td><td>1 ms</td><td></td>", self.page())
 

@@ -47,7 +47,7 @@ TEST(HairColor, IsLinearAndComesBackFromPigments) {
         const glm::dvec3 color = linearColor(shading);
         shading.color_from = ColorSource::rgb;
         shading.color = toDisplay(color);
-        // A color's rounding to float is below 1e-7, its logarithm's below 1e-5 for these colors.
+        // A colour's rounding to float is below 1e-7, its logarithm's below 1e-5 for these colours.
         expectNear(absorption(shading), absorbed, 2e-5);
     }
 }

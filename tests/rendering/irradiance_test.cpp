@@ -114,8 +114,8 @@ TEST(EnvironmentLights, HaveAllLightOfThePicture) {
 }
 
 // Twelve directions are the corners of an icosahedron, with equal parts of an even light, except
-// for the texels at the parts' edges: 250 of a part's 2,700. Half of these are on either side, but
-// for their root.
+// for the texels at the parts' edges: 250 of a part's 2,700. Half of these are on either side, up
+// to the square root of their number.
 TEST(EnvironmentLights, OfEvenLightAreEqualAndWiderThanTheirPart) {
     const auto lights =
         environmentLights(environmentOf([](auto) { return 0.7; }), {.tone_map = ToneMap::srgb}, 12);

@@ -227,8 +227,9 @@ struct Ways {
 
 // Zinke et al. 2008, (13) to (15): light that goes forward through i fibres, back, and through i
 // again; and all the ways of going back three times. Here the first i fibres are a mean of
-// Poisson's distribution: exp(-i (1 - f)) of the light gets there, and meets i f fibres. Of three
-// times back, m of the ways pass m fibres in and out and n more twice within.
+// Poisson's distribution: exp(-i (1 - f)) of the light gets there, and meets i f fibres. For light
+// that goes back three times, there are m ways that pass m fibres in and out and n more twice
+// within.
 inline Ways backThroughNeighbours(const Half& forward, const Half& backward) {
     Ways ways;
     for (int channel = 0; channel < 3; ++channel) {
@@ -267,10 +268,10 @@ inline Ways forwardThrough(const Half& forward, double strands) {
 }
 
 // Zinke et al. 2008, (5) to (11): the fibre's own light and the light that its neighbours send
-// back. It counts the light that nothing stops and the light that others have scattered evenly
-// over a half turn. `density` is the part of each fibre's scattered light that meets others. Light
-// from the neighbours comes back round the light's azimuth as (1 + cos phi) / (2 pi). Of the light
-// behind the fibre, `ended` leaves the hair, and `returned` comes back from there.
+// back. It counts the light that nothing stops and the light that others have scattered evenly over
+// a half turn. `density` is the part of each fibre's scattered light that meets others. Light from
+// the neighbours comes back round the light's azimuth as (1 + cos phi) / (2 pi). From the light
+// behind the fibre, `ended` leaves the hair, and `returned` comes back.
 inline glm::dvec3 dualScattering(
     const Fiber& fiber, double density, const View& view, double h, double strands, double ended,
     double returned) {

@@ -122,10 +122,10 @@ TEST_F(ShadingModelPictures, FibresLetLightThroughOnTheOtherSide) {
     EXPECT_LT(brightestPlace(settings), -0.1);
 }
 
-// A white furnace: under radiance 1 from everywhere a white fibre shows 1. Light of color 1 has the
-// irradiance pi, so over directions spread evenly over the sphere the mean is 1 / 4. 128 directions
-// meet lobes as wide as these to 1 %, pixels the width of the strand to 1 %; the model loses up to
-// 5 % (pbrt's tests of it allow as much).
+// A white furnace: under radiance 1 from everywhere a white fibre shows 1. Light of colour 1 has
+// the irradiance pi, so over directions spread evenly over the sphere the mean is 1 / 4. 128
+// directions meet lobes as wide as these to 1 %, pixels the width of the strand to 1 %; the model
+// loses up to 5 % (pbrt's tests of it allow as much).
 TEST_F(ShadingModelPictures, WhiteFibresReturnAllLight) {
     constexpr int kDirections = 128;
     Settings settings = wideStrand(ShadingModel::marschner, 0.0);

@@ -38,7 +38,7 @@ protected:
         return drawGroom(device(), settings, straight(), nullptr);
     }
 
-    // Colors other than the background's.
+    // Colours other than the background's.
     static std::set<std::array<int, 3>> colors(const Pixels& pixels) {
         std::set<std::array<int, 3>> found;
         for (std::size_t i = 0; i < pixels.size(); i += 4)
@@ -100,8 +100,8 @@ TEST_F(ShowPictureTest, StrandsKeepColorsOfTheirOwn) {
     EXPECT_EQ(differingPixels(draw(shown), all), 0u);
 }
 
-// The number of fragments of a pixel in a picture that counts them; -1 if its three colors match
-// no number.
+// The number of fragments of a pixel in a picture that counts them; -1 if its three colours
+// match no number.
 int countOf(const std::uint8_t* pixel) {
     // Green is full at 32, in steps of 8 of 255.
     const int count = static_cast<int>(std::lround(pixel[1] * 32.0 / 255.0));
@@ -171,7 +171,7 @@ protected:
         return lit;
     }
 
-    // The a of each color in the picture, in ascending order.
+    // The a of each colour in the picture, in ascending order.
     static std::vector<double> absorptions(const Pixels& pixels) {
         std::vector<double> found;
         for (const auto& color : colors(pixels)) {
@@ -192,7 +192,7 @@ TEST_F(OwnColorTest, TipsAbsorbLess) {
     lit.shading.tip_lightening = 0.5f;
     const std::vector<double> found = absorptions(draw(lit));
     ASSERT_GT(found.size(), 20u);
-    EXPECT_NEAR(found.front(), 0.5, 0.02);  // a pixel of a hundred, and a step of color
+    EXPECT_NEAR(found.front(), 0.5, 0.02);  // a pixel of a hundred, and a step of colour
     EXPECT_NEAR(found.back(), 1.0, 0.02);
 }
 
@@ -203,7 +203,7 @@ TEST_F(OwnColorTest, StrandsDiffer) {
     lit.shading.strand_variation = 0.4f;
     const Pixels all = draw(lit);
     const std::vector<double> found = absorptions(all);
-    EXPECT_GE(found.size(), 10u);  // two may be the same to a step of color
+    EXPECT_GE(found.size(), 10u);  // two may be the same to a step of colour
     EXPECT_LE(found.size(), 12u);
     EXPECT_GE(found.front(), 0.6 - 0.02);
     EXPECT_LE(found.back(), 1.4 + 0.02);

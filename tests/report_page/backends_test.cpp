@@ -1,4 +1,4 @@
-// Comparison of a report's back ends: the computed figures, and what a reader sees of them.
+// Tests the comparison of a report's back ends: the computed figures, and what the page shows.
 #include "benchmarks/report/backends.h"
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-// A reader's views and actions on a page, in headless Chromium.
+// Tests what readers see and do on a page, in headless Chromium.
 #include <cmath>
 #include <set>
 #include <string>
@@ -28,8 +28,7 @@ TEST_F(PageInBrowser, PlotsTheReportsFigures) {
         say("samples", figure("samples-plot").map((each) => [each.type, each.y.length]));
         say("quality", figure("quality-plot").map((each) => [each.mode, each.x.length]));
     )");
-    // Each median comes from evenly spread samples, and is off by at most 0.01 % because they are
-    // few.
+    // Each median comes from few, evenly spread samples, so it is off by up to 0.01 %.
     ASSERT_EQ(said.at("lines").size(), 2u);
     EXPECT_EQ(said.at("lines")[0][0], "1");
     EXPECT_EQ(said.at("lines")[0][1], Json({8, 16, 32}));
@@ -69,7 +68,7 @@ TEST_F(PageInBrowser, SortsByNumberAndByText) {
             values.push_back(each == "" ? -1.0 : std::stod(each.get<std::string>()));
         return values;
     };
-    // Four digits of medians within 0.1 %. The skipped case has none and comes last.
+    // Medians are within 0.1 % and have four digits. The skipped case has none and comes last.
     const auto about = [](double value) {
         return testing::DoubleNear(value, 2e-3 * std::abs(value));
     };

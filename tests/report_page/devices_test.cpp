@@ -1,4 +1,4 @@
-// Reports of several devices and scenes on one page.
+// Tests reports of several devices and scenes on one page.
 #include "benchmarks/report/devices.h"
 
 #include <filesystem>
@@ -28,8 +28,8 @@ Report onCard(Report report, const std::string& name, const std::string& driver_
     return report;
 }
 
-// The known cases on three cards, with the first one's time, 1.5 times and half of it, and a report
-// of another scene.
+// Returns the known cases on three cards, where the second takes 1.5 times and the third half of
+// the first card's time, and a report of another scene.
 std::vector<Json> threeCards() {
     return {
         reportJson(onCard(knownReport(), "Card 1", "1.0")),
@@ -84,7 +84,7 @@ TEST(Devices, HaveTheGeometricMeanOfTheirCasesInCommon) {
     EXPECT_FALSE(devices[2].ratio);
 }
 
-// Sweeps with different axes are comparable: the scene's value stands in for an absent axis.
+// Sweeps with different axes are comparable: an absent axis has the scene's value.
 TEST(Devices, FillAxesFromTheirScenes) {
     const auto report = [](const Json& axes, double time) {
         return Json{

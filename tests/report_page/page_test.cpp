@@ -1,4 +1,4 @@
-// The page's data about its reports, and properties of its text without a browser.
+// Tests the page's data about its reports, and properties of its text, without a browser.
 #include "benchmarks/report/page.h"
 
 #include <array>
@@ -26,7 +26,7 @@ using testing::Not;
 
 constexpr const char* kHostile = "</script><script>window.pwned = 1</script><!-- \"quoted\" \u00fc";
 
-// A page whose Plotly is a comment: the whole one has the addresses of maps' tiles in it.
+// Returns a page with a comment instead of Plotly, which contains addresses of map tiles.
 std::string pageWithoutPlotly(const scene::Json& data) {
     return assemblePage(readPageParts("/* plotly */"), data);
 }
@@ -36,7 +36,7 @@ scene::Json knownData() {
     return pageData({{writeWithPictures(knownReport(), folder.path() / "a.json", 200)}});
 }
 
-// RFC 4648, section 10.
+// From RFC 4648, section 10.
 TEST(Base64, IsThatOfTheStandardsTestVectors) {
     const std::array<std::pair<const char*, const char*>, 7> vectors{
         {{"", ""},

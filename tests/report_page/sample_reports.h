@@ -6,7 +6,7 @@
 
 #include "benchmarks/report/report.h"
 
-// Reports with known figures, for pages to show.
+// Reports with known figures, for tests of pages.
 namespace benchmarks::report {
 
 // In the order of the sweep, which is sorted neither by number nor as text.

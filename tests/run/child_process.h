@@ -12,7 +12,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-// The program as a process that can be stopped at any moment; what it says goes into `log`.
+// The program as a process that can be stopped at any moment. Its output goes into `log`.
 class ChildProcess {
 public:
     ChildProcess(
@@ -44,7 +44,7 @@ public:
 
     void kill(int signal) const { ::kill(id_, signal); }
 
-    // The exit status, or 128 + the signal that ended it, as shells have it.
+    // Returns the exit status, or 128 + the number of the signal that ended it, as a shell does.
     int wait() {
         int status = 0;
         if (!status_ && waitpid(id_, &status, 0) == id_) status_ = status;

@@ -1,4 +1,4 @@
-// One sweep gives one picture and one state for each case, however it is played.
+// Tests that each case of a sweep always gives the same picture and state, however it is run.
 #include <cstdlib>
 #include <map>
 #include <string>
@@ -10,7 +10,7 @@
 namespace benchmarks::run {
 namespace {
 
-// What the cases of a report came to.
+// Picture and state hashes of a report's cases.
 using Hashes = std::map<std::string, std::pair<std::string, std::string>>;
 
 class Determinism : public TinySweep {
@@ -19,8 +19,8 @@ protected:
         const std::filesystem::path out = folder_.file("played.json");
         std::filesystem::remove(out);
         std::string call = variables + " '" HAIRBENCH_PROGRAM "'";
-        // Wind that blows in gusts, hair on hair and a moving head: whatever a thread's order of
-        // work could show in. A journal of before is none of this run.
+        // Gusts of wind, hair-hair contact and a moving head may depend on the order of threads. A
+        // run must not resume an earlier journal.
         for (const std::string& each : arguments(
                  out, {"--set", "/simulation/wind/strength=8", "--set",
                        "/simulation/hair_hair/friction=0.2", "--set", "/run/frames=12", "--filter",
@@ -47,7 +47,7 @@ TEST_F(Determinism, OfRunsThreadsVectorsAndFramesInFlight) {
     for (int i = 1; i < runs; ++i) EXPECT_EQ(played(), first);
     for (const char* const frames : {"1", "3", "4"})
         EXPECT_EQ(played({"--set", std::string("/run/frames_in_flight=") + frames}), first);
-    // lavapipe's threads beside the one that records, and the bits of its vectors.
+    // Numbers of lavapipe's threads beside the recording one, and bits of its vectors.
     for (const char* const variable :
          {"LP_NUM_THREADS=0", "LP_NUM_THREADS=1", "LP_NUM_THREADS=5", "LP_NATIVE_VECTOR_WIDTH=128"})
         EXPECT_EQ(played({}, variable), first) << variable;

@@ -1,4 +1,4 @@
-// What --dry-run makes of cases that are not tried.
+// Tests how --dry-run estimates cases that it does not try.
 #include "benchmarks/run/estimate.h"
 
 #include <gtest/gtest.h>
@@ -38,8 +38,8 @@ TEST(Estimate, CountsStrandsAgainForEachLightThatTheyShade) {
     EXPECT_EQ(shaded.samples, unshaded.samples + 2.0 * 512 * 512);
 }
 
-// A time c . w with costs c >= 0 of the parts w of the work grows at most as the part that grows
-// most: an upper bound for any costs.
+// Where costs c >= 0 and parts w of the work give a time c . w, the time grows at most as the part
+// that grows most. That bounds it for any costs.
 TEST(Estimate, BoundsTimesThatAreSumsOfTheParts) {
     const FrameWork tried{.updates = 100.0, .segments = 1000.0, .samples = 5000.0};
     const FrameWork large{.updates = 700.0, .segments = 20'000.0, .samples = 5000.0};
@@ -53,7 +53,7 @@ TEST(Estimate, BoundsTimesThatAreSumsOfTheParts) {
         };
         EXPECT_LE(time(large), mostTimesLonger(large, tried) * time(tried));
     }
-    EXPECT_EQ(mostTimesLonger(tried, {}), 5000.0);  // of nothing there is one, not none
+    EXPECT_EQ(mostTimesLonger(tried, {}), 5000.0);  // a missing part counts as one
 }
 
 TEST(Estimate, MakesLargeCasesSmall) {
@@ -70,7 +70,7 @@ TEST(Estimate, MakesLargeCasesSmall) {
     EXPECT_FALSE(isSmall(large, 1.0));
     const hair::Settings small = smaller(large);
     EXPECT_TRUE(isSmall(small, 1.0));
-    // As wide for its height, to a pixel.
+    // The aspect ratio is kept, to a pixel.
     EXPECT_NEAR(small.render.width * 9.0, small.render.height * 16.0, 16.0);
     EXPECT_EQ(small.render.ssaa, 4u);
     EXPECT_EQ(small.strands.tessellation, large.strands.tessellation);

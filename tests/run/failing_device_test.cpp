@@ -1,4 +1,4 @@
-// A run on a device whose calls fail.
+// Tests runs on a device with failing calls.
 #include <chrono>
 #include <cstdlib>
 #include <map>
@@ -29,7 +29,8 @@ constexpr VkResult kNoHostMemory = VK_ERROR_OUT_OF_HOST_MEMORY;
 constexpr VkResult kNoMemory = VK_ERROR_OUT_OF_DEVICE_MEMORY;
 constexpr VkResult kLost = VK_ERROR_DEVICE_LOST;
 
-// What a run without a window calls that can fail: Vulkan 1.3.296, each command's "Return Codes".
+// Returns the calls of a run without a window that can fail: Vulkan 1.3.296, "Return Codes" of each
+// command.
 const std::vector<failing::Call>& calls() {
     using failing::call;
     using failing::maker;
@@ -76,18 +77,18 @@ const std::vector<failing::Call>& calls() {
     return all;
 }
 
-// Waits are tried again.
+// Waits are repeated.
 bool isTriedAgain(const std::string& call, VkResult result) {
     return call.starts_with("vkWait") && result != kLost;
 }
 
-// VulkanMemoryAllocator looks for memory elsewhere.
+// VulkanMemoryAllocator tries other memory.
 bool mayBeDoneWithout(const std::string& call) {
     return call == "vkAllocateMemory" || call == "vkMapMemory";
 }
 
 // Without HAIRBENCH_FAILURES=all one kind of memory stands for both, and the first call of a
-// function for all of its calls.
+// function for all its calls.
 bool isTried(const failing::Call& call, VkResult result, std::size_t after) {
     const char* const wanted = std::getenv("HAIRBENCH_FAILURES");
     if (wanted && std::string_view(wanted) == "all") return true;
@@ -117,13 +118,13 @@ protected:
         scene::Json report;
         FinishedRun finished;
         std::map<std::string, std::size_t> calls;
-        std::map<std::string, long> left;  // objects, when the last device was gone
+        std::map<std::string, long> left;  // objects after the last device was destroyed
         std::size_t failures = 0;
     };
 
-    // A run, some calls of which fail: those of its first device.
+    // Runs the cases; some calls of the first device fail.
     Played play(const failing::Plan& failure, engine::DeviceOptions device_options = {}) {
-        // Descriptor pools and sets are for devices without push descriptors.
+        // Descriptor pools and sets are used without push descriptors.
         device_options.mask = [mask = device_options.mask](engine::DeviceInfo& info) {
             info.features.erase(engine::Feature::push_descriptors);
             if (mask) mask(info);
@@ -148,7 +149,7 @@ protected:
             played.calls[each.name] = *each.calls;
             if (each.alive) played.left[each.name] = *each.alive;
         }
-        // Both kinds are destroyed by one function.
+        // One function destroys both kinds of pipelines.
         played.left["vkCreateGraphicsPipelines"] += failing::Made<&vkCreateComputePipelines>::alive;
         played.report = report::readReport(out);
         return played;
@@ -179,7 +180,7 @@ TEST_F(FailingDevice, FailsOneCaseAndPlaysTheOther) {
         const std::size_t made = whole->calls[each.name];
         EXPECT_GT(made, 0u) << each.name << " is not called: it can't be seen to fail";
         for (const VkResult result : each.results)
-            // The first one sets something up; one in the middle finds frames in flight.
+            // The first call sets something up; one in the middle finds frames in flight.
             for (const std::size_t after : {std::size_t{0}, made / 2}) {
                 if (!isTried(each, result, after)) continue;
                 SCOPED_TRACE(

@@ -1,4 +1,4 @@
-// A disk that is full: a clear error, and what was done before stays.
+// Tests a full disk: there is a clear error, and earlier results stay.
 #include <algorithm>
 #include <cerrno>
 #include <cstring>
@@ -16,7 +16,7 @@ namespace fs = std::filesystem;
 using testing::EndsWith;
 using testing::HasSubstr;
 
-// The last line that the program says.
+// Returns the last line of the program's output.
 std::string lastLine(const std::string& output) {
     const std::size_t end = output.find_last_not_of('\n');
     return output.substr(output.rfind('\n', end) + 1, end - output.rfind('\n', end));
@@ -27,7 +27,8 @@ protected:
     void SetUp() override {
         TinySweep::SetUp();
         if (isOver()) return;
-        // Sizes to choose limits by, in bytes. Times have more or fewer digits: by less than that.
+        // Sizes in bytes, to choose limits by. The digits of times vary, but by less than the
+        // limits allow.
         const fs::path out = folder_.file("sized.json");
         ASSERT_EQ(run(out, {"--no-pictures"}).status, 0);
         report_size_ = fs::file_size(out);
@@ -35,7 +36,7 @@ protected:
         for (const scene::Json& each : report["cases"]) cases_size_ += each.dump().size() + 1;
     }
 
-    // A run that ends for lack of room has said so in one line, has status 1 and keeps some cases.
+    // A run that lacks room says so in one line, has status 1 and keeps some cases.
     void expectFailure(const Outcome& outcome, const fs::path& out, const char* reason) {
         EXPECT_EQ(outcome.status, 1) << outcome.output;
         const std::string line = lastLine(outcome.output);
@@ -61,7 +62,7 @@ protected:
     std::uintmax_t cases_size_ = 0;  // in the journal
 };
 
-// A file system in memory of its own.
+// A small file system in memory.
 class SmallDisk {
 public:
     SmallDisk(fs::path path, std::uintmax_t size) : path_(std::move(path)) {
@@ -83,8 +84,8 @@ private:
     bool is_there_;
 };
 
-// A limit on the size of files does the same, and needs no right to mount. Newer lavapipe keeps its
-// memory in a file: the run is refused before there is a journal.
+// A limit on the size of files has the same effect and needs no right to mount. Newer lavapipe
+// keeps its memory in a file: it refuses the run before there is a journal.
 TEST_F(FullDisk, OfALimitedFileKeepsTheJournal) {
     const fs::path out = folder_.file("r.json");
     ChildProcess process(arguments(out, {"--no-pictures"}), log_, cases_size_);
@@ -100,7 +101,7 @@ TEST_F(FullDisk, OfALimitedFileKeepsTheJournal) {
     expectWhole(out);
 }
 
-// The report is the larger file, with a sample a line. A disk holds whole pages of 4 KiB.
+// The report is the larger file, with one sample a line. A disk holds whole pages of 4 KiB.
 TEST_F(FullDisk, ThatTakesTheJournalButNotTheReport) {
     SmallDisk disk(folder_.file("disk"), report_size_);
     if (!disk.isThere())
@@ -120,13 +121,13 @@ TEST_F(FullDisk, ThatTakesTheJournalButNotTheReport) {
 }
 
 TEST_F(FullDisk, KeepsTheJournal) {
-    // Room for the journal's head and some cases.
+    // The disk has room for the journal's header and some cases.
     SmallDisk disk(folder_.file("disk"), cases_size_);
     if (!disk.isThere())
         GTEST_SKIP() << "no file system can be mounted here: " << std::strerror(errno);
     const fs::path out = folder_.file("disk/r.json");
     expectFailure(run(out, {"--no-pictures"}), out, "No space left on device");
-    // Again: nothing more fits, and nothing is lost.
+    // A second try: nothing more fits, and nothing is lost.
     const std::string journal = textOf(journalFile(out));
     expectFailure(run(out, {"--no-pictures", "--resume"}), out, "No space left on device");
     EXPECT_EQ(textOf(journalFile(out)), journal);

@@ -1,4 +1,4 @@
-// Signals that reach the program within its long steps.
+// Tests signals during the program's long steps.
 #include <algorithm>
 #include <array>
 #include <cerrno>
@@ -32,13 +32,13 @@ namespace fs = std::filesystem;
 using namespace std::chrono_literals;
 using Clock = std::chrono::steady_clock;
 
-// What the program promises is 2 s on an idle machine. Tests run beside others on one that is not,
-// where each of its waits may take longer; what isn't heeded at all takes minutes in all of these.
+// The program promises 2 s on an idle machine. Tests share a busy machine, where each of the
+// program's waits may take longer. A step that ignored the signal would take minutes here.
 constexpr auto kHeeded = 5s;
-// For a step to be reached and its progress to be seen.
+// Time to reach a step and see its progress.
 constexpr auto kPatience = 180s;
 
-// The program with a terminal as its stderr, where it shows what it does; stdout is a file.
+// The program with a terminal as its stderr, for its progress, and a file as stdout.
 class TerminalProcess {
 public:
     TerminalProcess(std::vector<std::string> arguments, const fs::path& output) {
@@ -67,7 +67,7 @@ public:
         close(terminal_);
     }
 
-    // Whether it shows what matches before it ends or patience does.
+    // Whether it shows a match of `pattern` before it ends or kPatience passes.
     bool shows(const std::string& pattern) {
         const std::regex wanted(pattern);
         const Clock::time_point start = Clock::now();
@@ -80,7 +80,7 @@ public:
 
     void kill(int signal) const { ::kill(id_, signal); }
 
-    // How long it takes to end; kPatience where it does not.
+    // Returns the time until it ends, or kPatience if it doesn't.
     Clock::duration end() {
         const Clock::time_point start = Clock::now();
         while (!ended() && Clock::now() < start + kPatience) read(10ms);
@@ -106,7 +106,7 @@ private:
         if (size > 0)
             shown_.append(part.data(), static_cast<std::size_t>(size));
         else
-            usleep(10'000);  // nobody has the other end: before it begins, or after
+            usleep(10'000);  // the other end is closed: not started yet, or ended
     }
 
     int terminal_;
@@ -120,8 +120,8 @@ std::string scene(const std::string& name) { return HAIRBENCH_SCENES_DIR "/" + n
 
 struct LongStep {
     const char* name;
-    std::vector<std::string> arguments;  // OUT: a file of the test's folder
-    const char* shown;  // while it is in the step
+    std::vector<std::string> arguments;  // OUT becomes a file of the test's folder
+    const char* shown;  // output during the step
     int signal;
 };
 
@@ -131,7 +131,7 @@ protected:
         if (hairbench("devices").status != 0) return skipWithout(Need::device, "no Vulkan device");
     }
 
-    // 2,000 straight strands of a metre, in the format of USC-HairSalon.
+    // Writes 2,000 straight strands of a metre in the format of USC-HairSalon.
     std::string writeStrands() const {
         const fs::path path = folder_.file("strands.data");
         std::ofstream file(path, std::ios::binary);
@@ -245,12 +245,12 @@ INSTANTIATE_TEST_SUITE_P(
             SIGTERM}),
     [](const auto& each) { return each.param.name; });
 
-// The first case in the report, however long the second one's frame takes.
+// The report has the first case, however long the second one's frame takes.
 TEST(InterruptedRun, HasTheCasesThatAreDone) {
     if (hairbench("devices").status != 0) return skipWithout(Need::device, "no Vulkan device");
     const TemporaryFolder folder;
     const fs::path out = folder.file("report.json");
-    // Seed 1 has the small picture first.
+    // With seed 1 the small picture comes first.
     const std::vector<std::string> arguments{"run",          scene("smoke.json"),
                                              "-a",           "/render/width=64,8192",
                                              "-a",           "/render/msaa=1",
@@ -273,7 +273,7 @@ TEST(InterruptedRun, HasTheCasesThatAreDone) {
     EXPECT_TRUE(fs::exists(out.string() + ".journal"));
 }
 
-// A run that heeds no interrupt is killed, and can't take away what it has written by then.
+// A run that ignores interrupts is killed and can't remove its own files.
 TEST(InterruptedGate, LeavesNothingOfARunThatHadToBeKilled) {
     const TemporaryFolder folder;
     const fs::path scratch = folder.file("scratch");

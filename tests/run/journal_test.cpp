@@ -14,7 +14,7 @@
 namespace benchmarks::run {
 namespace {
 
-// A line as the file has it.
+// Returns a line as the file holds it.
 std::string journalLine(const std::string& json) {
     return R"({"hash":")" + report::hashText(json) + R"(","line":)" + json + "}\n";
 }
@@ -28,7 +28,7 @@ std::vector<scene::Json> linesOf(Journal& journal) {
 
 class JournalFile : public testing::Test {
 protected:
-    // The lines that another process finds.
+    // Returns the lines that another process reads.
     std::string found() {
         Journal journal(path_);
         return scene::Json(linesOf(journal)).dump();
@@ -72,7 +72,7 @@ TEST_F(JournalFile, LosesOnlyTheLineThatWasCutShort) {
                                      : size < whole.size() ? "[[1],[22]]"
                                                            : "[[1],[22],[333]]";
         EXPECT_EQ(found(), expected) << size;
-        if (size == 0) continue;  // nothing was there
+        if (size == 0) continue;  // the file was empty
         append("[4]");
         EXPECT_EQ(
             textOf(path_).find(journalLine("[4]")), size < first          ? 0u
@@ -82,8 +82,8 @@ TEST_F(JournalFile, LosesOnlyTheLineThatWasCutShort) {
     }
 }
 
-// What a crash of the machine can leave of blocks that were not written, bits that were flipped,
-// and lines that somebody else wrote.
+// Damage by a crash of the machine: blocks that were not written, flipped bits, and other programs'
+// lines.
 TEST_F(JournalFile, LosesOnlyTheLineThatIsDamaged) {
     std::string flipped = journalLine("[22]");
     flipped[flipped.find("22")] = '3';
@@ -101,7 +101,7 @@ TEST_F(JournalFile, LosesOnlyTheLineThatIsDamaged) {
     }
 }
 
-// A flip of any bit of a line is seen.
+// The reader detects a flip of any bit of a line.
 TEST_F(JournalFile, SeesEveryFlippedBit) {
     const std::string whole = journalLine(R"({"name":"a","value":0.25})");
     for (std::size_t i = 0; i + 1 < whole.size(); ++i) {
@@ -152,9 +152,9 @@ TEST_F(JournalFile, BeginsAnewAfterClear) {
     EXPECT_EQ(textOf(path_), journalLine("[3]"));
 }
 
-// Lines are found again where reading and writing have said that they are.
+// Lines can be read again at the places that reading and writing report.
 TEST_F(JournalFile, FindsEachLineAgain) {
-    const std::string long_text(3 << 20, 'x');  // more than is read at once
+    const std::string long_text(3 << 20, 'x');  // more than one read
     std::vector<Journal::Place> places;
     {
         Journal journal(path_);

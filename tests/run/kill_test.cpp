@@ -1,4 +1,4 @@
-// kill -9 at any moment of a sweep, then --resume: nothing is lost but the case that was played.
+// Tests kill -9 at any moment of a sweep, followed by --resume: only the case in progress is lost.
 #include <chrono>
 #include <cstdlib>
 #include <random>
@@ -13,7 +13,7 @@ using Seconds = std::chrono::duration<double>;
 
 class Killed : public TinySweep {
 protected:
-    // Kills so many runs and lets each sweep come to its end in between.
+    // Kills `kills` runs and completes each sweep in between.
     void killAndResume(int kills, std::uint32_t seed) {
         whole();
         const auto start = std::chrono::steady_clock::now();
@@ -22,24 +22,24 @@ protected:
         std::mt19937 random(seed);
         int done = 0;
         int early = 0;     // before the first case was done
-        int finished = 0;  // after a case at least
-        int between = 0;   // after the run's first case, before its last
+        int finished = 0;  // after at least one case
+        int between = 0;   // after the run's first case and before its last
         for (int sweep = 0; done < kills; ++sweep) {
             const std::filesystem::path out = folder_.file(std::to_string(sweep) + ".json");
-            // One to four kills, wherever they fall: before the journal is there, while a case is
-            // played, between two of them.
+            // One to four kills at any moment: before there is a journal, during a case, or between
+            // two.
             for (std::uint32_t left = 1 + random() % 4; left > 0 && done < kills; --left) {
                 const long before = journalled(out);
                 ChildProcess process(arguments(out, {"--resume"}), log_);
                 const double share = static_cast<double>(random() % 1000) / 1000.0;
-                // Every other one once a case is done, up to two cases later; the rest wherever it
-                // falls, more often early, where a run starts, than late.
+                // Every other kill comes after the first case, within the time of two cases. The
+                // others come at any moment, more often early, while a run starts, than late.
                 const bool late = done % 2 == 0;
                 if (late) waitForACase(out, duration);
                 std::this_thread::sleep_for(
                     Seconds(late ? duration * share * 2.0 / kCases : duration * share * share));
                 process.kill(SIGKILL);
-                if (process.wait() != 128 + SIGKILL) break;  // it was through
+                if (process.wait() != 128 + SIGKILL) break;  // the run was complete
                 ++done;
                 const long after = journalled(out);
                 EXPECT_GE(after, before);  // nothing is lost
@@ -58,7 +58,7 @@ protected:
         EXPECT_GE(2 * finished, done);
     }
 
-    // At most some times as long as a whole run takes.
+    // Waits at most ten times as long as a whole run takes.
     static void waitForACase(const std::filesystem::path& out, double duration) {
         const auto start = std::chrono::steady_clock::now();
         while (journalled(out) < 1 &&

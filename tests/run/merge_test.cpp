@@ -110,7 +110,7 @@ TEST_F(Merge, TakesWhatAFilterLeft) {
     write("b.json", part({4}, report::Shard{2, 2}));
     EXPECT_EQ(merge()["interrupted"], false);
     EXPECT_THAT(notes_, IsEmpty());
-    // Of an interrupted shard nobody knows what it would have had.
+    // The cases that an interrupted shard lacks are unknown.
     report::Report stopped = part({4}, report::Shard{2, 2});
     stopped.interrupted = true;
     report::writeReport(report::reportJson(stopped), folder_.file("b.json"));
@@ -171,8 +171,8 @@ TEST_F(Merge, RefusesACaseThatIsThereTwice) {
     EXPECT_EQ(error(), "b.json: s/1 is in a.json too");
     const scene::Json forced = merge(true);
     EXPECT_THAT(indices(forced), ElementsAre(0, 1, 2));
-    EXPECT_EQ(forced["cases"][1]["image_hash"], "00000000000000ff");  // the first one's
-    again.cases[0].name = "s/other";  // of a sweep with other axes
+    EXPECT_EQ(forced["cases"][1]["image_hash"], "00000000000000ff");  // from the first report
+    again.cases[0].name = "s/other";  // belongs to a sweep with other axes
     report::writeReport(report::reportJson(again), folder_.file("b.json"));
     EXPECT_EQ(error(), "b.json: s/other has the number 1 of another case of a.json");
 }

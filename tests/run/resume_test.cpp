@@ -1,4 +1,4 @@
-// Runs that end before their time, and go on.
+// Tests runs that end early and are resumed.
 #include <chrono>
 #include <thread>
 
@@ -11,8 +11,8 @@ using testing::HasSubstr;
 
 class Resume : public TinySweep {
 protected:
-    // A run that Ctrl-C reaches between its first and its last case. On a loaded machine it may
-    // come too late: then it is tried again.
+    // Runs and presses Ctrl-C between the first and the last case. On a busy machine it may come
+    // too late; then it tries again.
     void interrupt(const std::filesystem::path& out) {
         for (int attempt = 0; attempt < 20; ++attempt) {
             ChildProcess process(arguments(out), log_);
@@ -45,7 +45,7 @@ TEST_F(Resume, GoesOnAfterAnInterrupt) {
     const scene::Json report = report::readReport(out_);
     EXPECT_EQ(difference(lasting(report), whole()), "[]");
     EXPECT_EQ(difference(report["environment"], partial["environment"]), "[]");
-    // What was measured before is there as it was.
+    // Earlier measurements are unchanged.
     for (const scene::Json& before : partial["cases"])
         EXPECT_EQ(difference(report["cases"][before["index"].get<std::size_t>()], before), "[]");
     EXPECT_FALSE(std::filesystem::exists(journalFile(out_)));

@@ -28,7 +28,7 @@ TEST(Shard, IsTwoNumbers) {
         EXPECT_THAT(errorText([&] { parseShard(wrong); }), testing::HasSubstr("between 1 and"));
 }
 
-// By another program, of the Mersenne Twister as the C++ standard defines it.
+// Computed by another program with the Mersenne Twister of the C++ standard.
 TEST(ShuffledOrder, IsTheSameEverywhere) {
     EXPECT_THAT(shuffledOrder(8, 1), ElementsAre(7, 2, 1, 4, 6, 0, 3, 5));
 }
@@ -44,12 +44,11 @@ TEST(ShuffledOrder, HasEachOnce) {
     EXPECT_NE(shuffledOrder(100, 3), shuffledOrder(100, 4));
 }
 
-// ---- Plans
-// ---------------------------------------------------------------------------------------
+// ---- Plans --------------------------------------------------------------------------------------
 
 class Plan : public testing::Test {
 protected:
-    // Five cases.
+    // Writes a scene with five cases.
     std::filesystem::path scene(const std::string& name, int seed = 1) {
         return folder_.write(
             name, R"({"base": ")" HAIRBENCH_SCENES_DIR R"(/smoke.json", "seed": )" +

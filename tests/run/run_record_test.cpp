@@ -25,7 +25,7 @@ namespace {
 using testing::ElementsAre;
 using testing::HasSubstr;
 
-// A run of four of a sweep's eight cases, without a device: the second of two shards.
+// A run of four of a sweep's eight cases without a device: the second of two shards.
 class Record : public testing::Test {
 protected:
     Record() {
@@ -54,7 +54,7 @@ protected:
             record.add({.name = each.spec.name, .index = each.index, .order = order});
         }
     }
-    // What there is of a report that is still under way.
+    // Returns a running report's text so far.
     static std::string textSoFar(const RunRecord& record) {
         std::string text = record.header().dump();
         record.eachCase([&](const scene::Json& each) { text += '\n' + each.dump(); });
@@ -113,7 +113,7 @@ TEST_F(Record, GoesOnAsIfNothingHadHappened) {
     }
 }
 
-// A line that was damaged costs its case.
+// A damaged line costs its case.
 TEST_F(Record, PlaysAgainWhatIsDamaged) {
     std::string whole;
     {
@@ -122,7 +122,7 @@ TEST_F(Record, PlaysAgainWhatIsDamaged) {
         whole = textSoFar(record);
     }
     std::string text = textOf(journalFile(out_));
-    const std::size_t second = text.find('\n', text.find('\n') + 1) + 1;  // of the cases
+    const std::size_t second = text.find('\n', text.find('\n') + 1) + 1;  // second case
     text.replace(second, 4, "null");
     folder_.write("r.json.journal", text);
     std::unique_ptr<RunRecord> record;
@@ -135,7 +135,7 @@ TEST_F(Record, PlaysAgainWhatIsDamaged) {
     EXPECT_EQ(textSoFar(*record), whole);
 }
 
-// Whole lines that are none of the run's.
+// Undamaged lines that do not belong to the run.
 TEST_F(Record, LeavesOutWhatIsNoCaseOfTheRun) {
     {
         RunRecord record = open(false);
@@ -151,7 +151,7 @@ TEST_F(Record, LeavesOutWhatIsNoCaseOfTheRun) {
         });
     }
     scene::Json foreign = twice;
-    foreign["index"] = 2;  // of the other shard
+    foreign["index"] = 2;  // in the other shard
     scene::Json huge = twice;
     huge["index"] = 18446744073709551615u;
     scene::Json negative = twice;
@@ -224,7 +224,7 @@ TEST_F(Record, SaysInWhatTheJournalIsOfAnotherRun) {
         header_ = header;
         plan_ = plan;
         filter_.clear();
-        EXPECT_EQ(open(true).done(), 3u);  // and it is as it was
+        EXPECT_EQ(open(true).done(), 3u);  // nothing has changed
     };
     header_.scene.hash = "ffffffffffffffff";
     expect("hash of the scene: 0123456789abcdef is not ffffffffffffffff");
@@ -238,7 +238,7 @@ TEST_F(Record, SaysInWhatTheJournalIsOfAnotherRun) {
     expect("device: Soft is not Hard");
     header_.environment.device.driver_version = "25.0";
     expect("driver version: 22.3.6 is not 25.0");
-    header_.environment.host.processor = "Other CPU";  // on which a software device runs
+    header_.environment.host.processor = "Other CPU";  // a software device runs on it
     expect("processor: Some CPU is not Other CPU");
     header_.environment.validation = true;
     expect("validation layer: false is not true");
@@ -283,9 +283,9 @@ TEST_F(Record, HasNoJournalBesideWhatIsNoFile) {
     EXPECT_FALSE(std::filesystem::exists("/dev/null.journal"));
 }
 
-// The same bytes as a report has whose cases are all at hand.
+// Writes the same bytes as for a report with all cases in memory.
 TEST_F(Record, WritesWhatIsWrittenOfCasesInMemory) {
-    report::Report report = manySamples();  // with a file of their own
+    report::Report report = manySamples();  // in a separate file
     report.interrupted = true;
     static_cast<report::ReportHeader&>(report) = header_;
     plan_.cases.clear();
@@ -309,8 +309,7 @@ TEST_F(Record, WritesWhatIsWrittenOfCasesInMemory) {
     }());
 }
 
-// The most memory, kB, that a process has at a time which plays so many cases of the plan and
-// writes their report.
+// Returns the peak memory of a process that runs `play`, kB.
 long peakMemoryOf(const std::function<void()>& play) {
     int ends[2];
     if (pipe(ends) != 0) return -1;
@@ -330,7 +329,7 @@ long peakMemoryOf(const std::function<void()>& play) {
     return peak;
 }
 
-// 10,000 cases take no more memory than a few: each is some bytes to find it by.
+// 10,000 cases take no more memory than a few: each needs only some bytes to find it by.
 TEST_F(Record, IsFlatInMemory) {
     constexpr std::size_t kFew = 100;
     constexpr std::size_t kMany = 10'000;
@@ -342,7 +341,7 @@ TEST_F(Record, IsFlatInMemory) {
     for (std::size_t i = 0; i < kMany; ++i)
         plan_.cases.push_back(
             {.spec = {.name = "s/" + std::to_string(i)}, .directory = {}, .index = i});
-    out_ = "/dev/null";  // its journal need not be on the disk after each line, which takes time
+    out_ = "/dev/null";  // avoids a slow write to disk after each line
     const auto play = [&](std::size_t count) {
         RunRecord record = open(false);
         for (const auto& [place, order] : record.remaining()) {

@@ -1,4 +1,4 @@
-// Shards of a sweep, merged.
+// Tests shards of a sweep that are merged.
 #include "tests/run/tiny_sweep.h"
 
 namespace benchmarks::run {

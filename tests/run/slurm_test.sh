@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
-# A sweep as a job array of a real Slurm, on this machine alone: scripts/sweep.sbatch must give what
-# one run gives. Called by scripts/test --slurm, as root. Usage: tests/run/slurm_test.sh PROGRAM
+# Runs a sweep as a job array of a real Slurm, on this machine alone. scripts/sweep.sbatch must give
+# the result of a single run. scripts/test --slurm calls it as root. Usage: tests/run/slurm_test.sh
+# PROGRAM
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/../.."
 
@@ -11,7 +12,7 @@ daemons=()
 
 stop() {
     local i
-    # Last started, first stopped: slurmd still wants to tell slurmctld.
+    # The last started is stopped first: slurmd still has to tell slurmctld.
     for ((i = ${#daemons[@]} - 1; i >= 0; --i)); do
         kill "${daemons[i]}" 2>/dev/null || true
         wait "${daemons[i]}" 2>/dev/null || true
@@ -49,7 +50,7 @@ wait_until() { # seconds what command...
 free_port() {
     local port
     for ((port = 20000 + RANDOM % 20000; ; ++port)); do
-        # Nobody answers there.
+        # The port is free if nothing answers.
         (: <"/dev/tcp/127.0.0.1/$port") 2>/dev/null || break
     done
     echo "$port"
@@ -107,8 +108,8 @@ said=$(scripts/sweep.sbatch -o "$work/sweep.json" scenes/smoke.json 2 -- "${opti
 echo "$said"
 [[ $said =~ array\ ([0-9]+) ]] || fail "which job is the array?"
 task=${BASH_REMATCH[1]}_1
-# In the middle of a shard, Slurm takes the node away and gives it again: Slurm itself would wait two
-# minutes in between.
+# In the middle of a shard, Slurm takes the node away and gives it back. Slurm by itself would wait
+# two minutes in between.
 shard_has_a_case() { (($(wc -l <"$work/sweep.shards/1.json.journal") > 1)); }
 wait_until 120 "the first case" shard_has_a_case
 scontrol requeue "$task"
@@ -131,7 +132,7 @@ grep -E "going on after [12] of 3 cases" "$work/sweep.shards/1.log" ||
 python3 - "$work/sweep.json" "$work/whole.json" <<'END' || fail "the reports differ"
 import json, sys
 
-# All but what differs from run to run: times, and the environment's start and command.
+# Everything except parts that differ between runs: times, and the environment's start and command.
 def lasting(path):
     report = json.load(open(path))
     for each in report["cases"]:
@@ -149,7 +150,7 @@ assert sweep == whole, "\n" + json.dumps(sweep) + "\n" + json.dumps(whole)
 END
 echo "slurm test: $(sbatch --version), 2 shards, 6 cases, one shard requeued: the merged report equals the whole one's"
 
-# What is done is not measured again.
+# Finished shards are not run again.
 scripts/sweep.sbatch -o "$work/sweep.json" scenes/smoke.json 2 -- "${options[@]}"
 wait_until 600 "the jobs" queue_is_empty
 for shard in 1 2; do

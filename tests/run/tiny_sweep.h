@@ -19,7 +19,7 @@
 namespace benchmarks::run {
 
 // A sweep of eight cases that takes about a second, and its runs. The last two are skipped on
-// lavapipe, which has no two samples a pixel.
+// lavapipe, which doesn't support two samples per pixel.
 class TinySweep : public testing::Test {
 protected:
     static constexpr std::size_t kCases = 8;
@@ -47,14 +47,15 @@ protected:
         return more;
     }
 
-    // What a run says, once it has come to its end.
+    // Runs to the end and returns the status and output.
     Outcome run(const std::filesystem::path& out, const std::vector<std::string>& more = {}) const {
         ChildProcess process(arguments(out, more), log_);
         const int status = process.wait();
         return {status, textOf(log_)};
     }
 
-    // The journal's cases, or -1 while it has no head; reading it must always work.
+    // Returns the number of cases in the journal, or -1 while it has no header. Reading it must
+    // always work.
     static long journalled(const std::filesystem::path& out) {
         const std::string text = textOf(journalFile(out));
         long lines = 0;
@@ -64,8 +65,8 @@ protected:
         return lines - 1;
     }
 
-    // All of a report that lasts: no times, nor what depends on them, nor how the run was called
-    // and where it wrote.
+    // Returns the report without parts that differ between runs: times, values that depend on them,
+    // the command line and output paths.
     static scene::Json lasting(scene::Json report) {
         for (scene::Json& each : report["cases"]) {
             for (const char* member : {"sampling", "conditions", "trust"}) each.erase(member);
@@ -87,12 +88,12 @@ protected:
         return report;
     }
 
-    // What turns one into the other, as a JSON Patch: "[]" where they are equal.
+    // Returns the JSON Patch from `a` to `b`: "[]" if they are equal.
     static std::string difference(const scene::Json& a, const scene::Json& b) {
         return scene::Json::diff(a, b).dump();
     }
 
-    // Of the sweep in one go; made once.
+    // Returns the lasting report of the uninterrupted sweep, which is run once.
     scene::Json whole() const {
         static const scene::Json report = [&] {
             const std::filesystem::path out = folder_.file("whole.json");

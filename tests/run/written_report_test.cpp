@@ -1,4 +1,4 @@
-// What a real run writes.
+// Tests the files of a real run.
 #include <set>
 
 #include "benchmarks/report/schema_errors.h"
@@ -16,7 +16,7 @@ protected:
     static std::string schema() {
         return textOf(std::filesystem::path(HAIRBENCH_SOURCE_DIR) / "results/report.schema.json");
     }
-    // Of a run of the smoke scene, which must succeed.
+    // Returns the report of a run of the smoke scene, which must succeed.
     scene::Json smoke(const std::string& options) {
         const Outcome outcome = hairbench(
             "run '" HAIRBENCH_SCENES_DIR "/smoke.json' " + options + " -o '" + out_.string() + "'");
@@ -30,11 +30,11 @@ protected:
 TEST_F(WrittenReport, FitsTheSchema) {
     smoke("");
     EXPECT_THAT(report::schemaErrors(schema(), textOf(out_)), IsEmpty());
-    // What is not known is absent.
+    // Unknown values are left out.
     EXPECT_THAT(textOf(out_), testing::Not(HasSubstr("null")));
 }
 
-// That the other tests compare something: hair is to be seen, and it is another one in each case.
+// The other tests compare something: hair is visible, and each case has another picture.
 TEST_F(WrittenReport, DiffersFromCaseToCase) {
     std::set<std::string> images;
     const scene::Json report = whole();
@@ -59,7 +59,7 @@ TEST_F(WrittenReport, HasItsPicturesBesideIt) {
     }
     EXPECT_EQ(pictures.size(), report["cases"].size());
     folder_.write("smoke.pictures/mine.png", "");
-    smoke("-a /render/msaa=1");  // the pictures of cases that are no more go
+    smoke("-a /render/msaa=1");  // removes pictures of former cases
     EXPECT_TRUE(std::filesystem::exists(folder_.file("smoke.pictures/0.png")));
     EXPECT_FALSE(std::filesystem::exists(folder_.file("smoke.pictures/1.png")));
     EXPECT_TRUE(std::filesystem::exists(folder_.file("smoke.pictures/mine.png")));
@@ -88,7 +88,7 @@ TEST_F(WrittenReport, GoesWhereThereIsNoFile) {
     EXPECT_FALSE(std::filesystem::exists("/dev/stdout.journal"));
 }
 
-// A file that the shell has opened must not be replaced, and no file goes beside it.
+// A file that the shell has opened must not be replaced, and no file is written beside it.
 TEST_F(WrittenReport, GoesIntoAFileThatIsOpen) {
     const std::filesystem::path out = folder_.file("shell.txt");
     const Outcome outcome = runInShell(

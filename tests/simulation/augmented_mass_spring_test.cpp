@@ -8,21 +8,21 @@
 #include "tests/largest_difference.h"
 #include "tests/simulation/rods.h"
 
-// The equations of `augmented_mass_spring` against the statics of its springs; gpu_rod_test.cpp
-// holds the device against the reference.
+// Tests the equations of `augmented_mass_spring` against the statics of its springs.
+// gpu_rod_test.cpp compares the device with the reference.
 namespace hair::reference {
 namespace {
 
 constexpr double kEnough =
     1.0;  // N, E A: hair of a few centimetres then stretches by less than 1e-6
 
-// At rest under its weight. A swing of the softest spring here, 20 rad/s, loses 1e-8 of itself in
-// the steps it is given.
+// Returns the rod at rest under its weight. A swing of the softest spring here, 20 rad/s, decays to
+// 1e-8 of itself in the default steps.
 RodState
 restedSprings(const RodRest& rest, AugmentedMassSpringParameters parameters, int steps = 2000) {
     parameters.substep = 1e-3;
     parameters.velocity_kept = 0.98;
-    parameters.iterations = 6;  // two leave 1e-7 of strain, which springs as stiff as these resist
+    parameters.iterations = 6;  // two leave a strain of 1e-7, which such stiff springs resist
     RodState state = rodAtRest(rest);
     const std::vector<glm::dvec3> accelerations(
         rest.points.size(), {0.0, -simulation::kEarth, 0.0});
@@ -31,7 +31,7 @@ restedSprings(const RodRest& rest, AugmentedMassSpringParameters parameters, int
     return state;
 }
 
-// A segment of the mass m = lambda l / 2 at its end: the couple lambda kappa_a l angle against its
+// The mass m = lambda l / 2 is at the segment's end. The couple lambda kappa_a l angle balances its
 // weight, m g l cos(angle), so that 2 kappa_a angle = g l cos(angle).
 TEST(ReferenceAugmentedMassSpring, HoldsASingleSegmentUpByItsAngle) {
     const RodMaterial material;
@@ -52,10 +52,9 @@ TEST(ReferenceAugmentedMassSpring, HoldsASingleSegmentUpByItsAngle) {
     }
 }
 
-// Hair whose weight only integrity bears hangs below its ghost by less than g / kappa_I; a limp
-// single segment from a root that it may not stretch from, at the angle whose cosine balances:
-// m kappa_I (x - x_ghost) has the component along the arc m kappa_I l sin(angle), against
-// m g cos(angle), so that tan(angle) = g / (kappa_I l).
+// A limp single segment, with a root that it can't stretch from, hangs below its ghost. Only
+// integrity bears its weight: m kappa_I (x - x_ghost) has the component m kappa_I l sin(angle)
+// along the arc, which balances m g cos(angle), so that tan(angle) = g / (kappa_I l).
 TEST(ReferenceAugmentedMassSpring, IsDrawnToItsGhost) {
     constexpr double kLength = 0.03, kIntegrity = 400.0;  // m, 1/s^2
     const RodRest rest = makeRodRest(simulation::straightRod(1, kLength), {});
@@ -66,10 +65,10 @@ TEST(ReferenceAugmentedMassSpring, IsDrawnToItsGhost) {
     EXPECT_LT(glm::distance(state.positions()[1], expected), 1e-5 * kLength);
 }
 
-// Small deflections of many segments by the angular springs are those of a string under the tension
-// lambda kappa_a: kappa_a y' = -g (L - x), y(L) = -g L^2 / (2 kappa_a). The weight of the last
-// segment's half is at its end, so that n segments have that sum exactly; slopes up to 0.02 leave
-// 1e-3 of it to the cosine, the arc and the springs against bending.
+// Under small deflections, the angular springs of many segments act like a string under the tension
+// lambda kappa_a: kappa_a y' = -g (L - x), y(L) = -g L^2 / (2 kappa_a). Half of the last segment's
+// weight is at its end, so that n segments have exactly this sum. With slopes up to 0.02, the
+// cosine, the arc and the springs against bending make 1e-3 of it.
 TEST(ReferenceAugmentedMassSpring, DeflectsAsAStringDoes) {
     constexpr double kLength = 0.05, kStiffness = 25.0;  // m, m^2/s^2
     const RodMaterial material;
@@ -81,10 +80,9 @@ TEST(ReferenceAugmentedMassSpring, DeflectsAsAStringDoes) {
     EXPECT_NEAR(state.positions().back().y / expected, 1.0, 1e-3);
 }
 
-// A straight hair hung by its root: the springs over k segments have the strain of these, and bear
-// E A of it each. At a segment n, counted from the tip as 0, the tension is the weight below; k
-// springs over k segments cross a segment, fewer near the ends. Solved here as a linear system of
-// its own, small strains: unknown are the segments' stretches.
+// A straight hair hangs by its root. Each spring over k segments has their mean strain and bears E
+// A times it. The tension across a segment is the weight below its middle. Up to k springs over k
+// segments cross a segment; near the ends there are fewer. Strains are small.
 TEST(ReferenceAugmentedMassSpring, StretchesByTheWeightBelow) {
     constexpr std::size_t kSegments = 3;
     constexpr double kLength = 0.09, kStiffness = 1e-3;  // m, N
@@ -93,8 +91,9 @@ TEST(ReferenceAugmentedMassSpring, StretchesByTheWeightBelow) {
         makeRodRest(simulation::straightRod(kSegments, kLength, {0.0, -1.0, 0.0}), material);
     const RodState state = restedSprings(rest, {.spring_stiffness = kStiffness});
     const std::vector<glm::dvec3> positions = state.positions();
-    // Strains s of the three segments. Tension across each: its own spring, those over two segments
-    // that cover it, (s_i + s_j) / 2, and the one over three, their mean.
+    // Strains s of the three segments. The tension across each comes from its own spring, from
+    // those over two segments that cover it, (s_i + s_j) / 2, and from the spring over all three,
+    // with their mean.
     const double segment = kLength / kSegments;
     std::vector<double> strain;
     for (std::size_t i = 1; i <= kSegments; ++i)
@@ -111,7 +110,7 @@ TEST(ReferenceAugmentedMassSpring, StretchesByTheWeightBelow) {
     }
 }
 
-// The ghost goes with the head, and without weight hair comes to where it is, twist and all.
+// The ghost moves with the head. Without weight, hair comes to rest on it, including its twist.
 TEST(ReferenceAugmentedMassSpring, TurnsWithItsHead) {
     const RodMaterial material;
     const RodRest rest = makeRodRest(simulation::helix(12, 0.01, 0.02, 2.0), material);
@@ -133,9 +132,9 @@ TEST(ReferenceAugmentedMassSpring, TurnsWithItsHead) {
     EXPECT_LT(largestDifference(state.positions(), expected), 1e-6);
 }
 
-// What it misses: without its ghost straight hair has no stiffness against bending to first order,
-// for springs over two segments shorten by the square of an angle. A level hair then hangs straight
-// down, whatever the springs.
+// Limitation: without its ghost, straight hair has no stiffness against bending to first order,
+// because springs over two segments shorten by the square of an angle. A level hair then hangs
+// straight down with any springs.
 TEST(ReferenceAugmentedMassSpring, StraightHairIsLimpWithoutItsGhost) {
     const RodRest rest = makeRodRest(simulation::straightRod(4, 0.02), {});
     const RodState state = restedSprings(rest, {.spring_stiffness = 1e-3}, 4000);

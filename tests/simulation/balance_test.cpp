@@ -9,11 +9,11 @@
 #include "tests/simulation/rods.h"
 #include "tests/simulation/strands.h"
 
-// /simulation/rest: balanced, on the device.
+// Tests /simulation/rest "balanced" on the device.
 namespace hair::simulation {
 namespace {
 
-// An arc that leaves the head sideways and hangs, a helix, a strand that stands, one that is level.
+// An arc that leaves the head sideways and hangs, a helix, an upright strand and a level one.
 groom::Groom groomed() {
     constexpr int kSegments = 11;
     groom::Groom groom{.strand_count = 4, .vertices_per_strand = kSegments + 1};
@@ -36,8 +36,8 @@ SimulationSettings balancedSettings(Solver solver) {
 
 class BalancedRest : public GpuTest {
 protected:
-    // Farthest that any vertex is from its place on the groom after a second, over the shortest
-    // guide.
+    // Returns the greatest distance of a vertex from its place in the groom after a second, over
+    // the shortest guide's length.
     static double
     moved(const groom::Groom& groom, const SimulationSettings& settings, int steps = 60) {
         Simulation simulation(device(), groom, settings, 1);
@@ -47,7 +47,7 @@ protected:
     }
 };
 
-// 0.1 %: what is left of a step is below a part in 10^5 of a guide, and springs bring it back.
+// The tolerance is 0.1 %: the error of a step is below 1e-5 of a guide, and springs reduce it.
 TEST_F(BalancedRest, HairStaysAsItIsGroomed) {
     for (const Solver solver : {Solver::shape, Solver::rod}) {
         SimulationSettings settings = balancedSettings(solver);
@@ -57,7 +57,8 @@ TEST_F(BalancedRest, HairStaysAsItIsGroomed) {
     }
 }
 
-// In substeps the local constraint damps less and makes hair as curved as this flutter: without it.
+// In substeps the local constraint damps less, and makes strongly curved hair like this flutter. So
+// it is off here.
 TEST_F(BalancedRest, HoldsInSubsteps) {
     for (const Solver solver : {Solver::shape, Solver::rod}) {
         SimulationSettings settings = balancedSettings(solver);
@@ -67,13 +68,13 @@ TEST_F(BalancedRest, HoldsInSubsteps) {
     }
 }
 
-// Where air brakes hair, `shape` has tensions in another metric than the pull toward the rest
-// position, and drifts by some 2 % of a guide that curves.
+// In air with drag, the tensions of `shape` use another metric than the pull toward the rest
+// position. A curved guide then drifts by some 2 % of its length.
 TEST_F(BalancedRest, HoldsInStillAirOfDrag) {
     for (const Solver solver : {Solver::shape, Solver::rod}) {
         SimulationSettings settings = balancedSettings(solver);
         settings.wind.mode = WindMode::drag;
-        // Over 0.05 m, as all here: 3 % of 0.15 m.
+        // moved() divides by 0.05 m: this is 3 % of 0.15 m.
         EXPECT_LT(moved(groomed(), settings), solver == Solver::rod ? 0.001 : 0.09);
     }
 }
@@ -89,7 +90,7 @@ TEST_F(BalancedRest, HoldsWhateverKeepsLengthsAndHoweverItIsSpread) {
     }
 }
 
-// Gravity is what it is for the head as it is at the start.
+// The balance takes gravity in the frame of the head's first pose.
 TEST_F(BalancedRest, HoldsOnATiltedHead) {
     for (const Solver solver : {Solver::shape, Solver::rod}) {
         SimulationSettings settings = balancedSettings(solver);
@@ -99,8 +100,8 @@ TEST_F(BalancedRest, HoldsOnATiltedHead) {
     }
 }
 
-// Hair that starts nearer to a body than its margin, and even inside, is not pushed away; hair that
-// is pushed against it later is held where it began.
+// Hair that starts within a body's margin, or even inside the body, is not pushed away. If
+// something presses it against the body later, it is held where it started.
 TEST_F(BalancedRest, BodiesKeepNoHairFartherAwayThanItStarts) {
     for (const Solver solver : {Solver::shape, Solver::rod}) {
         SimulationSettings settings = balancedSettings(solver);
@@ -116,7 +117,7 @@ TEST_F(BalancedRest, BodiesKeepNoHairFartherAwayThanItStarts) {
         settings.wind = {.strength = 300.0f, .direction = {0.0f, -1.0f, 0.0f}, .cone_angle = 0.0f};
         Simulation simulation(device(), level, settings, 1);
         advance(device(), simulation, 60);
-        // Positions this far from the sphere's middle are rounded to 1e-6 m.
+        // Positions this far from the sphere's centre are rounded to 1e-6 m.
         Extremes gaps;
         for (const glm::vec3& point : simulation.readPositions())
             gaps.add(glm::distance(glm::dvec3(point), glm::dvec3(below)) - 10.0);
@@ -133,8 +134,8 @@ TEST_F(BalancedRest, SaysWhatItDidAndWhatItCould) {
     EXPECT_EQ(Simulation(device(), groom, settings, 1).balance(), nullptr)
         << "it has no rest shape";
 
-    // What is needed is a stiffness: the factor on 1/40 of it is 40 times as great, to twice the
-    // precision of 5 % that factors have.
+    // Balance needs a certain stiffness, so a tenth of the modulus needs ten times the factor.
+    // Factors have a precision of 5 %; the tolerance is twice that.
     settings = balancedSettings(Solver::rod);
     settings.material.youngs_modulus /= 4.0f;
     settings.material.shear_modulus /= 4.0f;
@@ -153,13 +154,13 @@ TEST_F(BalancedRest, SaysWhatItDidAndWhatItCould) {
     settings.most_stiffening = 1.0f;
     EXPECT_EQ(balanceOf(settings).unbalanced, (std::vector<std::uint32_t>{0, 1, 2, 3}));
 
-    // Nothing can hold what is not pulled to its place.
+    // Without a pull to the rest position nothing can hold the hair.
     settings = balancedSettings(Solver::shape);
     settings.global.stiffness = 0.0f;
     EXPECT_EQ(Simulation(device(), groom, settings, 1).balance()->unbalanced.size(), 4u);
 }
 
-// A balanced state is one that a reset goes back to, and one that a cache may know.
+// A reset restores the balanced state.
 TEST_F(BalancedRest, IsThereAgainAfterAReset) {
     SimulationSettings settings = balancedSettings(Solver::shape);
     settings.wind.strength = 10.0f;

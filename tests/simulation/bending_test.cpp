@@ -1,5 +1,5 @@
-// The local constraint of `shape` as an energy: where it rests, what it does to energy, and how
-// stiff it is.
+// Tests the local constraint of `shape` as an energy: where hair rests, how its energy changes and
+// how stiff it is.
 #include <array>
 #include <cmath>
 #include <cstdint>
@@ -25,8 +25,9 @@ namespace {
 
 using Points = std::vector<glm::dvec3>;
 
-// Strands of one chunk and of several, whose last is full and is not, and that fill a workgroup and
-// do not: 9 and 33 have one vertex in the last of 5 and 17 chunks of `vertex`.
+// Strands of one chunk and of several, with a last chunk that is full and one that is not; strands
+// that fill a work group and strands that don't. 9 and 33 vertices have one vertex in the last of 5
+// and 17 chunks of `vertex`.
 constexpr std::uint32_t kVertexCounts[] = {2, 3, 8, 9, 33, 64};
 
 SimulationSettings bending() {
@@ -35,8 +36,8 @@ SimulationSettings bending() {
     return settings;
 }
 
-// K, 1/s^2, at any step: a reference step of the thesis's 10 iterations holds a segment by 10 k /
-// 2, and joints that turn both segments are 4 times as stiff for the same sag.
+// Returns K, 1/s^2, at any time step. A reference step of the thesis's 10 iterations holds a
+// segment by 10 k / 2, and joints that turn both segments are 4 times as stiff for the same sag.
 double stiffnessOf(const SimulationSettings& settings, double segment) {
     return 4.0 * 5.0 * -std::log1p(-double{settings.local.stiffness}) * 3600.0 *
            std::pow(0.15 / 7.0 / segment, 4.0);
@@ -96,7 +97,7 @@ std::vector<double> zeroOf(
 
 constexpr double kWindLength = 0.05;  // m
 
-// Angles of segments from straight down, in the plane of wind and gravity.
+// Takes the angles of the segments from straight down, in the plane of wind and gravity.
 Points hangingAt(const std::vector<double>& angles) {
     Points points{glm::dvec3(0.0)};
     for (const double angle : angles)
@@ -106,9 +107,9 @@ Points hangingAt(const std::vector<double>& angles) {
     return points;
 }
 
-// Where weight, drag, the pull toward the rest position and the couples of
-// E = sum 1/2 K |e_i - R_(i-1) e0_i|^2 = const - sum K l^2 cos(angle_i - angle_(i-1))
-// are in balance, found from no wind on.
+// Returns the equilibrium of weight, drag, the pull toward the rest position and the couples of E =
+// sum 1/2 K |e_i - R_(i-1) e0_i|^2 = const - sum K l^2 cos(angle_i - angle_(i-1)). It is found by
+// raising the wind from zero in parts.
 Points steadyIn(const SimulationSettings& settings, std::size_t segments) {
     const double segment = kWindLength / static_cast<double>(segments);
     const double couple = stiffnessOf(settings, segment) * segment * segment;
@@ -145,8 +146,9 @@ Points steadyIn(const SimulationSettings& settings, std::size_t segments) {
 
 class BendingInWind : public GpuTest, public testing::WithParamInterface<Parallelism> {
 protected:
-    // Asked for is 1 % of the length between time steps after 5 s. Positions are rounded to 1e-8 of
-    // a metre here and forces to some 1e-6 of themselves, and air has to bring hair to rest: 0.1 %.
+    // The requirement is 1 % of the length between time steps after 5 s. This tests for 0.1 %:
+    // positions are rounded to 1e-8 m here, forces to some 1e-6 of themselves, and air has to bring
+    // the hair to rest.
     static void
     expectSteady(std::uint32_t vertices, float speed, std::initializer_list<int> rates) {
         SimulationSettings settings = bending();
@@ -181,7 +183,7 @@ FOR_EVERY_PARALLELISM(BendingInWind);
 
 // ---- In balance ---------------------------------------------------------------------------------
 
-// The energy of a strand on a head that stands still, over a vertex's mass, m^2/s^2.
+// Returns the energy of a strand on a head at rest, over a vertex's mass, m^2/s^2.
 double energyOf(
     const Points& points, const Points& rest, const SimulationSettings& settings,
     double stiffness) {
@@ -200,10 +202,10 @@ double energyOf(
 
 using BendingAtRest = GpuTest;
 
-// A curl bends and, at every joint, leads its couple round all turns above it: the energy's
-// gradient in rotations of its segments, by differences, vanishes where it hangs. Against the
-// weight's moment about the root; positions are floats, which the stiffest of these turn into 0.1 %
-// of that.
+// A curl bends, and every joint transmits its couple through all turns above it. Where the curl
+// hangs, the energy's gradient by rotations of its segments vanishes; it is computed by central
+// differences. The error is relative to the weight's moment about the root. Positions are floats,
+// which makes 0.1 % of that at the greatest stiffness.
 TEST_F(BendingAtRest, CurlsHangWhereTheirEnergyIsLeast) {
     const Points rest = helix(11, 0.01, 0.02, 2.0);
     for (const float stiffness : {0.003f, 0.01f, 0.1f}) {
@@ -248,9 +250,9 @@ TEST_F(BendingAtRest, CurlsHangWhereTheirEnergyIsLeast) {
 
 class BendingInBalance : public GpuTest, public testing::WithParamInterface<Parallelism> {};
 
-// The weight is borne by tensions and the pull to the rest position, in closed form: nothing but
-// what positions are rounded to, 1e-8 m near the origin, moves hair, and the pull that bears the
-// weight of hair that nothing else holds is as soft as 1e-3 of it per millimetre.
+// Tensions and the pull to the rest position bear the weight, in closed form. Only the rounding of
+// positions, 1e-8 m near the origin, moves hair. Where the pull alone bears the weight, it is soft:
+// its force changes by 1e-3 of the weight per millimetre.
 TEST_P(BendingInBalance, BalancedHairStays) {
     for (const std::uint32_t vertices : kVertexCounts) {
         const Points rest = helix(vertices - 1, 0.01, 0.02, vertices < 8 ? 0.3 : 1.0);
@@ -269,7 +271,7 @@ FOR_EVERY_PARALLELISM(BendingInBalance);
 
 // ---- In motion ----------------------------------------------------------------------------------
 
-// Let go with the friction that hair has, nothing but its weight does work on it.
+// The hair is released with its usual friction, and only its weight does work on it.
 TEST(Bending, EnergyNeverGrows) {
     for (const Points& rest : {helix(11, 0.01, 0.02, 1.0), straightRod(11, 0.15)})
         for (const float stiffness : {0.001f, 0.01f, 0.2f})
@@ -295,7 +297,7 @@ TEST(Bending, EnergyNeverGrows) {
                     }
                     return kinetic + energyOf(middle, rest, settings, k);
                 };
-                // The weight's energy at half of the length, as in the physics report.
+                // Energy of the weight at half of the length, as in the physics report.
                 const double scale = 9.8 * 11.0 * 11.0 * segment / 2.0;
                 double before = std::numeric_limits<double>::infinity();
                 for (int window = 0; window < 16; ++window) {
@@ -313,8 +315,9 @@ TEST(Bending, EnergyNeverGrows) {
 
 // ---- As the thesis's hair -----------------------------------------------------------------------
 
-// The tip of level hair under a thousandth of gravity, which both are linear in; the thesis's own
-// turns by pulls of finite size, 5 % of a segment in a step: 3 %.
+// Compares the tip's sag of level hair under a thousandth of gravity, where both methods are linear
+// in gravity. The thesis's own method turns by pulls of finite size, 5 % of a segment in a step:
+// hence 3 %.
 TEST(Bending, SagsAsTheThesissHair) {
     SimulationSettings settings = bending();
     settings.gravity = {0.0f, -0.0098f, 0.0f};
@@ -335,9 +338,9 @@ TEST(Bending, SagsAsTheThesissHair) {
 
 class BendingOnDevice : public GpuTest, public testing::WithParamInterface<Parallelism> {};
 
-// On a head that turns and moves, from segments that are off by a third of their length and that
-// wind blows: each step from where the reference is. Sums of some tens of products of floats, each
-// rounded to 6e-8 of itself, at strands that are up to 1.4 m long.
+// The head turns and moves, wind blows, and segments have wrong lengths by up to a third. Each step
+// starts from the reference's state. Sums have some tens of products of floats, each rounded to
+// 6e-8 of itself, in strands of up to 1.4 m.
 TEST_P(BendingOnDevice, StepsAreTheReferences) {
     for (const std::uint32_t vertices : kVertexCounts) {
         SimulationSettings settings = bending();
@@ -371,7 +374,7 @@ TEST_P(BendingOnDevice, StepsAreTheReferences) {
     }
 }
 
-// A vertex that is held stays to the bit, and the lengths' own solve keeps segments.
+// A held vertex stays to the bit, and the length solve keeps the segments' lengths.
 TEST_P(BendingOnDevice, HeldVerticesStayAndSegmentsKeepTheirLengths) {
     for (const std::uint32_t vertices : {3u, 8u, 9u, 33u, 64u}) {
         SimulationSettings settings = bending();

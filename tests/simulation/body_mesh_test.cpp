@@ -49,7 +49,7 @@ TEST(BodyMesh, IsAClosedOneWithoutAWarningWhereItCan) {
     EXPECT_TRUE(isClosed(parts));
 }
 
-// A rim of 24 edges.
+// The rim has 24 edges.
 TEST(BodyMesh, SaysHowManyEdgesAreOpen) {
     const groom::BodyMesh body = groom::bodyMesh(openSphere());
     EXPECT_THAT(
@@ -60,7 +60,8 @@ TEST(BodyMesh, SaysHowManyEdgesAreOpen) {
     EXPECT_EQ(innerCount(std::get<OpenMesh>(body)), 0);
 }
 
-// A square sheet that stands on an edge of a box: three triangles there, and three sides alone.
+// A square sheet stands on an edge of a box: that edge has three triangles, and three edges of the
+// sheet have one.
 TEST(BodyMesh, TakesASheetThatBranchesOff) {
     groom::Mesh mesh = makeBox({0, 0, 0}, {1, 1, 1});
     addTriangle(mesh, {0, 1, 1}, {1, 1, 1}, {1, 2, 1});
@@ -83,8 +84,8 @@ TEST(BodyMesh, CountsARepeatedShellOnce) {
         HasSubstr("triangles that are there before: " + std::to_string(once.triangles.size())));
 }
 
-// Spheres of radius 1 and 0.6 whose centres are 1 apart: a triangle has the inside on both sides
-// where it is in the other one, and that is known but for triangles that are crossed.
+// The spheres have radii 1 and 0.6, and their centres are 1 apart. A triangle inside the other
+// sphere has the inside on both sides. This is known except for triangles that are crossed.
 TEST(BodyMesh, FindsWhatIsInsideOfPartsThatCross) {
     const glm::dvec3 other{1, 0, 0};
     groom::Mesh mesh = makeSphere({0, 0, 0}, 1.0, 4);
@@ -93,7 +94,7 @@ TEST(BodyMesh, FindsWhatIsInsideOfPartsThatCross) {
     EXPECT_THAT(open.reason, HasSubstr("triangles that go through others: "));
     EXPECT_THAT(open.reason, Not(HasSubstr("edges")));
     constexpr double kEdge = 1.2 * 1.107 / 16;
-    const std::size_t first = open.triangles.size() / 2;  // of the other
+    const std::size_t first = open.triangles.size() / 2;  // of the second sphere
     std::size_t inside = 0;
     for (std::size_t i = 0; i < open.triangles.size(); ++i) {
         const glm::dvec3 at(open.positions[open.triangles[i][0]]);
@@ -117,7 +118,7 @@ TEST(BodyMesh, FindsWhatLiesInAnother) {
     EXPECT_EQ(open.reason, "triangles with the inside on both sides: 320");
 }
 
-// Before a plane its winding number is at most half a turn, and less by what its rim lets by.
+// In front of a plane the winding number is at most 1/2, and less because the plane has a rim.
 TEST(BodyMesh, RefusesAPlaneWithItsFigure) {
     groom::Mesh plane;
     addTriangle(plane, {0, 0, 0}, {1, 0, 0}, {1, 1, 0});
@@ -160,8 +161,8 @@ TEST(BodyMesh, RefusesTrianglesThatFaceOppositeWays) {
     EXPECT_THAT(refusal(mesh), HasSubstr("edges whose two triangles face opposite ways: 3,"));
 }
 
-// A mask that is open far more than half a sphere, and lashes before it: its winding number is
-// negative there, but they do not face inward.
+// A mask that is far more open than half a sphere, and lashes in front of it. The winding number at
+// the lashes is negative, but they do not face inward.
 TEST(BodyMesh, TakesASheetBeforeAnOpenMesh) {
     groom::Mesh mask = makeOpenSphere({0, 0, 0}, 1.0, 1.0, 24, 8);
     append(mask, makeOpenSphere({0, 0.01, 0}, 1.0, 0.1, 12, 2));

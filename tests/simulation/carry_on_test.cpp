@@ -11,7 +11,7 @@
 #include "tests/simulation/pulls.h"
 #include "tests/simulation/rounding.h"
 
-// Simulation::carryOn: other wind, colliders, motion and pulls on the way.
+// Tests Simulation::carryOn: wind, colliders, motion and pulls change during a simulation.
 namespace hair::simulation {
 namespace {
 
@@ -22,7 +22,7 @@ SimulationSettings plain(Solver solver) {
     return settings;
 }
 
-// Everything that carryOn takes, switched on.
+// Returns settings with everything on that carryOn can change.
 SimulationSettings busy(Solver solver) {
     SimulationSettings settings = plain(solver);
     settings.wind = {.mode = WindMode::drag, .speed = 5.0f, .turbulence = 0.5f};
@@ -32,7 +32,7 @@ SimulationSettings busy(Solver solver) {
     return settings;
 }
 
-// What takes `settings` from plain() to busy(), a thing at a time.
+// Changes that lead from plain() to busy(), one part each.
 using Change = std::function<void(SimulationSettings&, const SimulationSettings&)>;
 const Change kChanges[] = {
     [](SimulationSettings& s, const SimulationSettings& other) { s.wind = other.wind; },
@@ -60,9 +60,10 @@ TEST_F(CarryOn, WithTheSameSettingsChangesNothing) {
         }
 }
 
-// A simulation that has been other settings' for 7 steps and one that is made for the new ones and
-// put into its state at the same time go on alike: to each new thing and back. On a processor it is
-// so bit for bit; a GPU's compiler rounds otherwise where bodies may be met, though there are none.
+// A simulation takes 7 steps with other settings and then carries on with new ones. Another is made
+// with the new settings and set to the same state at the same time. Both go on alike, for every
+// change and its reverse. On a CPU they are equal to the bit; a GPU's compiler rounds differently
+// in shaders that handle bodies, even if there are none.
 TEST_F(CarryOn, GoesOnLikeANewSimulationInItsState) {
     const groom::Groom groom = wavyGroom(9, 8);
     const auto expectAlike = [&](const std::vector<glm::vec3>& found,
@@ -99,8 +100,8 @@ TEST_F(CarryOn, GoesOnLikeANewSimulationInItsState) {
             }
 }
 
-// The state of rods is more than positions; the wind must change all the same, and the first step
-// must go on from the velocities that there are.
+// Rods have velocities beside positions. The change of wind must take effect, and the next step
+// must start from the present velocities.
 TEST_F(CarryOn, KeepsTheRodsVelocities) {
     const groom::Groom groom = wavyGroom(9, 8);
     const SimulationSettings settings = plain(Solver::rod);
@@ -120,7 +121,7 @@ TEST_F(CarryOn, KeepsTheRodsVelocities) {
     EXPECT_NE(carried_on.readPositions(), straight.readPositions());
 }
 
-// Baked once, and still there beside other capsules.
+// The field is baked once and stays in use beside new capsules.
 TEST_F(CarryOn, KeepsDistanceFields) {
     const groom::Groom groom = straightGroom(3, 8);
     const std::vector<groom::Mesh> meshes{makeSphere({0.05, -0.1, 0.02}, 0.05, 2)};
@@ -154,12 +155,12 @@ TEST_F(CarryOn, TakesFrozenHairWithAHeadThatStartsToMove) {
     simulation.carryOn(settings);
     EXPECT_TRUE(simulation.moves());
     advance(device(), simulation, 1);
-    // Points within 1 m, each rounded a few times per turn.
+    // Points lie within 1 m, and each is rounded a few times per turn.
     constexpr double kCarried = 20 * 0x1p-24;
     EXPECT_LT(
         largestDifference(simulation.readPositions(), carried(simulation.pose(), groom.points)),
         kCarried);
-    // Back where it was made, in the step after the one that says so.
+    // The hair is back at its first place one step after the change.
     settings.motion = {};
     simulation.carryOn(settings);
     advance(device(), simulation, 1);

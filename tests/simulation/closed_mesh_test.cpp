@@ -42,9 +42,9 @@ TEST(ClosedMesh, WeldsTheCornersOfABox) {
     EXPECT_NEAR(volumeOf(box), 48.0, 1e-12);
 }
 
-// A corner's three faces weigh a right angle each, however many triangles they are cut in; an
-// edge's two faces weigh the same; across a face's diagonal they are one. Roundings of numbers
-// below 5.
+// The three faces at a corner each have the weight of a right angle, into however many triangles
+// they are cut. The two faces at an edge have equal weights. Both triangles at a face's diagonal
+// have the same normal. Tolerance: roundings of numbers below 5.
 TEST(ClosedMesh, PseudonormalsOfABoxAreItsDiagonals) {
     const groom::ClosedMesh box = groom::closeMesh(makeBox({-1, -1, -1}, {1, 1, 1}));
     const double quarter = std::numbers::pi / 2;
@@ -81,7 +81,7 @@ TEST(ClosedMesh, RefusesATriangleThatFacesTheOtherWay) {
         HasSubstr("not closed: edges whose two triangles face opposite ways: 3, the first from ("));
 }
 
-// Two boxes along the edge x = y = 1.
+// Two boxes share the edge x = y = 1.
 TEST(ClosedMesh, RefusesAnEdgeOfFourTriangles) {
     groom::Mesh boxes = makeBox({0, 0, 0}, {1, 1, 1});
     append(boxes, makeBox({1, 1, 0}, {2, 2, 1}));
@@ -112,8 +112,8 @@ TEST(ClosedMesh, LeavesOutTrianglesWithEqualCorners) {
     EXPECT_EQ(groom::closeMesh(box).triangles.size(), 12u);
 }
 
-// A tetrahedron of volume 4 with one edge cut in three on one of its two faces; two triangles
-// without area fill the slit.
+// A tetrahedron has the volume 4. One of its edges is cut in three on one of its two faces, and two
+// triangles without area fill the slit.
 TEST(ClosedMesh, TurnsTheEdgesOfTrianglesWithoutArea) {
     const glm::dvec3 a{0, 0, 0}, b{6, 0, 0}, c{0, 2, 0}, d{0, 0, -2};
     const glm::dvec3 m1{2, 0, 0}, m2{4, 0, 0};
@@ -134,11 +134,12 @@ TEST(ClosedMesh, TurnsTheEdgesOfTrianglesWithoutArea) {
         EXPECT_GT(areaOf(closed, triangle), 0.5);
         area += areaOf(closed, triangle);
     }
-    // Faces 6 * 2 / 2 twice, 2 * 2 / 2, and the slanted one |(-6, 2, 0) x (-6, 0, -2)| / 2.
+    // The faces have the areas 6 * 2 / 2 twice, 2 * 2 / 2, and |(-6, 2, 0) x (-6, 0, -2)| / 2 for
+    // the slanted one.
     EXPECT_NEAR(area, 14.0 + std::sqrt(16.0 + 144.0 + 144.0) / 2, 1e-12);
 }
 
-// Of V - E + F = 2, E = 3 F / 2.
+// V - E + F = 2 with E = 3 F / 2.
 TEST(ClosedMesh, TheHeadIsClosed) {
     const groom::Mesh head =
         groom::importMesh(std::string(HAIRBENCH_SCENES_DIR) + "/assets/head.glb");

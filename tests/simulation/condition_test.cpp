@@ -63,7 +63,8 @@ TEST(GuideCondition, NothingIsWrongWithHairAtRest) {
 
 using GuideConditions = GpuTest;
 
-// Tolerances: roundings of lengths of 0.1 m, 1e-8 m, over segments of 0.1 m and steps of 1/60 s.
+// Tolerances: lengths of 0.1 m are rounded to 1e-8 m; segments are 0.1 m long and steps take 1/60
+// s.
 TEST_F(GuideConditions, FindsWhatIsWrongOnTheDevice) {
     SimulationSettings settings = nothingActs();
     settings.time_step = 1.0f / 60.0f;
@@ -74,7 +75,7 @@ TEST_F(GuideConditions, FindsWhatIsWrongOnTheDevice) {
     const groom::Groom groom = straightGroom(3, 4, 0.1);
     Simulation simulation(device(), groom, settings, 1);
     std::vector<glm::vec3> points = groom.points;
-    points[5].y += 0.03f;  // its own segment is 0.07 m now, the one below 0.13 m
+    points[5].y += 0.03f;  // its own segment is now 0.07 m long, the next one 0.13 m
     std::vector<glm::vec3> before = points;
     before[3].z -= 0.001f;
     simulation.setState(points, before);
@@ -82,7 +83,7 @@ TEST_F(GuideConditions, FindsWhatIsWrongOnTheDevice) {
     EXPECT_NEAR(condition.stretch.value, 1.3, 1e-6);
     EXPECT_EQ(condition.stretch.guide, 1u);
     EXPECT_EQ(condition.stretch.guides, 1u);
-    // The tip of the third guide, at x = 0.1 m, is the sphere's middle.
+    // The tip of the third guide, at x = 0.1 m, is the sphere's centre.
     EXPECT_NEAR(condition.depth.value, 0.02, 1e-6);
     EXPECT_EQ(condition.depth.guide, 2u);
     EXPECT_EQ(condition.depth.guides, 1u);
@@ -90,7 +91,7 @@ TEST_F(GuideConditions, FindsWhatIsWrongOnTheDevice) {
     EXPECT_EQ(condition.speed.guide, 0u);
 }
 
-// Bodies that follow the head are where it is.
+// Bodies that follow the head are taken at the head's present pose.
 TEST_F(GuideConditions, SeesBodiesWhereTheHeadIs) {
     SimulationSettings settings = nothingActs();
     settings.motion.keyframes = {{.time = 0.0f, .translation = {0.0f, 1.0f, 0.0f}}};
@@ -106,13 +107,14 @@ TEST_F(GuideConditions, SeesBodiesWhereTheHeadIs) {
     EXPECT_NEAR(Simulation(device(), groom, settings, 1).condition().depth.value, 0.02, 1e-6);
 }
 
-// Two straight guides along x with segments of 1 m: the distance along a guide is its vertex.
+// Two straight guides along x have segments of 1 m, so that the distance along a guide is the
+// vertex's index.
 TEST(FindBroken, NamesTheFirstVertexThatNoSimulationMayReach) {
     const std::vector<glm::vec3> rest{{0, 0, 0}, {1, 0, 0}, {2, 0, 0},
                                       {0, 1, 0}, {1, 1, 0}, {2, 1, 0}};
     EXPECT_FALSE(findBroken(rest, rest, 3, 1.0));
     std::vector<glm::vec3> positions = rest;
-    positions[5] = {3, 1, 0};  // 1 + 2 m from the root where 2 m are at rest
+    positions[5] = {3, 1, 0};  // 1 + 2 m from the root, and 2 m at rest
     EXPECT_FALSE(findBroken(positions, rest, 3, 1.5));
     const auto longer = findBroken(positions, rest, 3, 1.49);
     ASSERT_TRUE(longer);
@@ -129,7 +131,7 @@ TEST(FindBroken, NamesTheFirstVertexThatNoSimulationMayReach) {
     }
 }
 
-// The root alone: it has no length.
+// The root has no length above it.
 TEST(FindBroken, FindsARootWithoutAPosition) {
     const std::vector<glm::vec3> rest{{0, 0, 0}, {1, 0, 0}};
     const auto broken =

@@ -11,7 +11,7 @@
 #include "tests/simulation/gpu_simulation.h"
 #include "tests/simulation/strands.h"
 
-// Bodies and guides together, on the device.
+// Tests collisions of guides with bodies on the device.
 namespace hair::simulation {
 namespace {
 
@@ -44,7 +44,7 @@ SimulationSettings settingsFor(const Way& way) {
     return settings;
 }
 
-// A ball that is smaller than a segment, beside the fifth vertex of the second of three strands.
+// A ball smaller than a segment lies beside the fifth vertex of the second of three strands.
 TEST_F(GpuContact, MarksTheVertexThatTouchesAndAllBelow) {
     const groom::Groom groom = straightGroom(3, 9);
     const std::uint32_t touching = 9 + 4;
@@ -65,8 +65,8 @@ TEST_F(GpuContact, MarksTheVertexThatTouchesAndAllBelow) {
     }
 }
 
-// A segment's end that is thrown at 20 m/s at a rod of 2 mm, and would be 20 cm behind it after the
-// substep: it stops at the rod, at the margin from it.
+// A segment's end is thrown at 20 m/s at a rod 2 mm thick. Without continuous collisions it would
+// be 15 cm behind the rod after the substep. It stops at the margin from the rod.
 TEST_F(GpuContact, StopsWhatWouldFlyThroughAThinBody) {
     for (const Way& way : kWays) {
         SCOPED_TRACE(nameOf(way));
@@ -77,7 +77,7 @@ TEST_F(GpuContact, StopsWhatWouldFlyThroughAThinBody) {
         settings.friction = 0.0f;
         settings.global.stiffness = 0.0f;
         settings.local.stiffness = 0.0f;
-        settings.material.youngs_modulus = 1.0f;  // of `rod`: limp
+        settings.material.youngs_modulus = 1.0f;  // makes `rod` limp
         settings.material.shear_modulus = 1.0f;
         settings.collision = {.margin = 0.001f, .continuous = true};
         settings.colliders = {
@@ -89,7 +89,7 @@ TEST_F(GpuContact, StopsWhatWouldFlyThroughAThinBody) {
         simulation.setState(groom.points, before);
         advance(device(), simulation, 1);
         const glm::vec3 tip = simulation.readPositions()[1];
-        EXPECT_NEAR(tip.x, 0.05 - 0.002, 2e-4);  // of kTouch, and of the margin's roundness
+        EXPECT_NEAR(tip.x, 0.05 - 0.002, 2e-4);  // for kTouch and the roundness of the margin
         EXPECT_TRUE(simulation.readContacts()[1]);
         settings.collision.continuous = false;
         Simulation careless(device(), groom, settings, 1);
@@ -97,7 +97,7 @@ TEST_F(GpuContact, StopsWhatWouldFlyThroughAThinBody) {
         advance(device(), careless, 1);
         EXPECT_GT(careless.readPositions()[1].x, 0.15f) << "where its way does not count";
         settings.collision.continuous = true;
-        // What would not have met it flies on.
+        // A vertex that misses the body flies on.
         settings.colliders = {
             {.a = {0.05f, -1.0f, 0.01f}, .b = {0.05f, -1.0f, 1.0f}, .radius = 0.001f}};
         Simulation free(device(), groom, settings, 1);
@@ -107,7 +107,7 @@ TEST_F(GpuContact, StopsWhatWouldFlyThroughAThinBody) {
     }
 }
 
-// Strands that stand on the top of a ball, apart.
+// Returns strands that stand apart on the top of a ball.
 groom::Groom hairOnABall(double radius) {
     groom::Groom groom{.strand_count = 12, .vertices_per_strand = 8};
     for (int s = 0; s < 12; ++s) {
@@ -119,7 +119,7 @@ groom::Groom hairOnABall(double radius) {
     return groom;
 }
 
-// Nods and comes back in a second.
+// Returns a nod and back, in a second.
 MotionSettings nod() {
     return {
         .keyframes =
@@ -127,7 +127,7 @@ MotionSettings nod() {
         .pivot = {0.0f, -0.1f, 0.0f}};
 }
 
-// The distance field of simulations of the same mesh, baked by the first.
+// Keeps the distance field that the first simulation of a mesh bakes, for the following ones.
 class FieldOnce {
 public:
     MadeBefore made() const { return {.fields = std::span(&known_, 1)}; }
@@ -143,10 +143,10 @@ private:
     const BakedField* known_ = nullptr;
 };
 
-// Hair that falls over a ball which nods with the head, and which is the distance field of a mesh
-// of 5,120 triangles: with edges of r / 15 their middles lie 7.4e-4 r inside, which is 5.9e-5 m.
-// Between its points the field is off by at most 3/8 cell^2 / r (its second derivatives are 1 / r
-// at most): 1.2e-4 m with cells of 2 r / 32. The rest is for rounding.
+// Hair falls over a ball that nods with the head. The ball is the distance field of a mesh of 5,120
+// triangles. With edges of r / 15 the middles of triangles lie 7.4e-4 r inside, which is 5.9e-5 m.
+// Between grid points the field is off by at most 3/8 cell^2 / r, as its second derivatives are at
+// most 1 / r: 1.2e-4 m with cells of 2 r / 32. The rest of the tolerance is for rounding.
 TEST_F(GpuContact, KeepsHairOutOfAMovingField) {
     constexpr double kRadius = 0.08;
     constexpr float kMargin = 0.004f;
@@ -162,7 +162,7 @@ TEST_F(GpuContact, KeepsHairOutOfAMovingField) {
         settings.distance_fields = {{.mesh = "", .resolution = 32}};
         Simulation simulation(device(), groom, settings, 1, std::span(&sphere, 1), field.made());
         field.keep(simulation);
-        // Where lengths have the last word hair presses into the margin.
+        // `shape` enforces lengths last, so hair presses into the margin.
         const double pressed = settings.solver == Solver::shape ? double{kMargin} : 0.0;
         std::ptrdiff_t contacts = 0;
         for (int i = 0; i < 60; ++i) {
@@ -180,13 +180,13 @@ TEST_F(GpuContact, KeepsHairOutOfAMovingField) {
     }
 }
 
-// The same ball, open below as a head at the neck, and open above, where hair falls on the opening,
-// 13 cm wide, and lies on its cap. With 64 rings of 64 vertices triangles lie by up to
-// ((2 pi / 64)^2 + (2.2 / 64)^2) / 8 r = 1.4e-3 r inside, 1.1e-4 m; between its points the field is
-// off as above, and round the rim by as much with the distance from it for the radius; beside it by
-// a cell at most. In a step hair that falls 0.3 m from rest at most moves 4.1 cm,
-// the head 0.3 cm, and a cell comes on top where it is pushed out; the opening would take it 6.5 cm
-// if it were not capped.
+// The same ball, once open below, like a head at the neck, and once open above. Above, hair falls
+// on the opening, which is 13 cm wide, and lies on its cap. With 64 rings of 64 vertices, triangles
+// lie up to ((2 pi / 64)^2 + (2.2 / 64)^2) / 8 r = 1.4e-3 r inside, 1.1e-4 m. Between grid points
+// the field is off as above. Near the rim the error has the distance from the rim in place of the
+// radius, and within two cells of it the error is at most a cell. Hair that falls at most 0.3 m
+// from rest moves at most 4.1 cm in a step and the head 0.3 cm; a push out adds a cell. Without the
+// cap the hair would jump 6.5 cm at the opening.
 TEST_F(GpuContact, KeepsHairOutOfAMovingOpenField) {
     constexpr double kRadius = 0.08;
     constexpr float kMargin = 0.004f;
@@ -194,7 +194,7 @@ TEST_F(GpuContact, KeepsHairOutOfAMovingOpenField) {
     constexpr double kCell = 2 * kRadius / 32;
     const groom::Groom groom = hairOnABall(kRadius);
     for (const bool open_above : {false, true}) {
-        // What is left of the ball is that which ends below at -0.5 r, or above at 0.58 r.
+        // The ball ends below at -0.5 r, or above at 0.58 r.
         groom::Mesh ball = makeOpenSphere({0, 0, 0}, kRadius, open_above ? 2.19 : 2.09, 64, 64);
         if (open_above)
             for (glm::vec3& p : ball.positions) p = {p.x, -p.y, -p.z};
@@ -207,7 +207,7 @@ TEST_F(GpuContact, KeepsHairOutOfAMovingOpenField) {
             settings.collision = {.margin = kMargin, .friction = 0.2f};
             settings.motion = nod();
             settings.distance_fields = {{.mesh = "", .resolution = 32}};
-            // Its ghost would hold hair up, over the ball.
+            // The ghost would hold hair above the ball.
             settings.augmented_mass_spring.integrity = 0.0f;
             settings.augmented_mass_spring.angular_stiffness = 0.0f;
             Simulation simulation(device(), groom, settings, 1, std::span(&ball, 1), field.made());

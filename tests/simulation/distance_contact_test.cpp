@@ -11,7 +11,7 @@
 #include "tests/simulation/distance_probe.h"
 #include "tests/simulation/strands.h"
 
-// What shaders make of a distance field: shaders/simulation/constraints/distance_field.glsl.
+// Tests how shaders sample a distance field: shaders/simulation/constraints/distance_field.glsl.
 namespace hair::simulation {
 namespace {
 
@@ -19,11 +19,12 @@ const glm::dvec3 kCentre{0.02, -0.01, 0.03};
 constexpr double kRadius = 0.1;
 
 // A mesh of 20 * 4^5 triangles lies in the sphere by up to edge^2 / (6 r), which makes distances
-// larger; no edge is more than 1.2 times the mean one, the icosahedron's 1.107 rad over 2^5.
+// larger. No edge is longer than 1.2 times the mean edge, which is the icosahedron's 1.107 rad over
+// 2^5.
 constexpr double kEdge = 1.2 * 1.107 / 32 * kRadius;
 constexpr double kChord = kEdge * kEdge / (6 * kRadius);
 
-// Some ten roundings of numbers up to 1 m and up to 32 cells.
+// Some ten roundings of numbers up to 1 m and of up to 32 cells.
 constexpr double kRounding = 10 * 0x1p-24;
 
 class DistanceContactTest : public GpuTest {
@@ -32,7 +33,8 @@ protected:
         return {device(), makeSphere(kCentre, kRadius, 5), resolution, padding};
     }
 
-    // From -1 to 1 and 1/4 beyond, with cells of 1/4: faces lie on grid points.
+    // A box from -1 to 1 with a padding of 1/4 and cells of 1/4, so that its faces lie on grid
+    // points.
     static DistanceField box() { return {device(), makeBox({-1, -1, -1}, {1, 1, 1}), 8, 0.25f}; }
 
     static glm::dvec3 pushed(
@@ -41,7 +43,8 @@ protected:
         return probe(device(), field, position, before, contact).pushed;
     }
 
-    // `count` positions in the grid grown by `beyond` times its size on all sides.
+    // Returns `count` positions in the grid's box, enlarged by `beyond` times its size on all
+    // sides.
     static std::vector<gpu::DistanceProbe>
     randomProbes(const DistanceField& field, int count, double beyond) {
         const gpu::DistanceField& grid = field.parameters();
@@ -61,12 +64,12 @@ void expectNear(const glm::dvec3& point, const glm::dvec3& expected) {
         << point.x << " " << point.y << " " << point.z;
 }
 
-// The interpolant of f along one axis is at most h^2 / 8 max |f''| off, and interpolating along the
-// next ones makes no error larger: h^2 / 8 per axis in all. Along any axis the distance to the
-// centre, r, has second derivatives between 0 and 1 / r; so the interpolant is never below it.
-// Corners of a cell are exact to the padding and two cells, and said to be as far at least if they
-// are farther: so the interpolant is right where the cell, a diagonal long, has no such corner, and
-// where it has some no less than there.
+// Along one axis, the interpolant of f is off by at most h^2 / 8 max |f''|. Interpolation along the
+// next axes does not enlarge errors, so that each axis adds h^2 / 8. Along any axis the distance to
+// the centre, r, has second derivatives between 0 and 1 / r, so the interpolant is never below it.
+// Corners of a cell are exact up to the padding plus two cells; farther corners have a value of at
+// least that. So the interpolant is right if no corner of the cell, whose diagonal is sqrt(3)
+// cells, is farther. Otherwise it is at least the exact range less this diagonal.
 TEST_F(DistanceContactTest, SampledSphereIsOffByTheCurvatureAtMost) {
     for (const std::uint32_t resolution : {8u, 16u, 32u}) {
         const DistanceField field = sphere(resolution, 0.02f);
@@ -75,7 +78,7 @@ TEST_F(DistanceContactTest, SampledSphereIsOffByTheCurvatureAtMost) {
         Extremes errors;
         for (const auto& probe : probe(device(), field, randomProbes(field, 20000, 0.0))) {
             const double from_centre = glm::distance(glm::dvec3(probe.position), kCentre);
-            const double nearest = from_centre - std::sqrt(3.0) * cell;  // of the cell, or nearer
+            const double nearest = from_centre - std::sqrt(3.0) * cell;  // bound for the cell
             if (nearest <= 0.0) continue;
             const double error = double{probe.distance} - (from_centre - kRadius);
             if (from_centre - kRadius <= exact_to) {
@@ -86,12 +89,13 @@ TEST_F(DistanceContactTest, SampledSphereIsOffByTheCurvatureAtMost) {
             ASSERT_LT(error, 3 * cell * cell / 8 / nearest + kChord + kRounding);
             if (from_centre > 0.9 * kRadius) errors.add(error);
         }
-        // The bound is not idle: at the middle of a cell two axes see 1 / r.
+        // The bound is nearly reached: in the middle of a cell two axes have the second derivative
+        // 1 / r.
         EXPECT_GT(errors.greatest(), cell * cell / 8 / kRadius);
     }
 }
 
-// The same interpolant in double, one dimension after the other.
+// Returns the same interpolant, computed in double as a sum over all grid points.
 double interpolate(
     const gpu::DistanceField& grid, const std::vector<float>& distances, const glm::dvec3& p) {
     const glm::dvec3 scaled = (p - glm::dvec3(grid.origin)) / double{grid.cell};
@@ -111,15 +115,16 @@ double interpolate(
     return sum + glm::distance(scaled, inside) * double{grid.cell};
 }
 
-// In a cell the interpolant is linear along each axis, so differences are exact but for rounding.
-// Beyond the grid their error is step^2 / 6 times the third derivative of the distance to it, at
-// most 1 / gap^2. Near the grid's planes, where the gradient jumps, no differences are taken.
+// In a cell the interpolant is linear along each axis, so differences are exact except for
+// rounding. Beyond the grid their error is step^2 / 6 times the third derivative of the distance to
+// the grid, which is at most 1 / gap^2. No differences are taken near the grid's planes, where the
+// gradient jumps.
 TEST_F(DistanceContactTest, ValueAndGradientAreThoseOfTheInterpolant) {
     const DistanceField field = sphere(10, 0.03f);
     const auto distances = engine::downloadAs<float>(device(), field.distances());
     const gpu::DistanceField& grid = field.parameters();
     constexpr double kStep = 1e-5;
-    // The position in the cell is known to some roundings of 0.2 m; the slopes change by up to
+    // The position in the cell is known to a few roundings of 0.2 m. The slopes change by up to
     // sqrt(2) / cell per metre in each direction.
     const double slope_rounding = 4 * 0x1p-24 * 0.2 * 4 / double{grid.cell} + 1e-6;
     int beyond = 0;
@@ -146,7 +151,7 @@ TEST_F(DistanceContactTest, ValueAndGradientAreThoseOfTheInterpolant) {
     EXPECT_GT(beyond, 300);
 }
 
-// No point of the padding's outer side is nearer than the padding, and none beyond it.
+// Every point on or beyond the outer side of the padding is at least the padding away.
 TEST_F(DistanceContactTest, NothingBeyondTheGridTouches) {
     const DistanceField field = sphere(16, 0.02f);
     const gpu::DistanceField& grid = field.parameters();
@@ -159,13 +164,13 @@ TEST_F(DistanceContactTest, NothingBeyondTheGridTouches) {
         ASSERT_GT(probe.distance, 0.02 - kRounding);
         ASSERT_EQ(probe.pushed, p);
     }
-    // Far away it is the distance to the sphere but for the size of the grid.
+    // Far away the value is the distance to the sphere, except for the size of the grid.
     const auto far = probe(device(), field, {1000.0f, 0.0f, 0.0f});
     EXPECT_NEAR(far.distance, 1000.0f, 0.4f);
     EXPECT_NEAR(far.gradient.x, 1.0f, 1e-3f);
 }
 
-// The top face of a box, in a cell whose nearest face it is.
+// The points lie in a cell nearest to the top face of the box.
 TEST_F(DistanceContactTest, PushesOutToTheMarginAlongTheGradient) {
     const DistanceField field = box();
     expectNear(pushed(field, {0.125f, 0.875f, 0.25f}), {0.125, 1, 0.25});
@@ -175,8 +180,8 @@ TEST_F(DistanceContactTest, PushesOutToTheMarginAlongTheGradient) {
     EXPECT_EQ(pushed(field, outside, {}, {.margin = 0.1f}), glm::dvec3(outside));
 }
 
-// 0.25 deep and 0.2 moved along the face: a coefficient of 0.5 takes 0.125 of it back, one of 0.8
-// and above all of it, and never more.
+// The point is 0.25 deep and has moved 0.2 along the face. A friction coefficient of 0.5 takes back
+// 0.125 of that; 0.8 and more take back all of it, and never more.
 TEST_F(DistanceContactTest, TakesBackWhatFrictionHolds) {
     const DistanceField field = box();
     const glm::vec3 inside{0.125f, 0.75f, 0.25f};
@@ -187,7 +192,8 @@ TEST_F(DistanceContactTest, TakesBackWhatFrictionHolds) {
     expectNear(pushed(field, inside, before, {.friction = 9.0f}), {0.125, 1, 0.05});
 }
 
-// Five cells: the middle of the box is the middle of a cell whose corners are all 0.8 deep.
+// With five cells, the box's centre is the centre of a cell, and all corners of that cell are 0.8
+// deep.
 TEST_F(DistanceContactTest, LeavesThroughTheTopWhereNoWayIsShortest) {
     const DistanceField field(device(), makeBox({-1, -1, -1}, {1, 1, 1}), 5, 0.0f);
     const auto middle = probe(device(), field, {0, 0, 0}, {}, {.margin = 0.1f});
@@ -195,10 +201,11 @@ TEST_F(DistanceContactTest, LeavesThroughTheTopWhereNoWayIsShortest) {
     expectNear(middle.pushed, {0, 0.9, 0});
 }
 
-// The sampled distance is too large by the interpolation error. Along each axis the sampled slope
-// is one between two grid points, half a cell from here: it is off by cell / 2 times the second
-// derivatives, at most 1 / r each and 2 / r together, so the gradient is tilted by less than
-// t = cell / r. Moving by d with that tilt ends d t^2 / 2 too low and (d t)^2 / (2 r) too high.
+// The sampled distance is too large by the interpolation error. The sampled slope along each axis
+// is a difference between two grid points, half a cell from here. So it is off by cell / 2 times
+// the second derivatives, at most 1 / r each and 2 / r together, and the gradient is tilted by less
+// than t = cell / r. A move by d with this tilt ends d t^2 / 2 too low and (d t)^2 / (2 r) too
+// high.
 TEST_F(DistanceContactTest, OnePushBringsAPointOfASphereToTheMargin) {
     constexpr double kMargin = 0.005;
     const DistanceField field = sphere(32, 0.02f);
@@ -209,7 +216,7 @@ TEST_F(DistanceContactTest, OnePushBringsAPointOfASphereToTheMargin) {
              {.margin = static_cast<float>(kMargin)})) {
         const double from_centre = glm::distance(glm::dvec3(probe.position), kCentre);
         if (from_centre < 0.5 * kRadius || from_centre > kRadius) continue;
-        const double nearest = from_centre - std::sqrt(3.0) * cell;  // of the cell
+        const double nearest = from_centre - std::sqrt(3.0) * cell;  // lower bound for the cell
         const double interpolation = 3 * cell * cell / 8 / nearest + kChord;
         const double depth = kRadius + kMargin - from_centre;
         const double tilt = cell / nearest;

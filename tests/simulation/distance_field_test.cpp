@@ -17,8 +17,8 @@
 namespace hair::simulation {
 namespace {
 
-// A distance is some 20 roundings (of the grid point, of the way to a corner, of its square) of
-// numbers up to the size of the grid and its distance from the origin.
+// A distance takes some 20 roundings (of the grid point, the vector to a corner and its square) of
+// numbers up to the grid's size plus its distance from the origin.
 double roundingOf(double size) { return 20 * 0x1p-24 * size; }
 
 double boxDistance(const glm::dvec3& p, const glm::dvec3& half) {
@@ -28,7 +28,7 @@ double boxDistance(const glm::dvec3& p, const glm::dvec3& half) {
 
 class DistanceFieldTest : public GpuTest {
 protected:
-    // A field with what it holds.
+    // A field and its values.
     struct Baked {
         DistanceField field;
         double padding;
@@ -47,11 +47,12 @@ protected:
             return glm::dvec3(grid().origin) + double{grid().cell} * point;
         }
 
-        // Farther outside than this distances are lower bounds, and at least this.
+        // Distances are exact up to this one; farther outside they are lower bounds of at least
+        // this.
         double exactTo() const { return padding + 2.0 * double{grid().cell}; }
 
-        // Whether a grid point is said to be as far as it is, or, beyond what is exact, at most
-        // that far and too far to touch.
+        // Whether a grid point has its exact distance or, beyond the exact range, at most that
+        // distance and at least the range.
         testing::AssertionResult tells(double found, double exact) const {
             const double rounding = roundingOf(size());
             const bool fits = exact <= exactTo()
@@ -110,7 +111,7 @@ TEST_F(DistanceFieldTest, OfABoxIsExact) {
         ASSERT_TRUE(baked.tells(baked.distances[i], boxDistance(baked.position(i), half))) << i;
 }
 
-// The corners of the grid are 0.52 m away.
+// The corners of the grid are 0.52 m from the box.
 TEST_F(DistanceFieldTest, BeyondThePaddingIsALowerBoundThatIsOutside) {
     const groom::Mesh box = makeBox({-0.5, -0.5, -0.5}, {0.5, 0.5, 0.5});
     const Baked baked(box, 64, 0.3f);
@@ -121,10 +122,10 @@ TEST_F(DistanceFieldTest, BeyondThePaddingIsALowerBoundThatIsOutside) {
         ASSERT_TRUE(baked.tells(baked.distances[i], exact)) << i;
         bounds += baked.distances[i] < exact - roundingOf(baked.size());
     }
-    EXPECT_GT(bounds, 0u);  // what is saved
+    EXPECT_GT(bounds, 0u);  // some distances were not computed
 }
 
-// Moved to where 1 / 16 mm is the distance between floats.
+// The box lies where neighbouring floats are 1 / 16 mm apart.
 TEST_F(DistanceFieldTest, OfABoxFarFromTheOriginIsAsExactAsFloats) {
     const glm::dvec3 half{0.5, 0.5, 0.5};
     const glm::dvec3 centre{1000.0, -1000.0, 500.0};
@@ -133,8 +134,8 @@ TEST_F(DistanceFieldTest, OfABoxFarFromTheOriginIsAsExactAsFloats) {
         ASSERT_TRUE(baked.tells(baked.distances[i], boxDistance(baked.position(i) - centre, half)));
 }
 
-// The sphere of the vertices holds the mesh, and that which touches the planes of its triangles is
-// in it: distances lie between theirs.
+// The sphere through the vertices contains the mesh, and the sphere that touches the planes of its
+// triangles lies in the mesh. So distances lie between those to the two spheres.
 TEST_F(DistanceFieldTest, OfASphereLiesBetweenThoseOfTheSpheresRoundAndInIt) {
     const glm::dvec3 centre{0.02, -0.01, 0.03};
     const groom::Mesh mesh = makeSphere(centre, 0.1, 3);
@@ -186,7 +187,7 @@ TEST_F(DistanceFieldTest, OfTwoPartsIsThatOfTheNearerOne) {
     }
 }
 
-// Sides 1, 0.5 and 0.3 with 0.125 on either side: 10, 6 and 4.4 cells of 1/8.
+// Sides of 1, 0.5 and 0.3 with a padding of 0.125 on either side make 10, 6 and 4.4 cells of 1/8.
 TEST_F(DistanceFieldTest, GridIsAsFineAsAskedAndCoversThePadding) {
     const groom::Mesh mesh = makeBox({1, 2, 3}, {2, 2.5, 3.3});
     const DistanceField coarse(device(), mesh, 8, 0.125f);

@@ -18,7 +18,7 @@
 namespace hair::simulation {
 namespace {
 
-// One segment along z with the velocity `v` at its tip, whose acceleration is returned.
+// Returns the tip's acceleration for one segment along z whose tip has the velocity `v`.
 glm::dvec3 dragAtTip(const SimulationSettings& settings, const glm::dvec3& v) {
     const std::vector<glm::dvec3> positions{{0, 0, 0}, {0, 0, 0.1}};
     std::vector<glm::dvec3> previous = positions;
@@ -26,8 +26,8 @@ glm::dvec3 dragAtTip(const SimulationSettings& settings, const glm::dvec3& v) {
     return dragOnFree(positions, previous, settings, 1)[1];
 }
 
-// Drag over weight of a hair of 70 um that flies across air: 3.9 at 1 m/s, 47 at 5 m/s, as
-// published to two digits.
+// Ratio of drag to weight for a hair of 70 um that moves across its axis in air: 3.9 at 1 m/s and
+// 47 at 5 m/s, as published to two digits.
 TEST(Drag, IsThatOfAThinCylinder) {
     const WindSettings air;
     const MaterialSettings hair{.density = 1320.0f, .radius = 35e-6f};
@@ -50,8 +50,8 @@ TEST(Drag, HasTheFactorsThatTheDeviceIsGiven) {
         }
 }
 
-// Of an error, a step leaves (1 - p k dt) / (1 + k dt), where p in [1/3, 1] is the exponent of
-// k(u): less than 0.8 in these, and its power 60 is 2e-6.
+// A step multiplies the error by (1 - p k dt) / (1 + k dt), where p in [1/3, 1] is the exponent of
+// k(u). That is less than 0.8 here, and its 60th power is 2e-6.
 TEST(Drag, LetsHairFallAtTheSpeedWhereItBearsTheWeight) {
     for (const float step : {1.0f / 120.0f, 1.0f / 60.0f, 0.1f}) {
         const SimulationSettings settings = fallingThroughAir(step);
@@ -62,8 +62,7 @@ TEST(Drag, LetsHairFallAtTheSpeedWhereItBearsTheWeight) {
     }
 }
 
-// Whatever the step, what air and gravity do together to hair that is held still points where
-// k U + g does.
+// At any step, drag and gravity together point along k U + g for hair that is held.
 TEST(Drag, KeepsProportionToGravityInHairThatIsHeld) {
     for (const float step : {0.0005f, 1.0f / 60.0f, 0.1f}) {
         SimulationSettings settings = inAir(step);
@@ -92,7 +91,7 @@ TEST(Drag, NeverTurnsTheRelativeVelocityRound) {
             }
 }
 
-// du/dt = -c u^2 has the solution u / (1 + c u t), which the step is.
+// du/dt = -c u^2 has the solution u / (1 + c u t), and a step computes exactly this.
 TEST(Drag, IsExactWithoutViscosityAtAnyStep) {
     for (const float step : {0.0005f, 0.1f}) {
         SimulationSettings settings = inAir(step);
@@ -105,8 +104,8 @@ TEST(Drag, IsExactWithoutViscosityAtAnyStep) {
     }
 }
 
-// Against the equation du/dt = -k(u) u in steps too small to matter (fourth order, 1e-5 s): half
-// the step, half the error.
+// Compares with du/dt = -k(u) u, integrated to fourth order in steps of 1e-5 s. Half the step makes
+// half the error.
 TEST(Drag, IsOfFirstOrder) {
     SimulationSettings settings = inAir(0.1f);
     const auto slope = [&](double u) {
@@ -129,7 +128,7 @@ TEST(Drag, IsOfFirstOrder) {
         errors.push_back(v.x - exact);
     }
     EXPECT_GT(errors[0], 0.0);  // it brakes too little
-    // The second order is a few times dt k = 0.1 / 64 * 90 / 5, k as in the mean.
+    // The second-order term is a few times dt k = 0.1 / 64 * 90 / 5, with a mean k.
     EXPECT_NEAR(errors[0] / errors[1], 2.0, 0.1);
     EXPECT_NEAR(errors[1] / errors[2], 2.0, 0.05);
 }
@@ -142,11 +141,12 @@ TEST(Drag, IsNoneAlongTheHair) {
     std::vector<glm::dvec3> points;
     for (int i = 0; i < 5; ++i) points.push_back(0.02 * i * along);
     for (const glm::dvec3& a : dragOnFree(points, points, settings, 1))
-        // k is at most 4000/s; rounding gives a speed of 1e-16 of 30 m/s.
+        // k is at most 4000/s, and rounding leaves a speed of 1e-16 of 30 m/s.
         EXPECT_LT(glm::length(a), 1e-10);
 }
 
-// A polygon in a circle has the circle's tangent at its vertices, halfway between its sides.
+// At the vertices of a polygon in a circle, the circle's tangent lies halfway between the two
+// sides.
 TEST(Drag, TakesTheTangentOfTheCurveThroughTheVertices) {
     std::vector<glm::dvec3> points;
     for (int i = 0; i < 4; ++i) points.emplace_back(std::cos(0.5 * i), std::sin(0.5 * i), 0.0);
@@ -155,9 +155,10 @@ TEST(Drag, TakesTheTangentOfTheCurveThroughTheVertices) {
     for (std::size_t i = 1; i < 3; ++i) {
         settings.wind.direction = {-points[i].y, points[i].x, 0.0};
         const auto a = dragOnFree(points, points, settings, 1);
-        // The direction is a float: 6e-8 of 5 m/s and k below 100/s at 1e-6 m/s.
+        // The direction is a float: 6e-8 of 5 m/s remain across the hair, and k is below 100/s at
+        // 1e-6 m/s.
         EXPECT_LT(glm::length(a[i]), 1e-5) << i;
-        EXPECT_GT(glm::length(a[3]), 1.0);  // the tip has only the side above
+        EXPECT_GT(glm::length(a[3]), 1.0);  // the tip has only the segment above
     }
 }
 
@@ -167,8 +168,8 @@ TEST(Drag, StandsSegmentsWithoutADirectionAndFolds) {
     const std::vector<glm::dvec3> points{{0, 0, 0}, {0, 0, 0}, {0, 0, 0}, {0, 1, 0}, {0, 0, 0}};
     const auto a = dragOnFree(points, points, settings, 1);
     EXPECT_EQ(a[1], glm::dvec3(0.0));  // no direction above or below
-    EXPECT_GT(a[2].x, 0.0);  // one below
-    EXPECT_GT(a[3].x, 0.0);  // folded: the one above
+    EXPECT_GT(a[2].x, 0.0);  // a direction below
+    EXPECT_GT(a[3].x, 0.0);  // folded: takes the direction above
     EXPECT_GT(a[4].x, 0.0);
 }
 
@@ -184,8 +185,9 @@ TEST(Drag, IsBorneByASpringAtAnyStep) {
             }
 }
 
-// P is symmetric and no less than 0, so the force's power on the velocity at the step's end is no
-// more than 0, whatever holds the rod. At first it moves by a millimetre a step, of 6 mm a segment.
+// P is symmetric and positive semidefinite, so drag never adds energy: its power on the velocity at
+// the end of a step is at most 0, however the rod is held. At first vertices move by a millimetre a
+// step; segments are 6 mm long.
 TEST(Drag, TakesEnergyFromRodsAtEveryStep) {
     for (const float step : {1.0f / 480.0f, 1.0f / 60.0f, 0.1f}) {
         const auto points = straightRod(16, 0.1);
@@ -207,9 +209,10 @@ TEST(Drag, TakesEnergyFromRodsAtEveryStep) {
                 state, rest, std::vector(points.size(), glm::dvec3(0.0)), {}, double{step}, 1.0, 8,
                 &still);
             const double energy = reference::rodEnergy(state, rest);
-            // Random velocities stretch the rod before the first step. Newton's iterations leave a
-            // part of a step's change. The last billionth of the energy is not looked at: at steps
-            // of 0.1 s it was seen to rise there, which more iterations don't change.
+            // Random velocities stretch the rod before the first step, and Newton's iterations
+            // leave part of a step's change. The test ends at a billionth of the energy: below it,
+            // at steps of 0.1 s, the energy was seen to rise, and more iterations do not change
+            // that.
             if (i == 0) first = energy;
             if (energy < 1e-9 * first) break;
             EXPECT_LE(energy, before * (1.0 + 1e-6)) << step << ' ' << i;

@@ -29,7 +29,7 @@ TEST(FixedStep, TakesTwoStepsAFrameAtThirtyHertz) {
     EXPECT_EQ(steps, std::vector<std::uint32_t>(10000, 2));
 }
 
-// 144 frames are 60 steps, 5 in every 12 frames, and never two in a frame.
+// 144 frames take 60 steps: 5 in every 12 frames, and never two in one frame.
 TEST(FixedStep, SpreadsSixtyStepsOverAHundredAndFortyFourFrames) {
     const auto steps = stepsOf(FixedStep(double{kSixtieth}), 1.0f / 144.0f, 144000);
     for (std::size_t i = 0; i < steps.size(); i += 12)
@@ -48,7 +48,7 @@ TEST(FixedStep, TakesNoStepInNoTime) {
     EXPECT_EQ(steps.stepsFor(double{kSixtieth}), 1u);
 }
 
-// 1/60 s are 16 2/3 steps of 1 ms; the floats are off by less than 1e-7.
+// 1/60 s has 16 2/3 steps of 1 ms. The floats are off by less than 1e-7.
 TEST(FixedStep, TakesManyStepsAFrame) {
     const auto steps = stepsOf(FixedStep(0.001), kSixtieth, 3000);
     const std::uint32_t total = std::accumulate(steps.begin(), steps.end(), 0u);

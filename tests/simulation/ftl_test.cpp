@@ -7,7 +7,7 @@
 #include "hair/reference/constraints.h"
 #include "tests/simulation/strands.h"
 
-// The reference of `ftl` against what the paper says of it.
+// Tests the reference of `ftl` against the paper.
 namespace hair::simulation {
 namespace {
 
@@ -41,10 +41,10 @@ void expectNear(const glm::dvec3& a, const glm::dvec3& b, double tolerance) {
         << a.x << ' ' << a.y << ' ' << a.z << " against " << b.x << ' ' << b.y << ' ' << b.z;
 }
 
-// Two segments of 1 m, falling for 1 s at 1 m/s^2, worked out by hand. Predicted: (1, -1) and
-// (2, -1). The first goes to (1, -1) / sqrt 2; the second 1 m from there toward (2, -1), which
-// corrects it by d_2 = (-0.317606, 0.071951). By eq. 9 the first one's velocity is
-// (-0.292893, -0.707107) - 0.9 d_2.
+// Two segments of 1 m fall for 1 s at 1 m/s^2; the values are worked out by hand. The predictions
+// are (1, -1) and (2, -1). The first vertex goes to (1, -1) / sqrt 2. The second goes 1 m from
+// there toward (2, -1), a correction of d_2 = (-0.317606, 0.071951). By eq. 9 the first vertex's
+// velocity is (-0.292893, -0.707107) - 0.9 d_2.
 TEST(ReferenceFtl, TakesTheStepThatHandTakes) {
     Strand strand = horizontal(2);
     strand.step({0.0, -1.0, 0.0}, 1.0, 0.9);
@@ -68,9 +68,9 @@ TEST(ReferenceFtl, KeepsEveryLengthInOnePass) {
     EXPECT_EQ(strand.positions[0], strand.rest[0]);
 }
 
-// One segment is a simple pendulum: a quarter of 2 pi sqrt(l / g) from release to the lowest point.
-// With 2,000 steps a second the crossing is within half a step, 0.25 ms, and the amplitude of 0.05
-// makes the period 0.016 % longer.
+// One segment is a simple pendulum: from release to the lowest point it takes a quarter of 2 pi
+// sqrt(l / g). With 2,000 steps a second the crossing is found within half a step, 0.25 ms. The
+// amplitude of 0.05 makes the period 0.016 % longer.
 TEST(ReferenceFtl, SwingsAsAPendulum) {
     Strand strand{.rest = {{0, 0, 0}, {0, -1, 0}}};
     strand.positions[1] = strand.previous[1] = {std::sin(0.05), -std::cos(0.05), 0.0};

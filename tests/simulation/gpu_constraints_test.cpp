@@ -6,13 +6,13 @@
 #include "tests/simulation/parallelisms.h"
 #include "tests/simulation/strands.h"
 
-// Each pass and constraint alone, one step on the device against the reference in double.
+// Tests each pass and constraint alone: one step on the device against the reference in double.
 namespace hair::simulation {
 namespace {
 
-// Of the strand's length. A float position near 1 m is stored to 6e-8 and an iteration rounds it a
-// few times. The local constraint at full stiffness enlarges that most: its goals lean on every
-// segment before.
+// Relative to the strand's length. A float position near 1 m is stored to 6e-8, and an iteration
+// rounds it a few times. The local constraint at full stiffness enlarges that most, because its
+// goals depend on all segments above.
 constexpr double kTolerance = 1e-5;
 
 struct Shape {
@@ -20,9 +20,9 @@ struct Shape {
     std::uint32_t vertices;
 };
 
-// Counts that fill a workgroup, that leave lanes over, and that leave a workgroup almost empty;
-// strands of one chunk and of several, full and not. Each number of vertices is a kernel of its
-// own, which takes longer to compile than to run.
+// Counts that fill a work group, that leave invocations over, and that leave a work group almost
+// empty; strands of one chunk and of several, full and not. Each number of vertices is a kernel of
+// its own, which takes longer to compile than to run.
 constexpr Shape kShapes[] = {{1, 2}, {33, 2}, {5, 3}, {86, 8}, {7, 9}, {3, 33}, {2, 256}};
 
 class GpuConstraints : public GpuTest, public testing::WithParamInterface<Parallelism> {
@@ -46,7 +46,7 @@ protected:
     }
 };
 
-// Without velocity, so that only the constraint moves anything.
+// Friction takes all velocity, so that only the constraint moves anything.
 SimulationSettings atRest() {
     SimulationSettings settings = nothingActs();
     settings.friction = 1.0f;

@@ -15,7 +15,7 @@
 #include "tests/simulation/drag.h"
 #include "tests/simulation/gpu_simulation.h"
 
-// Air on the device against the reference in double.
+// Tests air on the device against the reference in double.
 namespace hair::simulation {
 namespace {
 
@@ -32,7 +32,7 @@ SimulationSettings turbulent(float speed) {
 
 class GpuDrag : public GpuTest {
 protected:
-    // What the pass alone says of the air at `time`, m/s.
+    // Returns the air's velocity at `time` as the pass computes it, m/s.
     static std::vector<glm::dvec3> airAt(
         const groom::Groom& groom, const SimulationSettings& settings,
         const std::vector<glm::vec3>& positions, double time) {
@@ -73,10 +73,10 @@ protected:
     }
 };
 
-// Also when the wind has blown for so long that it has carried more than 2^32 cells past. A place
-// in cells is rounded twice in float, within a metre and a cell, and once in double with the way
-// that the wind has gone. The derivative of four octaves of noise is some tens, by the smallest
-// cells, and their sums are rounded some 16 times.
+// Includes winds that have blown for so long that they have moved by more than 2^32 cells. A
+// position in cells is rounded twice in float, within a metre and a cell, and once in double
+// together with the distance that the wind has covered. Four octaves of noise have a derivative of
+// some tens per smallest cell, and their sums are rounded some 16 times.
 TEST_F(GpuDrag, BlowsLikeTheReferenceAtAnyTime) {
     const groom::Groom groom = wavyGroom(40, 8);
     for (const float scale : {10.0f, 0.5f, 0.1f})
@@ -136,7 +136,7 @@ TEST_F(GpuDrag, LetsHairFallAtTheSpeedWhereItBearsTheWeight) {
         const double moved =
             simulation.readPositions().back().y - double{simulation.readPrevious().back().y};
         const double speed = fallingSpeed(settings);
-        // 5e-6 as on the CPU, and both positions' rounding at what they have fallen.
+        // 5e-6 as on the CPU, plus the rounding of both positions after the fall.
         const double fallen = speed * kFreeSteps * double{step};
         EXPECT_NEAR(
             -moved / double{step}, speed, 5e-6 * speed + 2.0 * 0x1p-24 * fallen / double{step})
@@ -176,7 +176,7 @@ TEST_F(GpuDrag, StandsHairWithoutDirections) {
         reference::Reference solver(groom, settings, kSeed);
         advance(device(), simulation, 1);
         solver.step();
-        // Of the few mm that 5 m/s move it.
+        // The hair moves a few mm at 5 m/s.
         EXPECT_LT(largestDifference(simulation.readPositions(), solver.positions()), 1e-6);
     }
 }
@@ -188,7 +188,7 @@ TEST_F(GpuDrag, IsBorneByASpringAtAnyStep) {
                 const SimulationSettings settings = onSpring(solver, step, substeps);
                 Simulation simulation(device(), levelPair(), settings, kSeed);
                 advance(device(), simulation, restingSteps(settings));
-                // A tenth of a thousandth is what the reference is asked for, of values of 24 bits.
+                // The tolerance of 1e-4 is the reference's, for values of 24 bits.
                 EXPECT_NEAR(
                     double{simulation.readPositions().back().z} / springsStretch(settings), 1.0,
                     1e-4)
@@ -196,7 +196,7 @@ TEST_F(GpuDrag, IsBorneByASpringAtAnyStep) {
             }
 }
 
-// Every solver with all of its own at work, each kind of parallelism, in several substeps.
+// Every solver with all its forces, each kind of parallelism, and several substeps.
 TEST_F(GpuDrag, BrakesEverySolverAsTheReferenceSays) {
     for (const Solver solver : kSolvers)
         for (const Parallelism parallelism :
@@ -212,7 +212,7 @@ TEST_F(GpuDrag, BrakesEverySolverAsTheReferenceSays) {
             reference::Reference reference(groom, settings, kSeed);
             advance(device(), simulation, 2);
             for (int i = 0; i < 2; ++i) reference.step();
-            // As in a step without wind: gpu_rod_test.cpp, near_reference.h.
+            // Same tolerance as without wind: gpu_rod_test.cpp, near_reference.h.
             EXPECT_LT(
                 largestDifference(simulation.readPositions(), reference.positions()),
                 1e-5 * longestStrand(groom))

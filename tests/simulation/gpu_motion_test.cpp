@@ -8,7 +8,7 @@
 #include "tests/simulation/motions.h"
 #include "tests/simulation/rounding.h"
 
-// Guides on a head that moves.
+// Tests guides on a moving head.
 namespace hair::simulation {
 namespace {
 
@@ -16,7 +16,7 @@ std::vector<glm::vec3> toFloat(const std::vector<glm::dvec3>& points) {
     return {points.begin(), points.end()};
 }
 
-// Capsules of the head and one of the world, all of them in the hair's way.
+// Capsules that move with the head and one that does not, all in the hair's way.
 SimulationSettings withBodies(Solver solver) {
     SimulationSettings settings;
     settings.solver = solver;
@@ -33,8 +33,8 @@ SimulationSettings withBodies(Solver solver) {
 
 using GpuMotion = GpuTest;
 
-// One step from a disturbed state, head and bodies at 2 m/s and 600 degrees/s. The tolerance is
-// that of gpu_constraints_test.cpp, for every substep.
+// Takes one step from a disturbed state, with head and bodies at 2 m/s and 600 degrees/s. The
+// tolerance is that of gpu_constraints_test.cpp, for every substep.
 TEST_F(GpuMotion, TakesAStepLikeTheReference) {
     for (const Solver solver : kSolversOfPositions)
         for (const StiffnessScaling scaling :
@@ -83,7 +83,7 @@ TEST_F(GpuMotion, StaysNearTheReferenceForAHundredSteps) {
                 advance(device(), simulation, 100);
                 for (int i = 0; i < 100; ++i) solution.step();
                 const Rounding rounding = roundingAfter(100, groom, settings, 3);
-                // Substeps round, too.
+                // Every substep rounds.
                 EXPECT_LT(
                     largestDifference(simulation.readPositions(), solution.positions()),
                     std::sqrt(substeps) * rounding.bound())
@@ -108,13 +108,13 @@ TEST_F(GpuMotion, GivesTheSameBitsAgainAfterReset) {
     EXPECT_EQ(simulation.readPositions(), end);
 }
 
-// Where the first keyframe has the head, with the hair hanging from it as it does there.
+// The hair starts on the head's first keyframe and hangs from it as gravity acts there.
 TEST_F(GpuMotion, StartsAndSettlesInTheFirstPose) {
     const groom::Groom groom = wavyGroom(5, 8);
     SimulationSettings settings = withBodies(Solver::shape);
     settings.motion = nodding();
     const Simulation unsettled(device(), groom, settings, 3);
-    // Rotating and moving points within 0.3 m takes some five roundings.
+    // A rotation and a translation of points within 0.3 m take some five roundings.
     const auto expected = carried(HeadMotion(settings.motion).at(0.0), groom.points);
     EXPECT_LT(largestDifference(unsettled.readPositions(), expected), 5 * 0.3 * 0x1p-24);
 
@@ -127,7 +127,7 @@ TEST_F(GpuMotion, StartsAndSettlesInTheFirstPose) {
     EXPECT_EQ(settled.readPositions(), still.readPositions());
 }
 
-// Points within 1 m, each rounded a few times per pull, sweep and turn.
+// Points lie within 1 m, and each is rounded a few times per pull, sweep and turn.
 constexpr double kCarried = 20 * 0x1p-24;
 
 TEST_F(GpuMotion, CarriesFrozenHairWithTheHead) {
@@ -165,11 +165,11 @@ TEST_F(GpuMotion, NoneIsCarriedWithTheHead) {
     EXPECT_FALSE(Simulation(device(), groom, settings, 3).moves());
 }
 
-// Where the axes go in a turn of 120 degrees about (1, 1, 1), in whole numbers.
+// Returns v after a turn of 120 degrees about (1, 1, 1), which maps axes to axes exactly.
 glm::vec3 axesTurned(const glm::vec3& v) { return {v.z, v.x, v.y}; }
 
-// Physics has no preferred direction: on a head that stands turned, under gravity turned alike,
-// hair does the same. In double, with a turn that takes gravity's floats to floats.
+// Physics has no preferred direction: on a turned head, under gravity that is turned alike, hair
+// moves the same way. This is in double, with a turn that maps gravity's floats to floats.
 TEST(ReferenceMotion, DoesTheSameInAnyPose) {
     for (const Solver solver : kSolvers) {
         const groom::Groom groom = wavyGroom(5, 9);
@@ -188,8 +188,8 @@ TEST(ReferenceMotion, DoesTheSameInAnyPose) {
         }
         std::vector<glm::dvec3> expected;
         for (const glm::dvec3& point : upright.positions()) expected.push_back(pose(point));
-        // 2^-53 against the 2^-24 of the device, which spreads to less than 1e-4 m, and ten times
-        // as far where hair is as limp as a few corrections leave it.
+        // Double rounds to 2^-53, against 2^-24 on the device, where rounding spreads to less than
+        // 1e-4 m. Hair that few corrections leave limp spreads it ten times as far.
         const double spread = solver == Solver::position_based_rod ? 1e-11 : 1e-12;
         EXPECT_LT(largestDifference(turned.positions(), expected), spread);
     }
@@ -208,15 +208,15 @@ TEST_F(GpuMotion, DoesTheSameInAnyPose) {
         Simulation turned(device(), groom, settings, 3);
         advance(device(), upright, 100);
         advance(device(), turned, 100);
-        // Both round, the one that is moved away from the origin by twice as much. And turned
-        // gravity is rounded: by 6e-7 m/s^2, which in 100 steps makes 8e-7 m.
+        // Both simulations round, the one away from the origin by twice as much. Turned gravity is
+        // rounded by 6e-7 m/s^2, which makes 8e-7 m in 100 steps.
         EXPECT_LT(
             largestDifference(turned.readPositions(), carried(pose, upright.readPositions())),
             3.0 * rounding.bound() + 8e-7);
     }
 }
 
-// A strand with a root segment of no length takes its first frame from the head, too.
+// A strand with a root segment without length takes its first frame from the head, too.
 TEST_F(GpuMotion, TurnsStrandsWithoutARootSegment) {
     groom::Groom groom{.strand_count = 1, .vertices_per_strand = 4};
     groom.points = {{0, 0, 0}, {0, 0, 0}, {0.02f, 0, 0}, {0.03f, 0.02f, 0}};
@@ -232,8 +232,8 @@ TEST_F(GpuMotion, TurnsStrandsWithoutARootSegment) {
     EXPECT_LT(largestDifference(simulation.readPositions(), expected), 1e-7);
 }
 
-// The head carries a strand through a sphere of the world: the sphere stays, and the strand leaves
-// its inside. Where lengths have the last word hair presses into the margin.
+// The head carries a strand through a fixed sphere: the sphere stays, and the strand leaves it.
+// Where lengths are enforced last, hair presses into the margin.
 TEST_F(GpuMotion, LeavesTheWorldsBodiesWhereTheyAre) {
     const groom::Groom groom = straightGroom(3, 8);
     for (const LengthMethod method : {LengthMethod::tridiagonal, LengthMethod::iterate}) {

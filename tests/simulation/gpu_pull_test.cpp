@@ -18,7 +18,7 @@
 #include "tests/simulation/gpu_simulation.h"
 #include "tests/simulation/pulls.h"
 
-// Hands on the device, against theory and against the reference.
+// Tests hands on the device against theory and against the reference.
 namespace hair::simulation {
 namespace {
 
@@ -30,7 +30,7 @@ protected:
         return engine::makeBuffer(device(), std::span<const glm::vec4>(padded), name);
     }
 
-    // What `before` has become after the pass alone, m/s^2.
+    // Returns the accelerations `before` after the pass alone, m/s^2.
     static std::vector<glm::vec4> accelerations(
         const groom::Groom& groom, const SimulationSettings& settings,
         const std::vector<glm::vec3>& positions, const std::vector<glm::vec3>& previous,
@@ -66,9 +66,10 @@ protected:
     }
 };
 
-// At substeps shorter than the step, with accelerations there before, in the middle of every path
-// and where some hands don't pull. Velocities are differences of positions of 0.1 m over 4 ms, off
-// by 2^-25 of 0.1 m each: 1.5e-6 m/s, of which a stiff hand makes 1.5e-6 / dt = 1e-4 m/s^2.
+// Covers substeps shorter than the step, accelerations that are there already, times in the middle
+// of every path, and hands that don't pull. Velocities are differences of positions of 0.1 m over 4
+// ms, off by 2^-25 of 0.1 m each: 1.5e-6 m/s, from which a stiff hand makes 1.5e-6 / dt = 1e-4
+// m/s^2.
 TEST_F(GpuPull, PullsLikeTheReferenceAtAnyTime) {
     const groom::Groom groom = wavyGroom(37, 6);
     SimulationSettings settings;
@@ -111,7 +112,7 @@ TEST_F(GpuPull, PullsLikeTheReferenceAtAnyTime) {
             }
         }
         EXPECT_GT(changes.greatest(), 1.0) << time;
-        // 1e-4 m/s^2 as above, and ten roundings.
+        // 1e-4 m/s^2 as above, plus ten roundings.
         EXPECT_LT(errors.greatest(), 1e-4 + 10 * 0x1p-24 * changes.greatest()) << time;
     }
 }
@@ -133,7 +134,7 @@ TEST_F(GpuPull, StepsLikeTheReference) {
             solution.setState(toDouble(positions), toDouble(previous));
             advance(device(), simulation, 1);
             solution.step();
-            // That of gpu_constraints_test.cpp for every substep.
+            // The tolerance of gpu_constraints_test.cpp, for every substep.
             EXPECT_LT(
                 largestDifference(simulation.readPositions(), solution.positions()),
                 substeps * 1e-5 * longestStrand(groom))
@@ -141,9 +142,9 @@ TEST_F(GpuPull, StepsLikeTheReference) {
         }
 }
 
-// Positions up to 0.5 m are rounded by 2^-26 m and their difference, the velocity, by twice that. A
-// kick in step 0 has moved the vertex by up to n / (1 + s)^n kicks in step n, which sums to (1 + s)
-// / s^2 kicks over all steps before: 12 at s = 1/3. The hand's place is rounded, too.
+// Positions up to 0.5 m are rounded by 2^-26 m, and their difference, the velocity, by twice that.
+// A kick in step 0 has moved the vertex by up to n / (1 + s)^n kicks in step n. Summed over all
+// steps before, that is (1 + s) / s^2 kicks: 12 at s = 1/3. The hand's position is rounded, too.
 TEST_F(GpuPull, ApproachesTheHandAsCriticallyDamped) {
     const groom::Groom groom = straightGroom(1, 2);
     const glm::vec3 hand(0.4f, 0.2f, -0.1f);
@@ -162,9 +163,9 @@ TEST_F(GpuPull, ApproachesTheHandAsCriticallyDamped) {
     }
 }
 
-// At a spring this soft the offset is large: 9.8 / 40 = 0.245 m. What is left of the step must be
-// more than half of the position's rounding, 2^-26 m below 0.5 m, to move it: the offset is found
-// to that times (1 + s)^2 / s^2, which is 110 at s = 0.105.
+// With such a soft spring the offset is large: 9.8 / 40 = 0.245 m. A step moves the position only
+// if its change exceeds half of the position's rounding, 2^-26 m below 0.5 m. So the offset is
+// found to that times (1 + s)^2 / s^2, which is 110 at s = 0.105.
 TEST_F(GpuPull, BalancesGravity) {
     const groom::Groom groom = straightGroom(1, 2);
     SimulationSettings settings = nothingActs();
@@ -175,7 +176,7 @@ TEST_F(GpuPull, BalancesGravity) {
     EXPECT_NEAR(simulation.readPositions()[1].y, 0.25 - 9.8 / 40.0, 2 * 110 * 0x1p-26);
 }
 
-// Free tips 0, 5, 10 ... cm from the one that is held.
+// Free tips lie 0, 5, 10 ... cm from the held one.
 TEST_F(GpuPull, FallsOffToOneOverEAtTheRadius) {
     const groom::Groom groom = straightGroom(5, 2);
     SimulationSettings settings = nothingActs();
@@ -189,7 +190,7 @@ TEST_F(GpuPull, FallsOffToOneOverEAtTheRadius) {
         for (std::size_t strand = 1; strand < 5; ++strand) {
             const double radii = 0.05 * static_cast<double>(strand) / double{radius};
             const double part = radius > 0.0f ? std::exp(-radii * radii) : 0.0;
-            // The radius and the places at rest are rounded, to 2^-24 of themselves.
+            // The radius and the rest positions are rounded to 2^-24 of themselves.
             EXPECT_NEAR(points[2 * strand + 1].z / whole, part, 1e-6) << radius;
         }
     }
@@ -215,10 +216,10 @@ TEST_F(GpuPull, ChangesNothingOutsideItsTime) {
     }
 }
 
-// A free vertex goes to the hand at once where the spring is stiff and the step is long, and stays
-// there; and when as many hands as there can be hold it, too. At n > 1 substeps a step goes less
-// far than implicit Euler thinks, and what is left of the error shrinks by the root of (1 - 1/n) /
-// 2 in a step: to a third after each third step.
+// With a stiff spring and a long step, a free vertex goes to the hand at once and stays there, even
+// if the greatest possible number of hands hold it. With n > 1 substeps a step moves it less far
+// than implicit Euler assumes. The remaining error shrinks by the root of (1 - 1/n) / 2 in a step:
+// to a third after each third step.
 TEST_F(GpuPull, IsStableAtTheStiffest) {
     const groom::Groom groom = straightGroom(1, 2);
     const glm::vec3 hand(0.4f, 0.2f, -0.1f);
@@ -232,7 +233,8 @@ TEST_F(GpuPull, IsStableAtTheStiffest) {
                 Simulation simulation(device(), groom, settings, 1);
                 advance(device(), simulation, 60);
                 // In each of n substeps every coordinate is rounded by up to 2^-26 m, and the
-                // rounding goes on as velocity: n (n + 1) / 2 of it. Less than three steps' count.
+                // rounding continues as velocity: n (n + 1) / 2 of it. Fewer than three steps
+                // contribute.
                 const double rounding = std::sqrt(3.0) * 0x1p-26 * substeps * (substeps + 1) / 2;
                 EXPECT_LT(
                     glm::distance(simulation.readPositions()[1], hand),
@@ -241,8 +243,8 @@ TEST_F(GpuPull, IsStableAtTheStiffest) {
             }
 }
 
-// Twelve hands at a time: each radius with each stiffness, at a tip that is jerked and at a first
-// vertex that is held.
+// Twelve hands pull at a time: each radius with each stiffness, at a tip that is jerked and at a
+// first vertex that is held.
 TEST_F(GpuPull, StaysFiniteWithEverySolver) {
     const groom::Groom groom = wavyGroom(20, 8);
     SimulationSettings settings;
@@ -273,14 +275,14 @@ TEST_F(GpuPull, StaysFiniteWithEverySolver) {
         }
 }
 
-// The tip goes with the hand, back to the same bits after reset, and the roots stay.
+// The tip follows the hand, a reset repeats the same bits, and the roots stay.
 TEST_F(GpuPull, GivesTheSameBitsEveryTime) {
     const groom::Groom groom = straightGroom(20, 8);
     const glm::vec3 hand = groom.points[0] + glm::vec3(0.1f, -0.05f, 0.0f);
     for (const Solver solver : kSolvers) {
         SimulationSettings settings;
         settings.solver = solver;
-        // Springs to a ghost of the rest shape pull against the hand.
+        // Springs to a ghost of the rest shape would pull against the hand.
         settings.augmented_mass_spring.integrity = 0.0f;
         settings.augmented_mass_spring.angular_stiffness = 0.0f;
         Simulation alone(device(), groom, settings, 3);
@@ -292,9 +294,10 @@ TEST_F(GpuPull, GivesTheSameBitsEveryTime) {
         for (int i = 0; i < 90; ++i) advance(device(), second, 1);
         const auto points = first.readPositions();
         EXPECT_EQ(points, second.readPositions());
-        // The hand is 11 cm from the root of hair of 15 cm: the tip has gone most of the 14 cm.
+        // The hand is 11 cm from the root of a hair of 15 cm: the tip has moved most of the 14 cm.
         EXPECT_LT(glm::distance(points[7], hand), 0.035f);
-        // The neighbour's tip has 1/2 of the pull; the last strand's exp(-250), which is no float.
+        // The neighbour's tip gets 1/2 of the pull. The last strand's gets exp(-250), which is 0 in
+        // float.
         advance(device(), alone, 90);
         const auto hanging = alone.readPositions();
         EXPECT_GT(glm::distance(points[15], hanging[15]), 0.01f);

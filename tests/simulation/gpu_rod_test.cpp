@@ -14,7 +14,7 @@
 #include "tests/simulation/rods.h"
 #include "tests/simulation/strands.h"
 
-// The solvers of rods on the device, in 32 bits: against theory, and against the references in
+// Tests the rod solvers on the device, in 32 bits, against theory and against the references in
 // double.
 namespace hair::simulation {
 namespace {
@@ -39,8 +39,8 @@ groom::Groom groomOf(const std::vector<std::vector<glm::dvec3>>& strands) {
 
 class GpuRod : public GpuTest {
 protected:
-    // Drop over reach of rods of this gamma that have come to rest, seen from a root that is half a
-    // metre from the origin, as on a head.
+    // Returns drop over reach for rods of these gammas at rest. Their roots are half a metre from
+    // the origin, as on a head.
     std::vector<double> hangingRatios(int segments, const std::vector<double>& gammas) {
         std::vector<std::vector<glm::dvec3>> strands;
         for (const double gamma : gammas) {
@@ -60,7 +60,8 @@ protected:
         return ratios;
     }
 
-    // Largest distance from the reference over the strand's length, after steps from rest.
+    // Returns the largest distance from the reference over the strand's length, after steps from
+    // rest.
     double departure(const groom::Groom& groom, const SimulationSettings& settings, int steps) {
         Simulation simulation(device(), groom, settings, 1);
         reference::Reference reference(groom, settings, 1);
@@ -89,8 +90,8 @@ INSTANTIATE_TEST_SUITE_P(
                                                        : "AugmentedMassSpring");
     });
 
-// Asked for: 2 %, and 5 % at 1000. 64 segments err by 0.02 % and 0.07 % in double; 32 bits leave
-// 1e-7 of a radian in every joint, 1e-4 of the bend of one where gamma is 0.1.
+// The requirement is 2 %, and 5 % at 1000. 64 segments err by 0.02 % and 0.07 % in double. 32 bits
+// leave 1e-7 rad in every joint, which is 1e-4 of a joint's bend where gamma is 0.1.
 TEST_F(GpuRod, HangsAsACantileverDoes) {
     const std::vector<double> gammas{0.1, 1.0, 5.0, 10.0, 50.0, 100.0, 1000.0};
     const auto ratios = hangingRatios(64, gammas);
@@ -100,13 +101,13 @@ TEST_F(GpuRod, HangsAsACantileverDoes) {
     }
 }
 
-// A step rounds positions to some 1e-7 of the strand's length. Errors of a hundred steps add up
-// where stiffness keeps a strand together; a limp one of many segments is a pendulum of as many
-// links, which is chaotic, so it is followed for a single step, and so is one that a few
-// corrections leave limp. Where orientations are swept over, each is rounded by some 3e-7 in each
-// of nine sweeps, from what its neighbours were rounded to, and turns all below it. Springs are so
-// much stiffer than masses in long steps that 32 bits do not hold both: they are followed in their
-// own substep.
+// A step rounds positions to some 1e-7 of the strand's length. Where stiffness keeps a strand
+// together, the errors of a hundred steps add up. A limp strand of many segments is a pendulum of
+// many links, which is chaotic. So it is followed for a single step, as is a strand that a few
+// corrections leave limp. Sweeps over orientations round each by some 3e-7 in each of nine sweeps,
+// starting from its neighbours' rounded ones, and an orientation turns everything below it. In long
+// steps, springs are so much stiffer than masses that 32 bits do not resolve both: they are
+// followed in their own substep.
 TEST_P(EveryGpuRod, TakesTheReferencesSteps) {
     const double rounding = GetParam() == Solver::rod ? 1e-5 : 1e-4;
     for (const std::uint32_t vertices : {2u, 3u, 17u, 65u})
@@ -127,7 +128,7 @@ TEST_P(EveryGpuRod, TakesTheReferencesSteps) {
             }
 }
 
-// A section that is not round bends and twists as the reference's, at rest and bent by its weight.
+// An elliptic section bends and twists as in the reference, at rest and bent by its weight.
 TEST_F(GpuRod, TakesTheReferencesStepsWithAnEllipticSection) {
     for (const float ellipticity : {1.0f, 1.8f, 6.0f})
         for (const std::uint32_t vertices : {3u, 17u, 65u}) {
@@ -140,7 +141,7 @@ TEST_F(GpuRod, TakesTheReferencesStepsWithAnEllipticSection) {
 }
 
 // Half a second with everything that acts on a strand. Rounding moves a vertex that touches a body
-// to where the body's normal is another, and errors add up faster than without.
+// to where the body's normal differs, so errors grow faster than without bodies.
 TEST_P(EveryGpuRod, FollowsTheHeadAndKeepsOutOfBodiesAsTheReferenceDoes) {
     SimulationSettings settings = rodSettings();
     settings.substeps = 4;
@@ -162,11 +163,11 @@ TEST_P(EveryGpuRod, FollowsTheHeadAndKeepsOutOfBodiesAsTheReferenceDoes) {
     EXPECT_LT(departure(groom, settings, 30), 1e-4);
 }
 
-// Both ends held: the catenary of length L over a span s, 2 a sinh(s / 2 a) = L. What a limp hair's
-// stiffness straightens at its ends and a pin's yielding (1/100 of g h^2) are below 1e-3; springs
-// stretch by rho g y / E, 0.1 % at the mean height y = 8 cm over the directrix, and hang lower by
-// as much of the length. Corrections get along eight segments, not 64, which stretch by 1 %: 2 % of
-// the sag, and as much for as few links.
+// Both ends are held: the catenary of length L over a span s satisfies 2 a sinh(s / 2 a) = L. The
+// stiffness of a limp hair at its ends and the yielding of the pin (1/100 of g h^2) are below 1e-3.
+// Springs stretch by rho g y / E, 0.1 % at the mean height y = 8 cm above the directrix, and hang
+// lower by as much of the length. `position_based_rod` converges along eight segments but not along
+// 64. It stretches by 1 %, which is 2 % of the sag, and so few segments add as much.
 TEST_P(EveryGpuRod, HangsBetweenItsRootAndAPin) {
     const int segments = GetParam() == Solver::position_based_rod ? 8 : 64;
     constexpr double kLength = 0.2, kSpan = 0.14;
@@ -213,7 +214,7 @@ TEST_P(EveryGpuRod, RepeatsItselfToTheBit) {
     EXPECT_EQ(points, first.readPositions());
 }
 
-// Equal strands stay equal. What a device with less memory does: tests/devices/.
+// Equal strands stay equal. tests/devices/ tests a device with less memory.
 TEST_P(EveryGpuRod, TreatsEveryStrandAlike) {
     const auto strand = helix(511, 0.005, 0.01, 20.0);
     const groom::Groom groom = groomOf(std::vector(1200, strand));

@@ -9,7 +9,7 @@
 #include "tests/simulation/parallelisms.h"
 #include "tests/simulation/strands.h"
 
-// The whole solver on the device.
+// Tests the whole solver on the device.
 namespace hair::simulation {
 namespace {
 
@@ -41,9 +41,9 @@ TEST_F(GpuSolver, FollowsVerletsDiscreteParabola) {
     const auto points = simulation.readPositions();
     for (std::size_t i = 0; i < points.size(); ++i) {
         const glm::dvec3 moved = i % 4 == 0 ? glm::dvec3(0.0) : fallen;
-        // Positions up to 5 m are rounded by up to 2.4e-7 m a step, and a rounding in step n is
-        // velocity for the 60 - n after it: 60 * 61 / 2 * 2.4e-7 m at worst, a tenth of that as
-        // they are random.
+        // Positions up to 5 m are rounded by up to 2.4e-7 m a step. A rounding in step n is
+        // velocity for the 60 - n steps after it: 60 * 61 / 2 * 2.4e-7 m at worst, and a tenth of
+        // that because roundings are random.
         EXPECT_LT(
             glm::distance(glm::dvec3(points[i]), glm::dvec3(groom.points[i]) + moved), 4.4e-5);
     }
@@ -58,8 +58,8 @@ TEST_P(GpuShapeSolver, StaysNearTheReferenceForAHundredSteps) {
         }
 }
 
-// Each number of vertices is a kernel of its own, and compiling kernels takes longer than running
-// them. Continuous collisions move each vertex by itself, so one chunk and several are enough.
+// Each number of vertices is a kernel of its own, and kernels take longer to compile than to run.
+// Continuous collisions move each vertex by itself, so one chunk and several are enough.
 TEST_P(GpuShapeSolver, StaysNearTheReferenceWithContinuousCollisions) {
     for (const std::uint32_t vertices : {8u, 33u}) {
         SimulationSettings settings = windy();
@@ -86,7 +86,7 @@ TEST_P(GpuShapeSolver, GivesTheSameBitsEveryTime) {
     EXPECT_TRUE(sameBits(points, first.readPositions()));
 }
 
-// A strand's motion depends on neither its neighbours nor its place in a workgroup.
+// A strand's motion depends neither on its neighbours nor on its place in a work group.
 TEST_P(GpuShapeSolver, MovesAStrandTheSameInAnyCompany) {
     const groom::Groom many = wavyGroom(21, 9);
     groom::Groom few = many;
@@ -146,14 +146,14 @@ TEST_F(GpuSolver, ShowsWhereTheGuidesAre) {
     EXPECT_EQ(view.vertices_per_strand, 8u);
 }
 
-// More workgroups than one row of a dispatch holds (65,535 strands that fill a workgroup each).
+// More work groups than one row of a dispatch holds (65,535 strands that fill a work group each).
 TEST_F(GpuSolver, MovesMoreStrandsThanARowOfWorkgroups) {
     const groom::Groom one = wavyGroom(1, 33);
     groom::Groom groom{.strand_count = 66000, .vertices_per_strand = 33};
     for (std::uint32_t s = 0; s < groom.strand_count; ++s)
         groom.points.insert(groom.points.end(), one.points.begin(), one.points.end());
     SimulationSettings settings;  // no wind, so that all strands move alike
-    settings.parallelism = Parallelism::vertex;  // a workgroup for each
+    settings.parallelism = Parallelism::vertex;  // a work group for each strand
     settings.local.iterations = 1;
     settings.length.iterations = 1;
     Simulation simulation(device(), groom, settings, 3);

@@ -15,13 +15,13 @@
 #include "tests/simulation/gpu_simulation.h"
 #include "tests/simulation/strands.h"
 
-// Hair that is left alone comes to rest with hair on hair switched on, and stays there.
+// Tests that hair without disturbance comes to rest with hair-hair contact, and stays there.
 namespace hair::simulation {
 namespace {
 
 constexpr int kWindow = 5 * 60;   // steps
 constexpr int kSteps = 60 * 60;   // steps
-constexpr int kLast = 10 * 60;    // steps in which nothing may move any more
+constexpr int kLast = 10 * 60;    // steps in which nothing may move
 
 struct RestCase {
     std::string name;
@@ -33,7 +33,7 @@ void PrintTo(const RestCase& rest_case, std::ostream* out) { *out << rest_case.n
 
 class HairOnHairRest : public GpuTest, public testing::WithParamInterface<RestCase> {};
 
-// The thesis's head and hair, which falls from where it was combed onto ten capsules with friction.
+// The thesis's head and hair. The hair falls from its combed state onto ten capsules with friction.
 TEST_P(HairOnHairRest, EndsInRest) {
     const std::string scenes = HAIRBENCH_SCENES_DIR;
     Settings settings = benchmarks::scene::loadScene(scenes + "/thesis.json").settings;
@@ -47,7 +47,7 @@ TEST_P(HairOnHairRest, EndsInRest) {
 
     Simulation simulation(device(), groom, settings.simulation, settings.seed);
     const auto shares = lengthShares(groom);
-    std::vector<Extremes> windows;  // the energies of each, m^2/s^2
+    std::vector<Extremes> windows;  // energies in each window, m^2/s^2
     auto before = simulation.readPositions();
     std::vector<glm::vec3> low;
     std::vector<glm::vec3> high;
@@ -70,8 +70,8 @@ TEST_P(HairOnHairRest, EndsInRest) {
         before = now;
     }
 
-    // Positions of 0.25 m are rounded to 1.5e-8 m, some ten times in a step: 3e-6 m/s at 60 Hz;
-    // what the solver spreads that by may be three times as much.
+    // Positions of 0.25 m are rounded to 1.5e-8 m, some ten times in a step: 3e-6 m/s at 60 Hz. The
+    // solver may spread that by a factor of three.
     constexpr double kFloor = 0.5 * 1e-5 * 1e-5;
     std::vector<double> energies;  // the greatest of each window, m^2/s^2
     for (const Extremes& window : windows) energies.push_back(window.greatest());
@@ -83,8 +83,8 @@ TEST_P(HairOnHairRest, EndsInRest) {
     EXPECT_LT(largestDifference(low, high), 1e-4 * longestStrand(groom));
 }
 
-// Loose hair, hair that moves as one, and pressure all over with almost no friction: with a force
-// that has no potential (hair_hair.h) the last ran in circles.
+// Loose hair, hair that moves together, and hair under pressure everywhere with almost no friction.
+// With a force without a potential (hair_hair.h), the last moved in circles.
 constexpr HairHairSettings kLoose{.friction = 0.3f, .repulsion = 0.3f, .crowding = 1.0f};
 constexpr HairHairSettings kTight{.friction = 1.0f, .repulsion = 1.5f, .crowding = 1.0f};
 constexpr HairHairSettings kCrowded{.friction = 0.05f, .repulsion = 0.6f, .crowding = 0.7f};

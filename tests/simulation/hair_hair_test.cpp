@@ -10,7 +10,7 @@
 #include "tests/simulation/gpu_simulation.h"
 #include "tests/simulation/volume_rig.h"
 
-// Friction and repulsion of hair on hair.
+// Tests friction and repulsion of hair-hair contact.
 namespace hair::simulation {
 namespace {
 
@@ -21,7 +21,7 @@ SimulationSettings contact(float friction, float repulsion, float crowding = 1.0
     return settings;
 }
 
-// Sum of share times vector, and the same of the vectors' lengths.
+// Sum of share times vector, and sum of share times the vector's length.
 struct Balance {
     glm::dvec3 sum{0.0};
     double size = 0.0;
@@ -49,7 +49,7 @@ std::vector<glm::vec3> moved(std::vector<glm::vec3> points, const glm::vec3& by)
     return points;
 }
 
-// Straight strands through a box of `width`, with gaps of random size.
+// Returns straight strands through a box of `width`, with random gaps.
 groom::Groom bundle(std::uint32_t strands, double width, const glm::dvec3& along) {
     groom::Groom groom{.strand_count = strands, .vertices_per_strand = 8};
     std::mt19937 random(3);
@@ -69,11 +69,12 @@ groom::Groom both(groom::Groom a, const groom::Groom& b) {
 
 using HairOnHair = GpuTest;
 
-// Forces of vertices on each other, both ways: a pair's are opposite, so what is left is rounding.
-// A vertex's part of a cell is rounded to 2^-31 of the whole at most, 5e-7 of its share of 1e-3.
+// Forces between two vertices are opposite, so that only rounding is left of their sum. A vertex's
+// part of a cell is rounded to 2^-31 of the whole at most, 5e-7 of its share of 1e-3.
 constexpr double kPairRounding = 1e-5;
 
-// What acts on every vertex besides hair: a pass that writes zeros is not one that does nothing.
+// Acceleration of every vertex by other forces. It is not zero, so that a pass that writes zeros is
+// noticed.
 constexpr glm::vec3 kOthers(1.5f, -9.81f, 0.25f);
 
 TEST_F(HairOnHair, LeavesALoneStrandAlone) {
@@ -81,8 +82,8 @@ TEST_F(HairOnHair, LeavesALoneStrandAlone) {
     VolumeRig rig(device(), groom, contact(1.0f, 1.0f, 0.1f));
     const auto accelerations =
         rig.accelerations(disturbed(groom, 0.002, 1), disturbed(groom, 0.002, 2), {}, kOthers);
-    // Nothing but what the device may round differently in two shaders: 1e-6 of 0.002 m / (1/60
-    // s)^2 and of 1 m^2/s^2 / 10 mm.
+    // The device may round differently in two shaders: 1e-6 of 0.002 m / (1/60 s)^2 and of 1
+    // m^2/s^2 / 10 mm.
     EXPECT_LT(largestDifference(accelerations, std::vector(groom.points.size(), kOthers)), 1e-4);
 }
 
@@ -92,14 +93,15 @@ TEST_F(HairOnHair, HasNoFrictionWhereAllMoveAlike) {
     const glm::vec3 way(0.02f, -0.01f, 0.005f);  // in a step: 1.4 m/s
     const auto accelerations =
         rig.accelerations(moved(groom.points, way), groom.points, {}, kOthers);
-    // Floats of up to 0.4 m store the way to 3e-8 m, 2e-6 of it; so much of the velocity is lost.
+    // Floats of up to 0.4 m store the displacement to 3e-8 m, 2e-6 of it. That much of the velocity
+    // is lost.
     EXPECT_LT(
         largestDifference(accelerations, std::vector(groom.points.size(), kOthers)),
         60.0 * 60.0 * 1e-7);
 }
 
-// Strands on top of each other share every cell equally, so each sees their mean velocity, here 0:
-// of v it loses the setting's part in 1/60 s, whatever the step.
+// Strands on top of each other share every cell equally, so each sees their mean velocity, here 0.
+// It loses the set part of its velocity v in 1/60 s, at any time step.
 TEST_F(HairOnHair, LosesThePartOfTheDifferenceThatItIsSetTo) {
     const groom::Groom one = straightGroom(1, 6);
     const groom::Groom groom = both(one, one);
@@ -107,7 +109,7 @@ TEST_F(HairOnHair, LosesThePartOfTheDifferenceThatItIsSetTo) {
         for (const float steps : {0.25f, 1.0f, 3.0f}) {
             SimulationSettings settings = contact(part, 0.0f);
             settings.time_step = steps / 60.0f;
-            // Without prediction, which is not what is tested, strands stay on top of each other.
+            // Without prediction, which this does not test, strands stay on top of each other.
             const glm::vec3 way(1e-5f, 0.0f, 0.0f);
             auto previous = moved(one.points, -way);
             const auto other = moved(one.points, way);
@@ -116,15 +118,15 @@ TEST_F(HairOnHair, LosesThePartOfTheDifferenceThatItIsSetTo) {
             const auto accelerations = rig.accelerations(groom.points, previous);
             const double velocity = 1e-5 / settings.time_step;
             const double lost = velocity * (1.0 - std::pow(1.0 - double{part}, double{steps}));
-            // 1e-5 m of a float of up to 0.1 m, which is rounded to 4e-9 m, and cells of about 9 mm
-            // that the two have moved apart in by 2e-5 m.
+            // A float of up to 0.1 m stores 1e-5 m with an error of 4e-9 m. In cells of about 9 mm
+            // the two strands have moved apart by 2e-5 m.
             for (std::size_t i = 0; i < accelerations.size(); ++i)
                 EXPECT_NEAR(
                     accelerations[i].x * settings.time_step, i < 6 ? -lost : lost, 0.005 * lost);
         }
 }
 
-// Two bundles that cross at right angles and move through each other.
+// Two bundles cross at right angles and move through each other.
 TEST_F(HairOnHair, DragsCrossingBundlesTogether) {
     const groom::Groom groom = both(bundle(40, 0.03, {1, 0, 0}), bundle(40, 0.03, {0, 1, 0}));
     const std::size_t half = groom.points.size() / 2;
@@ -149,8 +151,8 @@ TEST_F(HairOnHair, DragsCrossingBundlesTogether) {
     EXPECT_GT(second, 0.0);
 }
 
-// What others give a pair of strands on top of each other is as much in every step: then friction
-// balances it at the rate that the setting has, whatever the step.
+// Other forces change the velocities of a pair of strands on top of each other equally in every
+// step. Friction then balances them at the set rate, at any time step.
 TEST_F(HairOnHair, BearsASteadyDifferenceByItsRate) {
     const groom::Groom one = straightGroom(1, 6);
     const groom::Groom groom = both(one, one);
@@ -164,7 +166,7 @@ TEST_F(HairOnHair, BearsASteadyDifferenceByItsRate) {
             previous.insert(previous.end(), other.begin(), other.end());
             VolumeRig rig(device(), groom, settings);
             auto accelerations = rig.accelerations(groom.points, previous);
-            // What a step gets wrong is at most 3/4 of what the one before did.
+            // The error of a step is at most 3/4 of the previous step's.
             for (int step = 0; step < 40; ++step)
                 accelerations = rig.nextAccelerations(groom.points, previous);
             const double rate = -60.0 * std::log(1.0 - double{part});
@@ -175,7 +177,7 @@ TEST_F(HairOnHair, BearsASteadyDifferenceByItsRate) {
         }
 }
 
-// Steps of any velocities: what is foreseen is as opposite as what is known.
+// With any velocities, predicted forces of a pair are opposite like known ones.
 TEST_F(HairOnHair, KeepsMomentumWhateverItForesees) {
     const groom::Groom groom = wavyGroom(80, 9);
     VolumeRig rig(device(), groom, contact(0.6f, 0.0f));
@@ -199,15 +201,15 @@ TEST_F(HairOnHair, ForeseesLikeTheReference) {
     const auto previous = disturbed(groom, 0.003, 4);
     const auto accelerations = rig.nextAccelerations(positions, previous);
     const auto expected = rig.expected(positions, previous, {}, &kept);
-    // As in IsLikeTheReference, of two steps.
+    // The tolerance of IsLikeTheReference for two steps.
     EXPECT_LT(largestDifference(accelerations, expected), 4e-5 * greatestLength(accelerations));
     EXPECT_GT(
         largestDifference(expected, rig.expected(positions, previous)),
         0.1 * greatestLength(accelerations));
 }
 
-// Any velocities: friction at its most takes energy where it has nothing to foresee, and never
-// turns the whole around.
+// With any velocities and no prediction, the greatest friction takes energy and never reverses the
+// motion.
 TEST_F(HairOnHair, FrictionOnlyTakesEnergy) {
     const groom::Groom groom = wavyGroom(80, 9);
     const auto shares = lengthShares(groom);
@@ -240,7 +242,7 @@ TEST_F(HairOnHair, ExpandsACompressedBundle) {
 
     const Balance all = balance(groom, accelerations);
     EXPECT_GT(all.size, 0.1);
-    // Newton's third law but for the sampling in cells, about 1% (hair_hair.h).
+    // Newton's third law holds except for the sampling in cells, about 1 % (hair_hair.h).
     EXPECT_LT(glm::length(all.sum), 0.02 * all.size);
     const auto shares = lengthShares(groom);
     double outward = 0.0;  // the virial: positive where forces push apart
@@ -260,8 +262,8 @@ TEST_F(HairOnHair, DoesNotRepelWhereThereIsRoom) {
         0.0);
 }
 
-// Short strands on a lattice of two a cell, longer and longer along x, against a gas with the speed
-// of sound sqrt(k): a = -dP/dx / density = -k d(ln density)/dx.
+// Short strands on a lattice with two per cell get longer along x. They are compared with a gas
+// with the speed of sound sqrt(k): a = -dP/dx / density = -k d(ln density)/dx.
 TEST_F(HairOnHair, PushesLikeTheGasItStandsFor) {
     constexpr int kSide = 29;  // 14 cells
     constexpr double kGap = 0.1;
@@ -280,12 +282,13 @@ TEST_F(HairOnHair, PushesLikeTheGasItStandsFor) {
     const auto accelerations = rig.accelerations(groom.points, groom.points);
     for (std::size_t i = 0; i < groom.points.size(); i += 2) {
         const glm::dvec3 place = glm::dvec3(groom.points[i]) / half;
-        // A vertex feels 3 cells away, 3/7 of the half, where the edges must not be.
+        // A vertex feels hair up to 3 cells away, 3/7 of the half. The edges must be farther away
+        // than that.
         if (std::max({std::abs(place.x), std::abs(place.y), std::abs(place.z)}) > 0.5) continue;
         const glm::dvec3 expected(-0.2 * 0.5 / half / (1.0 + 0.5 * place.x), 0.0, 0.0);
-        // Per cell density changes by 1/14, up to a tenth of what it is; its logarithm bends by the
-        // square of that. The spline over it has a variance of a quarter of a cell, twice. Lengths
-        // are rounded to 1e-4.
+        // Density changes by 1/14 per cell, up to a tenth of itself, and its logarithm bends by the
+        // square of that. The spline has a variance of a quarter of a cell, and is applied twice.
+        // Lengths are rounded to 1e-4.
         EXPECT_LT(
             glm::distance(glm::dvec3(accelerations[i]), expected), 0.01 * glm::length(expected));
     }
@@ -305,15 +308,15 @@ TEST_F(HairOnHair, IsLikeTheReference) {
             const auto accelerations = rig.accelerations(positions, previous, frame);
             const double greatest = greatestLength(accelerations);
             ASSERT_GT(greatest, 0.1);
-            // Places in cells are floats up to 32, rounded to 2e-6, and a velocity's difference of
-            // some 1e-3 m is one of floats of 0.2 m, rounded to 1e-8: both are 1e-5.
+            // Positions in cells are floats up to 32, rounded to 2e-6. A velocity's difference of
+            // some 1e-3 m is one of floats of 0.2 m, rounded to 1e-8. Both are 1e-5.
             EXPECT_LT(
                 largestDifference(accelerations, rig.expected(positions, previous, frame)),
                 2e-5 * greatest);
         }
 }
 
-// A strand at 10 m/s far from hair at about 1 mm/s takes none of its digits.
+// A strand at 10 m/s does not take precision from distant hair at about 1 mm/s.
 TEST_F(HairOnHair, SlowHairIsLikeTheReferenceBesideFastHair) {
     const groom::Groom slow = wavyGroom(67, 9);
     groom::Groom far = straightGroom(1, 9);
@@ -333,11 +336,11 @@ TEST_F(HairOnHair, SlowHairIsLikeTheReferenceBesideFastHair) {
     expected.resize(slow.points.size());
     const double greatest = greatestLength(accelerations);
     ASSERT_GT(greatest, 1e-3);
-    // As in IsLikeTheReference, but for velocities, whose differences are exact here.
+    // The tolerance of IsLikeTheReference without velocities, as their differences are exact here.
     EXPECT_LT(largestDifference(accelerations, expected), 2e-5 * greatest);
 }
 
-// Positions after a step of everything.
+// Positions after a whole step.
 TEST_F(HairOnHair, StepsLikeTheReference) {
     const groom::Groom groom = wavyGroom(67, 9);
     const SimulationSettings settings = contact(0.3f, 0.3f, 0.5f);
@@ -350,7 +353,7 @@ TEST_F(HairOnHair, StepsLikeTheReference) {
     EXPECT_TRUE(simulation.hasVolume());
     advance(device(), simulation, 1);
     solver.step();
-    // As for every constraint alone (gpu_constraints_test.cpp).
+    // The tolerance for every constraint alone (gpu_constraints_test.cpp).
     EXPECT_LT(
         largestDifference(simulation.readPositions(), solver.positions()),
         1e-5 * longestStrand(groom));

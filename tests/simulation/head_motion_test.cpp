@@ -14,10 +14,10 @@ namespace hair::simulation {
 namespace {
 
 constexpr glm::vec3 kPivot{0.1f, -0.2f, 0.3f};
-// What points of size 1 differ by for roundings of double.
+// Difference of points of size 1 by roundings of double.
 constexpr double kDoubleRounding = 1e-13;
 
-// Turns and shifts at times that are no grid, with a halt and coordinates that rise and fall.
+// Returns turns and shifts at irregular times, with a halt and coordinates that rise and fall.
 MotionSettings wild() {
     return {
         .keyframes =
@@ -35,7 +35,7 @@ MotionSettings repeating() {
     return settings;
 }
 
-// Where three points that span space are taken, so that equal motions are told from others.
+// Returns the images of three points that span space, which distinguish any two motions.
 std::vector<glm::dvec3> marks(const RigidMotion& motion) {
     return {motion({1, 0, 0}), motion({0, 1, 0}), motion({0, 0, 1})};
 }
@@ -46,8 +46,8 @@ double difference(const RigidMotion& a, const RigidMotion& b) {
 
 double rad(double degrees) { return degrees * std::acos(-1.0) / 180.0; }
 
-// A pose as the settings describe it, by the matrices of turns about the axes: roll first, then
-// pitch, then yaw, all about the pivot, then the translation.
+// Moves `p` by a pose as the settings describe it, with matrices for turns about the axes: first
+// roll, then pitch, then yaw, all about the pivot, and then the translation.
 glm::dvec3 posed(const Keyframe& key, glm::dvec3 p) {
     p -= glm::dvec3(kPivot);
     const double roll = rad(key.rotation.z);
@@ -95,7 +95,7 @@ TEST(HeadMotion, PassesThroughEveryKeyframe) {
     }
 }
 
-// A nod moves the face (+z) down, a turn moves it to the head's left (+x), a roll moves the crown
+// Pitch moves the face (+z) down, yaw moves it to the head's left (+x), and roll moves the crown
 // (+y) to the head's right (-x).
 TEST(HeadMotion, TurnsTheWaysThatTheSettingsSay) {
     const auto turned = [](const glm::vec3& rotation, const glm::dvec3& p) {
@@ -123,11 +123,11 @@ TEST(HeadMotion, RestsBeforeTheFirstAndAfterTheLastKeyframe) {
     EXPECT_EQ(difference(motion.at(2.25), motion.at(1e6)), 0.0);
 }
 
-// A step of 1e-5 s on either side of a moment. Its velocities differ by an acceleration times the
-// step, and by the rounding over the step: the wild motion's largest acceleration is that of 405
-// degrees in 0.25 s, at most 6 * 405 / 0.25^2 degrees/s^2 = 680 rad/s^2 (a Hermite cubic's with
-// slopes of at most three times the secant's has 12 for the 6), and its centripetal one is of that
-// order: 2000 m/s^2 * 1e-5 s at points 2 m from the pivot, to be safe twice.
+// A step of 1e-5 s on either side of a moment. The two velocities differ by acceleration times
+// step, and by rounding over step. The greatest acceleration of wild() is that of 405 degrees in
+// 0.25 s: at most 6 * 405 / 0.25^2 degrees/s^2 = 680 rad/s^2. (For a Hermite cubic with slopes of
+// up to three times the secant's the 6 is 12.) The centripetal acceleration is of the same order.
+// So it is 2000 m/s^2 * 1e-5 s at points 2 m from the pivot, doubled for safety.
 constexpr double kDifference = 1e-5;
 constexpr double kVelocityStep = 2.0 * 2.0 * 2000.0 * kDifference;
 
@@ -145,14 +145,15 @@ TEST(HeadMotion, VelocityNeverJumps) {
     const HeadMotion motion(wild());
     for (const Keyframe& key : wild().keyframes)
         EXPECT_LT(velocityJump(motion, key.time), kVelocityStep) << key.time;
-    // The test can tell: at top speed the same head would stop with a jump of 30 m/s and more.
+    // The test can detect a jump: at top speed the same head would stop with one of 30 m/s and
+    // more.
     const double speed =
         glm::distance(motion.at(2.125 + kDifference)({0, 0, 1}), motion.at(2.125)({0, 0, 1})) /
         kDifference;
     EXPECT_GT(speed, 10.0 * kVelocityStep);
 }
 
-// 370 degrees are 10 and a turn, so the motion closes.
+// 370 degrees are 10 degrees and a full turn, so the motion closes.
 TEST(HeadMotion, RepeatsWithoutAJump) {
     const HeadMotion motion(repeating());
     const double period = 2.25 - 0.5;
@@ -187,7 +188,7 @@ TEST(HeadMotion, HoldsStillBetweenEqualPoses) {
     EXPECT_LT(difference(repeated.at(0.3), repeated.at(17.0)), kDoubleRounding);
 }
 
-// Turned about one axis alone, the head never turns further than a keyframe.
+// About a single axis the head never turns beyond a keyframe.
 TEST(HeadMotion, StaysBetweenItsKeyframes) {
     MotionSettings settings;
     const float angles[] = {0, 1, 60, 61, 20, 20.5f, 0};

@@ -8,7 +8,7 @@
 namespace hair::simulation {
 namespace {
 
-// Sets every vertex of a groom going at `velocity`: Verlet keeps it as the step before.
+// Returns the previous positions with which Verlet integration moves every vertex at `velocity`.
 std::vector<glm::dvec3>
 comingFrom(const groom::Groom& groom, const glm::dvec3& velocity, double step) {
     std::vector<glm::dvec3> previous = toDouble(groom.points);
@@ -36,8 +36,8 @@ TEST(Verlet, FollowsItsDiscreteParabola) {
     }
 }
 
-// With q = 1 - friction left of the velocity the displacements are d_m = q^m d_0 + a (1 - q^m) / (1
-// - q), a = g dt^2; X_n is their sum.
+// With q = 1 - friction of the velocity kept, the displacements are d_m = q^m d_0 + a (1 - q^m) /
+// (1 - q), a = g dt^2. X_n is their sum.
 TEST(Verlet, LosesVelocityInAGeometricSeries) {
     const groom::Groom groom = straightGroom(1, 2);
     SimulationSettings settings = nothingActs();
@@ -86,7 +86,7 @@ TEST(GlobalConstraint, BalancesGravityWhereTheorySays) {
         EXPECT_NEAR(solver.positions()[i].y - double{groom.points[i].y}, sag, 1e-12);
 }
 
-// In invariant scaling that is g h0^2 (1 - k) / k whatever the step.
+// In invariant scaling that is g h0^2 (1 - k) / k at any time step.
 TEST(GlobalConstraint, BalancesGravityInTheSamePlaceAtEveryStep) {
     const groom::Groom groom = straightGroom(1, 2);
     SimulationSettings settings = nothingActs();
@@ -99,7 +99,7 @@ TEST(GlobalConstraint, BalancesGravityInTheSamePlaceAtEveryStep) {
         reference::Reference solver(groom, settings, 1);
         const int steps = static_cast<int>(30.0f / step);
         for (int i = 0; i < steps; ++i) solver.step();
-        // What is left of the swing after 30 s at 0.95 per 1/60 s is below 1e-20.
+        // After 30 s at 0.95 per 1/60 s less than 1e-20 of the swing is left.
         EXPECT_NEAR(solver.positions()[1].y - double{groom.points[1].y}, sag, 1e-10) << step;
     }
 }

@@ -10,7 +10,7 @@
 namespace hair::simulation {
 namespace {
 
-// Largest |length / rest length - 1| of the strand's segments.
+// Returns the largest |length / rest length - 1| of the strand's segments.
 double lengthError(std::span<const glm::dvec3> points, std::span<const glm::dvec3> rest) {
     Extremes errors;
     for (std::size_t i = 1; i < points.size(); ++i) {
@@ -33,8 +33,8 @@ TEST(LengthConstraint, LeavesRestAndPinnedRootInPlace) {
     EXPECT_EQ(points[0], rest[0]);
 }
 
-// By hand, (12): the root's segment 3 long for 1 moves vertex 1 to 1; then the next is 5 long for 1
-// and each of its ends moves by 2.
+// Worked out by hand, (12): the first segment is 3 long instead of 1 and moves vertex 1 to 1. Then
+// the second is 5 long instead of 1, and each of its ends moves by 2.
 TEST(LengthConstraint, MovesRedThenBlackSegments) {
     const std::vector<glm::dvec3> rest{{0, 0, 0}, {1, 0, 0}, {2, 0, 0}};
     std::vector<glm::dvec3> points{{0, 0, 0}, {3, 0, 0}, {6, 0, 0}};
@@ -43,10 +43,10 @@ TEST(LengthConstraint, MovesRedThenBlackSegments) {
     EXPECT_LT(glm::distance(points[2], glm::dvec3(4, 0, 0)), 1e-15);
 }
 
-// On a straight strand the stretch of a segment is handed on to its neighbours: half to each, all
-// of it away from the root, and half is lost at the tip. That is a random walk between a mirror and
-// a sink N steps apart, so Jacobi's slowest mode shrinks by cos(pi / 2N) and red-black
-// Gauss-Seidel's by its square.
+// On a straight strand a segment passes its stretch on to its neighbours, half to each. At the root
+// all of it goes away from the root, and at the tip half is lost. That is a random walk between a
+// mirror and a sink N steps apart. So Jacobi's slowest mode shrinks by cos(pi / 2N) and red-black
+// Gauss-Seidel's by the square of that.
 TEST(LengthConstraint, ConvergesAtTheRateOfTheory) {
     for (const std::size_t segments : {2u, 3u, 7u, 15u}) {
         std::vector<glm::dvec3> rest;
@@ -83,9 +83,9 @@ TEST(LengthConstraint, PartsVerticesThatCoincide) {
     EXPECT_LT(lengthError(points, rest), 1e-12);
 }
 
-// How far the positions are from being the nearest to `predicted` with their lengths, m: there
-// (predicted - position) / w is what tensions along the segments give, and from the tip up there is
-// one for each segment.
+// Returns how far the positions are from the nearest ones to `predicted` with the same lengths, m.
+// At the nearest positions, tensions along the segments equal (predicted - position) / w; from the
+// tip up they give one tension for each segment.
 double notNearest(
     std::span<const glm::dvec3> points, std::span<const glm::dvec3> predicted,
     std::span<const double> lightness) {
@@ -127,7 +127,7 @@ TEST(LengthSolve, KeepsEveryLengthInOnePass) {
     }
 }
 
-// A stretched straight strand keeps its direction, whatever its masses.
+// A stretched straight strand keeps its direction with any masses.
 TEST(LengthSolve, TakesBackStretch) {
     const std::vector<glm::dvec3> rest{{0, 0, 0}, {1, 0, 0}, {2, 0, 0}};
     std::vector<glm::dvec3> points{{0, 0, 0}, {3, 0, 0}, {6, 0, 0}};

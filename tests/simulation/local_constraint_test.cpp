@@ -37,7 +37,7 @@ TEST(LocalConstraint, LeavesTheRestShapeAlone) {
     EXPECT_LT(largestDifference(points, rest), kPositionRounding);
 }
 
-// The whole head turns: the frames are its rotation, twist included, and nothing is pulled.
+// If the whole head turns, the frames are its rotation, including twist, and nothing is pulled.
 TEST(LocalConstraint, LeavesAStrandThatTurnsWithItsRootAlone) {
     const auto rest = toDouble(wavyGroom(1, 12).points);
     const glm::dmat3 head = rotation(1.9, glm::normalize(glm::dvec3(1, 2, -1)));
@@ -49,7 +49,7 @@ TEST(LocalConstraint, LeavesAStrandThatTurnsWithItsRootAlone) {
     EXPECT_LT(largestDifference(pulled, points), kPositionRounding);
 }
 
-// The strand alone is bent at the root, without twist: only its first segment is out of place.
+// The strand is bent at the root without twist, so only its first segment is out of place.
 TEST(LocalConstraint, PullsOnlyTheFirstSegmentOfAStrandBentAtItsRoot) {
     const auto rest = toDouble(wavyGroom(1, 12).points);
     const glm::dvec3 first = glm::normalize(rest[1] - rest[0]);
@@ -62,8 +62,8 @@ TEST(LocalConstraint, PullsOnlyTheFirstSegmentOfAStrandBentAtItsRoot) {
         EXPECT_LT(difference(frames[i], bend), kPositionRounding);
 }
 
-// In a plane parallel transport is plain angles: a frame turns by the tangent's angle now minus at
-// rest.
+// In a plane, parallel transport adds angles: a frame turns by the tangent's present angle minus
+// its angle at rest.
 TEST(LocalConstraint, TurnsFramesByTheAngleOfTheTangentInAPlane) {
     std::vector<glm::dvec3> rest{glm::dvec3(0.0)};
     std::vector<glm::dvec3> points = rest;
@@ -80,7 +80,7 @@ TEST(LocalConstraint, TurnsFramesByTheAngleOfTheTangentInAPlane) {
         EXPECT_LT(difference(frames[i], rotation(angles[i], {0, 0, 1})), kPositionRounding) << i;
 }
 
-// Frames turn rest tangents into current ones, and are rotations, in space as well.
+// In space, too, frames are rotations that turn rest tangents into present ones.
 TEST(LocalConstraint, TurnsRestTangentsIntoCurrentOnes) {
     const groom::Groom groom = wavyGroom(1, 20);
     const auto rest = toDouble(groom.points);
@@ -94,7 +94,7 @@ TEST(LocalConstraint, TurnsRestTangentsIntoCurrentOnes) {
     }
 }
 
-// One segment is the whole correction: an error shrinks by 1 - k each iteration.
+// A segment at the root gets the whole correction: an error shrinks by 1 - k in each iteration.
 TEST(LocalConstraint, PullsASegmentAtThePinnedRootByTheWholeFactor) {
     const std::vector<glm::dvec3> rest{{0, 0, 0}, {0, 1, 0}};
     std::vector<glm::dvec3> points{{0, 0, 0}, {2, 0, 1}};
@@ -104,8 +104,9 @@ TEST(LocalConstraint, PullsASegmentAtThePinnedRootByTheWholeFactor) {
     EXPECT_EQ(points[0], rest[0]);
 }
 
-// By hand. Straight rest along y, second segment bent to x: first one stays, goal of the second is
-// y, so d = (0, 1, 0) - (1, 0, 0), k d / 2 moves both its ends.
+// Worked out by hand: the rest shape is straight along y, and the second segment is bent to x. The
+// first segment stays. The goal of the second is y, so d = (0, 1, 0) - (1, 0, 0), and k d / 2 moves
+// both of its ends.
 TEST(LocalConstraint, SharesTheCorrectionBetweenFreeVertices) {
     const std::vector<glm::dvec3> rest{{0, 0, 0}, {0, 1, 0}, {0, 2, 0}};
     std::vector<glm::dvec3> points{{0, 0, 0}, {0, 1, 0}, {1, 1, 0}};
@@ -126,7 +127,7 @@ TEST(LocalConstraint, TurnsHalfRoundWhereTangentsAreOpposite) {
     }
 }
 
-// A repeated vertex, at rest and now, changes nothing for the rest of the strand.
+// A vertex that is repeated, at rest and now, changes nothing for the rest of the strand.
 TEST(LocalConstraint, SeesThroughSegmentsWithoutLength) {
     const groom::Groom groom = wavyGroom(1, 8);
     auto rest = toDouble(groom.points);

@@ -16,13 +16,13 @@
 #include "tests/simulation/closed_meshes.h"
 #include "tests/simulation/surface_reference.h"
 
-// Distance fields of meshes that are not closed.
+// Tests distance fields of meshes that are not closed.
 namespace hair::simulation {
 namespace {
 
 class OpenFieldTest : public GpuTest {
 protected:
-    // A field with what it holds.
+    // A field and its values.
     struct Baked {
         DistanceField field;
         std::vector<float> distances;
@@ -41,12 +41,12 @@ protected:
         }
     };
 
-    // Some twenty roundings of numbers of a metre or two.
+    // Some twenty roundings of numbers of one or two metres.
     static constexpr double kRounding = 40 * 0x1p-24;
 };
 
-// What has no rim and cuts nothing has the nearest triangle and the side that it has as a closed
-// mesh: the same distances, to the bit where neither point lies on the surface.
+// A mesh without a rim that doesn't cut itself has the same nearest triangles and sides as an open
+// mesh and as a closed one. Distances are equal to the bit, except at points on the surface.
 TEST_F(OpenFieldTest, OfAClosedMeshIsWhatItIsAsAClosedOne) {
     groom::Mesh hollow = makeSphere({0, 0, 0}, 1.0, 2);
     append(hollow, insideOut(makeSphere({0.1, 0, 0}, 0.6, 2)));
@@ -75,10 +75,10 @@ double boxDistanceTo(const glm::dvec3& p, const glm::dvec3& half) {
     return glm::length(glm::max(apart, 0.0)) + std::min(std::max({apart.x, apart.y, apart.z}), 0.0);
 }
 
-// Of the opening one sees half a sphere from its plane alone: the cap is flat, and the field is the
-// closed box's. Its vertices are found to half of 1/256 of an edge, a cell's diagonal. Within a
-// cell of the rim it cuts the corner between the cap and the sides, which bears on what is less
-// than some cells from the rim.
+// The opening covers half a sphere only from its own plane: so the cap is flat, and the field is
+// the closed box's. The cap's vertices are found to half of 1/256 of an edge, which is at most a
+// cell's diagonal. Within a cell of the rim the cap cuts the corner between opening and sides,
+// which changes distances up to a few cells from the rim.
 TEST_F(OpenFieldTest, OfABoxWithoutAFaceIsThatOfTheBox) {
     const glm::dvec3 half{0.5, 0.31, 0.73};
     groom::Mesh mesh = makeBox(-half, half);
@@ -96,15 +96,16 @@ TEST_F(OpenFieldTest, OfABoxWithoutAFaceIsThatOfTheBox) {
         }
         const double error = std::abs(double{baked.distances[i]} - expected);
         const glm::dvec3 apart = glm::abs(p) - half;
-        const double from_rim = std::hypot(p.z - half.z, std::max(apart.x, apart.y));  // or less
+        const double from_rim = std::hypot(p.z - half.z, std::max(apart.x, apart.y));  // or nearer
         (from_rim < 4 * baked.cell() + std::abs(expected) ? near : far).add(error);
     }
     EXPECT_LT(near.greatest(), baked.cell());
     EXPECT_LT(far.greatest(), found_to);
 }
 
-// Distances change by no more than the way, but for a cell that they may be off by at either end
-// beside the rim. Those to the mesh alone would change by the opening's width, 15 cells.
+// Between neighbouring points distances change by no more than a cell, plus the error of a cell at
+// either end beside the rim. Distances to the mesh alone would change by the opening's width, 15
+// cells.
 TEST_F(OpenFieldTest, DoesNotJumpAtAnOpening) {
     const Baked baked(groom::bodyMesh(makeOpenSphere({0, 0, 0}, 1.0, 2.0, 48, 24)), 33, 0.1f);
     const double exact_to = 0.1 + 2 * baked.cell();
@@ -122,7 +123,7 @@ TEST_F(OpenFieldTest, DoesNotJumpAtAnOpening) {
     EXPECT_LT(steps.greatest(), 3 * baked.cell());
 }
 
-// By the sum over all triangles, where that is not nearly 1/2.
+// Compares with the sum over all triangles where that is not nearly 1/2.
 TEST_F(OpenFieldTest, SignIsThatOfTheWindingNumber) {
     groom::Mesh winged = makeSphere({0, 0, 0}, 1.0, 3);
     const auto corners = reference::corners(winged, winged.triangles[100]);
@@ -147,7 +148,7 @@ TEST_F(OpenFieldTest, SignIsThatOfTheWindingNumber) {
     }
 }
 
-// Outside, the wing counts as it is; inside, it is behind the ball's surface.
+// Outside the ball the sheet counts as it is. Inside it is behind the ball's surface.
 TEST_F(OpenFieldTest, DistanceIsThatToASheetToo) {
     groom::Mesh mesh = makeSphere({0, 0, 0}, 1.0, 2);
     const auto corners = reference::corners(mesh, mesh.triangles[100]);
@@ -165,9 +166,9 @@ TEST_F(OpenFieldTest, DistanceIsThatToASheetToo) {
     }
 }
 
-// Of two balls that cross: the triangles of either that lie in the other bound nothing. A ball of
-// 20 * 4^4 triangles is up to kBallChord smaller than the sphere round it; a strip of crossed
-// triangles is left, kStrip deep.
+// Two balls cross; triangles of either inside the other bound nothing. A ball of 20 * 4^4 triangles
+// is up to kBallChord smaller than the sphere round it. A strip of crossed triangles remains,
+// kStrip deep.
 TEST_F(OpenFieldTest, OfBallsThatCrossIsThatOfBoth) {
     const glm::dvec3 other{0.9, 0, 0};
     constexpr double kBallEdge = 1.2 * 1.107 / 16;
@@ -192,12 +193,12 @@ TEST_F(OpenFieldTest, OfBallsThatCrossIsThatOfBoth) {
         }
         if (outside > -kBallChord) continue;
         ASSERT_LT(found, 0.0);
-        // The nearest of what is left of both spheres, or the circle.
+        // Nearest of the remaining parts of both spheres and the circle where they meet.
         const double ring = std::hypot(p.x - 0.45, std::hypot(p.y, p.z) - across);
         const auto depthIn = [&](const glm::dvec3& centre, double side) {
             const glm::dvec3 to = p - centre;
             const double length = glm::length(to);
-            const bool seen = side * (to.x / length - side * 0.45) <= 0.0;  // is on the surface
+            const bool seen = side * (to.x / length - side * 0.45) <= 0.0;  // on the surface
             return seen && length > 1e-9 ? 1.0 - length : 10.0;
         };
         const double depth = std::min({ring, depthIn({0, 0, 0}, 1), depthIn(other, -1)});
@@ -208,7 +209,7 @@ TEST_F(OpenFieldTest, OfBallsThatCrossIsThatOfBoth) {
     EXPECT_GT(deep, 300u);
 }
 
-// A sheet whose bulge is thinner than any cell.
+// A sheet with a bulge thinner than any cell.
 TEST_F(OpenFieldTest, RefusesWhatNoPointOfTheGridIsIn) {
     const groom::Mesh dish = makeOpenSphere({0, 0, 0}, 1.0, 0.1, 40, 4);
     EXPECT_THAT(

@@ -9,12 +9,12 @@
 #include "tests/largest_difference.h"
 #include "tests/simulation/rods.h"
 
-// The equations of `position_based_rod` against theory, with the iterations that it takes to solve
-// them; gpu_rod_test.cpp holds the device against the reference.
+// Tests the equations of `position_based_rod` against theory, with enough iterations to solve them.
+// gpu_rod_test.cpp compares the device with the reference.
 namespace hair::reference {
 namespace {
 
-// At rest under its weight.
+// Returns the rod at rest under its weight.
 RodState restedRod(const RodRest& rest, const PositionBasedRodParameters& parameters, int steps) {
     RodState state = rodAtRest(rest);
     const std::vector<glm::dvec3> accelerations(
@@ -28,8 +28,8 @@ double stretchStiffness(const RodMaterial& material) {
     return material.youngs_modulus * simulation::kPi * material.radius * material.radius;
 }
 
-// A single segment under its weight, a mass of lambda l / 2 at its end. Im(r) is sin(angle / 2), so
-// that the clamp's torque is K sin(angle), K = 2 E I / l; it bears m g l cos(angle). E A is so
+// A single segment under its weight has a mass of lambda l / 2 at its end. Im(r) is sin(angle / 2),
+// so the clamp's torque is K sin(angle), K = 2 E I / l, and it bears m g l cos(angle). E A is so
 // great that stretch is below 1e-6.
 TEST(ReferencePositionBasedRod, HoldsASingleSegmentUp) {
     for (const double length : {0.005, 0.02, 0.05}) {
@@ -50,8 +50,8 @@ TEST(ReferencePositionBasedRod, HoldsASingleSegmentUp) {
     }
 }
 
-// Few segments and many iterations: what it has of a rod then. The error of six segments is
-// second order: less than 2 / 6^2.
+// With few segments and many iterations the solver converges to a rod. The error of six segments is
+// of second order: less than 2 / 6^2.
 TEST(ReferencePositionBasedRod, HangsAsACantileverDoesWhereItConverges) {
     const RodMaterial material;
     for (const double gamma : {1.0, 10.0}) {
@@ -72,7 +72,7 @@ TEST(ReferencePositionBasedRod, HangsAsACantileverDoesWhereItConverges) {
     }
 }
 
-// An arm across the end of a shaft, both level, twists the shaft by M (a - l / 2) / (G J) up to the
+// A level arm across the end of a level shaft twists the shaft by M (a - l / 2) / (G J) up to the
 // middle of its last segment, as in reference_rod_test.cpp.
 TEST(ReferencePositionBasedRod, TwistsByItsTorsionalStiffness) {
     constexpr int kShaft = 3, kArm = 2;
@@ -98,8 +98,8 @@ TEST(ReferencePositionBasedRod, TwistsByItsTorsionalStiffness) {
     EXPECT_NEAR(2.0 * turn.x / theory, 1.0, 0.01);
 }
 
-// A hair hung by its root is longer by the weight below each segment, over E A; fifty sweeps leave
-// less than 1e-7 where a substep is as short as this.
+// Each segment of a hair that hangs by its root stretches by the weight below it over E A. With
+// such short substeps fifty sweeps leave less than 1e-7.
 TEST(ReferencePositionBasedRod, StretchesByTheWeightBelow) {
     constexpr int kSegments = 10;
     constexpr double kLength = 0.1, kStiffness = 1e-3;  // m, N
@@ -124,8 +124,8 @@ TEST(ReferencePositionBasedRod, StretchesByTheWeightBelow) {
     }
 }
 
-// Where the follicle turns about the hair's own axis, and nothing else acts, every segment comes to
-// turn as far.
+// The follicle turns about the hair's own axis, and nothing else acts: every segment comes to turn
+// as far.
 TEST(ReferencePositionBasedRod, TurnsWithItsClamp) {
     const RodMaterial material;
     const RodRest rest = makeRodRest(simulation::straightRod(4, 0.04, {0.0, -1.0, 0.0}), material);

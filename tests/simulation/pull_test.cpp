@@ -8,12 +8,12 @@
 #include "hair/simulation/pulls.h"
 #include "tests/simulation/pulls.h"
 
-// Hands, and what they do to hair in the reference.
+// Tests hands and their pulls in the reference.
 namespace hair::simulation {
 namespace {
 
 constexpr double kPullRounding = 1e-12;  // rounding of double
-constexpr double kPullStep = 0.0625;  // s, without rounding
+constexpr double kPullStep = 0.0625;  // s, exact in float
 
 void expectHand(
     const std::optional<Hand>& hand, const glm::dvec3& position, const glm::dvec3& velocity) {
@@ -30,9 +30,9 @@ TEST(Hand, GoesStraightBetweenItsKeys) {
             {.time = 4.0f, .position = {4, 2, 0}}}};
     expectHand(handIn(pull, 1.25, 1.5), {2, 0, 0}, {4, 0, 0});
     expectHand(handIn(pull, 2.0, 3.0), {4, 1, 0}, {0, 1, 0});
-    // Round the corner: the mean of half a step at each speed.
+    // Round the corner the velocity is the mean of half a step at each speed.
     expectHand(handIn(pull, 1.75, 2.25), {4, 0.25, 0}, {2, 0.5, 0});
-    // It waits before its first key and after its last.
+    // The hand stands still before its first key and after its last.
     expectHand(handIn(pull, 0.75, 1.5), {2, 0, 0}, {2.0 / 0.75, 0, 0});
     expectHand(handIn(pull, 3.5, 4.25), {4, 2, 0}, {0, 0.5 / 0.75, 0});
     expectHand(handIn(pull, 0.0, 8.0), {4, 2, 0}, {0.5, 0.25, 0});
@@ -50,7 +50,7 @@ TEST(Hand, PullsInStepsWhoseMiddleIsInItsTime) {
     EXPECT_FALSE(handIn({.path = {}}, 0.0, 1.0));
 }
 
-// However 1/60 s and its multiples are rounded.
+// The hand pulls in these steps although 1/60 s and its multiples are rounded.
 TEST(Hand, PullsInEveryStepFromKeyToKey) {
     const double dt = 1.0f / 60.0f;
     for (int first = 0; first < 600; first += 7) {
@@ -87,7 +87,7 @@ TEST(CheckPulls, NamesWhatIsNotThere) {
         "/simulation/pulls/1/path/2/time: is not after the key before");
 }
 
-// A free vertex, in the frame of a hand that goes at constant speed.
+// A free vertex follows a hand that moves at constant speed.
 TEST(ReferencePull, ApproachesTheHandAsCriticallyDamped) {
     const groom::Groom groom = straightGroom(1, 2);
     for (const float stiffness : {25.0f, 400.0f, 1e5f})
@@ -105,7 +105,7 @@ TEST(ReferencePull, ApproachesTheHandAsCriticallyDamped) {
                 std::vector{glm::dvec3(groom.points[0]), start},
                 std::vector{glm::dvec3(groom.points[0]), start - dt * velocity});
             const glm::dvec3 hand = settings.pulls[0].path[0].position;
-            const double speed_error = 1e-6;  // of a float hand 16 s away, in m
+            const double speed_error = 1e-6;  // of the hand's float key 16 s away, in m
             for (int n = 1; n <= 50; ++n) {
                 solver.step();
                 const glm::dvec3 expected =
@@ -116,7 +116,7 @@ TEST(ReferencePull, ApproachesTheHandAsCriticallyDamped) {
         }
 }
 
-// What hangs on a spring lies g / k lower than without weight, at any step.
+// A vertex on a spring hangs g / k lower than without weight, at any time step.
 TEST(ReferencePull, BalancesGravity) {
     const groom::Groom groom = straightGroom(1, 2);
     for (const float step : {0.005f, 0.1f})

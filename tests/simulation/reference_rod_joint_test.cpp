@@ -14,9 +14,10 @@ const glm::dquat kNoTurn(1.0, 0.0, 0.0, 0.0);
 
 glm::dquat about(const glm::dvec3& axis, double angle) { return glm::angleAxis(angle, axis); }
 
-// The torque on the second frame is minus the gradient of the energy by its rotation, whatever the
-// two stiffnesses and the section, also where the bend is linear and the twist fades. Central
-// differences of 1e-5 rad leave 1e-10 of the third derivative, which is some 1e3 near the fold.
+// The torque on the second frame is minus the gradient of the energy by its rotation. This holds
+// for any two stiffnesses and any section, and also where the bend is linear and the twist fades.
+// Central differences of 1e-5 rad leave 1e-10 of the third derivative, which is some 1e3 near the
+// fold.
 TEST(RodJoint, TorqueIsTheGradientOfTheEnergy) {
     std::mt19937 random(5);
     for (const Clamp clamp : {Clamp::no, Clamp::yes})
@@ -46,8 +47,8 @@ TEST(RodJoint, TorqueIsTheGradientOfTheEnergy) {
         }
 }
 
-// 2 K tan(b / 2), and for a clamp half of the whole joint's torque at twice the angle with half of
-// its stiffness, which is K tan b.
+// The torque is 2 K tan(b / 2). A clamp is half a joint: it has half of the torque of a whole joint
+// at twice the angle, with the same K, which is K tan b.
 TEST(RodJoint, BendsAsTheDiscreteElastica) {
     for (const double angle : {1e-6, 0.1, 0.5, 1.0}) {
         const glm::dquat bent = about({0.0, 1.0, 0.0}, angle);
@@ -60,8 +61,9 @@ TEST(RodJoint, BendsAsTheDiscreteElastica) {
     }
 }
 
-// Second moments of an ellipse of the ratio e are e times and 1 / e of those of the circle of its
-// area. Round an axis between the two a twist would follow; halfway they are e / 2 + 1 / 2 e.
+// The second moments of an ellipse of ratio e are e and 1 / e times that of the circle with the
+// same area. About an axis between the two, bending would cause twist; halfway, the factor is e / 2
+// + 1 / 2 e.
 TEST(RodJoint, BendsAlongTheShorterAxisMoreEasily) {
     constexpr double kEllipticity = 1.8;
     for (const double angle : {1e-6, 0.1, 1.0})
@@ -85,7 +87,8 @@ TEST(RodJoint, TwistsLinearly) {
             -2.0 * angle, 1e-12);
 }
 
-// Small rotations: the stiffness is that of the energy, K across and K' along.
+// For small rotations the stiffness is the second derivative of the energy: K across the axis and
+// K' along it.
 TEST(RodJoint, IsStiffAsItsMaterialIs) {
     const glm::dmat3 stiffness = bendAndTwist(kNoTurn, kNoTurn, 3.0, 2.0, Clamp::no).stiffness;
     EXPECT_EQ(stiffness, (glm::dmat3{{3.0, 0.0, 0.0}, {0.0, 3.0, 0.0}, {0.0, 0.0, 2.0}}));

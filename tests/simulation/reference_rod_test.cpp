@@ -15,7 +15,7 @@ namespace {
 
 const glm::dvec3 kGravity(0.0, -simulation::kEarth, 0.0);
 
-// A rod with what acts on it.
+// A rod with its clamp and forces.
 struct Rod {
     RodRest rest;
     RodState state;
@@ -30,7 +30,7 @@ struct Rod {
         const std::vector<glm::dvec3> accelerations(rest.points.size(), gravity);
         stepRod(state, rest, accelerations, root, time_step, velocity_kept, iterations);
     }
-    // Long steps that keep half of each velocity: the longest rods here need some 35 of them.
+    // Takes long steps that keep half of each velocity. The longest rods here need some 35 of them.
     void comeToRest() {
         for (int i = 0; i < 60; ++i) step(0.1, 0.5);
     }
@@ -52,7 +52,7 @@ double hangingRatio(int segments, double gamma, double turn = 0.0) {
     return simulation::dropOverReach(rod.state.positions());
 }
 
-// The table of Romero et al. 2021's curve in this project's notes.
+// Table of the curve of Romero et al. 2021 in this project's notes.
 TEST(CantileverTheory, GivesThePublishedRatios) {
     const double table[][2] = {{0.1, 0.01250}, {1.0, 0.12456},  {5.0, 0.58572},   {10.0, 1.06680},
                                {50.0, 3.7056}, {100.0, 5.8881}, {1000.0, 21.335}, {10000.0, 69.71}};
@@ -60,7 +60,8 @@ TEST(CantileverTheory, GivesThePublishedRatios) {
         EXPECT_NEAR(benchmarks::physics::cantileverRatio(gamma) / ratio, 1.0, 1e-4) << gamma;
 }
 
-// Second order: the error of 64 segments is 0.1 % or less, a twentieth of what is asked for.
+// Convergence is of second order: the error of 64 segments is 0.1 % or less, a twentieth of the
+// requirement.
 TEST(ReferenceRod, HangsAsACantileverDoes) {
     for (const double gamma : {0.1, 1.0, 5.0, 10.0, 50.0, 100.0, 1000.0}) {
         const double theory = benchmarks::physics::cantileverRatio(gamma);
@@ -74,7 +75,8 @@ TEST(ReferenceRod, ErrsByTheSquareOfTheSegmentLength) {
         double coarser = 0.0;
         for (const int segments : {8, 16, 32, 64, 128}) {
             const double error = std::abs(hangingRatio(segments, gamma) / theory - 1.0);
-            // A quarter each time; between 8 and 16 the next order still has its part.
+            // The error shrinks to a quarter each time. Between 8 and 16 segments the next order
+            // still matters.
             if (segments > 8) {
                 EXPECT_LT(error, 0.55 * coarser) << gamma << " " << segments;
             }
@@ -83,11 +85,11 @@ TEST(ReferenceRod, ErrsByTheSquareOfTheSegmentLength) {
             }
             coarser = error;
         }
-        EXPECT_LT(coarser, 1e-4) << gamma;  // of 128
+        EXPECT_LT(coarser, 1e-4) << gamma;  // with 128 segments
     }
 }
 
-// The natural curvature only enters at the free end.
+// The natural curvature enters only at the free end.
 TEST(ReferenceRod, HangsFromItsNaturalCurve) {
     for (const double turn : {-2.0, -1.0, 1.0, 2.0}) {
         const double theory = benchmarks::physics::cantileverRatio(10.0, turn);
@@ -95,9 +97,9 @@ TEST(ReferenceRod, HangsFromItsNaturalCurve) {
     }
 }
 
-// An arm across the end of a shaft, both level, twists the shaft by M (a - l / 2) / (G J) up to the
-// middle of its last segment, M = lambda g b^2 / 2. So light that nothing bends: what bending does
-// to the arm of the weight is of second order.
+// A level arm across the end of a level shaft twists the shaft by M (a - l / 2) / (G J) up to the
+// middle of its last segment, M = lambda g b^2 / 2. The rod is so light that nothing bends: bending
+// changes the lever of the weight only to second order.
 TEST(ReferenceRod, TwistsByItsTorsionalStiffness) {
     constexpr int kShaft = 24, kArm = 8;
     constexpr double kLength = 5e-4;
@@ -118,8 +120,8 @@ TEST(ReferenceRod, TwistsByItsTorsionalStiffness) {
     EXPECT_NEAR(2.0 * turn.x / theory, 1.0, 1e-3);
 }
 
-// The time from one zero of the tip's height to the next but one. Rows of small steps: implicit
-// Euler slows an oscillation by (w h)^2 / 3, 1e-5 here, and 64 segments by about 1e-3.
+// Returns the time from a zero of the tip's height to the next but one. Steps are small: implicit
+// Euler slows an oscillation by (w h)^2 / 3, 1e-5 here, and 64 segments slow it by about 1e-3.
 double periodOfTip(Rod& rod, double time_step, int axis) {
     std::vector<double> crossings;
     double last = rod.state.positions().back()[axis];
@@ -132,7 +134,8 @@ double periodOfTip(Rod& rod, double time_step, int axis) {
     return crossings.size() == 3 ? crossings[2] - crossings[0] : 0.0;
 }
 
-// 1.8751^2 / (2 pi) sqrt(E I / (lambda L^4)), cos z cosh z = -1 at z = 1.8751.
+// The frequency is 1.8751^2 / (2 pi) sqrt(E I / (lambda L^4)), where cos z cosh z = -1 at z =
+// 1.8751.
 TEST(ReferenceRod, VibratesAtItsFirstFrequency) {
     constexpr double kZ = 1.87510406871196, kLength = 0.05;
     const RodMaterial material;
@@ -155,8 +158,8 @@ TEST(ReferenceRod, VibratesAtItsFirstFrequency) {
     EXPECT_NEAR(frequency * periodOfTip(rod, time_step, 1), 1.0, 0.005);
 }
 
-// Next to no stiffness: the chain's period 5.2255 sqrt(L / g), D. Bernoulli 1738, from the shape of
-// the first mode, J0(j sqrt(z / L)) at the height z above the tip.
+// With almost no stiffness the period is the chain's, 5.2255 sqrt(L / g), D. Bernoulli 1738. The
+// shape is that of the first mode, J0(j sqrt(z / L)) at the height z above the tip.
 TEST(ReferenceRod, SwingsAsAChainWhereItIsLimp) {
     constexpr double kLength = 0.2, kZero = 2.40482555769577;
     const auto rest = simulation::straightRod(64, kLength, {0.0, -1.0, 0.0});
@@ -169,8 +172,8 @@ TEST(ReferenceRod, SwingsAsAChainWhereItIsLimp) {
     EXPECT_NEAR(periodOfTip(rod, period / 1000.0, 0) / period, 1.0, 0.005);
 }
 
-// Both ends held. A limp hair's stiffness at its ends, and the yielding of the pin by a hundredth
-// of g h^2, are below 1e-3.
+// Both ends are held. The stiffness of a limp hair at its ends and the yielding of the pin, a
+// hundredth of g h^2, are below 1e-3.
 TEST(ReferenceRod, HangsAsACatenaryBetweenItsRootAndAPin) {
     constexpr int kSegments = 64;
     constexpr double kLength = 0.2, kSpan = 0.14;
@@ -194,7 +197,7 @@ TEST(ReferenceRod, StaysAtRestWithoutWeight) {
     EXPECT_LT(largestDifference(rod.state.positions(), rod.rest.points), 1e-12);
 }
 
-// A free body: what moves it rigidly leaves its shape alone.
+// A rigid motion of the follicle leaves the rod's shape alone if nothing else acts.
 TEST(ReferenceRod, FollowsItsFollicle) {
     Rod rod(simulation::helix(40, 0.005, 0.01, 4.0));
     rod.gravity = glm::dvec3(0.0);
@@ -212,8 +215,8 @@ TEST(ReferenceRod, FollowsItsFollicle) {
     EXPECT_LT(largestDifference(rod.state.positions(), expected), 1e-9);
 }
 
-// Implicit Euler only takes energy away; few iterations come near it to some 1e-8 of the energy
-// that is there, eight to rounding.
+// Implicit Euler only takes energy away. Few iterations come within some 1e-8 of the present
+// energy, and eight within rounding.
 TEST(ReferenceRod, NeverGainsEnergy) {
     for (const double youngs_modulus : {1e3, 3.9e9, 1e12})
         for (const double time_step : {1.0 / 60.0, 1.0 / 1000.0})
@@ -238,7 +241,7 @@ TEST(ReferenceRod, NeverGainsEnergy) {
             }
 }
 
-// Segments of every kind of degenerate rod under every extreme: always finite, never stretched.
+// Every kind of degenerate rod under every extreme stays finite and is never stretched.
 TEST(ReferenceRod, EnduresDegenerateInput) {
     std::mt19937 random(4);
     for (int shape = 0; shape < 6; ++shape) {

@@ -9,7 +9,7 @@
 #include "tests/simulation/parallelisms.h"
 #include "tests/simulation/strands.h"
 
-// Never NaN and never infinite, on the device and in the reference, whatever the groom and the
+// Positions are never NaN or infinite, on the device and in the reference, with any groom and any
 // parameters.
 namespace hair::simulation {
 namespace {
@@ -18,8 +18,8 @@ bool finite(const glm::dvec3& v) {
     return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
 }
 
-// Strands with every kind of bad segment: none at the root, in the middle and at the tip, all
-// vertices in one point, folded back onto itself, and almost no length.
+// Returns strands with every kind of bad segment: no length at the root, in the middle and at the
+// tip; all vertices in one point; folded back; almost no length.
 groom::Groom badGroom() {
     groom::Groom groom{.strand_count = 6, .vertices_per_strand = 5};
     groom.points = {
@@ -90,7 +90,7 @@ TEST_P(GpuRobustness, StaysFinite) {
     }
 }
 
-// The conventions for segments without a direction are the same on both sides.
+// Device and reference have the same conventions for segments without a direction.
 TEST_P(GpuRobustness, TakesBadSegmentsLikeTheReference) {
     const groom::Groom groom = badGroom();
     for (const float wind : {0.0f, 15.0f}) {
@@ -102,8 +102,7 @@ TEST_P(GpuRobustness, TakesBadSegmentsLikeTheReference) {
         reference::Reference solver(groom, settings, 1);
         advance(device(), simulation, 1);
         solver.step();
-        // Directions of segments that are as short as rounding are anyone's guess: 1e-6 m is of
-        // that order.
+        // Directions of segments as short as rounding are arbitrary: 1e-6 m is of that order.
         EXPECT_LT(
             largestDifference(simulation.readPositions(), solver.positions()),
             1e-5 * longestStrand(groom));

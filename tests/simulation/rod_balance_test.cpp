@@ -13,7 +13,7 @@
 namespace hair::simulation {
 namespace {
 
-// Hair of default material under gravity, in SI units.
+// Returns hair of the default material under gravity, in SI units.
 HangingRod hanging(const std::vector<glm::dvec3>& points, double ellipticity = 1.0) {
     const reference::RodRest rest = reference::makeRodRest(points, {.ellipticity = ellipticity});
     HangingRod rod{
@@ -41,9 +41,9 @@ std::vector<glm::dvec3> wavyRod(std::uint32_t seed, int vertices, double segment
     return points;
 }
 
-// Every joint's torque, as the reference in double has it, holds the moment of the weights below.
-// The rest rotations are solved to 1e-13; a joint that is stiffer than its moment by 10^3 makes
-// 1e-10 of that.
+// Every joint's torque, by the reference in double, balances the moment of the weights below. The
+// rest rotations are solved to 1e-13. A joint that is stiffer than its moment by 10^3 makes 1e-10
+// from that.
 TEST(RodBalance, JointsBearTheWeightBelow) {
     for (std::uint32_t seed = 1; seed <= 20; ++seed) {
         const std::vector<glm::dvec3> points = wavyRod(seed, 12, 0.01);
@@ -67,10 +67,10 @@ TEST(RodBalance, JointsBearTheWeightBelow) {
     }
 }
 
-// A rod that stands clamped buckles under its own weight at lambda g L^3 / (E I) = 9/4 j^2 = 7.837,
-// j = 1.8664 the first root of the Bessel function of order -1/3: Greenhill 1881, Determination of
-// the greatest height consistent with stability. Loads have a margin and stiffening a precision;
-// 64 segments are within 1 % of a rod.
+// A clamped upright rod buckles under its own weight at lambda g L^3 / (E I) = 9/4 j^2 = 7.837,
+// where j = 1.8664 is the first root of the Bessel function of order -1/3 (Greenhill 1881,
+// Determination of the greatest height consistent with stability). Loads have a margin and
+// stiffening has a precision; 64 segments are within 1 % of a rod.
 TEST(RodBalance, AStandingRodIsStiffenedToGreenhillsBound) {
     constexpr double kBound = 7.837;
     for (const double gamma : {5.0, 7.0, 20.0, 60.0}) {
@@ -88,7 +88,8 @@ TEST(RodBalance, AStandingRodIsStiffenedToGreenhillsBound) {
     }
 }
 
-// It buckles along the shorter axis of an elliptic section, as many times sooner.
+// A rod with an elliptic section buckles along the shorter axis, at a load smaller by the
+// ellipticity.
 TEST(RodBalance, AFlatStandingRodIsStiffenedAlongItsShorterAxis) {
     constexpr double kBound = 7.837;
     constexpr double kEllipticity = 1.8;
@@ -111,7 +112,7 @@ TEST(RodBalance, AHangingRodNeedsNoStiffening) {
 }
 
 // The moment at a level rod's root, lambda g L^2 / 2, bends the clamp, half a joint, by the tangent
-// of its angle: theory for one joint, whatever the rest of the rod does.
+// of its angle. This is theory for one joint and independent of the rest of the rod.
 TEST(RodBalance, NoJointBendsBeyondItsBound) {
     const auto points = straightRod(8, lengthFor(200.0, {}), {1.0, 0.0, 0.0});
     const HangingRod rod = hanging(points);

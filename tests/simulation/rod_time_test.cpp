@@ -14,8 +14,8 @@
 #include "tests/simulation/rods.h"
 #include "tests/simulation/strands.h"
 
-// How `rod` goes through time: its material's damping, and implicit Euler beside generalised alpha.
-// In double against theory, and the device against that.
+// Tests the time integration of `rod`: material damping, and implicit Euler beside generalised
+// alpha. The reference in double is compared with theory, and the device with the reference.
 namespace hair::simulation {
 namespace {
 
@@ -28,7 +28,7 @@ using reference::RodState;
 
 constexpr double kDefaultSubstep = 1.0 / 480.0;  // s
 
-// rad/s, of a clamped hair's first bending mode.
+// Returns the frequency of a clamped hair's first bending mode, rad/s.
 double firstMode(double length) {
     const RodMaterial material;
     return 2.0 * kPi *
@@ -36,8 +36,8 @@ double firstMode(double length) {
                bendingStiffness(material), lineDensity(material), length);
 }
 
-// The half-life of what swings freely as its samples say, by least squares of
-// y[k + 1] = s y[k] - d y[k - 1], whose d is exp(-2 rate interval). s
+// Returns the half-life of a free oscillation from its samples, s, by a least-squares fit of y[k +
+// 1] = s y[k] - d y[k - 1] with d = exp(-2 rate interval).
 double halfLifeOf(const std::vector<double>& samples, double interval) {
     double yy = 0.0, yz = 0.0, zz = 0.0, yx = 0.0, zx = 0.0;
     for (std::size_t i = 1; i + 1 < samples.size(); ++i) {
@@ -52,9 +52,9 @@ double halfLifeOf(const std::vector<double>& samples, double interval) {
     return std::log(2.0) / (-std::log(d) / (2.0 * interval));
 }
 
-// Kelvin and Voigt: a mode of w loses w^2 tau / 2 per second. Within 3 %: the ratio of a step is
-// off by w^2 h tau / 4 at most, 0.8 % here, 32 segments swing 0.1 % too slowly, and the torque of
-// the step's middle that viscosity acts by, by w h.
+// Kelvin-Voigt damping: a mode of frequency w decays at the rate w^2 tau / 2. The tolerance is 3 %.
+// The ratio of a step is off by at most w^2 h tau / 4, 0.8 % here; 32 segments swing 0.1 % too
+// slowly; and viscosity acts by the torque in the middle of a step, which is off by w h.
 TEST(ReferenceRodTime, LosesWhatItsMaterialsDampingSays) {
     constexpr int kSegments = 16;
     constexpr double kLength = 0.1;
@@ -94,8 +94,8 @@ std::vector<glm::dvec3> swung(double substep, Integrator integrator) {
     return state.positions();
 }
 
-// Half the step makes a fourth of the error, and half of it by implicit Euler. Three is asked for:
-// below the order's four for what is of third order, above implicit Euler's two.
+// Half the step makes a quarter of the error, and with implicit Euler half of it. The test demands
+// a factor of 3: below the order's 4, to allow for third order, and above implicit Euler's 2.
 TEST(ReferenceRodTime, IsOfTheOrderThatItsIntegratorHas) {
     const auto exact = swung(1.0 / 7680.0, Integrator::generalized_alpha);
     const auto gain = [&](Integrator integrator) {
@@ -114,9 +114,9 @@ double energyOf(const RodState& state, const RodRest& rest) {
     return energy;
 }
 
-// Hair with a kink, held at both ends, let go hanging and let go standing, from stiff to limp: what
-// methods of second order blow up by where Newton's does not converge. Without any damping, its
-// energy never passes what it began with, of which a thousandth of the weight's is rounding.
+// Hair with a kink is held at both ends, or released hanging or upright, from stiff to limp.
+// Methods of second order blow up here where Newton's does not converge. Without damping the energy
+// never exceeds its first value; the tolerance for rounding is a thousandth of the weight's energy.
 TEST(ReferenceRodTime, GainsNoEnergyWhereItWhips) {
     constexpr int kSegments = 32;
     constexpr double kLength = 0.2;
@@ -162,9 +162,9 @@ SimulationSettings settingsOf(RodIntegrator integrator, float damping) {
     return settings;
 }
 
-// 200 substeps, with rounding that adds up as in EveryGpuRod.TakesTheReferencesSteps. A strand that
-// is as near to kSmoothTurn as rounding may take another kind of step than the reference: wavy hair
-// on a head that stands has none.
+// 200 substeps with the rounding of EveryGpuRod.TakesTheReferencesSteps. A strand whose turn is as
+// near to kSmoothTurn as rounding may take another kind of step than the reference. Wavy hair on a
+// head at rest has no such strand.
 TEST_F(GpuRodTime, TakesTheReferencesSteps) {
     for (const RodIntegrator integrator :
          {RodIntegrator::implicit_euler, RodIntegrator::generalized_alpha})
@@ -183,7 +183,7 @@ TEST_F(GpuRodTime, TakesTheReferencesSteps) {
         }
 }
 
-// What it keeps from substep to substep is saved and restored with the rest.
+// A reset also restores the state that the integrator keeps between substeps.
 TEST_F(GpuRodTime, RepeatsItselfToTheBit) {
     const groom::Groom groom = wavyGroom(20, 9, 0.01);
     SimulationSettings settings = settingsOf(RodIntegrator::generalized_alpha, 0.001f);
@@ -197,9 +197,9 @@ TEST_F(GpuRodTime, RepeatsItselfToTheBit) {
     EXPECT_EQ(points, simulation.readPositions());
 }
 
-// Limp hair that is thrown about among bodies stays finite and whole: segments keep their length to
-// a thousandth where they are not pushed, so that no vertex is farther from its root than the
-// strand is long, but for what bodies stretch it by.
+// Limp hair that is thrown about among bodies stays finite and whole. Segments that are not pushed
+// keep their length to a thousandth. So no vertex is farther from its root than the strand's
+// length, except for the stretch by bodies.
 TEST_F(GpuRodTime, EnduresBodiesAndViolence) {
     const groom::Groom groom = wavyGroom(9, 17, 0.01);
     for (const float modulus : {1.0f, 3.9e9f, 1e12f})

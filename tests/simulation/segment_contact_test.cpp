@@ -16,7 +16,7 @@
 #include "tests/simulation/gpu_simulation.h"
 #include "tests/simulation/strands.h"
 
-// Segments of guides against bodies that their vertices miss.
+// Tests segments of guides against bodies that their vertices miss.
 namespace hair::simulation {
 namespace {
 
@@ -25,9 +25,10 @@ using GpuSegmentContact = GpuTest;
 constexpr Solver kKeepSegmentsOut[] = {Solver::shape, Solver::ftl, Solver::rod};
 constexpr double kThin = 0.0015;  // radius of the thin capsule, m
 constexpr double kSegment = 0.015;  // m
-constexpr double kDepth = 1e-4;  // m: what a segment may be deep in a body after a step
+constexpr double kDepth = 1e-4;  // m, greatest depth of a segment in a body after a step
 
-// A limp strand: chains of `shape` and `ftl`, and a hair a thousandth as stiff as a real one.
+// Returns settings for a limp strand: a chain of `shape` and `ftl`, and a hair a thousandth as
+// stiff as a real one.
 SimulationSettings limp(Solver solver) {
     SimulationSettings settings;
     settings.solver = solver;
@@ -50,7 +51,7 @@ groom::Groom levelStrand(const glm::dvec3& root, std::uint32_t vertices) {
     return groom;
 }
 
-// How deep segments are in a body, by the distances of places on them 1/200 apart.
+// Returns the depth of segments in a body by sampling them at 1/200 of their length.
 template <class Gap>
 double deepest(const std::vector<glm::vec3>& points, const Gap& gap) {
     double least = 1e9;
@@ -67,8 +68,8 @@ Collider thinCapsule() {
     return {.a = {0.0f, 0.0f, -0.2f}, .b = {0.0f, 0.0f, 0.2f}, .radius = static_cast<float>(kThin)};
 }
 
-// Eleven vertices over a capsule 3 mm thick, clamped 5 cm beside it, the rest beyond. Vertices
-// alone let it fall through.
+// Eleven vertices lie over a capsule 3 mm thick. The strand is clamped 5 cm beside the capsule and
+// reaches beyond it. With collisions of vertices alone it falls through.
 TEST_F(GpuSegmentContact, StrandHangsOverAThinCapsule) {
     for (const Solver solver : kKeepSegmentsOut)
         for (const float friction : {0.0f, 0.3f}) {
@@ -100,21 +101,20 @@ TEST_F(GpuSegmentContact, StrandHangsOverAThinCapsule) {
         }
 }
 
-// The statics of that strand at rest, of masses 1 under gravity 1, worked out from its places: the
-// segment on the capsule is a lever, on which the weight below pulls at one end, a tension along
-// the segment above at the other, and the capsule pushes between. Forces and moments are in
-// balance.
+// Statics of that strand at rest, with masses 1 under gravity 1, computed from its positions. The
+// segment on the capsule is a lever: the weight below pulls at one end, a tension along the segment
+// above at the other, and the capsule pushes between them. Forces and moments are in balance.
 struct Lever {
     double pressure = 0.0;
     double shear = 0.0;
     double tension = 0.0;  // of the segment above
-    double off = 0.0;  // sine of the greatest angle by which a segment is off its tension
+    double off = 0.0;  // sine of the greatest angle between a segment and its tension
 };
 
 double crossOf(const glm::dvec3& a, const glm::dvec3& b) { return a.x * b.y - a.y * b.x; }
 
 Lever leverOf(const std::vector<glm::vec3>& points) {
-    std::size_t b = 0;  // the lever ends there
+    std::size_t b = 0;  // last vertex of the lever
     double nearest = 1e9;
     for (std::size_t v = 1; v < points.size(); ++v) {
         const double gap = -deepest({points[v - 1], points[v]}, gapToCapsule);
@@ -147,9 +147,9 @@ Lever leverOf(const std::vector<glm::vec3>& points) {
     return lever;
 }
 
-// The step moves a strand by g h^2 and takes it back along segments that have turned meanwhile, so
-// that what rests is off balance by an angle of g h^2 over a segment's length, times what bears it:
-// 0.011 at 1/240 s for each of the six vertices that hang, and a quarter of that at 1/480 s.
+// A step moves a strand by g h^2 and takes it back along segments that have turned meanwhile. So a
+// resting strand is off balance by the angle g h^2 / segment length, times the number of vertices
+// that hang: 0.011 at 1/240 s for each of the six, and a quarter of that at 1/480 s.
 TEST_F(GpuSegmentContact, StrandOfShapeIsInBalanceOnAThinCapsule) {
     for (const std::uint32_t substeps : {4u, 8u}) {
         SCOPED_TRACE(substeps);
@@ -167,9 +167,9 @@ TEST_F(GpuSegmentContact, StrandOfShapeIsInBalanceOnAThinCapsule) {
     }
 }
 
-// The same strand from rest: it stays where friction is more than the shear that balance asks for
-// over the pressure, and slips where it is less. That is what the capstan equation comes to for a
-// polygon with one side on the capstan.
+// The same strand starts at rest. It stays if friction exceeds the shear that balance needs over
+// the pressure, and slips if friction is less. That is the capstan equation for a polygon with one
+// side on the capstan.
 TEST_F(GpuSegmentContact, StrandOfShapeSlipsByCoulombsLaw) {
     SimulationSettings settings = limp(Solver::shape);
     settings.substeps = 8;
@@ -191,7 +191,7 @@ TEST_F(GpuSegmentContact, StrandOfShapeSlipsByCoulombsLaw) {
         float moved = 0.0f;
         for (std::size_t v = 0; v < points.size(); ++v)
             moved = std::max(moved, glm::distance(points[v], groom.points[v]));
-        // Two roundings of places some cm from the origin, or more than any.
+        // At most two roundings of positions some cm from the origin; else more than any rounding.
         if (part > 1.0)
             EXPECT_LT(moved, 1e-6f);
         else
@@ -199,7 +199,8 @@ TEST_F(GpuSegmentContact, StrandOfShapeSlipsByCoulombsLaw) {
     }
 }
 
-// It falls from 2 cm onto a sphere of 4 mm between two of its vertices, at 0.6 m/s.
+// The strand falls 2 cm onto a sphere 4 mm thick between two of its vertices, and meets it at 0.6
+// m/s.
 TEST_F(GpuSegmentContact, LevelStrandMeetsASphereSmallerThanItsSegment) {
     for (const Solver solver : kKeepSegmentsOut) {
         SCOPED_TRACE(nameOfSolver(solver));
@@ -222,7 +223,7 @@ TEST_F(GpuSegmentContact, LevelStrandMeetsASphereSmallerThanItsSegment) {
     }
 }
 
-// A segment whose tip is thrown at 20 m/s past a capsule that neither end meets.
+// The tip of a segment is thrown at 20 m/s past a capsule that neither end meets.
 TEST_F(GpuSegmentContact, StopsASegmentThatWouldSweepThrough) {
     for (const Solver solver : kKeepSegmentsOut) {
         SCOPED_TRACE(nameOfSolver(solver));
@@ -239,7 +240,7 @@ TEST_F(GpuSegmentContact, StopsASegmentThatWouldSweepThrough) {
         Simulation simulation(device(), groom, settings, 1);
         simulation.setState(groom.points, before);
         advance(device(), simulation, 1);
-        // The segment is a tangent of the capsule then: the sine of its angle is its lever's.
+        // The segment is then tangent to the capsule.
         const glm::dvec3 tip = simulation.readPositions()[1];
         const double far = std::hypot(0.05, 0.7);
         const double angle = std::atan2(0.05, 0.7) - std::asin(0.001 / far);
@@ -253,8 +254,8 @@ TEST_F(GpuSegmentContact, StopsASegmentThatWouldSweepThrough) {
     }
 }
 
-// A slab 2 mm thick on edge, in a field with cells of 0.47 mm, whose interpolated edge lies inside
-// of the slab's by less than half a cell. Vertices that swing at its side do not fly through it.
+// A slab 2 mm thick stands on edge, in a field with cells of 0.47 mm. The interpolated edge lies
+// less than half a cell inside the slab's. Vertices that swing at its side do not fly through it.
 TEST_F(GpuSegmentContact, StrandHangsOverTheEdgeOfAThinSlab) {
     constexpr double kLow = -0.12;
     const groom::Mesh slab = makeBox({-0.001, kLow, -0.03}, {0.001, 0.0, 0.03});
@@ -281,8 +282,8 @@ TEST_F(GpuSegmentContact, StrandHangsOverTheEdgeOfAThinSlab) {
     }
 }
 
-// Hair that lies on a ball with its vertices, so that the segments between lie in it by up to
-// L^2 / 8 r = 0.35 mm. Balanced it stays as it is, and otherwise it is pushed out.
+// The vertices of the hair lie on a ball, so the segments between lie in it by up to L^2 / 8 r =
+// 0.35 mm. Balanced hair stays there, and other hair is pushed out.
 TEST_F(GpuSegmentContact, BalancedHairIsPushedNoFartherOutThanItLies) {
     constexpr double kRadius = 0.08;
     groom::Groom groom{.strand_count = 1, .vertices_per_strand = 8};
@@ -312,7 +313,8 @@ TEST_F(GpuSegmentContact, BalancedHairIsPushedNoFartherOutThanItLies) {
     }
 }
 
-// Near a capsule, not at it, and with vertices that touch nothing: to the bit what it is without.
+// The strands are near a capsule but touch nothing: results with and without segments are equal to
+// the bit.
 TEST_F(GpuSegmentContact, ChangesNothingWhereNoSegmentTouches) {
     const groom::Groom groom = straightGroom(3, 9);
     for (const Solver solver : kKeepSegmentsOut) {

@@ -14,8 +14,8 @@
 #include "tests/simulation/rods.h"
 #include "tests/simulation/strands.h"
 
-// The equations of `stable_cosserat` against theory; gpu_rod_test.cpp holds the device against the
-// reference.
+// Tests the equations of `stable_cosserat` against theory. gpu_rod_test.cpp compares the device
+// with the reference.
 namespace hair::reference {
 namespace {
 
@@ -32,8 +32,8 @@ double gainOf(const glm::dquat& q, const glm::dquat& b, const glm::dvec3& edge) 
     return glm::dot(q, b) + glm::dot(edge, lastAxis(q));
 }
 
-// Beside it nothing is greater, by random orientations and by small turns of it; what both terms
-// differ by in rounding is below 1e-12 of them.
+// Neither random orientations nor small turns of the result give a greater value. Rounding makes a
+// difference of less than 1e-12 of both terms.
 TEST(BalancedOrientation, IsTheGreatestOfAll) {
     std::mt19937 random(2);
     for (const double strength : {0.0, 1e-3, 0.3, 1.0, 5.0, 1e4})
@@ -52,8 +52,8 @@ TEST(BalancedOrientation, IsTheGreatestOfAll) {
         }
 }
 
-// The closed form of Hsu et al. 2025, with the multiplier that the orientation itself has:
-// lambda = q . (b - v q e3), from lambda q = b - v q e3, v = -2 edge.
+// Compares with the closed form of Hsu et al. 2025, with the multiplier computed from the
+// orientation: lambda = q . (b - v q e3), from lambda q = b - v q e3, v = -2 edge.
 TEST(BalancedOrientation, IsThePublishedClosedForm) {
     std::mt19937 random(3);
     for (int i = 0; i < 100; ++i) {
@@ -69,8 +69,8 @@ TEST(BalancedOrientation, IsThePublishedClosedForm) {
     }
 }
 
-// K angle^2 / 2 with the stiffness of the axis that it is about; the next order is angle^4 / 48 or
-// less of K, the greater of both stiffnesses.
+// The energy is K angle^2 / 2 with the stiffness for the axis of rotation. The next order is at
+// most angle^4 / 48 of K, the greater of both stiffnesses.
 TEST(StableCosseratJoint, BendsAndTwistsByTheMaterialsStiffness) {
     const RodRest rest = makeRodRest(simulation::helix(6, 0.01, 0.02, 0.4), {});
     const double angle = 1e-2;
@@ -80,7 +80,7 @@ TEST(StableCosseratJoint, BendsAndTwistsByTheMaterialsStiffness) {
             EXPECT_NEAR(
                 bendTwistEnergy(rest, orientations, joint) / rest.bend_stiffness[joint], 0.0,
                 1e-14);
-            // About an axis of the frame in which the two are the same at rest.
+            // Turns about an axis of the frame in which both orientations agree at rest.
             const glm::dquat frame = orientations[joint - 1] * rest.half_rotations[joint];
             glm::dvec3 direction(0.0);
             direction[axis] = 1.0;
@@ -95,8 +95,8 @@ TEST(StableCosseratJoint, BendsAndTwistsByTheMaterialsStiffness) {
         }
 }
 
-// What a step makes least: the vertices' distance from where they would go by themselves, stretch
-// and shear, bend and twist. J
+// Returns the energy that a step minimises, in J: distances of vertices from their predictions,
+// stretch and shear, bend and twist.
 double objective(
     const RodState& state, const RodRest& rest, std::span<const glm::dvec3> predicted,
     const StableCosseratParameters& parameters) {
@@ -114,11 +114,10 @@ double objective(
     return energy;
 }
 
-// Whatever the strand, its stiffnesses and the step, an iteration more leaves no more energy; and
-// the last of a hundred leave next to none to gain.
+// For any stiffnesses and step, a further iteration never raises the energy, except by rounding.
 TEST(ReferenceStableCosserat, LowersTheEnergyInEveryIteration) {
     std::mt19937 random(8);
-    for (const double shear_modulus : {0.1e9, 2.0e9, 20.0e9})  // bend or twist the stiffer
+    for (const double shear_modulus : {0.1e9, 2.0e9, 20.0e9})  // bend or twist is stiffer
         for (const double modulus : {1e4, 1e6, 1e9})
             for (const double substep : {1.0 / 960.0, 0.1}) {
                 const RodMaterial material{.shear_modulus = shear_modulus};
@@ -151,9 +150,8 @@ TEST(ReferenceStableCosserat, LowersTheEnergyInEveryIteration) {
             }
 }
 
-// A single segment under its weight, a mass of lambda l / 2 at its end. The clamp's torque
-// 2 K sin(angle / 2), K = 2 E I / l, bears m g l cos(angle); the edge is l d3 and m g l / k_ss
-// down.
+// A single segment under its weight has a mass of lambda l / 2 at its end. The clamp's torque 2 K
+// sin(angle / 2), K = 2 E I / l, bears m g l cos(angle). The edge is l d3 plus m g l / k_ss down.
 TEST(ReferenceStableCosserat, HoldsASingleSegmentUp) {
     for (const double length : {0.005, 0.02, 0.05}) {
         const RodMaterial material;
@@ -180,8 +178,8 @@ TEST(ReferenceStableCosserat, HoldsASingleSegmentUp) {
     }
 }
 
-// A hair hung by its root is longer by the weight below each segment, over k_ss: twice that of the
-// mean segment's, but for the tip's half.
+// Each segment of a hair that hangs by its root has a strain of the weight below its middle over
+// k_ss.
 TEST(ReferenceStableCosserat, StretchesByTheWeightBelow) {
     constexpr int kSegments = 10;
     constexpr double kLength = 0.1, kStiffness = 1e-3;  // m, N
@@ -212,8 +210,8 @@ namespace {
 
 using GpuStableCosserat = GpuTest;
 
-// With so great a modulus of stretch that shear adds a thousandth to the bend at these lengths
-// (4 E I / (k_ss L^2)), and the iterations that it takes. 24 segments err by a few thousandths.
+// The stretch modulus is so great that shear adds only a thousandth to the bend at these lengths (4
+// E I / (k_ss L^2)), and there are enough iterations. 24 segments err by a few thousandths.
 TEST_F(GpuStableCosserat, HangsAsACantileverDoes) {
     for (const double gamma : {1.0, 10.0}) {
         SimulationSettings settings;

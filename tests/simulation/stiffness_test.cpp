@@ -59,7 +59,7 @@ TEST(Stiffness, ScalesTheGlobalFactorWithTheSquareOfTheStep) {
     EXPECT_EQ(globalStiffness(settings, stepOf(settings)), 1.0);
 }
 
-// However many iterations, what they leave of an error together is what ten at k leave.
+// Any number of iterations together leaves the same error as ten at k.
 TEST(Stiffness, ComposesToTheSameLocalFactorAtAnyIterationCount) {
     SimulationSettings settings;
     settings.local.stiffness = 0.05f;
@@ -71,8 +71,8 @@ TEST(Stiffness, ComposesToTheSameLocalFactorAtAnyIterationCount) {
     }
 }
 
-// Ten iterations at the reference leave one half; the exponent of what is left is proportional to
-// dt^2 / l^4.
+// Ten iterations at the reference leave one half of an error. The exponent of the remaining part is
+// proportional to dt^2 / l^4.
 TEST(Stiffness, ScalesTheLocalFactorWithStepAndSegmentLength) {
     SimulationSettings settings;
     settings.local.stiffness = static_cast<float>(1.0 - std::pow(0.5, 0.1));  // ten leave one half

@@ -63,7 +63,7 @@ TEST(TriangleTree, HoldsEveryTriangleOnceInItsBoxes) {
     }
 }
 
-// Halves of 20 * 4^4 triangles: 10 are left on level 10, a leaf.
+// 20 * 4^4 triangles are halved; on level 10 leaves have 10.
 TEST(TriangleTree, IsAsShallowAsHalvingMakesIt) {
     const groom::ClosedMesh closed = groom::closeMesh(makeSphere({0, 0, 0}, 1.0, 4));
     const groom::TriangleTree tree =

@@ -17,8 +17,7 @@ namespace {
 using reference::curlNoise;
 using reference::turbulence;
 
-// Points in cells that have no corner in common, for noise that is independent from one to the
-// next.
+// Returns points in cells without common corners, so that noise is independent between points.
 std::vector<glm::dvec3> apart(int side) {
     std::vector<glm::dvec3> points;
     std::mt19937 random(3);
@@ -52,8 +51,8 @@ glm::dmat3 derivatives(const glm::dvec3& point) {
 }
 
 // The error of a central difference is step^2 / 6 = 2e-11 times a third derivative of some
-// thousands, and where it reaches over a cell's face step / 4 times the jump of the second, some
-// hundreds: those are left out as they are more than 1e-6 (1 in 5,000 points a component).
+// thousands. Across a cell's face it is step / 4 times the jump of the second derivative, some
+// hundreds. Values above 1e-6 are left out (1 in 5,000 points and component).
 TEST(Turbulence, HasNoSourcesButEddies) {
     Extremes sources;
     double vorticity = 0.0;
@@ -74,9 +73,9 @@ TEST(Turbulence, HasNoSourcesButEddies) {
     EXPECT_GT(std::sqrt(vorticity), 1.0);  // eddies of size 1 and less with velocities of 1
 }
 
-// n independent samples of variance 1: the mean is within 4 / sqrt n, the mean square within
-// 4 sqrt(2 / n) (its fourth moment is not above a normal distribution's by more than the variance's
-// own variation over a cell, some 10 %), and so are the products of two components.
+// For n independent samples of variance 1 the mean is within 4 / sqrt n, and the mean square is
+// within 4 sqrt(2 / n), as are the products of two components. (The fourth moment exceeds a normal
+// distribution's at most by the variance's own variation over a cell, some 10 %.)
 TEST(Turbulence, HasMeanZeroAndUnitVariance) {
     const auto points = apart(24);
     const auto count = static_cast<double>(points.size());
@@ -97,7 +96,7 @@ TEST(Turbulence, HasMeanZeroAndUnitVariance) {
     }
 }
 
-// Velocity and its derivative, from both sides of the cells' faces.
+// Compares velocity and its derivative on both sides of cells' faces.
 TEST(Turbulence, IsSmooth) {
     std::mt19937 random(9);
     for (int i = 0; i < 300; ++i) {
@@ -109,13 +108,13 @@ TEST(Turbulence, IsSmooth) {
         const auto at = [&](int steps) {
             return reference::curlNoise(face + static_cast<double>(steps) * step, 1);
         };
-        // A derivative is some tens, a second one some hundreds.
+        // First derivatives are some tens, second ones some hundreds.
         EXPECT_LT(glm::distance(at(-1), at(1)), 1e-4);
         EXPECT_LT(glm::distance((at(2) - at(1)) / 1e-6, (at(-1) - at(-2)) / 1e-6), 1e-2);
     }
 }
 
-// What the next octave adds, without the normalization to r.m.s. 1.
+// Tests the part that the next octave adds, without the normalisation to r.m.s. 1.
 TEST(Turbulence, HasOctavesAsInKolmogorovsSpectrum) {
     const auto points = apart(16);
     double energy = 0.0;
@@ -127,16 +126,16 @@ TEST(Turbulence, HasOctavesAsInKolmogorovsSpectrum) {
             if (octaves > 0) less = std::sqrt(energy) * reference::turbulence(point, octaves, 1);
             return std::sqrt(next) * reference::turbulence(point, octaves + 1, 1) - less;
         });
-        // As above for three components' mean of n samples, and half of that for the root.
+        // As above, for the mean of three components of n samples, and half of that for the root.
         const double tolerance = 2.0 * std::sqrt(2.0 / (3.0 * static_cast<double>(points.size())));
         EXPECT_NEAR(std::sqrt(added) / amplitude, 1.0, tolerance) << octaves;
         energy = next;
     }
 }
 
-// Kolmogorov's 2/3 law: velocities l apart differ by a mean square ~ l^(2/3), as long as l is well
-// within the eddies' sizes, here 1 to 1/128. That eddies above 1 and below 1/128 are missing is a
-// change of 10 % from 1/32 to 1/4, which is 0.05 in the exponent.
+// Kolmogorov's 2/3 law: the mean square of the difference of velocities l apart grows as l^(2/3),
+// for l well within the eddies' sizes, here 1 to 1/128. The missing eddies above 1 and below 1/128
+// change it by 10 % from 1/32 to 1/4, which is 0.05 in the exponent.
 TEST(Turbulence, FollowsTheTwoThirdsLaw) {
     const auto points = apart(16);
     const auto difference = [&](double distance) {
@@ -154,11 +153,12 @@ TEST(Turbulence, DependsOnTheSeed) {
     const double apart_by = meanSquare(points, [](const glm::dvec3& point) {
         return reference::turbulence(point, 3, 1) - reference::turbulence(point, 3, 2);
     });
-    // Of independent fields, 2; n = 1728 with three components: 4 sqrt(2 / 3n) of it.
+    // For independent fields it is 2. With n = 1728 and three components the tolerance is 4 sqrt(2
+    // / 3n) of it.
     EXPECT_NEAR(apart_by, 2.0, 2.0 * 0.08);
 }
 
-// Taylor: x + U t d at the time t sees what x saw at the start.
+// Taylor's hypothesis: at the time t, x + U t d has the velocity that x had at the start.
 TEST(Wind, CarriesItsTurbulence) {
     const WindSettings settings{
         .mode = WindMode::drag, .direction = {1, 2, -2}, .speed = 7.0f, .turbulence = 0.5f};

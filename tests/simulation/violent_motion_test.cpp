@@ -14,7 +14,8 @@
 #include "tests/simulation/motions.h"
 #include "tests/simulation/strands.h"
 
-// A head that is thrown about: 720 degrees/s and 5 m/s, reached and given up within 0.05 s.
+// Tests hair on a head that is thrown about: 720 degrees/s and 5 m/s, reached and stopped within
+// 0.05 s.
 namespace hair::simulation {
 namespace {
 
@@ -44,7 +45,7 @@ double lengthOf(std::span<const glm::vec3> strand) {
     return length;
 }
 
-// By which a strand is longer than at rest, at most, m.
+// Returns the greatest elongation of a strand, m.
 double greatestStretch(const groom::Groom& groom, std::span<const glm::vec3> points) {
     Extremes stretches;
     for (std::uint32_t s = 0; s < groom.strand_count; ++s) {
@@ -54,7 +55,7 @@ double greatestStretch(const groom::Groom& groom, std::span<const glm::vec3> poi
     return stretches.greatest();
 }
 
-// How far the violent motion takes a root in a step, at most, m.
+// Returns the greatest distance that a root moves in a step of the violent motion, m.
 double longestWay(const groom::Groom& groom, double time_step) {
     const HeadMotion motion(violent());
     Extremes ways;
@@ -66,12 +67,12 @@ double longestWay(const groom::Groom& groom, double time_step) {
     return ways.greatest();
 }
 
-// By how much a strand may be longer than at rest where its root moves `way` in a step that sweeps
-// over its segments. Red-black sweeps over n segments in a row, held at one end, leave cos^2(pi /
-// (2 n)) of the slowest error each: the theory of Gauss-Seidel (Young 1971) for the tridiagonal
-// system of a chain. What the root moves every step then adds up to q / (1 - q) of it, where the
-// sweeps of a step leave q. Twice that, for a jump at the root is more than the slowest error, and
-// corrections are speed for the next step.
+// Returns a bound on a strand's elongation if its root moves `way` in a step that sweeps over its
+// segments. Red-black sweeps over n segments in a row, held at one end, each leave cos^2(pi / (2
+// n)) of the slowest error: the theory of Gauss-Seidel (Young 1971) for the tridiagonal system of a
+// chain. The root's moves then add up to q / (1 - q) of a move, where the sweeps of a step leave q.
+// The bound is twice that, because a jump at the root is more than the slowest error, and
+// corrections become speed in the next step.
 double sweptStretch(const groom::Groom& groom, std::uint32_t iterations, double way) {
     const double cosine = std::cos(0.5 * std::numbers::pi / groom.segmentsPerStrand());
     const double left = std::pow(cosine, 2.0 * iterations);
@@ -82,7 +83,7 @@ double shapeStretch(const groom::Groom& groom, const SimulationSettings& setting
     return sweptStretch(groom, settings.length.iterations, way);
 }
 
-// Along a segment its orientation holds nothing back: `position_based_rod` sweeps over lengths,
+// Along a segment its orientation holds nothing back. `position_based_rod` sweeps over lengths,
 // too, in every substep.
 double
 positionBasedStretch(const groom::Groom& groom, const SimulationSettings& settings, double way) {
@@ -90,9 +91,9 @@ positionBasedStretch(const groom::Groom& groom, const SimulationSettings& settin
         groom, settings.position_based_rod.iterations, way / stepOf(settings).count);
 }
 
-// By how much a strand of springs along its segments may be: the kinetic energy of hair that a root
-// which moves by up to `way` in a step can turn round, lambda L (2 v)^2 / 2, all of it in segments
-// that stretch alike, E A x^2 / (2 L).
+// Returns a bound on the elongation of a strand with springs along its segments. A root that moves
+// by up to `way` in a step can turn hair round, which has the kinetic energy lambda L (2 v)^2 / 2.
+// All of it goes into segments that stretch alike, E A x^2 / (2 L).
 double elasticStretch(
     const groom::Groom& groom, const SimulationSettings& settings, double way, float modulus) {
     const double sound = std::sqrt(double{modulus} / double{settings.material.density});
@@ -104,22 +105,22 @@ stableCosseratStretch(const groom::Groom& groom, const SimulationSettings& setti
     return elasticStretch(groom, settings, way, settings.stable_cosserat.stretch_modulus);
 }
 
-// Its springs over two and three segments hold wavy hair back less than straight hair: those along
-// segments alone do in any case.
+// Springs over two and three segments hold wavy hair back less than straight hair. Those along
+// segments are counted alone.
 double
 massSpringStretch(const groom::Groom& groom, const SimulationSettings& settings, double way) {
     return elasticStretch(groom, settings, way, settings.augmented_mass_spring.spring_modulus);
 }
 
-// Whatever solves for lengths directly keeps every one.
+// Solvers that solve for lengths directly keep every length.
 double noStretch(const groom::Groom&, const SimulationSettings&, double) { return 0.0; }
 
 struct Row {
     Solver solver;
     LengthSettings length;
     double (*stretch)(const groom::Groom&, const SimulationSettings&, double way);  // at most, m
-    double rest = 1e-4;  // how far from rest it comes to be, over the length
-    bool every_rate = true;  // what cuts every step into many substeps is slow, and plays at one
+    double rest = 1e-4;  // distance from rest at the end, over the length
+    bool every_rate = true;  // false: slow because of many substeps, runs at one rate
 };
 constexpr Row kRows[] = {
     {Solver::shape, {}, noStretch},
@@ -128,17 +129,17 @@ constexpr Row kRows[] = {
     {Solver::rod, {}, noStretch},
     {Solver::stable_cosserat, {}, stableCosseratStretch, 1e-4, false},
     {Solver::position_based_rod, {}, positionBasedStretch, 3e-3, false},
-    // Springs know lengths alone, which the mirror image of a wave has too: long hair may come to
-    // rest in another shape, a wave's width or so away.
+    // Springs only know lengths, which the mirror image of a wave has, too. Long hair may come to
+    // rest in another shape, about a wave's width away.
     {Solver::augmented_mass_spring, {}, massSpringStretch, 0.1, false}};
 
-// Seven segments, each between two points within 3 m that are rounded.
+// Seven segments, each between two rounded points within 3 m.
 constexpr double kRounding = 7 * 2 * 3.0 * 0x1p-24;
 
 using ViolentMotion = GpuTest;
 
-// Strands shorter and longer than what the head moves in a step: 23 cm at 30 steps/s. They know
-// nothing of each other and are played together; each length is judged by itself.
+// Strands shorter and longer than the distance that the head moves in a step, 23 cm at 30 steps/s.
+// They do not interact and are simulated together; each length is judged by itself.
 TEST_F(ViolentMotion, LeavesHairWholeAndComesToRest) {
     constexpr std::array kLengths{0.02, 0.15, 0.6};  // m
     constexpr std::uint32_t kStrands = 8;  // of each
@@ -188,8 +189,8 @@ TEST_F(ViolentMotion, LeavesHairWholeAndComesToRest) {
                     stretches[k].greatest(),
                     row.stretch(grooms[k], settings, longestWay(grooms[k], 1.0 / rate)) +
                         kRounding);
-                // Friction halves a swing every 0.45 s: 12 s leave 1e-8 of it. Corrections that
-                // have not converged bring long hair to rest more slowly.
+                // Friction halves a swing every 0.45 s: after 12 s 1e-8 of it is left. Corrections
+                // that have not converged bring long hair to rest more slowly.
                 EXPECT_GT(lags[k].greatest(), 0.1 * kLengths[k]);
                 EXPECT_LT(
                     largestDifference(ofLength(end, k), ofLength(rest, k)), row.rest * kLengths[k]);
@@ -197,7 +198,7 @@ TEST_F(ViolentMotion, LeavesHairWholeAndComesToRest) {
         }
 }
 
-// What it takes to keep lengths in such a motion: sweeps.
+// Tests how many sweeps keep lengths in such a motion.
 TEST_F(ViolentMotion, SweepsKeepLengths) {
     const groom::Groom groom = wavyGroom(9, 8);
     SimulationSettings settings;

@@ -8,7 +8,7 @@
 #include "tests/largest_difference.h"
 #include "tests/simulation/volume_rig.h"
 
-// The grid of hair on hair: its place, and what is summed up in it.
+// Tests the grid of hair-hair contact: its position and its sums.
 namespace hair::simulation {
 namespace {
 
@@ -48,10 +48,10 @@ TEST(VolumeGrid, SharesAreOfTheLength) {
     for (const double share : lengthShares(groom)) EXPECT_DOUBLE_EQ(share, 1.0 / 6.0);
 }
 
-// All hair in the first grid's middle: on a corner of cells where they are even in number, else in
-// the middle of one, and the other way round in the second grid. A quadratic B-spline gives a point
-// on the face of two cells half to each, and one in the middle of a cell 3/4 to that and 1/8 to
-// both of its neighbours.
+// All hair is in the first grid's centre. That is a corner of cells if their number is even and
+// else the centre of a cell; in the second grid it is the other way round. A quadratic B-spline
+// gives a point on the face of two cells half to each, and a point in the middle of a cell 3/4 to
+// that cell and 1/8 to both of its neighbours.
 TEST(VolumeGrid, MeanRestDensityIsThatOfAPoint) {
     const groom::Groom groom{
         .strand_count = 1, .vertices_per_strand = 2, .points = {glm::vec3(1.0f), glm::vec3(1.0f)}};
@@ -71,7 +71,7 @@ protected:
         glm::dvec3 moment{0.0};  // share times place, cells
     };
 
-    // Of both, each of which has all of it.
+    // Returns the totals of both grids. Each grid holds all the hair.
     static std::array<Totals, gpu::kVolumeGrids> ofGrids(const VolumeRig& rig) {
         std::array<Totals, gpu::kVolumeGrids> all;
         const std::size_t side = rig.grid().resolution;
@@ -89,10 +89,10 @@ protected:
     }
 };
 
-// B-splines sum to 1 and carry a point's place (their first moment), so the grid's totals are the
-// vertices'. A vertex's part in each of 27 cells is rounded to a float, 6e-8 of it, and to a
-// multiple of 2^-31 of the whole at most; places in cells, up to 24, are rounded to 24 * 6e-8 a few
-// times.
+// B-splines sum to 1 and preserve a point's position (their first moment), so the grid's totals are
+// the vertices'. A vertex's part in each of 27 cells is rounded to a float, 6e-8 of it, and to a
+// multiple of 2^-31 of the whole at most. Positions in cells, up to 24, are rounded to 24 * 6e-8 a
+// few times.
 TEST_F(GpuVolume, SumsUpShareAndMomentum) {
     const groom::Groom groom = wavyGroom(50, 9);
     VolumeRig rig(device(), groom, withFriction());
@@ -124,13 +124,13 @@ TEST_F(GpuVolume, SumsUpShareAndMomentum) {
     }
 }
 
-// The fixed point of a block of cells with the share M in it and the greatest speed V rounds a part
-// of a vertex by up to 2^-32 M and its momentum by 2^-31 M V: hair_hair.h. So much in each of 27
-// cells; besides, a weight and a product are floats.
+// For a block of cells with the share M and the greatest speed V, fixed point rounds a part of a
+// vertex by up to 2^-32 M and its momentum by 2^-31 M V (hair_hair.h). This happens in each of 27
+// cells. Besides, a weight and a product are floats.
 double lostShare(double vertices) { return 27.0 * vertices * 0x1p-32 + 3e-7; }
 double lostMomentum(double vertices) { return 27.0 * vertices * 0x1p-31 + 3e-7; }
 
-// The worst that can happen: all hair in one cell at the same, great speed.
+// Worst case: all hair in one cell at the same, great speed.
 TEST_F(GpuVolume, HoldsAllHairInOnePoint) {
     const groom::Groom groom = wavyGroom(2000, 33);
     VolumeRig rig(device(), groom, withFriction());
@@ -148,9 +148,9 @@ TEST_F(GpuVolume, HoldsAllHairInOnePoint) {
     }
 }
 
-// The greatest that a sum can be: hair in the middle of a cell, which then has (3/4)^3 of it, where
-// share and speed are just below a power of two. Of 2^17 equal shares two are elsewhere. Places of
-// 1e-4 m are rounded to 4e-12 m, 2e-7 of what the hair moves.
+// The greatest possible sum: hair in the middle of a cell, which then has (3/4)^3 of it, with share
+// and speed just below a power of two. Two of 2^17 equal shares are elsewhere. Positions of 1e-4 m
+// are rounded to 4e-12 m, 2e-7 of the hair's motion.
 TEST_F(GpuVolume, HoldsTheGreatestSumThereIs) {
     groom::Groom groom{.strand_count = 1 << 16, .vertices_per_strand = 2};
     groom.points.assign(std::size_t{2} << 16, glm::vec3(0.0f));
@@ -162,7 +162,7 @@ TEST_F(GpuVolume, HoldsTheGreatestSumThereIs) {
     const std::size_t side = grid.resolution;
     const glm::vec3 middle(grid.origin + (double(side / 2) + 0.5) * grid.cell);
     for (const float moved : {-0.99999f * 0x1p-16f, 0.99999f * 0x1p-16f}) {
-        // Where the hair will be at the end of the step is what counts.
+        // The sums use the hair's positions at the end of the step.
         std::vector positions(groom.points.size(), middle - moved);
         std::vector previous(groom.points.size(), middle - 2.0f * moved);
         const auto elsewhere = static_cast<float>(8.0 * grid.cell);
@@ -182,8 +182,9 @@ TEST_F(GpuVolume, HoldsTheGreatestSumThereIs) {
     }
 }
 
-// 10^5 vertices in about a cell at 1 mm/s, and one strand at 10 m/s far away: with one fixed point
-// for all of them, a slow vertex has 10^-4 10^-5 2^30 of its units, and its part in a cell none.
+// There are 10^5 vertices in about a cell at 1 mm/s, and one strand at 10 m/s far away. With a
+// single fixed point for all, a slow vertex would have 10^-4 10^-5 2^30 units, and its part in a
+// cell would round to 0.
 TEST_F(GpuVolume, KeepsSlowMomentumBesideFastHair) {
     constexpr std::uint32_t kSlow = 50000;  // strands
     groom::Groom groom{.strand_count = kSlow + 1, .vertices_per_strand = 2};
@@ -229,8 +230,8 @@ TEST_F(GpuVolume, KeepsSlowMomentumBesideFastHair) {
                 momentum[axis], expected[axis], lostMomentum(2.0 * kSlow) * speeds.greatest());
 }
 
-// The grid is the head's: where head and hair are moved and turned, the same is summed up, but for
-// the rounding of places, 1e-7 m of cells of 20 mm.
+// The grid moves with the head. If head and hair are moved and turned, the sums are the same,
+// except for the rounding of positions, 1e-7 m in cells of 20 mm.
 TEST_F(GpuVolume, MovesWithTheHead) {
     const groom::Groom groom = wavyGroom(50, 9);
     VolumeRig rig(device(), groom, withFriction());

@@ -26,7 +26,8 @@ TEST(WindCone, HoldsTheHalfAngleAndQuarterTurns) {
         for (std::size_t i = 0; i < 4; ++i) {
             EXPECT_NEAR(glm::length(cone[i]), 1.0, kExact);
             EXPECT_NEAR(glm::dot(cone[i], axis), cosine, kExact);
-            // Sideways parts at right angles: the product is only what both share along the axis.
+            // The sideways parts are at right angles, so the product is that of the parts along the
+            // axis.
             EXPECT_NEAR(glm::dot(cone[i], cone[(i + 1) % 4]), cosine * cosine, kExact);
             sum += cone[i];
         }
@@ -39,7 +40,8 @@ TEST(WindCone, IsTheDirectionAtNoAngle) {
         EXPECT_LT(glm::length(v - glm::dvec3(0, 0, 1)), kExact);
 }
 
-// Along +x, by hand: y is the first axis x has least of, so u = x X y = z and v = x X z = -y.
+// Along +x, worked out by hand: y is the first axis with the smallest component, so u = x X y = z
+// and v = x X z = -y.
 TEST(WindCone, HasTheDocumentedOrder) {
     const auto cone = windCone({.direction = {1, 0, 0}, .cone_angle = 30.0f});
     const double c = std::sqrt(3.0) / 2.0;
@@ -72,7 +74,8 @@ TEST(ReferenceWind, WeighsWithNumbersThatSumToOne) {
         EXPECT_NEAR(sum, 1.0, kExact);
         mean += weights[0] / 1000.0;
     }
-    // The mean is 1/4 by symmetry; the deviation of one weight is at most 1/4, of the mean 0.008.
+    // The mean is 1/4 by symmetry. The deviation of one weight is at most 1/4, and of the mean
+    // 0.008.
     EXPECT_NEAR(mean, 0.25, 0.03);
 }
 
@@ -89,8 +92,9 @@ TEST(ReferenceWind, BlowsInsideTheCone) {
     }
 }
 
-// Equation 14 by hand. T = y, W = (3, 4, 5): (T x W) x T = (3, 0, 5). T = (1, 1, 0) / sqrt 2, W =
-// x: W - T (T W) = (1/2, -1/2, 0). Along the tangent nothing; without a tangent nothing.
+// Equation 14, worked out by hand. T = y, W = (3, 4, 5): (T x W) x T = (3, 0, 5). T = (1, 1, 0) /
+// sqrt 2, W = x: W - T (T W) = (1/2, -1/2, 0). Along the tangent there is no acceleration, nor
+// without a tangent.
 TEST(ReferenceWind, FollowsEquation14) {
     const std::vector<glm::dvec3> up{{0, 0, 0}, {0, 2, 0}, {0, 2, 0}};
     const auto across = reference::windAccelerations(up, {3, 4, 5}, 0.5);

@@ -19,7 +19,7 @@ namespace {
 using groom::WindingNumber;
 using std::numbers::pi;
 
-// Every triangle by itself.
+// Reach with which every triangle is summed by itself.
 constexpr double kNoMultipoles = std::numeric_limits<double>::infinity();
 
 // Some hundred roundings of angles up to 2 pi.
@@ -30,9 +30,9 @@ WindingNumber windingOf(const groom::Mesh& mesh) {
     return {joined.positions, joined.triangles};
 }
 
-// The solid angle over 4 pi of the rectangle from lower to upper in the plane z = 0, from p; its
-// sign is that of p.z. Each corner's part is Gotoh and Yagi 1971, Solid angle subtended by a
-// rectangular slit: atan(x y / (z sqrt(x^2 + y^2 + z^2))).
+// Returns the solid angle over 4 pi, seen from p, of the rectangle from lower to upper in the plane
+// z = 0, with the sign of p.z. Each corner's part follows Gotoh and Yagi 1971, Solid angle
+// subtended by a rectangular slit: atan(x y / (z sqrt(x^2 + y^2 + z^2))).
 double rectangleTurns(const glm::dvec2& lower, const glm::dvec2& upper, const glm::dvec3& p) {
     const auto part = [&](double x, double y) {
         x -= p.x, y -= p.y;
@@ -43,8 +43,8 @@ double rectangleTurns(const glm::dvec2& lower, const glm::dvec2& upper, const gl
            (4 * pi);
 }
 
-// A box from z = -2 to 0 without its upper face: what is missing of 1 inside and of 0 outside is
-// what one sees of that face.
+// A box from z = -2 to 0 without its upper face. The winding number differs from 1 inside and from
+// 0 outside by the solid angle of that face over 4 pi.
 TEST(WindingNumber, OfACubeWithoutAFaceIsWhatTheFaceLeaves) {
     groom::Mesh mesh = makeBox({-1, -1, -2}, {1, 1, 0});
     mesh.triangles.resize(10);  // z = 0 is the last
@@ -58,9 +58,10 @@ TEST(WindingNumber, OfACubeWithoutAFaceIsWhatTheFaceLeaves) {
     }
 }
 
-// From the axis through a regular polygon of n corners, at the distance z and with the radius r
-// round them, n pyramids whose tips have the angles pi / n and two of pi / 2 leave a solid angle of
-// 2 pi - 2 n atan(tan(pi / n) / sqrt(1 + r^2 / z^2)); of a disc 2 pi (1 - z / sqrt(z^2 + r^2)).
+// The hole is a regular polygon of n corners with the circumradius r. Seen from its axis at the
+// distance z, its solid angle is 2 pi - 2 n atan(tan(pi / n) / sqrt(1 + r^2 / z^2)), from n
+// pyramids whose edges at the apex have the angles pi / n and two of pi / 2. A disc has 2 pi (1 - z
+// / sqrt(z^2 + r^2)).
 TEST(WindingNumber, OfASphereWithAHoleIsWhatTheHoleLeaves) {
     constexpr int kAround = 24;
     constexpr double kOpening = 2.0;
@@ -72,7 +73,8 @@ TEST(WindingNumber, OfASphereWithAHoleIsWhatTheHoleLeaves) {
             2 * pi -
             2 * kAround *
                 std::atan(std::tan(pi / kAround) / std::sqrt(1 + radius * radius / (z * z)));
-        // Above the hole, in the sphere and over it, it is below one, and takes of what is there.
+        // Above the hole's plane, the hole subtracts its part, from 1 inside the sphere and from 0
+        // above it. Below the plane it adds its part.
         const double expected = z > 0 ? (y < 1 ? 1 : 0) - hole / (4 * pi) : hole / (4 * pi);
         // Vertices are floats, and the hole's radius is 0.9.
         EXPECT_NEAR(winding({0, y, 0}, kNoMultipoles), expected, 0x1p-24) << y;
@@ -81,7 +83,7 @@ TEST(WindingNumber, OfASphereWithAHoleIsWhatTheHoleLeaves) {
     }
 }
 
-// In the plane of a triangle neither side counts.
+// In the plane of a triangle its own solid angle is 0.
 TEST(WindingNumber, OnATriangleIsTheMeanOfBothSides) {
     groom::Mesh mesh = makeBox({-1, -1, -2}, {1, 1, 0});
     EXPECT_NEAR(windingOf(mesh)({0.3, 0.2, 0}), 0.5, kAngleRounding);
@@ -89,7 +91,7 @@ TEST(WindingNumber, OnATriangleIsTheMeanOfBothSides) {
     EXPECT_NEAR(windingOf(mesh)({0.3, 0.2, 0}), 0.5, kAngleRounding);
 }
 
-// The bound of winding_number.h over the nodes that are taken as multipoles.
+// Returns the bound of winding_number.h, summed over the nodes that are taken as multipoles.
 double boundOf(const WindingNumber& winding, const glm::dvec3& p, std::uint32_t node) {
     const groom::TriangleTree::Node& box = winding.tree().nodes[node];
     const groom::Multipole& moments = winding.multipoles()[node];
@@ -114,8 +116,8 @@ double boundOf(const WindingNumber& winding, const glm::dvec3& p, std::uint32_t 
     return boundOf(winding, p, box.first) + boundOf(winding, p, box.first + 1);
 }
 
-// The error falls with the fourth power of the reach where one node is seen, with its third where
-// nodes of all sizes are, so twice the reach makes it eight times less or better.
+// For a single node the error falls with the fourth power of the reach, and for nodes of all sizes
+// with its third. So twice the reach divides it by eight or more.
 TEST(WindingNumber, MultipolesAreAsExactAsTheirBound) {
     for (const groom::Mesh& mesh :
          {makeOpenSphere({0.2, 0, 0}, 1.0, 2.3, 60, 40), makeTorus(1.0, 0.4, 60, 30), makeStar()}) {
@@ -137,8 +139,8 @@ TEST(WindingNumber, MultipolesAreAsExactAsTheirBound) {
     }
 }
 
-// Moments about the centre say all of a triangle that is small from afar: the error relative to its
-// dipole falls with the third power of the distance.
+// Far away, a triangle is fully described by its moments about the centre: the error relative to
+// its dipole falls with the third power of the distance.
 TEST(WindingNumber, ATriangleFromAfarIsItsMoments) {
     groom::Mesh mesh;
     addTriangle(mesh, {0, 0, 0}, {1, 0.2, 0}, {0.1, 0.7, 0.3});
@@ -150,7 +152,7 @@ TEST(WindingNumber, ATriangleFromAfarIsItsMoments) {
         return std::abs(winding(p) - winding(p, kNoMultipoles)) /
                (glm::length(moments.dipole) / (4 * pi * distance * distance));
     };
-    EXPECT_GT(relative(4), 1e-5);  // there is something to fall
+    EXPECT_GT(relative(4), 1e-5);  // large enough to see it fall
     EXPECT_NEAR(relative(16) / relative(8), 1.0 / 8, 0.05);
 }
 

@@ -13,10 +13,11 @@
 
 #include "tests/temporary_folder.h"
 
-// Writes binary glTF files with skins, morph targets and animations, text and bytes by hand.
+// Writes binary glTF files with skins, morph targets and animations. Makes their text and bytes by
+// hand.
 class AnimatedGltf {
 public:
-    // Numbers of accessors.
+    // Add an accessor and return its index.
     int scalars(const std::vector<float>& values) { return accessor(values, 5126, "SCALAR"); }
     int vectors(const std::vector<glm::vec3>& values) { return accessor(values, 5126, "VEC3"); }
     int rotations(const std::vector<glm::vec4>& values) { return accessor(values, 5126, "VEC4"); }
@@ -27,7 +28,7 @@ public:
     int matrices(const std::vector<std::array<float, 16>>& values) {
         return accessor(values, 5126, "MAT4");
     }
-    // Zeros but for some elements.
+    // Adds an accessor of `count` zeros except for the elements at `places`.
     int sparseVectors(
         std::size_t count, const std::vector<std::uint16_t>& places,
         const std::vector<glm::vec3>& values) {
@@ -41,12 +42,12 @@ public:
         return count_++;
     }
 
-    // The parts of the document: text between brackets.
-    std::string nodes;  // of "nodes"; the scene has the first
-    std::string primitive;  // of the only primitive of the only mesh
-    std::string mesh;  // more of the mesh, with a comma before it
-    std::string skin;  // of the only skin; empty: none
-    std::string animations;  // of "animations"
+    // Parts of the document, without the brackets around them.
+    std::string nodes;  // "nodes"; the scene has the first
+    std::string primitive;  // the only primitive of the only mesh
+    std::string mesh;  // further members of the mesh, after a comma
+    std::string skin;  // the only skin; empty: none
+    std::string animations;  // "animations"
 
     std::filesystem::path write(const TemporaryFolder& folder) const {
         std::string json =

@@ -16,7 +16,7 @@
 #include "tests/skin/animated_gltf.h"
 #include "tests/skin/bending_sheet.h"
 
-// Expected values are worked out by hand from glTF 2.0's formulas, in the comments beside them.
+// Expected values are computed by hand from glTF 2.0's formulas, in the comments beside them.
 namespace hair::groom {
 namespace {
 
@@ -31,7 +31,7 @@ std::vector<glm::dvec3> positionsAt(const MeshAnimation& animation, double time)
 using testing::ElementsAre;
 using testing::HasSubstr;
 
-// Numbers in the file are floats: of values up to 2, some of them in a product.
+// Numbers in the file are floats up to 2, and some are multiplied.
 constexpr double kRounding = 1e-6;
 
 const std::string kChannel = R"("channels":[{"sampler":0,"target":{"node":0,"path":)";
@@ -41,7 +41,7 @@ std::string sampler(int times, int values, const std::string& interpolation) {
            std::to_string(values) + R"(,"interpolation":")" + interpolation + R"("}])";
 }
 
-// A triangle, and an animation of its node.
+// A triangle with an animation of its node.
 struct Moved {
     AnimatedGltf file;
     Moved() {
@@ -76,7 +76,7 @@ TEST(MeshAnimation, MovesBetweenKeyframesInAStraightLine) {
     Moved moved;
     moved.animate(
         "translation", {0.5f, 1.5f}, moved.file.vectors({{0, 0, 0}, {2, 4, 0}}), "LINEAR");
-    expectNear(moved.at(0.0)[1], {1, 0, 0});  // before the first keyframe this holds
+    expectNear(moved.at(0.0)[1], {1, 0, 0});  // the first keyframe holds before its time
     expectNear(moved.at(0.75)[1], {1.5, 1, 0});  // a quarter of the way
     expectNear(moved.at(9.0)[1], {3, 4, 0});
 }
@@ -88,8 +88,9 @@ TEST(MeshAnimation, StaysAtAStepUntilTheNext) {
     expectNear(moved.at(1.0)[1], {3, 4, 0});
 }
 
-// Two keyframes 2 s apart, values 0 and 1, slopes 0.5 out of the first and 0.25 a second into the
-// second. In the middle p = 1/2 p0 + 2 (1/8) m0 + 1/2 p1 - 2 (1/8) m1 = 0.5 + 0.125 - 0.0625.
+// The keyframes are 2 s apart, with values 0 and 1 and slopes 0.5 / s after the first and 0.25 / s
+// before the second. In the middle p = 1/2 p0 + 2 (1/8) m0 + 1/2 p1 - 2 (1/8) m1
+// = 0.5 + 0.125 - 0.0625.
 TEST(MeshAnimation, FollowsACubicSpline) {
     Moved moved;
     const int values = moved.file.vectors(
@@ -102,7 +103,7 @@ TEST(MeshAnimation, FollowsACubicSpline) {
 TEST(MeshAnimation, TurnsEvenlyTheShorterWay) {
     Moved moved;
     const auto half = static_cast<float>(std::sqrt(0.5));
-    // 90 degrees about z, with the other sign of the quaternion.
+    // Turns by 90 degrees about z. The quaternion has the opposite sign.
     const int values = moved.file.rotations({{0, 0, 0, 1}, {0, 0, -half, -half}});
     moved.animate("rotation", {0.0f, 1.0f}, values, "LINEAR");
     const double angle = std::numbers::pi / 6.0;  // a third of the way
@@ -121,7 +122,7 @@ TEST(MeshAnimation, ScalesBeforeItTurnsAndMoves) {
     EXPECT_LT(glm::distance(found, glm::dvec3(10, 3, 0)), 1e-5);
 }
 
-// One target moves the second vertex by (0, 0, 1), the other, which is sparse, by (0, 2, 0).
+// One target moves the second vertex by (0, 0, 1). Another, sparse one moves it by (0, 2, 0).
 TEST(MeshAnimation, AddsMorphTargets) {
     Moved moved;
     const int first = moved.file.vectors({{0, 0, 0}, {0, 0, 1}, {0, 0, 0}});
@@ -152,7 +153,7 @@ TEST(MeshAnimation, BlendsJoints) {
         for (std::size_t i = 0; i < found.size(); ++i) {
             const int along = static_cast<int>(i) / (BendingSheet::kAcross + 1);
             const int across = static_cast<int>(i) % (BendingSheet::kAcross + 1);
-            // Floats of the sheet's size, 0.16 m.
+            // Positions are floats of the sheet's size, 0.16 m.
             EXPECT_LT(glm::distance(found[i], BendingSheet::vertexAt(along, across, time)), 1e-7);
         }
     }
@@ -222,8 +223,8 @@ TEST(MeshAnimation, RefusesWrongSkins) {
     EXPECT_THAT(skinError({0, 0, 0, 0}, {2, -1, 0, 0}), HasSubstr("has a negative weight"));
 }
 
-// Every byte of a file in turn is another one, or is where the file ends: what is left is refused
-// with an error or has the vertices that it says.
+// Changes each byte of a file in turn, or cuts the file there. The reader refuses the result with
+// an error or returns the stated number of vertices.
 TEST(MeshAnimation, RefusesOrPlaysDamagedFiles) {
     const TemporaryFolder folder;
     const auto path = BendingSheet::write(folder);
@@ -263,19 +264,19 @@ SurfaceBinding bindingOf(const TemporaryFolder& folder, const glm::vec3& point) 
     return mesh.bind(std::vector{point}).front();
 }
 
-// The triangle (0,0,0), (1,0,0), (0,1,0), and a point 0.5 above (0.25, 0.5, 0).
+// The triangle is (0,0,0), (1,0,0), (0,1,0), and the point is 0.5 above (0.25, 0.5, 0).
 TEST(SurfaceMotion, FollowsATriangleThatMovesRigidly) {
     const TemporaryFolder folder;
     const SurfaceBinding binding = bindingOf(folder, {0.25f, 0.5f, 0.5f});
-    // A quarter of a turn about x, (x, y, z) -> (x, -z, y), then 3 along x.
+    // Turns by 90 degrees about x, (x, y, z) -> (x, -z, y), then moves by 3 along x.
     const SurfaceMotion motion =
         motionOf(binding, {glm::dvec3{3, 0, 0}, glm::dvec3{4, 0, 0}, glm::dvec3{3, 0, 1}});
     expectNear(motion(glm::dvec3{0.25, 0.5, 0.5}), {3.25, -0.5, 0.5});
     expectNear(motion(glm::dvec3{1, 2, 3}), {4, -3, 2});
 }
 
-// Stretched along x alone nothing turns, whichever corner is the first; sheared by (x + s y, y),
-// the polar decomposition's rotation is by -atan(s / 2).
+// A stretch along x does not turn the triangle, whichever corner is the first. For a shear
+// (x + s y, y), the polar decomposition has a rotation by -atan(s / 2).
 TEST(SurfaceMotion, TurnsAsPolarDecompositionSays) {
     const TemporaryFolder folder;
     const SurfaceBinding binding = bindingOf(folder, {0.25f, 0.25f, 0.0f});
@@ -324,7 +325,7 @@ TEST(DeformingMesh, RepeatsOrStopsAndKeepsItsSpeed) {
     expectNear(last({.speed = 1.0f, .repeat = true}, 0.5), expected(0.1));
 }
 
-// A sheet that turns by a quarter as a whole: normals turn with it, and keep their length.
+// The whole sheet turns by 90 degrees. Normals turn with it and keep their length.
 TEST(DeformingMesh, TurnsNormalsAsTheSurface) {
     const TemporaryFolder folder;
     const auto path = BendingSheet::write(folder);

@@ -14,10 +14,9 @@
 #include "hair/groom/groom.h"
 #include "tests/skin/animated_gltf.h"
 
-// A sheet of 8 x 4 squares in the plane y = 0, 2 cm each, that bends: the weight of its second
-// joint grows along x from 0 to 1, and that joint turns about z at x = 4 cm, evenly from 0 to 60
-// degrees in 0.4 s, so that the sheet shears and shrinks as well. What it does is known in closed
-// form.
+// A bending sheet of 8 x 4 squares of 2 cm in the plane y = 0. The weight of its second joint grows
+// along x from 0 to 1. This joint, at x = 4 cm, turns evenly about z from 0 to 60 degrees in 0.4 s,
+// so the sheet also shears and shrinks. Its motion is known in closed form.
 struct BendingSheet {
     static constexpr int kAlong = 8;
     static constexpr int kAcross = 4;
@@ -31,7 +30,8 @@ struct BendingSheet {
     }
     static double weight(int along) { return static_cast<double>(along) / kAlong; }
 
-    // Where linear blend skinning has a vertex: Magnenat-Thalmann, Laperriere and Thalmann 1988.
+    // Position of a vertex by linear blend skinning: Magnenat-Thalmann, Laperriere and Thalmann
+    // 1988.
     static glm::dvec3 vertexAt(int along, int across, double time) {
         const double angle = kTurn * std::clamp(time / kTime, 0.0, 1.0);
         const glm::dvec3 rest(restVertex(along, across));
@@ -42,8 +42,8 @@ struct BendingSheet {
         return (1.0 - w) * rest + w * turned;
     }
 
-    // A point in the first triangle of a square, by its weights of the corners (a, c), (a, c + 1)
-    // and (a + 1, c).
+    // A point in the first triangle of a square, with its barycentric weights for the corners
+    // (along, across), (along, across + 1) and (along + 1, across).
     struct Place {
         int along, across;
         glm::dvec3 weights;
@@ -55,7 +55,7 @@ struct BendingSheet {
         }
     };
 
-    // One root in each square.
+    // Returns one root in each square.
     static std::vector<Place> places() {
         std::vector<Place> places;
         for (int along = 0; along < kAlong; ++along)
@@ -67,7 +67,7 @@ struct BendingSheet {
         return places;
     }
 
-    // Strands that stand on these roots, bent a little.
+    // Returns slightly bent strands on these roots.
     static hair::groom::Groom groom(std::uint32_t vertices = 8) {
         const std::vector<Place> roots = places();
         hair::groom::Groom groom{
@@ -82,7 +82,7 @@ struct BendingSheet {
 
     enum class Clips { bend, still };
 
-    // With the animation "play" and "still", which keeps the sheet as it is.
+    // Writes the sheet with two animations: "play" bends it, "still" does not move it.
     static std::filesystem::path write(const TemporaryFolder& folder) {
         AnimatedGltf file;
         std::vector<glm::vec3> positions;

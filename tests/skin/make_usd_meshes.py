@@ -1,4 +1,7 @@
-"""Writes the files that usd_meshes_test.cpp reads, with usd-core: usage: make_usd_meshes.py FOLDER"""
+"""Writes the files for usd_meshes_test.cpp with usd-core.
+
+usage: make_usd_meshes.py FOLDER
+"""
 
 import os
 import sys
@@ -26,7 +29,7 @@ def mesh(stage, path, points=SQUARE, counts=(4,), corners=(0, 1, 2, 3)):
     return prim
 
 
-# Points at time codes 1001, 1013 and 1037 of 24 a second; z up, cm.
+# Points at time codes 1001, 1013 and 1037, 24 a second, with z up and in cm.
 stage = new_stage("cache", "Z", 0.01)
 points = mesh(stage, "/head/skin").GetPointsAttr()
 points.Clear()
@@ -35,7 +38,7 @@ points.Set([(x * 100, y * 100, 50 * y) for x, y, _ in SQUARE], 1013)
 points.Set([(x * 100 + 20, y * 100, 50 * y) for x, y, _ in SQUARE], 1037)
 stage.Save()
 
-# A mesh at rest under a transform that moves, and one beside it that doesn't.
+# A mesh at rest under a moving transform, and a mesh beside it that does not move.
 stage = new_stage("moved")
 UsdGeom.Xform.Define(stage, "/moves").AddTranslateOp().Set((0, 0, 0), 0)
 UsdGeom.Xform(stage.GetPrimAtPath("/moves")).GetOrderedXformOps()[0].Set((0, 4, 0), 48)
@@ -43,8 +46,8 @@ mesh(stage, "/moves/one")
 mesh(stage, "/stays", [(x, y, 5) for x, y, _ in SQUARE])
 stage.Save()
 
-# A skeleton of two joints, the second at (0, 1, 0) turned about z: by 0 at 0, by a right angle at
-# 24. The upper points follow it, the lower the first.
+# A skeleton of two joints. The second, at (0, 1, 0), turns about z from 0 at time code 0 to 90
+# degrees at 24. The upper points follow it, the lower points follow the first joint.
 stage = new_stage("skeleton")
 root = UsdSkel.Root.Define(stage, "/root")
 skeleton = UsdSkel.Skeleton.Define(stage, "/root/bones")
@@ -70,8 +73,8 @@ UsdSkel.BindingAPI.Apply(skeleton.GetPrim()).CreateAnimationSourceRel().SetTarge
 )
 stage.Save()
 
-# A quad and a triangle with a seam of texture coordinates, a subset of faces, colour; a left-handed
-# mesh; and what is not rendered.
+# A quad and a triangle with a seam of texture coordinates, a subset of faces and a colour. A
+# left-handed mesh. Prims that are not rendered.
 stage = new_stage("surface")
 skin = mesh(
     stage, "/head", SQUARE + [(2, 0, 0)], (4, 3), (0, 1, 2, 3, 1, 4, 2)
@@ -88,7 +91,7 @@ mesh(stage, "/proxy").CreatePurposeAttr("proxy")
 mesh(stage, "/hidden").CreateVisibilityAttr("invisible")
 stage.Save()
 
-# What is refused.
+# Refused meshes.
 stage = new_stage("refused_corner")
 mesh(stage, "/a", corners=(0, 1, 2, 4))
 stage.Save()

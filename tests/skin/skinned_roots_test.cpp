@@ -28,7 +28,7 @@ deforming(const std::filesystem::path& path, const AnimationSettings& settings) 
     return {groom::importMesh(path), groom::MeshAnimation(path, settings.clip), settings};
 }
 
-// Every solver, `none` among them.
+// Returns settings for every solver, including `none`.
 std::vector<SimulationSettings> everySolver() {
     std::vector<SimulationSettings> all(1);
     all.back().solver = Solver::none;
@@ -36,7 +36,7 @@ std::vector<SimulationSettings> everySolver() {
     return all;
 }
 
-// And every way that `shape` is spread.
+// Returns settings for every solver, and for every parallelism of `shape`.
 std::vector<SimulationSettings> everyShader() {
     std::vector<SimulationSettings> all = everySolver();
     for (const Parallelism parallelism :
@@ -63,9 +63,8 @@ double lengthOf(const groom::Groom& groom, std::span<const glm::vec3> points, st
     return length;
 }
 
-// The triangle that a root is on, and where the skin has its corners, are worked out beside the
-// code under test: bending_sheet.h. A micrometre is the bound that users are told; coordinates of
-// 0.2 m round by 0.01.
+// bending_sheet.h computes each root's triangle and its moving corners independently of the code
+// under test. The documentation promises a micrometre; floats of 0.2 m round by 0.01 micrometres.
 TEST_F(GpuSkin, KeepsRootsOnTheirTriangles) {
     const TemporaryFolder folder;
     const auto path = BendingSheet::write(folder);
@@ -87,8 +86,8 @@ TEST_F(GpuSkin, KeepsRootsOnTheirTriangles) {
                     << "strand " << s << " at " << simulation.time() << " s";
             }
         }
-        // None is torn: longer by less than a tenth, which the softest of them, `shape` with its
-        // iterations and springs, keep.
+        // No strand is torn: it gets longer by less than a tenth, even with the softest solvers,
+        // `shape` with its iterations and springs.
         const std::vector<glm::vec3> points = simulation.readPositions();
         for (std::uint32_t s = 0; s < groom.strand_count; ++s)
             EXPECT_LT(lengthOf(groom, points, s), 1.1 * lengthOf(groom, groom.points, s))
@@ -96,8 +95,7 @@ TEST_F(GpuSkin, KeepsRootsOnTheirTriangles) {
     }
 }
 
-// Rooted in a triangle that turns by 60 degrees about z, hair that is frozen stands on it as it
-// stood at rest.
+// Frozen hair keeps its shape relative to its triangle, which turns by up to 60 degrees about z.
 TEST_F(GpuSkin, TurnsFrozenHairWithItsTriangle) {
     const TemporaryFolder folder;
     const auto path = BendingSheet::write(folder);
@@ -115,8 +113,7 @@ TEST_F(GpuSkin, TurnsFrozenHairWithItsTriangle) {
             return BendingSheet::vertexAt(
                 places[s].along + along, places[s].across + across, BendingSheet::kTime);
         };
-        // The sheet's squares stay rectangles, and their axes across stay as they were: what turns
-        // is their direction along.
+        // The sheet's squares stay rectangles. Their axes across do not turn, only those along do.
         const glm::dvec3 along = glm::normalize(corner(1, 0) - corner(0, 0));
         const glm::dquat turn = glm::angleAxis(std::atan2(along.y, along.x), glm::dvec3(0, 0, 1));
         const std::size_t first = std::size_t{s} * groom.vertices_per_strand;
@@ -134,8 +131,8 @@ TEST_F(GpuSkin, TurnsFrozenHairWithItsTriangle) {
 
 constexpr int kSteps = 24;
 
-// A triangle under all of the hair, whose node has the pose that `motion` has at every substep, by
-// keyframes there.
+// Writes a triangle under all of the hair. Its node has a keyframe at every substep, with the pose
+// of `motion`.
 std::filesystem::path
 writeRigid(const TemporaryFolder& folder, const MotionSettings& motion, double substep, int count) {
     AnimatedGltf file;
@@ -163,10 +160,9 @@ writeRigid(const TemporaryFolder& folder, const MotionSettings& motion, double s
     return file.write(folder);
 }
 
-// Poses are rounded to floats in the file, 6e-8 of 0.3 m, and hair that is stiff or slides on
-// bodies passes that on to velocities: what is left of a tenth of a millimetre of a strand of 0.2 m
-// after 24 steps would be another hair. Where the head's frame came a substep too early or late, it
-// would be off by 10 mm.
+// The file rounds poses to floats: 6e-8 of 0.3 m. Stiff hair, and hair that slides on bodies,
+// passes these errors on to velocities. So strands of 0.2 m may differ by 0.1 mm after 24 steps. If
+// the head's pose came a substep too early or late, they would be off by 10 mm.
 TEST_F(GpuSkin, MovesHairAsTheSameRigidMotionDoes) {
     const MotionSettings motion{
         .keyframes =
@@ -200,7 +196,7 @@ TEST_F(GpuSkin, MovesHairAsTheSameRigidMotionDoes) {
     }
 }
 
-// The clip first, then the motion: a root in the plane of the sheet's hinge is at both.
+// Applies the clip first, then the motion, to a root in the plane of the sheet's hinge.
 TEST_F(GpuSkin, ComposesWithTheHeadsMotion) {
     const TemporaryFolder folder;
     const auto path = BendingSheet::write(folder);
@@ -224,7 +220,7 @@ TEST_F(GpuSkin, ComposesWithTheHeadsMotion) {
 
 // ---- A mesh that stands still -------------------------------------------------------------------
 
-// Kinetic energy and that of weight, of vertices with unit masses, J / kg.
+// Returns the kinetic and potential energy of vertices with unit masses, J / kg.
 double energyOf(const Simulation& simulation, const SimulationSettings& settings) {
     const auto now = simulation.readPositions();
     const auto before = simulation.readPrevious();
@@ -238,8 +234,8 @@ double energyOf(const Simulation& simulation, const SimulationSettings& settings
     return energy;
 }
 
-// Hair that falls: its energy with a clip that keeps the mesh as it is is that without one, but for
-// roundings of frames, 1e-7 of it, which 30 steps spread.
+// A clip that does not move the mesh leaves the energy of falling hair unchanged, except for the
+// rounding of frames (1e-7 of it), which grows over 30 steps.
 TEST_F(GpuSkin, GivesNoEnergyWhereTheMeshStandsStill) {
     const TemporaryFolder folder;
     const auto path = BendingSheet::write(folder);

@@ -19,7 +19,7 @@
 namespace hair::rendering {
 namespace {
 
-// Where a point of the sheet at rest is at a time, by the triangle that it is in.
+// Returns the position at a time of a point on the sheet at rest, from the triangle that it is in.
 glm::dvec3 carriedPoint(const glm::dvec3& rest, double time) {
     const double x = rest.x / BendingSheet::kSquare;
     const double z = rest.z / BendingSheet::kSquare;
@@ -34,7 +34,7 @@ glm::dvec3 carriedPoint(const glm::dvec3& rest, double time) {
     return (1.0 - v) * corner(1, 0) + (1.0 - u) * corner(0, 1) + (u + v - 1.0) * corner(1, 1);
 }
 
-// Guides of the sheet, strands between them, and strands of a file.
+// Returns the guides of the sheet, with strands between them and strands of a file.
 groom::Groom sheetGroom() {
     groom::Groom groom = BendingSheet::groom();
     const auto guide = [](int along, int across) {
@@ -42,7 +42,7 @@ groom::Groom sheetGroom() {
     };
     for (int along = 0; along + 1 < BendingSheet::kAlong; along += 2)
         for (int across = 0; across + 1 < BendingSheet::kAcross; ++across) {
-            // Wider than a square, so that guides alone leave roots off the bent sheet.
+            // The root triangle is wider than a square, so interpolated roots leave the bent sheet.
             const std::uint32_t a = guide(along, across);
             const std::uint32_t b = guide(along, across + 1);
             const std::uint32_t c = guide(std::min(along + 3, BendingSheet::kAlong - 1), across);
@@ -62,8 +62,8 @@ std::vector<glm::dvec3> rootsOf(const StrandPoints& points) {
 
 using SkinnedStrands = GpuTest;
 
-// Roots are found on the device at rest, in floats of up to 0.2 m, and the sheet stretches those
-// roundings a little: a micrometre is the bound that users are told.
+// The device finds roots at rest, in floats of up to 0.2 m, and the sheet stretches these roundings
+// slightly. The documentation promises a micrometre.
 TEST_F(SkinnedStrands, KeepTheirRootsOnTheirTriangles) {
     const TemporaryFolder folder;
     const auto path = BendingSheet::write(folder);
@@ -114,7 +114,7 @@ TEST_F(SkinnedStrands, KeepTheirRootsOnTheirTriangles) {
                     uncorrected = std::max(uncorrected, glm::distance(follow[root], expected));
                 }
             }
-            EXPECT_GT(uncorrected, 1e-3);  // or the test would show nothing
+            EXPECT_GT(uncorrected, 1e-3);  // otherwise the test shows nothing
         }
 }
 

@@ -1,5 +1,4 @@
-// Files written by usd-core itself; expected values are worked out by hand from what
-// make_usd_meshes.py writes.
+// Reads files that make_usd_meshes.py writes with usd-core. Expected values are computed by hand.
 #include <algorithm>
 #include <string>
 #include <utility>
@@ -23,7 +22,7 @@ using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
 
-// Floats of values up to 5.
+// For floats up to 5.
 constexpr double kFloatRounding = 1e-6;
 
 class UsdMeshes : public testing::Test {
@@ -60,13 +59,13 @@ void expectNear(const std::vector<glm::dvec3>& found, const std::vector<glm::dve
             << i << ": " << found[i].x << ' ' << found[i].y << ' ' << found[i].z;
 }
 
-// In the file (x, y, z) cm with z up: here (x, z, -y) / 100.
+// The file has (x, y, z) in cm with z up, which becomes (x, z, -y) / 100.
 TEST_F(UsdMeshes, APointCacheIsPlayedFromItsFirstSampleOn) {
     expectNear(at("cache", 0.0), {{0, 0, 0}, {1, 0, 0}, {1, 0, -1}, {0, 0, -1}});
-    // Half of the 12 time codes to the second sample, at 24 a second.
+    // Half of the 12 time codes to the second sample, with 24 a second.
     expectNear(at("cache", 0.25), {{0, 0, 0}, {1, 0, 0}, {1, 0.25, -1}, {0, 0.25, -1}});
     expectNear(at("cache", 0.5), {{0, 0, 0}, {1, 0, 0}, {1, 0.5, -1}, {0, 0.5, -1}});
-    // A quarter of the 24 to the third.
+    // A quarter of the 24 time codes to the third sample.
     expectNear(at("cache", 0.75), {{0.05, 0, 0}, {1.05, 0, 0}, {1.05, 0.5, -1}, {0.05, 0.5, -1}});
     for (const double late : {1.5, 99.0})
         expectNear(at("cache", late), {{0.2, 0, 0}, {1.2, 0, 0}, {1.2, 0.5, -1}, {0.2, 0.5, -1}});
@@ -79,8 +78,8 @@ TEST_F(UsdMeshes, TransformsMoveWhatIsUnderThem) {
         {{0, 1, 0}, {1, 1, 0}, {1, 2, 0}, {0, 2, 0}, {0, 0, 5}, {1, 0, 5}, {1, 1, 5}, {0, 1, 5}});
 }
 
-// About (0, 1, 0) by a right angle counter-clockwise: (1, 2) is (1, 1) from there and comes to
-// (-1, 1), (0, 2) is (0, 1) from there and comes to (-1, 0).
+// Points turn about (0, 1, 0) by 90 degrees counter-clockwise. Relative to it, (1, 2) is at (1, 1)
+// and moves to (-1, 1); (0, 2) is at (0, 1) and moves to (-1, 0).
 TEST_F(UsdMeshes, ASkeletonTurnsThePointsThatItCarries) {
     expectNear(at("skeleton", 0.0), {{0, 0, 0}, {1, 0, 0}, {1, 2, 0}, {0, 2, 0}});
     expectNear(at("skeleton", 1.0), {{0, 0, 0}, {1, 0, 0}, {-1, 2, 0}, {-1, 1, 0}});
@@ -97,8 +96,8 @@ TEST_F(UsdMeshes, ItsOneClipIsNamedPoints) {
         HasSubstr("surface.usda: nothing in it moves"));
 }
 
-// A root 0.1 m over the middle of an edge that the second sample lifts by 0.5 m: the triangle below
-// is turned about the first edge by atan(0.5), so its normal is (0, 2, 1) / sqrt(5).
+// The root is 0.1 m above the middle of an edge that the second sample lifts by 0.5 m. The triangle
+// below turns about the first edge by atan(0.5), so its normal is (0, 2, 1) / sqrt(5).
 TEST_F(UsdMeshes, RootsGoWithTheirTriangles) {
     AnimationSettings settings;
     settings.clip = "points";
@@ -109,8 +108,8 @@ TEST_F(UsdMeshes, RootsGoWithTheirTriangles) {
     ASSERT_EQ(motions.size(), 1u);
     const glm::dvec3 on_edge(0.5, 0.5, -1.0);
     const glm::dvec3 root = motions[0](glm::dvec3(roots[0]));
-    // Stretched along its slope by sqrt(1.25), the triangle turns as the rotation of the polar
-    // decomposition does, which is the one about the first edge.
+    // The triangle also stretches along its slope by sqrt(1.25). The rotation of the polar
+    // decomposition is still the one about the first edge.
     EXPECT_LT(
         glm::distance(root, on_edge + 0.1 * glm::normalize(glm::dvec3(0, 2, 1))), kFloatRounding);
 }
@@ -128,7 +127,8 @@ TEST_F(UsdMeshes, FacesBecomeTrianglesAndSeamsVertices) {
     EXPECT_NEAR(mesh.materials[0].base_color.x, 0.735357, 1e-5);
     EXPECT_EQ(mesh.materials[0].base_color.y, 0.0f);
     EXPECT_EQ(mesh.materials[0].base_color.z, 1.0f);
-    // Points 1 and 2 are on the seam: five points and two more, and the second mesh's four.
+    // Points 1 and 2 are on the seam. So there are five points, two more for the seam, and the four
+    // of the second mesh.
     ASSERT_EQ(mesh.positions.size(), 11u);
     ASSERT_EQ(mesh.texture_coordinates.size(), 11u);
     // Each corner of each triangle has its face's texture coordinate, v down.

@@ -1,4 +1,4 @@
-"""Reads reports of `hairbench run` as pandas frames; results/README.md has every field."""
+"""Reads reports of `hairbench run` as pandas frames. results/README.md has every field."""
 
 from __future__ import annotations
 

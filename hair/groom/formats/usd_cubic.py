@@ -11,7 +11,7 @@ BASES = {
 
 
 def starts(sizes):
-    """Index of the first element of each group, for groups one after another."""
+    """Returns the index of the first element of each group, for groups one after another."""
     return np.cumsum(sizes) - sizes
 
 
@@ -45,19 +45,19 @@ class CubicCurves:
         return self.segments * (self.between + 1) + 1
 
     def vertex(self, values):
-        """Points from one value (row) for each control vertex."""
+        """Returns points from one value (row) for each control vertex."""
         controls = self._with_phantoms(values) if self.pinned else values
         corners = controls[self.first_control[:, None] + np.arange(4)]
         return self._place(lambda t: t ** np.arange(3, -1, -1) @ self.basis, corners)
 
     def varying(self, values):
-        """Points from one value for each end of a segment, linear between them."""
+        """Returns points by linear interpolation of one value for each end of a segment."""
         first = self._per_segment(starts(self.segments + 1), 1)
         ends = values[first[:, None] + np.arange(2)]
         return self._place(lambda t: np.array([1 - t, t]), ends)
 
     def _per_segment(self, first, step):
-        """first[curve] + step * (number of the segment in the curve), for all segments."""
+        """Returns first[curve] + step * (index of the segment in the curve) for all segments."""
         number = np.arange(self.segments.sum()) - np.repeat(starts(self.segments), self.segments)
         return np.repeat(first, self.segments) + step * number
 

@@ -121,7 +121,7 @@ class Layers:
 
 
 class Unfolded:
-    """The bytes of all prims of a stage together, bounded by the size of its files."""
+    """Counts the bytes of all prims of a stage, with a bound by the size of its files."""
 
     def __init__(self, size):
         self.most = MOST_UNFOLDED + 16 * size
@@ -144,7 +144,7 @@ def open_stage(path, below):
 
 
 class Xforms:
-    """Transforms by time."""
+    """Caches transforms by time."""
 
     def __init__(self):
         self.caches = {}
@@ -209,7 +209,7 @@ class Reader:
         return points
 
     def part(self, name):
-        """A part of all prims together, or nothing unless all have it."""
+        """Returns a part for all prims, or nothing unless all have it."""
         parts = [prim.parts[name] for prim in self.prims]
         if name == "guides" and any(part is not None for part in parts):
             # Guides are often prims of their own, and the other prims don't have the primvar.

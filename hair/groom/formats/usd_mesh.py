@@ -26,7 +26,7 @@ MOST = 1 << 31  # bytes of positions over time
 
 
 def encoded(linear):
-    """Linear RGB as sRGB encodes it (IEC 61966-2-1)."""
+    """Returns linear RGB encoded as sRGB (IEC 61966-2-1)."""
     linear = np.clip(linear, 0, 1)
     return np.where(linear <= 0.0031308, 12.92 * linear, 1.055 * linear ** (1 / 2.4) - 0.055)
 
@@ -90,7 +90,7 @@ class Mesh:
         return counts, corners
 
     def _uvs(self, corners):
-        """Texture coordinates of each corner of a face, v down; or None."""
+        """Returns the texture coordinates of each corner of each face, v down, or None."""
         primvar = UsdGeom.PrimvarsAPI(self.mesh).FindPrimvarWithInheritance("st")
         values = primvar.ComputeFlattened(self.time) if primvar else None
         if values is None:
@@ -105,7 +105,7 @@ class Mesh:
         return np.ascontiguousarray(values * np.float32([1, -1]) + np.float32([0, 1]))
 
     def at(self, time, xforms):
-        """Positions of the vertices in world space, the stage's axes and unit."""
+        """Returns the vertices' positions in world space, in the stage's axes and unit."""
         points = self.mesh.GetPointsAttr().Get(time)
         points = np.zeros((0, 3)) if points is None else np.array(points, np.float64)
         if points.shape != (self.count, 3):
@@ -117,7 +117,7 @@ class Mesh:
         return (points @ world[:3, :3] + world[3, :3])[self.points]
 
     def normals(self):
-        """Area-weighted sums of the triangles' normals round each point, so seams don't show."""
+        """Sums the triangles' normals, weighted by area, at each point, so that no seam shows."""
         a, b, c = (self.positions[self.triangles[:, i]] for i in range(3))
         sums = np.zeros((self.count, 3))
         for i in range(3):
@@ -134,8 +134,8 @@ class Mesh:
         return times
 
     def materials(self):
-        """Names, and the number of the name for each triangle. The names are those of the bound
-        material, or else the mesh, and of GeomSubsets of faces."""
+        """Returns names, and the index of the name for each triangle. Names are those of the bound
+        material, otherwise the mesh, and of GeomSubsets of faces."""
         bound = UsdShade.MaterialBindingAPI(self.prim).ComputeBoundMaterial()[0]
         names = [bound.GetPrim().GetName() if bound else self.prim.GetName()]
         face_count = len(self.mesh.GetFaceVertexCountsAttr().Get(self.time) or [])
@@ -245,7 +245,7 @@ class Reader:
         array(stream, (np.array(codes) - (codes[0] if codes else 0)) / per_second)
         count(stream, vertices * len(codes))
         for code in codes:
-            xforms = Xforms()  # none is kept
+            xforms = Xforms()  # keeps no transform of other times
             time = Usd.TimeCode(code)
             stream.write(self.metres([mesh.at(time, xforms) for mesh in self.meshes]).tobytes())
 

@@ -11,7 +11,7 @@ class Refused(Exception):
 
 
 class LinearCurves:
-    """Curves that are their vertices, with the interface of CubicCurves."""
+    """Curves of which each point is a vertex, with the interface of CubicCurves."""
 
     def __init__(self, sizes):
         self.sizes = sizes
@@ -27,7 +27,7 @@ class LinearCurves:
 
 
 def rows(values, dtype, components):
-    """One row for each value. `components`: columns of the result if there are no values."""
+    """Returns a row for each value. `components`: columns of the result if there are no values."""
     values = np.atleast_1d(np.asarray(values, dtype))  # a constant may be no array
     return values.reshape(len(values), -1 if len(values) else components)
 
@@ -166,7 +166,7 @@ class Prim:
         return None
 
     def _per_strand(self, name):
-        """Integers, one for each curve or one for the whole prim, which may come from a parent."""
+        """Returns integers, one for each curve or one for all. They may come from a parent prim."""
         primvar = UsdGeom.PrimvarsAPI(self.curves).FindPrimvarWithInheritance(name)
         values = primvar.ComputeFlattened(self.time) if primvar else None
         if values is None:
@@ -197,7 +197,7 @@ class Prim:
         return values
 
     def left_out(self):
-        """Names of the prim's other data, which is left out."""
+        """Returns the names of the prim's other data, which is not read."""
         known = {"displayColor", "displayOpacity", "widths", "groom_group_id", "groom_guide"}
         if self.parts["root_uvs"] is not None:
             known.add(self.root_uv_name)

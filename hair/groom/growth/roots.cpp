@@ -62,8 +62,8 @@ struct Ground {
         return density(point) > 0.0 &&
                !(rows && options.parting->isNear(point.position, rows->reach()));
     }
-    // Below 1 for the samples that the mask keeps. Of too many, those with the smallest values are
-    // as good a choice as any.
+    // Below 1 for the samples that the mask keeps. If there are too many, those with the smallest
+    // values are as good a choice as any.
     double chance(std::uint32_t number) const {
         return random01(options.seed, number, purpose::root_mask) /
                density(rootSample(scalp, options.seed, number));

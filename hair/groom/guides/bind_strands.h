@@ -47,8 +47,8 @@ struct Mean {
     std::array<double, 3> weights{1.0, 0.0, 0.0};  // sum 1, none negative
 };
 
-// Returns the mean of at most three points that comes nearest to the one point. Of several that
-// are about as near, it takes that of points that are near themselves. In a plane where several
+// Returns the mean of at most three points that comes nearest to the one point. If several are
+// about as near, it takes the mean of points that are near themselves. In a plane where several
 // triangles hold the point, this is the Delaunay triangle.
 Mean nearestMean(const Products& products);
 

@@ -19,7 +19,7 @@ struct Multipole {
     double radius;  // of the sphere round `centre` that holds the triangles, m
     glm::dvec3 dipole;  // integral of n, m^2
     std::array<double, 5> quadrupole;  // of n x: xx, yy, xy, xz, yz; zz = -xx - yy, m^3
-    // Of n x x: xxx, yyy, zzz, xxy, xxz, yyx, yyz, zzx, zzy, xyz, m^4.
+    // Moments of n x x: xxx, yyy, zzz, xxy, xxz, yyx, yyz, zzx, zzy, xyz, m^4.
     std::array<double, 10> octupole;
 };
 

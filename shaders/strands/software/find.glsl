@@ -23,7 +23,7 @@ uvec2 fetchWindows(uvec2 tile) { return loadPair(push.windows, tileIndex(tile));
 const float kPlaceRounding = 0.01;  // px
 const float kDepthRounding = 1e-5;  // relative to depth
 
-// Bounds of a strand at a point. What is drawn there lies within a sphere as wide as the strand.
+// Bounds of a strand at a point. Everything drawn there lies within a sphere as wide as the strand.
 // The bounds cost much less than pieceEnd().
 struct PointBounds {
     vec2 low;  // px

@@ -1,20 +1,20 @@
 #!/usr/bin/env bash
-# Builds the fuzzers as OSS-Fuzz and ClusterFuzzLite ask for them: for each target a program
-# $OUT/fuzz_NAME, its options, and its seeds in a zip archive. Reads $SRC, where the project lies as
-# "hairbench", $OUT, $WORK, $CC, $CXX, $CFLAGS, $CXXFLAGS, $LIB_FUZZING_ENGINE and $SANITIZER.
+# Builds the fuzzers as OSS-Fuzz and ClusterFuzzLite expect them: for each target a program
+# $OUT/fuzz_NAME, its options, and its seeds in a zip archive. Reads $SRC, which holds the project
+# as "hairbench", $OUT, $WORK, $CC, $CXX, $CFLAGS, $CXXFLAGS, $LIB_FUZZING_ENGINE and $SANITIZER.
 set -euo pipefail
 
 project=$SRC/hairbench
 build=$WORK/build
-# The libraries are Ubuntu's, which are made with libstdc++.
+# The libraries are Ubuntu's, built with libstdc++.
 CXXFLAGS=${CXXFLAGS//-stdlib=libc++/}
-# glslang's is made without run-time types, which this check looks for.
+# glslang's library has no run-time type information, which -fsanitize=vptr needs.
 [[ ${SANITIZER:-address} != undefined ]] || CXXFLAGS+=" -fno-sanitize=vptr"
 export CXXFLAGS="$CXXFLAGS -D_GLIBCXX_ASSERTIONS"
 
-# Debug, without flags of its own: with asserts, and optimised as OSS-Fuzz has it. The programs run
-# where these libraries are not installed: they look for all of them, those of others too (which
-# new tags would not do), in lib beside them.
+# A debug build without flags of its own keeps asserts and OSS-Fuzz's optimisation. The programs run
+# where the libraries are not installed, so they look in lib beside them. With the old dynamic tags
+# this applies to the libraries' own dependencies too.
 cmake -S "$project" -B "$build" -G Ninja -DBUILD_TESTING=OFF -DHAIRBENCH_WERROR=OFF \
     -DCMAKE_BUILD_TYPE=Debug -DCMAKE_C_FLAGS_DEBUG= -DCMAKE_CXX_FLAGS_DEBUG= \
     -DCMAKE_BUILD_RPATH="\$ORIGIN/lib" -DCMAKE_EXE_LINKER_FLAGS=-Wl,--disable-new-dtags \
@@ -25,7 +25,7 @@ fuzzers=$build/tests/fuzz/fuzzers
 mkdir -p "$OUT"/lib "$OUT"/scenes/portraits
 ldd "$fuzzers" | awk '$2 == "=>" && $3 ~ /^\// && $1 !~ /^lib(c|m|dl|rt|pthread|resolv)\.so/ {print $3}' |
     xargs cp -L -t "$OUT/lib"
-# On which the target of scenes builds others.
+# The scenes' target uses these as bases.
 cp "$project"/scenes/*.json "$OUT/scenes"
 cp "$project"/scenes/portraits/*.json "$OUT/scenes/portraits"
 

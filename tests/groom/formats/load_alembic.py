@@ -1,7 +1,7 @@
-"""Prints what Alembic's own library finds of curves in archives: usage: load_alembic.py FILE...
+"""Prints the curves that Alembic's own library finds in archives. Usage: load_alembic.py FILE...
 
-Of float32 the eight hexadecimal digits of their bits, of integers decimals. Needs what
-scripts/setup --alembic installs.
+Prints float32 as the eight hexadecimal digits of the bits, and integers as decimals. Needs the
+environment of scripts/setup --alembic.
 """
 
 import struct

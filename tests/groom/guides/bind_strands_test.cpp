@@ -184,7 +184,7 @@ TEST(BindStrands, ErrsLessWithMoreGuides) {
     double last = 1.0;
     for (const std::uint32_t count : {30u, 120u, 480u}) {
         const double error = errorOf(dense, chooseGuides(dense, count, 1)).mean;
-        EXPECT_LT(error, 0.5 * last);  // a quarter, but for the edge, where it is outside of all
+        EXPECT_LT(error, 0.5 * last);  // a quarter, except outside of all guides
         last = error;
     }
 }

@@ -43,7 +43,7 @@ TEST(Clump, BringsAllTipsToTheNearestCentres) {
         for (const std::uint32_t centre : centres)
             if (distance(centre) < distance(nearest)) nearest = centre;
         EXPECT_LT(distance(nearest), 0.1);  // or there is room for another centre
-        // strength 1: the same point but for the rounding of the weighted mean
+        // With strength 1 it is the same point, except for the rounding of the weighted mean.
         EXPECT_NEAR(
             glm::distance(after.strand(i).back(), before.strand(nearest).back()), 0.0, 1e-6);
     }
@@ -63,7 +63,7 @@ TEST(Clump, SpreadsItsCentresOverTheRoots) {
                     glm::dvec3(before.strand(centres[i])[0]),
                     glm::dvec3(before.strand(centres[k])[0])),
                 double{settings.spacing});
-    const double per_disc = 400.0;                        // 1 / d^2
+    const double per_disc = 400.0;  // 1 / d^2
     const double with_rim = (1.0 + 0.05) * (1.0 + 0.05);  // centres keep d/2 of room round them
     EXPECT_GT(static_cast<double>(centres.size()), per_disc * 2.0 / (3.0 * std::sqrt(3.0)));
     EXPECT_LT(static_cast<double>(centres.size()), per_disc * with_rim * 2.0 / std::sqrt(3.0));

@@ -53,8 +53,8 @@ TEST_F(TransparentPictureTest, OpacityIsNothingWithoutTransparency) {
     EXPECT_EQ(differingPixels(opaque, drawCase(device(), settings)), 0u);
 }
 
-// The nearest of opaque fragments is seen, as without a list. Colours in half floats are right to
-// a step of 8-bit ones. Of two fragments at the same depth either may be seen: a step of 32-bit
+// The nearest of opaque fragments is seen, as without a list. Colours in half floats are right to a
+// step of 8-bit ones. If two fragments are at the same depth, either may be seen: a step of 32-bit
 // depth is 0.05 um there.
 TEST_F(TransparentPictureTest, OpaqueListsAreTheOpaquePicture) {
     Settings settings = small();
