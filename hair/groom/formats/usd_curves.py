@@ -27,6 +27,7 @@ MOST_PRIMS = 50_000  # of a stage, plus one for each 16 bytes of its files
 # What a prim inherits is looked for in all prims around it, and in all that each is composed of.
 MOST_NESTED = 128  # prims within each other
 MOST_COMPOSED = 256  # variants and prims that one prim refers to, and they in turn
+MOST_SUBLAYERS = 256  # of a layer and its sublayers together, each as often as it is named
 MOST_UNFOLDED = 32 << 20  # bytes of points and triangles, plus 16 times the size of its files
 
 OUT_OF_MEMORY = "needs more memory than a file of its size is given"
@@ -95,6 +96,24 @@ class Layers:
 
         layer.Traverse(Sdf.Path.absoluteRootPath, visit)
         return assets
+
+    def check_sublayers(self):
+        """Refuses layers that are sublayers of each other in too many ways: USD follows each way."""
+        for name, layer in self.layers.items():
+            count = 0
+            waiting = [(layer, ())]
+            while waiting:
+                below, above = waiting.pop()
+                if not below or below in above:  # USD refuses a layer within itself
+                    continue
+                count += 1
+                if count > MOST_SUBLAYERS:
+                    raise Refused(
+                        f"{name}: more than {MOST_SUBLAYERS} sublayers, those of sublayers included"
+                    )
+                for path in below.subLayerPaths:
+                    below_name = Sdf.ComputeAssetPathRelativeToLayer(below, path) if path else ""
+                    waiting.append((self.layers.get(below_name), (*above, below)))
 
     def check_prims(self, path):
         """Refuses nested references that make too many prims for the size of the files."""
@@ -174,6 +193,7 @@ class Unfolded:
 def open_stage(path, below):
     """Returns the stage, and an Unfolded to count its points and triangles."""
     layers = Layers(path, below)
+    layers.check_sublayers()
     layers.check_prims(path)
     return Usd.Stage.Open(path), Unfolded(layers.size)
 

@@ -268,6 +268,22 @@ TEST_F(UsdImportTest, HoldsReferencesAgainstTheFile) {
         HasSubstr("its instances unfold to more than"));
 }
 
+// 20 pairs of layers, each of both of the next pair: 2^20 ways.
+TEST_F(UsdImportTest, RefusesSublayersInTooManyWays) {
+    const TemporaryFolder files;
+    for (int i = 0; i < 20; ++i) {
+        const std::string next = std::to_string(i + 1) + ".usda@";
+        const std::string text = "#usda 1.0\n(subLayers = [@l" + next + ", @m" + next + "])\n";
+        for (const char* name : {"l", "m"}) files.write(name + std::to_string(i) + ".usda", text);
+    }
+    const std::string curve = "#usda 1.0\n" + basisCurves("c");
+    for (const char* name : {"l20.usda", "m20.usda"}) files.write(name, curve);
+    EXPECT_EQ(errorText([&] { importStrands(files.file("l18.usda")); }), "no error");
+    EXPECT_THAT(
+        errorText([&] { importStrands(files.file("l0.usda")); }),
+        HasSubstr("more than 256 sublayers, those of sublayers included"));
+}
+
 // Each prim is asked for what prims around it and prims that it is composed of have.
 TEST_F(UsdImportTest, RefusesDeepNestsAndManyVariants) {
     const TemporaryFolder files;
