@@ -399,12 +399,14 @@ class Tally:
         self.base = base
         self.count = self.refused = self.outside = self.broken = 0
         self.seconds = self.megabytes = 0.0
+        self.slowest = None  # number of the file
 
-    def add(self, outcome):
+    def add(self, outcome, number):
         self.count += 1
         self.refused += outcome.status == 2
         self.outside += outcome.status == 2 and b"lies outside of" in outcome.errors
-        self.seconds = max(self.seconds, outcome.seconds)
+        if outcome.seconds > self.seconds:
+            self.seconds, self.slowest = outcome.seconds, number
         self.megabytes = max(self.megabytes, outcome.megabytes)
 
 
@@ -465,7 +467,7 @@ def main():
             size = here.size()
             outcome = runner.run([program, *arguments], with_landlock=number // len(kinds) % 2 == 0)
             tally = tallies[kind]
-            tally.add(outcome)
+            tally.add(outcome, number)
             limits = Limits(
                 options.slack * MOST_SECONDS + tally.base.seconds,
                 options.slack * MOST_MEGABYTES * (1 + size // 10_000_000) + tally.base.megabytes,
@@ -481,13 +483,13 @@ def main():
                 shutil.move(folder / "in", kept)
                 (kept / "COMMAND").write_text(shlex.join(arguments) + "\n" + "\n".join(broken) + "\n")
                 print(f"{kind} {number}: {'; '.join(broken)}\n  kept in {kept}: {shlex.join(arguments)}", flush=True)
-    print(f"{'kind':8} {'files':>6} {'refused':>7} {'outside':>7} {'accepted':>8} {'most CPU s':>10} {'most MB':>7}"
+    print(f"{'kind':8} {'files':>6} {'refused':>7} {'outside':>7} {'accepted':>8} {'most CPU s':>10} {'in file':>7} {'most MB':>7}"
           f" {'broken':>6}   smallest file: CPU s, MB")  # fmt: skip
     for kind, tally in tallies.items():
         print(
             f"{kind:8} {tally.count:6} {tally.refused:7} {tally.outside:7} {tally.count - tally.refused:8} "
-            f"{tally.seconds:10.2f} {tally.megabytes:7.0f} {tally.broken:6}   {tally.base.seconds:.2f}, "
-            f"{tally.base.megabytes:.0f}"
+            f"{tally.seconds:10.2f} {tally.slowest or 0:7} {tally.megabytes:7.0f} {tally.broken:6}   "
+            f"{tally.base.seconds:.2f}, {tally.base.megabytes:.0f}"
         )
     print(f"{sum(each.count for each in tallies.values())} files, {faults} faults")
     return 1 if faults else 0

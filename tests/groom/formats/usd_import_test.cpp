@@ -289,7 +289,8 @@ TEST_F(UsdImportTest, RefusesDeepNestsAndManyVariants) {
     const TemporaryFolder files;
     std::string deep = "#usda 1.0\n", names, sets;
     for (int i = 0; i < 150; ++i) deep += "def \"d" + std::to_string(i) + "\" {\n";
-    deep += basisCurves("c") + std::string(150, '}');
+    deep += basisCurves("c");
+    for (int i = 0; i < 150; ++i) deep += "}\n";
     EXPECT_THAT(
         errorText([&] { importStrands(files.write("deep.usda", deep)); }),
         HasSubstr("more than 128 prims within each other"));
