@@ -14,6 +14,7 @@
 
 #include <fcntl.h>
 #include <sys/file.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <nlohmann/json.hpp>
@@ -149,6 +150,11 @@ Journal::Journal(std::filesystem::path path, Lasts lasts) : path_(std::move(path
     if (file_ < 0 && errno == ELOOP)
         throw engine::Error(path_.string(), "is a link, and its place is the journal's");
     if (file_ < 0) throw engine::Error(path_.string(), std::strerror(errno));
+    struct stat status{};
+    if (fstat(file_, &status) == 0 && !S_ISREG(status.st_mode)) {
+        close(file_);
+        throw engine::Error(path_.string(), "is not a file, and its place is the journal's");
+    }
     // Some file systems have no locks; continues without one there.
     if (flock(file_, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK) {
         close(file_);

@@ -9,6 +9,8 @@
 #include <sys/stat.h>
 
 #include "tests/cli/run_hairbench.h"
+#include "tests/python.h"
+#include "tests/required.h"
 #include "tests/temporary_folder.h"
 
 namespace {
@@ -114,6 +116,21 @@ TEST(OutputFiles, ArePlainOnesOrRefusedAtOnce) {
         const Outcome outcome = hairbench(command, "timeout -s KILL 60 ");
         EXPECT_EQ(outcome.status, kUsage) << command << '\n' << outcome.output;
     }
+}
+
+// Two files of each kind but journals, which need a device; scripts/test --fuzz has more.
+TEST(CraftedFiles, TakeNothingAndOpenNothingOutside) {
+    if (pythonInterpreter().empty()) return skipWithout(Need::python, kNoPython);
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+    const std::string slack = " --slack 10";
+#else
+    const std::string slack;
+#endif
+    const Outcome outcome = runPython(
+        "tests/fuzz/crafted_files.py",
+        "'" HAIRBENCH_PROGRAM "' --count 26 --without journal" + slack);
+    EXPECT_EQ(outcome.status, 0) << outcome.output;
+    EXPECT_THAT(outcome.output, HasSubstr("26 files, 0 faults"));
 }
 
 }  // namespace

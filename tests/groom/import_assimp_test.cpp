@@ -357,6 +357,31 @@ TEST(ImportAssimp, RefusesFacesThatTakeTooLongToCut) {
                         "into triangles");
 }
 
+#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
+// Nodes of nodes: 10^8 of them in 7 kB, which assimp makes before it returns.
+TEST(ImportAssimp, GivesNodesOfNodesNoMoreMemoryThanAFileOfTheirSize) {
+    const TemporaryFolder folder;
+    std::string nodes = "<node id=\"n0\"/>";
+    for (int i = 1; i <= 8; ++i) {
+        nodes += "<node id=\"n" + std::to_string(i) + "\">";
+        for (int k = 0; k < 10; ++k)
+            nodes += "<instance_node url=\"#n" + std::to_string(i - 1) + "\"/>";
+        nodes += "</node>";
+    }
+    const auto path = folder.write(
+        "a.dae", "<?xml version=\"1.0\"?><COLLADA "
+                 "xmlns=\"http://www.collada.org/2005/11/COLLADASchema\" version=\"1.4.1\">"
+                 "<library_nodes>" +
+                     nodes +
+                     "</library_nodes><library_visual_scenes><visual_scene id=\"s\"><node>"
+                     "<instance_node url=\"#n8\"/></node></visual_scene></library_visual_scenes>"
+                     "<scene><instance_visual_scene url=\"#s\"/></scene></COLLADA>");
+    EXPECT_EQ(
+        errorText([&] { importMesh(path); }),
+        path.string() + ": needs more memory than a file of its size is given");
+}
+#endif
+
 // Files that a mesh names must be in its folders, and a pipe must not wait for its writer.
 TEST(ImportAssimp, OpensFilesOfItsFoldersAlone) {
     const TemporaryFolder folder;

@@ -1,6 +1,8 @@
 // Tests the files of a real run.
 #include <set>
 
+#include <sys/stat.h>
+
 #include "benchmarks/report/schema_errors.h"
 #include "benchmarks/scene/json.h"
 #include "tests/run/tiny_sweep.h"
@@ -110,6 +112,17 @@ TEST_F(WrittenReport, KeepsItsJournalWhereNoLinkLeads) {
     EXPECT_EQ(outcome.status, 2);
     EXPECT_THAT(outcome.output, testing::HasSubstr("is a link"));
     EXPECT_EQ(textOf(mine), "");
+}
+
+TEST_F(WrittenReport, KeepsItsJournalInNoPipe) {
+    ASSERT_EQ(mkfifo((out_.string() + ".journal").c_str(), 0600), 0);
+    for (const char* option : {"", " --resume"}) {
+        const Outcome outcome = runInShell(
+            "'" HAIRBENCH_PROGRAM "' run '" + scene_.string() + "' -o '" + out_.string() + "'" +
+            option + " 2>&1");
+        EXPECT_EQ(outcome.status, 2);
+        EXPECT_THAT(outcome.output, testing::HasSubstr("is not a file"));
+    }
 }
 
 }  // namespace

@@ -9,6 +9,7 @@ can't be read ends the program with one line on stderr.
 """
 
 import argparse
+import collections
 import os
 import struct
 import sys
@@ -22,8 +23,19 @@ except ImportError as error:
     sys.exit(f"{error}: this Python lacks what requirements.txt names")
 
 
-MOST_PRIMS = 50_000  # of a stage, plus one for each 16 bytes of its files
-MOST_UNFOLDED = 32 << 20  # bytes of points, plus 16 times the size of its files
+# Of a stage, plus one for each 64 bytes of its files: 40,000 prims take 2 s, and one with points is
+# longer than 64 bytes.
+MOST_PRIMS = 20_000
+# What a prim inherits is looked for in all prims around it, and in all that each is composed of.
+MOST_NESTED = 128  # prims within each other
+MOST_COMPOSED = 256  # variants and prims that one prim refers to, and they in turn
+MOST_SUBLAYERS = 256  # of a layer and its sublayers together, each as often as it is named
+MOST_UNFOLDED = 32 << 20  # bytes of points and triangles, plus 16 times the size of its files
+
+OUT_OF_MEMORY = "needs more memory than a file of its size is given"
+
+# Of a spec: prims that it composes to, how deep they are nested, and what the prim is composed of.
+Weight = collections.namedtuple("Weight", "prims depth composed")
 
 
 class Layers:
@@ -33,7 +45,7 @@ class Layers:
     def __init__(self, path, below):
         self.below = [folder.rstrip("/") + "/" for folder in below]
         self.size = 0
-        self.counts = {}  # prims that a spec composes to, by layer and path
+        self.weights = {}  # of specs, by layer and path
         self.layers = {}
         waiting = [os.path.abspath(path)]
         while waiting:
@@ -45,11 +57,16 @@ class Layers:
             self.layers[name] = layer
             if not layer:
                 continue
-            assets = list(layer.GetCompositionAssetDependencies()) + self._clips(layer)
-            waiting += [Sdf.ComputeAssetPathRelativeToLayer(layer, asset) for asset in assets if asset]
+            for asset in list(layer.GetCompositionAssetDependencies()) + self._clips(layer):
+                # The variables of an expression are known only when USD opens the layer.
+                if Sdf.VariableExpression.IsExpression(asset):
+                    raise Refused(f"{asset}: names of layers by expressions are not read")
+                if asset:
+                    waiting.append(Sdf.ComputeAssetPathRelativeToLayer(layer, asset))
 
     def _check(self, name):
-        file = Ar.SplitPackageRelativePathOuter(name)[0]
+        # A name may end with arguments of its format, which are no part of the file's.
+        file = Ar.SplitPackageRelativePathOuter(Sdf.Layer.SplitIdentifier(name)[0])[0]
         real = os.path.realpath(file)
         if self.below and not any(real.startswith(folder) for folder in self.below):
             raise Refused(
@@ -68,56 +85,95 @@ class Layers:
         assets = []
 
         def visit(path):
-            prim = layer.GetPrimAtPath(path) if path.IsPrimPath() else None
+            is_prim = path.IsPrimPath() or path.IsPrimVariantSelectionPath()
+            prim = layer.GetPrimAtPath(path) if is_prim else None
             for clip in dict(prim.GetInfo("clips")).values() if prim and prim.HasInfo("clips") else ():
-                if "templateAssetPath" in clip:
-                    raise Refused(f"{path}: value clips by a template are not read")
-                assets.append(clip.get("manifestAssetPath", Sdf.AssetPath()).path)
-                assets.extend(asset.path for asset in clip.get("assetPaths", ()))
+                try:
+                    if "templateAssetPath" in clip:
+                        raise Refused(f"{path}: value clips by a template are not read")
+                    assets.append(clip.get("manifestAssetPath", Sdf.AssetPath()).path)
+                    assets.extend(asset.path for asset in clip.get("assetPaths", ()))
+                except (AttributeError, TypeError):
+                    raise Refused(f"{path}: its value clips are no assets") from None
 
         layer.Traverse(Sdf.Path.absoluteRootPath, visit)
         return assets
+
+    def check_sublayers(self):
+        """Refuses layers that are sublayers of each other in too many ways: USD follows each way."""
+        for name, layer in self.layers.items():
+            count = 0
+            waiting = [(layer, ())]
+            while waiting:
+                below, above = waiting.pop()
+                if not below or below in above:  # USD refuses a layer within itself
+                    continue
+                count += 1
+                if count > MOST_SUBLAYERS:
+                    raise Refused(
+                        f"{name}: more than {MOST_SUBLAYERS} sublayers, those of sublayers included"
+                    )
+                for path in below.subLayerPaths:
+                    below_name = Sdf.ComputeAssetPathRelativeToLayer(below, path) if path else ""
+                    waiting.append((self.layers.get(below_name), (*above, below)))
 
     def check_prims(self, path):
         """Refuses nested references that make too many prims for the size of the files."""
         root = self.layers[os.path.abspath(path)]
         try:
-            count = sum(self._count(root, prim.path) for prim in root.rootPrims) if root else 0
+            count = sum(self._weigh(root, prim.path).prims for prim in root.rootPrims) if root else 0
         except RecursionError:
             raise Refused("prims and references are nested too deep") from None
-        if count > MOST_PRIMS + self.size // 16:
+        if count > MOST_PRIMS + self.size // 64:
             raise Refused(
-                f"its references stand for {count:.3g} prims, more than {MOST_PRIMS} and one for "
-                "each 16 bytes"
+                f"with all that its references stand for, it has {count:.3g} prims, more than {MOST_PRIMS} "
+                "and one for each 64 bytes"
             )
 
-    def _count(self, layer, path):
+    def _weigh(self, layer, path):
         key = (layer.identifier, str(path))
-        if key in self.counts:
-            return self.counts[key]
-        self.counts[key] = 0  # USD refuses a spec that refers to itself
+        if key in self.weights:
+            return self.weights[key]
+        self.weights[key] = Weight(0, 0, 0)  # USD refuses a spec that refers to itself
         spec = layer.GetPrimAtPath(path)
         if not spec:
-            return 0
-        count = 1 + sum(self._count(layer, child.path) for child in spec.nameChildren)
-        for variants in spec.variantSets:
-            count += sum(
-                self._count(layer, variant.primSpec.path) for variant in variants.variants.values()
+            return self.weights[key]
+        children = [self._weigh(layer, child.path) for child in spec.nameChildren]
+        variants = [
+            [self._weigh(layer, variant.primSpec.path) for variant in variants.variants.values()]
+            for variants in spec.variantSets
+        ]
+        targets = [self._weigh(*arc) for arc in self._arcs(layer, spec)]
+        same = targets + [variant for each in variants for variant in each]  # at the same place
+        weight = Weight(
+            prims=1 + sum(each.prims for each in children + same),
+            depth=1 + max([each.depth for each in children] + [each.depth - 1 for each in same], default=0),
+            composed=1
+            + sum(each.composed for each in targets)
+            + sum(max((variant.composed for variant in each), default=0) for each in variants),
+        )
+        if weight.depth > MOST_NESTED:
+            raise Refused(f"{path}: more than {MOST_NESTED} prims within each other")
+        if weight.composed > MOST_COMPOSED:
+            raise Refused(
+                f"{path}: is composed of {weight.composed} prims and variants, more than {MOST_COMPOSED}"
             )
+        self.weights[key] = weight
+        return weight
+
+    def _arcs(self, layer, spec):
+        """Yields the layer and path of each prim that the spec refers to."""
         for arcs in (spec.referenceList, spec.payloadList):
             for arc in arcs.GetAddedOrExplicitItems():
                 target = layer
                 if arc.assetPath:
                     name = Sdf.ComputeAssetPathRelativeToLayer(layer, arc.assetPath)
                     target = self.layers.get(name)
-                if not target:
-                    continue
-                prim = arc.primPath or Sdf.Path.absoluteRootPath.AppendChild(target.defaultPrim or "_")
-                count += self._count(target, prim)
+                if target:
+                    yield target, arc.primPath or Sdf.Path.absoluteRootPath.AppendChild(target.defaultPrim or "_")
         for arcs in (spec.inheritPathList, spec.specializesList):
-            count += sum(self._count(layer, arc) for arc in arcs.GetAddedOrExplicitItems())
-        self.counts[key] = count
-        return count
+            for path in arcs.GetAddedOrExplicitItems():
+                yield layer, path
 
 
 class Unfolded:
@@ -127,8 +183,8 @@ class Unfolded:
         self.most = MOST_UNFOLDED + 16 * size
         self.bytes = 0
 
-    def add(self, array):
-        self.bytes += array.nbytes
+    def add(self, *arrays):
+        self.bytes += sum(array.nbytes for array in arrays)
         if self.bytes > self.most:
             raise Refused(
                 f"its instances unfold to more than {self.most >> 20} MiB, which is 16 times its "
@@ -137,8 +193,9 @@ class Unfolded:
 
 
 def open_stage(path, below):
-    """Returns the stage, and an Unfolded to count its points."""
+    """Returns the stage, and an Unfolded to count its points and triangles."""
     layers = Layers(path, below)
+    layers.check_sublayers()
     layers.check_prims(path)
     return Usd.Stage.Open(path), Unfolded(layers.size)
 
@@ -295,3 +352,5 @@ if __name__ == "__main__":
         main()
     except Refused as refused:
         sys.exit(str(refused))
+    except MemoryError:
+        sys.exit(OUT_OF_MEMORY)

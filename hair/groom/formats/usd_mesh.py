@@ -17,7 +17,8 @@ try:
     import numpy as np
     from pxr import Gf, Tf, Usd, UsdGeom, UsdShade, UsdSkel
 
-    from usd_curves import Xforms, joined, metres_per_unit_of, open_stage, open_stream, words_of
+    from usd_curves import OUT_OF_MEMORY, Xforms, joined, metres_per_unit_of, open_stage, open_stream
+    from usd_curves import words_of
     from usd_prim import Refused
 except ImportError as error:
     sys.exit(f"{error}: this Python lacks what requirements.txt names")
@@ -169,7 +170,7 @@ class Reader:
         for prim in Usd.PrimRange.Stage(self.stage, Usd.TraverseInstanceProxies()):
             if prim.IsA(UsdGeom.Mesh) and self._is_rendered(prim):
                 self.meshes.append(Mesh(prim, xforms))
-                unfolded.add(self.meshes[-1].positions)
+                unfolded.add(self.meshes[-1].positions, self.meshes[-1].triangles)
         if not sum(len(mesh.triangles) for mesh in self.meshes):
             raise Refused("the stage has no Mesh with faces")
         self.unit = metres_per_unit_of(self.stage)
@@ -283,3 +284,5 @@ if __name__ == "__main__":
         main()
     except Refused as refused:
         sys.exit(str(refused))
+    except MemoryError:
+        sys.exit(OUT_OF_MEMORY)

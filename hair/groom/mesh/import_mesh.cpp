@@ -40,11 +40,12 @@ Mesh importAssimp(
     }
     const std::string program = engine::helperProgram("hairbench_mesh_reader").string();
     // Limits for what a file of this size can need. Assimp's trees of text files are about 40 times
-    // as large as the files. A vertex takes 32 bytes here and at least one byte in any format.
+    // as large as the files, and a part with a material takes 35 kB, so that the smallest files may
+    // have 3,000 of them. A vertex takes 32 bytes here and at least one byte in any format.
     const std::uintmax_t size = std::filesystem::file_size(path);
     engine::ChildLimits limits{
         .seconds = static_cast<unsigned>(8 + size / 2'000'000),
-        .bytes = (std::size_t{512} << 20) + 64 * size,
+        .bytes = (std::size_t{160} << 20) + 64 * size,
         .output = (std::size_t{64} << 20) + 64 * size,
         .reads = readsOf(check)};
 #ifdef HAIRBENCH_SANITIZE  // sanitizers reserve terabytes of addresses

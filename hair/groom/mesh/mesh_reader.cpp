@@ -240,6 +240,13 @@ void checkSizes(const aiScene& scene, std::uintmax_t file_size) {
 
 // ---- The program --------------------------------------------------------------------------------
 
+// Assimp turns exceptions into their texts.
+[[noreturn]] void fail(const Assimp::Importer& importer) {
+    const std::string reason = importer.GetErrorString();
+    if (reason.find("bad_alloc") != std::string::npos) throw std::bad_alloc();
+    throw engine::Error(reason);
+}
+
 ReadMesh
 read(const std::filesystem::path& path, const std::vector<std::filesystem::path>& folders) {
     Assimp::Importer importer;
@@ -250,10 +257,10 @@ read(const std::filesystem::path& path, const std::vector<std::filesystem::path>
     importer.SetPropertyInteger(AI_CONFIG_PP_RVC_FLAGS, static_cast<int>(kIgnored));
     const aiScene* scene = importer.ReadFile(path.string(), 0);
     if (!door->refused().empty()) throw engine::Error(door->refused());
-    if (!scene) throw engine::Error(importer.GetErrorString());
+    if (!scene) fail(importer);
     checkSizes(*scene, std::filesystem::file_size(path));
     scene = importer.ApplyPostProcessing(kSteps);
-    if (!scene) throw engine::Error(importer.GetErrorString());
+    if (!scene) fail(importer);
     ReadMesh read;
     for (unsigned i = 0; i < scene->mNumMaterials; ++i) {
         const aiMaterial& material = *scene->mMaterials[i];

@@ -8,6 +8,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "hair/groom/mesh/import_mesh.h"
 #include "tests/error_text.h"
 #include "tests/groom/formats/usd_files.h"
 
@@ -187,6 +188,51 @@ TEST_F(UsdImportTest, OpensFilesOfItsFoldersAlone) {
         errorOf("(subLayers = [@../private.usda@])\n"),
         HasSubstr("lies outside of the scene's folder"));
     EXPECT_THAT(errorOf(reference("./pipe.usda")), HasSubstr("pipe.usda: not a file"));
+    // The arguments of a format are no part of the file's name.
+    EXPECT_EQ(errorOf(reference("./own.usda:SDF_FORMAT_ARGS:a=b")), "no error");
+    EXPECT_THAT(
+        errorOf(reference("./link.usda:SDF_FORMAT_ARGS:a=b")),
+        HasSubstr("lies outside of the scene's folder"));
+    EXPECT_THAT(
+        errorOf("(expressionVariables = { string A = \"li\" }\nsubLayers = "
+                "[@`\"./${A}nk.usda\"`@])\n"),
+        HasSubstr("names of layers by expressions are not read"));
+}
+
+// USD opens the layers of value clips when values are read.
+TEST_F(UsdImportTest, OpensClipsOfItsFoldersAlone) {
+    const TemporaryFolder files;
+    files.write("private.usda", "#usda 1.0\n" + basisCurves("c"));
+    const auto errorOf = [&](const std::string& clips) {
+        const std::string prim = " (clips = { dictionary default = {\n" + clips +
+                                 "\nstring primPath = \"/c\"\ndouble2[] active = [(0, 0)]\n} })";
+        std::string text;
+        for (const bool in_variant : {false, true}) {
+            const std::string name = in_variant ? "variant.usda" : "prim.usda";
+            const auto path = files.write(
+                "scene/" + name,
+                "#usda 1.0\n" + (in_variant ? "def \"a\" (prepend variantSets = \"v\") {\n"
+                                              "variantSet \"v\" = { \"x\"" +
+                                                  prim + " {} }\n}\n"
+                                            : "def \"a\"" + prim + " {}\n"));
+            const NamedFileCheck check(
+                [](const std::filesystem::path&) {},
+                {std::filesystem::canonical(files.file("scene"))});
+            text += errorText([&] { importStrands(path, 0, check); }) + '\n';
+        }
+        return text;
+    };
+    const auto twice = [](const std::string& words) {
+        return testing::ContainsRegex(words + "(.|\n)*" + words);
+    };
+    EXPECT_THAT(
+        errorOf("asset[] assetPaths = [@../private.usda@]"),
+        twice("lies outside of the scene's folder"));
+    EXPECT_THAT(
+        errorOf("asset manifestAssetPath = @../private.usda@"),
+        twice("lies outside of the scene's folder"));
+    EXPECT_THAT(errorOf("string templateAssetPath = \"p.#.usda\""), twice("by a template"));
+    EXPECT_THAT(errorOf("string[] assetPaths = [\"x\"]"), twice("its value clips are no assets"));
 }
 
 // 8^9 curves in about 3 kB, and 1,000 prims that share 100,000 points.
@@ -209,6 +255,57 @@ TEST_F(UsdImportTest, HoldsReferencesAgainstTheFile) {
     EXPECT_THAT(
         errorText([&] { importStrands(files.write("large.usda", large)); }),
         HasSubstr("its instances unfold to more than"));
+    // 1,000 prims that share a face of 3,000 corners, whose points are few.
+    std::string corners = "0";
+    for (int i = 1; i < 3000; ++i) corners += ", " + std::to_string(i % 3);
+    std::string faces = "#usda 1.0\ndef Mesh \"m\" {\nint[] faceVertexCounts = [3000]\n"
+                        "int[] faceVertexIndices = [" +
+                        corners + "]\npoint3f[] points = [(0, 0, 0), (0, 1, 0), (1, 0, 0)]\n}\n";
+    for (int i = 0; i < 1000; ++i)
+        faces += "def \"c" + std::to_string(i) + "\" (references = </m>) {}\n";
+    EXPECT_THAT(
+        errorText([&] { importMesh(files.write("faces.usda", faces)); }),
+        HasSubstr("its instances unfold to more than"));
+}
+
+// 20 pairs of layers, each of both of the next pair: 2^20 ways.
+TEST_F(UsdImportTest, RefusesSublayersInTooManyWays) {
+    const TemporaryFolder files;
+    for (int i = 0; i < 20; ++i) {
+        const std::string next = std::to_string(i + 1) + ".usda@";
+        const std::string text = "#usda 1.0\n(subLayers = [@l" + next + ", @m" + next + "])\n";
+        for (const char* name : {"l", "m"}) files.write(name + std::to_string(i) + ".usda", text);
+    }
+    const std::string curve = "#usda 1.0\n" + basisCurves("c");
+    for (const char* name : {"l20.usda", "m20.usda"}) files.write(name, curve);
+    EXPECT_EQ(errorText([&] { importStrands(files.file("l18.usda")); }), "no error");
+    EXPECT_THAT(
+        errorText([&] { importStrands(files.file("l0.usda")); }),
+        HasSubstr("more than 256 sublayers, those of sublayers included"));
+}
+
+// Each prim is asked for what prims around it and prims that it is composed of have.
+TEST_F(UsdImportTest, RefusesDeepNestsAndManyVariants) {
+    const TemporaryFolder files;
+    std::string deep = "#usda 1.0\n", names, sets;
+    for (int i = 0; i < 150; ++i) deep += "def \"d" + std::to_string(i) + "\" {\n";
+    deep += basisCurves("c");
+    for (int i = 0; i < 150; ++i) deep += "}\n";
+    EXPECT_THAT(
+        errorText([&] { importStrands(files.write("deep.usda", deep)); }),
+        HasSubstr("more than 128 prims within each other"));
+    for (int i = 0; i < 300; ++i) {
+        const std::string name = "\"s" + std::to_string(i) + "\"";
+        names += (i > 0 ? ", " : "") + name;
+        sets += "variantSet " + name + " = { \"x\" { } }\n";
+    }
+    EXPECT_THAT(
+        errorText([&] {
+            importStrands(files.write(
+                "sets.usda",
+                "#usda 1.0\ndef \"a\" (prepend variantSets = [" + names + "]) {\n" + sets + "}\n"));
+        }),
+        HasSubstr("/a: is composed of 301 prims and variants, more than 256"));
 }
 
 TEST(UsdImport, SaysWhatItNeeds) {
