@@ -211,7 +211,7 @@ std::vector<hair::groom::Mesh> loadFieldMeshes(
 
 std::unique_ptr<hair::groom::DeformingMesh> loadDeforming(
     const hair::Settings& settings, const std::optional<hair::groom::Mesh>& grown_on,
-    const std::filesystem::path& directory) {
+    const std::filesystem::path& directory, const Reach& reach) {
     const hair::AnimationSettings& animation = settings.simulation.animation;
     if (animation.clip.empty()) return nullptr;
     if (!grown_on)
@@ -219,7 +219,7 @@ std::unique_ptr<hair::groom::DeformingMesh> loadDeforming(
             "/simulation/animation/clip",
             "is set, but neither /groom/mesh nor /groom/grow names a mesh");
     const std::filesystem::path file = directory / meshFile(settings.groom);
-    hair::groom::MeshAnimation played(file, animation.clip);
+    hair::groom::MeshAnimation played(file, animation.clip, checkOf(reach, file));
     try {
         return std::make_unique<hair::groom::DeformingMesh>(
             *grown_on, std::move(played), animation);
@@ -257,13 +257,14 @@ namespace {
 
 // Returns a warning about animations of the mesh under the hair that are not played; empty if there
 // are none.
-std::string
-unplayedAnimations(const hair::Settings& settings, const std::filesystem::path& directory) {
+std::string unplayedAnimations(
+    const hair::Settings& settings, const std::filesystem::path& directory, const Reach& reach) {
     const std::string& file = meshFile(settings.groom);
     if (file.empty() || !settings.simulation.animation.clip.empty()) return {};
     std::string names;
     try {
-        for (const std::string& name : hair::groom::animationNames(directory / file))
+        for (const std::string& name :
+             hair::groom::animationNames(directory / file, checkOf(reach, directory / file)))
             names.append(names.empty() ? "'" : ", '").append(name + '\'');
     } catch (const engine::Error&) {
         return {};  // a file with only skins or animations, which is no fault here
@@ -303,8 +304,9 @@ std::vector<std::string> checkAssets(
     std::vector<std::string> warnings = checkFields(settings, mesh, scene, reach);
     checkMeshes(settings.render, scene);
     loadRenderAssets(settings, mesh ? &*mesh : nullptr, directory, reach);
-    loadDeforming(settings, mesh, directory);
-    if (const std::string warning = unplayedAnimations(settings, directory); !warning.empty())
+    loadDeforming(settings, mesh, directory, reach);
+    if (const std::string warning = unplayedAnimations(settings, directory, reach);
+        !warning.empty())
         warnings.push_back(scene.string() + ": " + warning);
     if (const std::string warning = stiffBodies(settings); !warning.empty())
         warnings.push_back(scene.string() + ": " + warning);

@@ -64,7 +64,7 @@ std::vector<hair::groom::Mesh> loadFieldMeshes(
 // Also throws engine::Error if there is no mesh.
 std::unique_ptr<hair::groom::DeformingMesh> loadDeforming(
     const hair::Settings& settings, const std::optional<hair::groom::Mesh>& grown_on,
-    const std::filesystem::path& directory);
+    const std::filesystem::path& directory, const Reach& reach = {});
 
 // Loads the strands of /strands/offsets; nothing if it is empty.
 std::optional<hair::groom::StrandSet> loadOffsets(

@@ -214,7 +214,7 @@ importStrands(const fs::path& path, std::uint32_t points_per_strand, const Named
             {.bytes = std::as_bytes(bytes),
              .path = path,
              .points_per_strand = points_per_strand,
-             .check = check});
+             .check = orOwnFolder(check, path)});
     } catch (const engine::Error& error) {
         throw engine::Error(path.string(), error.what());
     }

@@ -9,7 +9,8 @@
 namespace hair::groom {
 
 // Called for every file that another file names (buffers and pictures of a glTF file, textures of a
-// mesh) before it is opened. An exception of it ends the reading. Empty: all files are opened.
+// mesh) before it is opened. An exception of it ends the reading. Empty: as
+// ownFolderOnly() of the file.
 class NamedFileCheck {
 public:
     NamedFileCheck() = default;
@@ -27,6 +28,14 @@ private:
     std::function<void(const std::filesystem::path& file)> check_;
     std::vector<std::filesystem::path> folders_;
 };
+
+// Returns a check that refuses files outside of the folder of `file`, after links are followed.
+NamedFileCheck ownFolderOnly(const std::filesystem::path& file);
+
+// Returns the check, or ownFolderOnly() if it is empty.
+inline NamedFileCheck orOwnFolder(const NamedFileCheck& check, const std::filesystem::path& file) {
+    return check ? check : ownFolderOnly(file);
+}
 
 // Returns the folders that a program may read for a file with this check (engine::ChildLimits).
 inline std::vector<std::filesystem::path> readsOf(const NamedFileCheck& check) {

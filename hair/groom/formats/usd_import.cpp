@@ -268,7 +268,8 @@ Mesh importUsdMesh(const std::filesystem::path& path, Textures, const NamedFileC
 
 UsdSamples readUsdSamples(const std::filesystem::path& path, const NamedFileCheck& check) {
     return readStage(
-        "usd_mesh.py", Samples::all, path, check, [](std::span<const std::byte> bytes) {
+        "usd_mesh.py", Samples::all, path, orOwnFolder(check, path),
+        [](std::span<const std::byte> bytes) {
             UsdSamples samples;
             MeshParser parser(bytes);
             parser.array(samples.times);

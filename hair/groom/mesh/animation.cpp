@@ -25,11 +25,13 @@ namespace {
 // Greatest distance from 1, as of weights rounded one by one to 8 bits.
 constexpr double kWeightSum = 0.01;
 
-tinygltf::Model loadAnimated(const std::filesystem::path& path) {
+tinygltf::Model loadAnimated(const std::filesystem::path& path, const NamedFileCheck& check) {
     engine::OpenFile file(path);
     std::vector<char> bytes(file.size());
     file.read(bytes);
-    return loadGltf(std::as_bytes(std::span(bytes)), path, GltfImages::skipped, GltfMotion::read);
+    return loadGltf(
+        std::as_bytes(std::span(bytes)), path, GltfImages::skipped, GltfMotion::read,
+        orOwnFolder(check, path));
 }
 
 bool isGltf(const std::filesystem::path& path) {
@@ -354,28 +356,30 @@ private:
     std::vector<std::size_t> places_;  // [node of the file], index into nodes_
 };
 
-std::vector<std::string> animationNames(const std::filesystem::path& path) {
+std::vector<std::string>
+animationNames(const std::filesystem::path& path, const NamedFileCheck& check) {
     if (!isGltf(path) && !isUsd(path)) return {};
     try {
         if (isUsd(path)) {
             std::vector<std::string> names;
-            if (readUsdSamples(path).times.size() > 1) names.emplace_back(kUsdClip);
+            if (readUsdSamples(path, check).times.size() > 1) names.emplace_back(kUsdClip);
             return names;
         }
-        return namesOf(loadAnimated(path));
+        return namesOf(loadAnimated(path, check));
     } catch (const engine::Error& error) {
         throw engine::Error(path.string(), error.what());
     }
 }
 
-MeshAnimation::MeshAnimation(const std::filesystem::path& path, const std::string& clip) {
+MeshAnimation::MeshAnimation(
+    const std::filesystem::path& path, const std::string& clip, const NamedFileCheck& check) {
     try {
         if (isUsd(path)) {
             if (clip != kUsdClip)
                 throw engine::Error(
                     "has no animation '" + clip + "'; of USD all that moves is '" + kUsdClip +
                     '\'');
-            samples_ = readUsdSamples(path);
+            samples_ = readUsdSamples(path, check);
             if (samples_.times.empty()) throw engine::Error("nothing in it moves");
             vertex_count_ = samples_.positions.size() / samples_.times.size();
             duration_ = samples_.times.back();
@@ -386,7 +390,7 @@ MeshAnimation::MeshAnimation(const std::filesystem::path& path, const std::strin
                 "animations of '" + path.extension().string() +
                 "' files are not read, those of glTF and USD are: convert it, with its skin or "
                 "with its frames as morph targets");
-        const tinygltf::Model model = loadAnimated(path);
+        const tinygltf::Model model = loadAnimated(path, check);
         const tinygltf::Animation& animation = clipOf(model, clip);
         try {
             GltfAnimationReader(model, *this).read(animation);

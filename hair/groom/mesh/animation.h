@@ -14,12 +14,14 @@
 #include <glm/vec3.hpp>
 
 #include "hair/groom/formats/usd_import.h"
+#include "hair/groom/named_files.h"
 
 namespace hair::groom {
 
 // Returns the names of a mesh file's animations, numbers ("0", "1" ...) for those without. Empty
 // for formats with animations that are not read. Throws engine::Error "path: reason".
-std::vector<std::string> animationNames(const std::filesystem::path& path);
+std::vector<std::string>
+animationNames(const std::filesystem::path& path, const NamedFileCheck& check = {});
 
 // The positions of a file's vertices over time. glTF 2.0: sections 3.7.2.2 (morph targets), 3.7.3
 // (skins), 3.11 and appendix C (animations). USD: one clip, "points", with the samples of
@@ -53,7 +55,9 @@ public:
     // engine::Error "path: reason" for faults against glTF: joints that the skin lacks, weights of
     // joints with a sum other than 1, keyframes that don't ascend, numbers that are not finite.
     // Channels that name no node, or a property of another extension, are skipped.
-    MeshAnimation(const std::filesystem::path& path, const std::string& clip);
+    MeshAnimation(
+        const std::filesystem::path& path, const std::string& clip,
+        const NamedFileCheck& check = {});
 
     // The vertices of the meshes that importMesh() reads of the same file, in the same order.
     std::size_t vertexCount() const { return vertex_count_; }

@@ -176,7 +176,7 @@ Mesh importMesh(const std::filesystem::path& path, Textures textures, const Name
     const engine::Step step("reads " + path.filename().string());
     engine::OpenFile{path};  // gives the same error for all formats if it can't be opened
     try {
-        Mesh mesh = importer.import(path, textures, check);
+        Mesh mesh = importer.import(path, textures, orOwnFolder(check, path));
         checkMesh(mesh);
         completeNormals(mesh);
         return mesh;

@@ -251,6 +251,12 @@ TEST(ImportGltfStrands, OpensOtherFilesOnlyBesideItsOwn) {
     const std::string message = readError(importGltfStrands, json);
     std::filesystem::current_path(before);
     EXPECT_THAT(message, StartsWith("File not found : data.bin"));
+    // Without a check, the file's own folder is the limit.
+    const auto below = folder.write("below/lines.gltf", json);
+    std::filesystem::create_symlink("../data.bin", folder.file("below/data.bin"));
+    EXPECT_THAT(
+        errorText([&] { importStrands(below); }),
+        HasSubstr("the folder of the file that names it"));
 }
 
 void expectSame(const StrandSet& read, const StrandSet& strands) {

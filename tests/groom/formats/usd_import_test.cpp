@@ -188,6 +188,11 @@ TEST_F(UsdImportTest, OpensFilesOfItsFoldersAlone) {
         errorOf("(subLayers = [@../private.usda@])\n"),
         HasSubstr("lies outside of the scene's folder"));
     EXPECT_THAT(errorOf(reference("./pipe.usda")), HasSubstr("pipe.usda: not a file"));
+    // Without a check, the file's own folder is the limit.
+    errorOf(reference("../private.usda"));
+    EXPECT_THAT(
+        errorText([&] { importStrands(files.file("scene/a.usda")); }),
+        HasSubstr("lies outside of"));
     // The arguments of a format are no part of the file's name.
     EXPECT_EQ(errorOf(reference("./own.usda:SDF_FORMAT_ARGS:a=b")), "no error");
     EXPECT_THAT(
