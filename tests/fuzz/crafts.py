@@ -184,17 +184,20 @@ def scene(place, **members):
 
 def as_mesh(random, place, name):
     """Arguments that read the file as a mesh, in one of the places that name meshes."""
-    way = random.randrange(4)
+    way = random.randrange(5)
     if way == 0:
+        place.write("hair.hgl", HAIR)
+        return ["groom", "info", str(place.inside / "hair.hgl"), "--mesh", str(place.inside / name)]
+    if way == 4:
         return scene(place, groom={"file": "hair.hgl", "mesh": name}, render={"head": True})
     if way == 1:
         return scene(place, simulation={"distance_fields": [{"mesh": name}]})
     return scene(place, render={"head": False, "meshes": [{"file": name}]})
 
 
-def as_strands(random, place, name, only_scene=False):
-    """Arguments that read the file as strands; only a scene limits what a file may name."""
-    way = 3 if only_scene else random.randrange(4)
+def as_strands(random, place, name):
+    """Arguments that read the file as strands."""
+    way = random.randrange(4)
     if way == 0:
         return ["groom", "info", str(place.inside / name)]
     if way < 3:
@@ -241,7 +244,6 @@ def gltf(random, place):
     vertices = random.choice([3, 3, 300, 30_000])
     document, data = gltf_document(vertices, random.choice([1, 3]) if as_lines else 4)
     buffer = document["buffers"][0]
-    outside = False
     way = random.randrange(15)
     if way == 0:  # primitives of shared accessors, at many nodes
         product = random.choice([10, 1_000, 30_000])
@@ -268,7 +270,6 @@ def gltf(random, place):
                     "/dev/zero", "/dev/stdin", "/proc/self/mem", ".", "/dev/tty",
                 ]
             )  # fmt: skip
-        outside = True
     elif way in (5, 6):
         uri = place.outside(random, ".png")
         if random.random() < 0.3:
@@ -277,7 +278,6 @@ def gltf(random, place):
         document["textures"] = [{"source": 0}]
         document["materials"] = [{"pbrMetallicRoughness": {"baseColorTexture": {"index": 0}}}]
         document["meshes"][0]["primitives"][0]["material"] = 0
-        outside = True
     elif way == 7:
         accessor = random.choice(document["accessors"])
         accessor[random.choice(["count", "byteOffset", "bufferView", "componentType"])] = random.choice(WORDS)
@@ -331,7 +331,7 @@ def gltf(random, place):
         name, content = "a.glb", damaged(random, data)
     place.write(name, content)
     if as_lines:
-        return as_strands(random, place, name, outside)
+        return as_strands(random, place, name)
     if way in (10, 12):
         return scene(
             place,
@@ -348,19 +348,16 @@ def obj(random, place):
     rows = ["v %d %d %d" % (i % 7, i % 5, i % 3) for i in range(random.choice([4, 4, 1_000, 20_000]))]
     count = len(rows)
     faces = ["f 1 2 3"]
-    outside = False
     way = random.randrange(12)
     if way in (0, 1):
         rows.insert(0, "mtllib " + place.outside(random, ".mtl"))
         faces.insert(0, "usemtl planted")
-        outside = True
     elif way in (2, 3):
         option = random.choice(["", "-clamp on ", "-s 1 1 1 ", "-bm 1 "])
         key = random.choice(["map_Kd ", "map_Kd ", "map_Ks ", "bump ", "map_d "])
         place.write("a.mtl", "newmtl m\n" + key + option + place.outside(random, ".png") + "\n")
         rows = ["mtllib a.mtl", "vt 0 0", *rows]
         faces = ["usemtl m", "f 1/1 2/1 3/1"]
-        outside = True
     elif way == 4:  # faces with many corners
         corners = random.choice([5, 50, 1_000, 3_000, 9_000])
         face = "f " + " ".join(str(1 + i % count) for i in range(corners))
@@ -613,14 +610,12 @@ def usd_nested(random, arc):
 def usd(random, place):
     metadata = ""
     body = CURVE % "c"
-    outside = False
     is_mesh = False
     name = "a.usda"
     way = random.randrange(20)
     if way in (0, 1, 2, 3):
         metadata, arc = usd_arc(random, place)
         body += arc
-        outside = True
     elif way == 4:
         body = usd_nested(random, random.choice(
             ["references = <%s>", "payload = <%s>", "instanceable = true\n references = <%s>", "inherits = <%s>",
@@ -699,7 +694,7 @@ def usd(random, place):
             archive.writestr("b.usda", "#usda 1.0\n" + " " * random.choice([1, 2_000_000]))
         name = "a.usdz"
         place.write(name, stream.getvalue())
-        return as_strands(random, place, name, True)
+        return as_strands(random, place, name)
     elif way == 18:
         name = random.choice(["a.usdc", "a.usd", "a.usdz"])
         magic = random.choice([b"PXR-USDC\0\x08\0", b"PXR-USDC\0\xff\0", b"PK\x03\x04", b"#usda 1.0\n"])
@@ -713,7 +708,7 @@ def usd(random, place):
         if random.random() < 0.3:
             return scene(place, groom={"file": "hair.hgl", "mesh": name}, simulation={"animation": {"clip": "0"}})
         return as_mesh(random, place, name)
-    return as_strands(random, place, name, outside)
+    return as_strands(random, place, name)
 
 
 def damaged_usd(random):
@@ -737,7 +732,6 @@ def embree(random, place):
         '<Curves id="c" basis="linear" type="flat"><positions>0 0 0 1 0 1 0 1</positions>'
         "<indices>0</indices></Curves>"
     )
-    outside = False
     name = "a.xml"
     way = random.randrange(11)
     body = curve
@@ -760,7 +754,6 @@ def embree(random, place):
             "<positions>0 0 0 1 0 1 0 1</positions>",
             f'<positions ofs="0" size="{random.choice([2, 0, 1 << 30, 2**63, -1])}"/>',
         )
-        outside = True
     elif way in (5, 6):  # arrays that many curves share
         size = random.choice([100, 10_000, 100_000])
         place.write("a.bin", struct.pack("<4f", 0, 1, 0, 1) * size + struct.pack("<I", 0))
@@ -785,7 +778,7 @@ def embree(random, place):
     if way == 10:
         text = damaged(random, corpus(random, "tests/corpus/xml/*"))
     place.write(name, text)
-    return as_strands(random, place, name, outside)
+    return as_strands(random, place, name)
 
 
 # ---- NumPy ---------------------------------------------------------------------------------------
