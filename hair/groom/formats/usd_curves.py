@@ -23,10 +23,10 @@ except ImportError as error:
     sys.exit(f"{error}: this Python lacks what requirements.txt names")
 
 
-# Of a stage, plus one for each 64 bytes of its files: 40,000 prims take 2 s, and one with points is
-# longer than 64 bytes.
+# A stage may have as many prims, plus one for each 64 bytes of its files: 40,000 prims take 2 s, and
+# a prim with points is longer than 64 bytes.
 MOST_PRIMS = 20_000
-# What a prim inherits is looked for in all prims around it, and in all that each is composed of.
+# USD looks for inherited values in all prims around a prim, and in all that these are composed of.
 MOST_NESTED = 128  # prims within each other
 MOST_COMPOSED = 256  # variants and prims that one prim refers to, and they in turn
 MOST_SUBLAYERS = 256  # of a layer and its sublayers together, each as often as it is named
@@ -34,7 +34,7 @@ MOST_UNFOLDED = 32 << 20  # bytes of points and triangles, plus 16 times the siz
 
 OUT_OF_MEMORY = "needs more memory than a file of its size is given"
 
-# Of a spec: prims that it composes to, how deep they are nested, and what the prim is composed of.
+# The prims that a spec composes to, their nesting, and the number of parts of a prim.
 Weight = collections.namedtuple("Weight", "prims depth composed")
 
 
