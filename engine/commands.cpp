@@ -273,7 +273,8 @@ void Commands::touch(std::initializer_list<Use> uses) {
         else
             id = hazards_->bufferAt(use.address);
         if (!id) {
-            if (use.address != 0) hazards_->complain(pass_, "declares an address of no buffer");
+            if (use.address != 0)
+                hazards_->complain(pass_, "declares an address outside all buffers");
             continue;
         }
         const Scope touched = scopeOf(use);
@@ -302,12 +303,13 @@ void Commands::declareHanded(const std::vector<ResourceId>& handed, Access acces
 
 void Commands::checkDeclared() {
     if (!pass_.empty()) {
-        if (declared_.empty()) hazards_->complain(pass_, "a dispatch doesn't say what it touches");
+        if (declared_.empty())
+            hazards_->complain(pass_, "a dispatch declares no use of a resource");
         for (const ResourceId id : handed_)
             if (std::ranges::find(declared_, id) == declared_.end())
                 hazards_->complain(
-                    pass_, "a dispatch is handed '" + hazards_->name(id) +
-                               "' and doesn't say that it touches it");
+                    pass_,
+                    "a dispatch gets '" + hazards_->name(id) + "' but declares no use of it");
     }
     declared_.clear();
 }

@@ -125,9 +125,9 @@ std::optional<VkDeviceSize> fileMemoryLimit(const DeviceInfo& info) {
     constexpr rlim_t kLeast = 256 * 1024 * kKibibyte;
     if (limit.rlim_cur < kLeast)
         throw Error(
-            info.name, "this driver keeps its memory in a file, and files may have " +
+            info.name, "this driver keeps its memory in a file, but files may have at most " +
                            std::to_string(limit.rlim_cur / kKibibyte) +
-                           " KiB at most here: raise the limit to 256 MiB or more (ulimit -f " +
+                           " KiB here: raise the limit to 256 MiB or more (ulimit -f " +
                            std::to_string(kLeast / kKibibyte) + ")");
     return limit.rlim_cur / 2;
 }

@@ -27,7 +27,7 @@ namespace fs = std::filesystem;
 std::ifstream opened(const fs::path& path) {
     std::error_code error;
     if (!fs::exists(path, error)) throw Error(path.string(), "no such file");
-    if (fs::is_directory(path, error)) throw Error(path.string(), "not a file");
+    if (fs::is_directory(path, error)) throw Error(path.string(), "is not a file");
     std::ifstream file(path, std::ios::binary);
     if (!file) throw Error(path.string(), "can't be read");
     return file;
@@ -190,7 +190,7 @@ void makePlaceFor(const fs::path& path) {
 OpenFile::OpenFile(const fs::path& path) : name_(path.string()) {
     std::error_code error;
     // Opening a pipe would wait for a writer.
-    if (fs::is_other(path, error)) throw Error(name_, "not a file");
+    if (fs::is_other(path, error)) throw Error(name_, "is not a file");
     file_ = opened(path);
     size_ = fs::file_size(path, error);
     if (error) throw Error(name_, "can't be read");
@@ -214,7 +214,7 @@ std::string readFile(const fs::path& path, std::size_t largest) {
     std::error_code error;
     if (fs::exists(path, error) && !fs::is_regular_file(path, error) &&
         !fs::is_directory(path, error) && path != "/dev/stdin")
-        throw Error(path.string(), "not a file");
+        throw Error(path.string(), "is not a file");
     std::ifstream file = opened(path);
     if (fs::is_regular_file(path, error) && fs::file_size(path, error) > largest) too_large();
     std::string bytes;

@@ -159,7 +159,7 @@ private:
              {"v3i", 12}});
         const auto fixed = std::ranges::find(kFixed, type, &Fixed::type);
         if (fixed != kFixed.end() && fixed->size != value.size())
-            throw Error("its header has a " + std::string(type) + " of another size");
+            throw Error("its header has a " + std::string(type) + "  of the wrong size");
         ExrHeaders inside(value);
         if (type == "chlist") {
             constexpr std::size_t kChannel = 16;
@@ -280,11 +280,12 @@ public:
         for (int y = 0; y < height && has_runs; ++y) {
             const auto head = std::string_view(rest_).substr(0, 4);
             has_runs = head.size() == 4 && head[0] == 2 && head[1] == 2 && byteOf(head[2]) < 128;
-            if (!has_runs && y > 0) throw Error("a row does not begin as rows of runs do");
+            if (!has_runs && y > 0)
+                throw Error("a row does not begin with the mark of run lengths");
             if (!has_runs) break;
             take(4);
             if (byteOf(head[2]) * 256 + byteOf(head[3]) != width)
-                throw Error("a row has another width than the picture");
+                throw Error("a row does not have the picture's width");
             for (int channel = 0; channel < 4; ++channel) takeRuns(width);
         }
         if (!has_runs)
@@ -330,7 +331,7 @@ FloatPixels decodeHdr(std::string_view file) {
     int height = 0;
     int channels = 0;
     if (!stbi_info_from_memory(data, size, &width, &height, &channels))
-        throw Error("not a Radiance HDR picture");
+        throw Error("is not a Radiance HDR picture");
     checkPictureSize(width, height);
     RadiancePixels(file).check(width, height);
     const std::unique_ptr<float, void (*)(void*)> decoded(
@@ -371,7 +372,7 @@ void writeExr(
 FloatPixels decodeFloatImage(std::string_view file) {
     if (file.starts_with("\x76\x2f\x31\x01")) return decodeExr(file);
     if (file.starts_with("#?")) return decodeHdr(file);
-    throw Error("neither OpenEXR nor Radiance HDR");
+    throw Error("is neither OpenEXR nor Radiance HDR");
 }
 
 FloatPixels readFloatImage(const std::filesystem::path& path) {

@@ -396,7 +396,7 @@ void HazardLog::submit(Recording recording) {
 
 std::string HazardLog::name(ResourceId id) const {
     const auto found = resources_.find(id);
-    return found == resources_.end() ? "something that is gone" : found->second.name;
+    return found == resources_.end() ? "a resource that no longer exists" : found->second.name;
 }
 
 void HazardLog::finish(std::uint64_t submission) {
@@ -408,7 +408,7 @@ void HazardLog::hostWrites(ResourceId id) {
     if (resources_.at(id).last_submission > finished_)
         report(
             "write after read of '" + name(id) +
-            "': the host writes what a frame in flight may still read");
+            "': the host writes data that a frame in flight may still read");
 }
 
 void HazardLog::complain(const std::string& pass, const std::string& what) {

@@ -77,7 +77,7 @@ public:
             const bool needs_first = progressive ? first && !refines : true;
             const bool needs_others = progressive ? !first : true;
             if ((needs_first && !has_first) || (needs_others && !has_others))
-                throw Error("a scan names a Huffman table that is not there");
+                throw Error("a scan names a Huffman table that is not defined");
         }
     }
 
@@ -122,8 +122,8 @@ void checkPictureSize(std::int64_t width, std::int64_t height) {
     constexpr std::int64_t kMostPixels = std::int64_t{1} << 26;
     if (width > 0 && height > 0 && width <= kMostPixels / height) return;
     throw Error(
-        std::to_string(width) + " by " + std::to_string(height) +
-        " pixels are outside [1, 2^26] in all");
+        "has " + std::to_string(width) + " by " + std::to_string(height) +
+        " pixels; expected 1 to 2^26 in all");
 }
 
 std::string
@@ -152,7 +152,7 @@ Pixels decodeImage(std::string_view file) {
     int channels = 0;
     if (isJpeg(file)) checkJpegTables(file);
     if (!stbi_info_from_memory(data, size, &width, &height, &channels))
-        throw Error("not a PNG, JPEG, TGA or BMP");
+        throw Error("is not a PNG, JPEG, TGA or BMP");
     checkPictureSize(width, height);
     const std::int64_t most_per_byte = isPng(file) ? kMostPixelsPerByteOfPng : kMostPixelsPerByte;
     if (std::int64_t{width} * height / most_per_byte > static_cast<std::int64_t>(file.size()))

@@ -29,7 +29,7 @@ constexpr unsigned kSeconds = 30;  // of CPU time
 const ChildLimits kLimits{.seconds = kSeconds, .bytes = std::size_t{2} << 30};
 
 [[noreturn]] void sayOutOfTime(int) {
-    constexpr std::string_view kText = "not done after 30 s of the processor\n";
+    constexpr std::string_view kText = "needed more than 30 s of CPU time\n";
     static_assert(kSeconds == 30);
     const auto written = write(STDERR_FILENO, kText.data(), kText.size());
     _exit(written > 0 ? 1 : 2);
@@ -77,11 +77,11 @@ void run(const std::string& name, const std::string& file) {
 // Arguments: the device's name, and a file with the description of the pipeline.
 int main(int argc, char** argv) {
     try {
-        if (argc != 3) throw engine::Error("two arguments: a device and a file");
+        if (argc != 3) throw engine::Error("expected two arguments: a device and a file");
         engine::run(argv[1], argv[2]);
         return 0;
     } catch (const std::bad_alloc&) {
-        std::cerr << "not done with 2048 MiB of memory\n";
+        std::cerr << "needed more than 2048 MiB of memory\n";
     } catch (const std::exception& error) {
         std::cerr << error.what() << '\n';
     }

@@ -115,7 +115,7 @@ std::string textOf(std::string_view type, std::string_view data, std::size_t at)
         takeUpToZero(data, at);  // the translated keyword
     }
     if (!compressed) return std::string(data);
-    if (method != 0) fail(at, "the text is compressed in an unknown way");
+    if (method != 0) fail(at, "the text is compressed by an unknown method");
     return inflated(data, at);
 }
 
@@ -136,7 +136,7 @@ std::string withPngText(std::string_view file, std::string_view keyword, std::st
 }
 
 std::optional<std::string> pngText(std::string_view file, std::string_view keyword) {
-    if (!isPng(file)) fail(0, "is no PNG");
+    if (!isPng(file)) fail(0, "is not a PNG");
     std::optional<std::string> found;
     std::size_t at = kSignature.size();
     for (std::string_view type; type != "IEND";) {
@@ -165,7 +165,7 @@ std::uint64_t rowBytes(std::string_view header, std::size_t at) {
 }  // namespace
 
 void checkPngData(std::string_view file) {
-    if (!isPng(file)) fail(0, "is no PNG");
+    if (!isPng(file)) fail(0, "is not a PNG");
     Inflation inflation;
     z_stream& stream = inflation.stream;
     start(stream);
@@ -178,7 +178,7 @@ void checkPngData(std::string_view file) {
         const Chunk chunk = readChunk(file, at);
         type = chunk.type;
         if (begin == kSignature.size()) {
-            if (type != "IHDR") fail(begin, "the first chunk is no header");
+            if (type != "IHDR") fail(begin, "the first chunk is not a header");
             most = 2 * rowBytes(chunk.data, begin);
         }
         if (type != "IDAT") continue;
@@ -189,8 +189,7 @@ void checkPngData(std::string_view file) {
             stream.avail_out = static_cast<uInt>(piece.size());
             state = inflate(&stream, Z_NO_FLUSH);
             if (state != Z_OK && state != Z_STREAM_END) fail(begin, "the data are damaged");
-            if (stream.total_out > most)
-                fail(begin, "the data are more than a picture of this size has");
+            if (stream.total_out > most) fail(begin, "the data exceed a picture of this size");
         }
     }
 }

@@ -47,7 +47,7 @@ VkSurfaceFormatKHR chooseFormat(VkPhysicalDevice device, VkSurfaceKHR surface) {
         const auto found = std::ranges::find(formats, wanted, &VkSurfaceFormatKHR::format);
         if (found != formats.end()) return *found;
     }
-    throw Error("the window takes no pictures of eight bits a channel");
+    throw Error("the window supports no format of 8 bits per channel");
 }
 
 VkExtent2D chooseExtent(const VkSurfaceCapabilitiesKHR& capabilities, VkExtent2D wanted) {

@@ -159,7 +159,7 @@ void checkInterrupted() {
 TimeLimit::TimeLimit(double seconds, const std::string& name) {
     if (seconds <= 0.0) return;
     std::ostringstream reason;
-    reason << "not done after " << seconds << " s (" << name << ')';
+    reason << "not finished after " << seconds << " s (" << name << ')';
     const auto time =
         std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(seconds));
     const std::lock_guard lock(ending().mutex);

@@ -37,7 +37,7 @@ void checkInterrupted();
 
 // Thrown to end work that exceeded its time limit.
 struct TimedOut {
-    std::string reason;  // "not done after 60 s (/run/case_timeout)"
+    std::string reason;  // "not finished after 60 s (/run/case_timeout)"
 };
 
 // Limits the time of work begun during this object's lifetime. Only one exists at a time. Work that

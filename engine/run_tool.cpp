@@ -383,7 +383,7 @@ std::string describe(int status) {
 std::string describe(int status, const ChildLimits& limits) {
     const bool by_signal = WIFSIGNALED(status);
     if (by_signal && WTERMSIG(status) == SIGXCPU && limits.seconds > 0)
-        return "not done after " + std::to_string(limits.seconds) + " s of the processor";
+        return "needed more than " + std::to_string(limits.seconds) + " s of CPU time";
     return describe(status);
 }
 
@@ -395,7 +395,7 @@ Poll timed(const ChildLimits& limits, const std::string& prefix, const Poll& pol
     return [=] {
         if (poll) poll();
         if (std::chrono::steady_clock::now() > end)
-            throw Error(prefix + "not done after " + std::to_string(most.count()) + " s");
+            throw Error(prefix + "not finished after " + std::to_string(most.count()) + " s");
     };
 }
 
@@ -416,8 +416,7 @@ void run(
     if (WIFEXITED(status) && WEXITSTATUS(status) == 0) return;
     const std::string line = WIFEXITED(status) ? lastLine(text) : "";
     const std::string ended = describe(status, limits);
-    throw Error(
-        !line.empty() ? line : program + (ended.starts_with("not done") ? " was " : " ") + ended);
+    throw Error(!line.empty() ? line : program + " " + ended);
 }
 
 // ---- A fork of this process ---------------------------------------------------------------------
@@ -458,7 +457,7 @@ constexpr int kOutOfMemory = 12;  // exit status of the fork: ENOMEM
 
 std::string describeCopy(int status, const ChildLimits& limits) {
     if (WIFEXITED(status) && WEXITSTATUS(status) == kOutOfMemory)
-        return "not done with " + std::to_string(limits.bytes >> 20) + " MiB of memory";
+        return "needed more than " + std::to_string(limits.bytes >> 20) + " MiB of memory";
     return describe(status, limits);
 }
 
@@ -484,7 +483,7 @@ std::string runApart(const std::function<std::string()>& work, const ChildLimits
     const Poll idle = timed(limits, "", checkInterrupted);
     const Take take = [&](std::span<const char> part) {
         if (part.size() > limits.output - bytes.size())
-            throw Error("more than " + std::to_string(limits.output) + " bytes came of it");
+            throw Error("wrote more than " + std::to_string(limits.output) + " bytes");
         bytes.append(part.data(), part.size());
     };
     drain(output.read, take, no_errors, none, idle);

@@ -191,13 +191,14 @@ ShaderError linkError(const std::string& log, const ShaderExtension& extension) 
         return {extension.name, 0, firstError(log, extension.name).text};
     const std::string function = match[1];
     if (log.find("Recursion detected") != std::string::npos)
-        return {extension.name, 0, "'" + function + "' calls itself, which no function may"};
+        return {extension.name, 0, "'" + function + "' calls itself: recursion is not permitted"};
     if (log.find("Multiple function bodies") != std::string::npos)
         return {
-            extension.name, 0, "'" + function + "' is a function of the program's own: rename it"};
+            extension.name, 0,
+            "'" + function + "' has the name of one of the program's own functions: rename it"};
     if (function == nameOfFunction(extension.function))
         return {extension.name, 0, "has no function " + extension.function};
-    return {extension.name, 0, "'" + function + "' is declared and not defined"};
+    return {extension.name, 0, "'" + function + "' is declared but not defined"};
 }
 
 // Judges an extension linked with its stand-in instead of the program's shaders. So the code that
@@ -208,7 +209,7 @@ judge(const ShaderExtension& extension, const ReadShader& read, const Stage& sta
     if (unit.error) {
         if (unit.error->text.find('\'' + nameOfFunction(extension.function) + '\'') !=
             std::string::npos)
-            unit.error->text = withoutEnd(unit.error->text) + "; wanted is " + extension.function;
+            unit.error->text = withoutEnd(unit.error->text) + "; expected " + extension.function;
         return unit.error;
     }
     const ShaderExtension stand_in{
@@ -325,7 +326,7 @@ ShaderLibrary::extended(std::string_view path, const ShaderExtensions& extension
     const std::set<ShaderBinding> had = shaderBindings(own);
     for (const ShaderBinding& binding : shaderBindings(*code))
         if (!had.contains(binding))
-            throw Error(called.front()->name, "asks for a buffer or an image, which it can't have");
+            throw Error(called.front()->name, "uses a buffer or an image, which is not permitted");
     if (extended_.size() >= kMostExtended) extended_.clear();
     extended_.emplace(std::move(key), code);
     return code;

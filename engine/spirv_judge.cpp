@@ -127,7 +127,7 @@ constexpr std::array kInstructionNames{
 constexpr std::array kClassNames{
     Named{{1, 1}, "a stage's own input such as gl_FragCoord"},
     Named{{3, 3}, "a stage's own output such as gl_Position"},
-    Named{{6, 6}, "a variable outside of functions"},
+    Named{{6, 6}, "a variable outside functions"},
 };
 
 std::string nameIn(std::span<const Named> names, std::uint32_t number, const char* otherwise) {
@@ -193,14 +193,14 @@ public:
     explicit Judge(Words code) : code_(code) {}
 
     std::optional<SpirvFault> judge() {
-        if (code_.size() < kHeader) return fault("is no SPIR-V");
+        if (code_.size() < kHeader) return fault("is not valid SPIR-V");
         if (code_.size() > kMostCode)
             return fault(
-                "is too large: " + std::to_string(code_.size()) + " words of SPIR-V, at most " +
-                std::to_string(kMostCode) + " may be");
+                "is too large: " + std::to_string(code_.size()) + " words of SPIR-V; at most " +
+                std::to_string(kMostCode) + " are permitted");
         for (std::size_t at = kHeader; at < code_.size();) {
             const std::size_t count = code_[at] >> 16;
-            if (count == 0 || count > code_.size() - at) return fault("is no SPIR-V");
+            if (count == 0 || count > code_.size() - at) return fault("is not valid SPIR-V");
             if (auto found = instruction(code_[at] & 0xffff, code_.subspan(at + 1, count - 1)))
                 return found;
             at += count;
@@ -215,7 +215,7 @@ private:
         return SpirvFault{.file = file_, .line = line_, .text = std::move(text)};
     }
     std::optional<SpirvFault> noPlace(const std::string& what) const {
-        return fault(what + " has no place in a file that a scene names");
+        return fault(what + " is not permitted in a file that a scene names");
     }
 
     // Keeps a fault outside of functions until an instruction uses it, for the line of that
@@ -232,7 +232,7 @@ private:
         const bool is_name = isIn(kNames, operation);
         if (!is_value && !is_name && !isIn(kPlain, operation))
             return noPlace(nameIn(kInstructionNames, operation, "SPIR-V's instruction "));
-        if (words.size() < (is_value ? 2u : is_name ? 1u : 0u)) return fault("is no SPIR-V");
+        if (words.size() < (is_value ? 2u : is_name ? 1u : 0u)) return fault("is not valid SPIR-V");
         if (const auto found = usesRefused(operation, words)) return found;
         if (is_name) return declaration(operation, words);
         if (is_value) return value(operation, words);
@@ -257,7 +257,7 @@ private:
         constexpr std::uint32_t kSpecId = 1;
         switch (operation) {
         case op::kLine:
-            if (words.size() < 2) return fault("is no SPIR-V");
+            if (words.size() < 2) return fault("is not valid SPIR-V");
             file_ = strings_[words[0]];
             line_ = static_cast<int>(std::min(words[1], 1u << 30));
             return std::nullopt;
@@ -283,18 +283,18 @@ private:
         case spirv::kDecorate:
         case op::kMemberDecorate: {
             const std::size_t at = operation == spirv::kDecorate ? 1 : 2;
-            if (words.size() <= at) return fault("is no SPIR-V");
+            if (words.size() <= at) return fault("is not valid SPIR-V");
             // For a variable's location or built-in, the fault of the variable itself says more.
             if (!isIn(kDecorations, words[at]) || (words[at] == kSpecId && words.size() != at + 2))
                 return declared(noPlace("SPIR-V's decoration " + std::to_string(words[at])));
             return std::nullopt;
         }
         case op::kStore:
-            if (words.size() < 2) return fault("is no SPIR-V");
+            if (words.size() < 2) return fault("is not valid SPIR-V");
             return work(sizeOf(words[1]));
         case op::kLoopMerge:
         case op::kSelectionMerge:
-            if (words.empty()) return fault("is no SPIR-V");
+            if (words.empty()) return fault("is not valid SPIR-V");
             open_.push_back(words[0]);
             function_.own.blocks =
                 std::max(function_.own.blocks, static_cast<std::uint32_t>(open_.size()));
@@ -338,14 +338,14 @@ private:
             break;
         case op::kTypeVector:
         case op::kTypeMatrix:
-            if (!has(2)) return fault("is no SPIR-V");
+            if (!has(2)) return fault("is not valid SPIR-V");
             type = {.size = product(types_[words[1]].size, words[2])};
             break;
         case op::kTypeArray: {
-            if (!has(2)) return fault("is no SPIR-V");
+            if (!has(2)) return fault("is not valid SPIR-V");
             const auto length = constants_.find(words[2]);
             if (length == constants_.end())
-                return declared(noPlace("an array whose size is no number"), id);
+                return declared(noPlace("an array whose size is not a number"), id);
             const Type& of = types_[words[1]];
             if (of.is_pointer) return noPlace("a pointer in memory");
             type = {.size = product(of.size, length->second), .depth = of.depth + 1};
@@ -361,7 +361,7 @@ private:
             }
             break;
         case op::kTypePointer:
-            if (!has(2)) return fault("is no SPIR-V");
+            if (!has(2)) return fault("is not valid SPIR-V");
             if (words[1] != kFunctionClass)
                 return declared(
                     noPlace(nameIn(kClassNames, words[1], "SPIR-V's storage class ")), id);
@@ -375,14 +375,12 @@ private:
         if (type.size > kMostOfType)
             return declared(
                 fault(
-                    "a type of " + std::to_string(type.size) + " numbers is too large: at most " +
-                    std::to_string(kMostOfType) + " may be"),
+                    "a type has " + std::to_string(type.size) + " numbers; at most " +
+                    std::to_string(kMostOfType) + " are permitted"),
                 id);
         if (type.depth > kMostTypeDepth)
             return declared(
-                fault(
-                    "types are within each other more than " + std::to_string(kMostTypeDepth) +
-                    " deep"),
+                fault("types are nested more than " + std::to_string(kMostTypeDepth) + " deep"),
                 id);
         types_[id] = type;
         return std::nullopt;
@@ -402,7 +400,7 @@ private:
             return std::nullopt;
         case op::kSpecConstantOp:
             if (words.size() < 3 || !isIn(kValues, words[2]))
-                return noPlace("such an operation on parameters");
+                return noPlace("this operation on parameters");
             return std::nullopt;
         case op::kExtInst:
             if (words.size() < 4 || !isIn(kMathematics, words[3]))
@@ -416,16 +414,16 @@ private:
             function_ = {};
             return std::nullopt;
         case op::kFunctionCall:
-            if (words.size() < 3) return fault("is no SPIR-V");
+            if (words.size() < 3) return fault("is not valid SPIR-V");
             function_.calls.push_back({words[2], static_cast<std::uint32_t>(open_.size())});
             return work(sizes_[id]);
         case op::kVariable:
-            if (words.size() < 3) return fault("is no SPIR-V");
+            if (words.size() < 3) return fault("is not valid SPIR-V");
             if (current_ == 0 || !is_pointer || words[2] != kFunctionClass)
                 return declared(
                     noPlace(
                         words[2] == kFunctionClass
-                            ? "a variable outside of functions"
+                            ? "a variable outside functions"
                             : nameIn(kClassNames, words[2], "SPIR-V's storage class ")),
                     id);
             function_.own.variables = sum(function_.own.variables, pointed_[type]);
@@ -467,20 +465,18 @@ private:
         const std::optional<Size> size = sizeOfCalls(entry_point_, 0);
         if (!size)
             return fault(
-                "calls functions within each other more than " + std::to_string(kMostCalls) +
-                " deep");
+                "nests calls of functions more than " + std::to_string(kMostCalls) + " deep");
         const auto tooMany = [&](const char* what, std::uint64_t count, std::uint64_t most) {
             return fault(
                 std::string("is too large: ") + what + ' ' + std::to_string(count) +
-                ", with the body of each function where it is called; at most " +
-                std::to_string(most) + " may be");
+                ", counting the body of each function at each call; at most " +
+                std::to_string(most) + " are permitted");
         };
         if (size->variables > kMostVariables)
             return tooMany("numbers in its variables:", size->variables, kMostVariables);
         if (size->work > kMostWork)
-            return tooMany("numbers that it works out:", size->work, kMostWork);
-        if (size->blocks > kMostBlocks)
-            return tooMany("blocks within each other:", size->blocks, kMostBlocks);
+            return tooMany("numbers that it computes:", size->work, kMostWork);
+        if (size->blocks > kMostBlocks) return tooMany("nested blocks:", size->blocks, kMostBlocks);
         return std::nullopt;
     }
 

@@ -46,7 +46,7 @@ TargetDescription checked(const Device& device, const TargetDescription& descrip
         std::max(description.width, description.height) * description.ssaa;
     if (largest > limit) {
         throw Unsupported(
-            "an image side of " + std::to_string(largest) + " px is over the device's " +
+            "an image side of " + std::to_string(largest) + " px exceeds the device's limit of " +
             std::to_string(limit));
     }
     return description;

@@ -99,8 +99,8 @@ ImageDescription describe(
     const std::uint32_t most = device.info().limits.maxImageDimension2D;
     if (std::max(largest.width, largest.height) > most) {
         throw Unsupported(
-            name, std::to_string(largest.width) + " by " + std::to_string(largest.height) +
-                      " pixels; the device has " + std::to_string(most) + " a side");
+            name, "has " + std::to_string(largest.width) + " by " + std::to_string(largest.height) +
+                      " pixels; the device supports at most " + std::to_string(most) + " per side");
     }
     return {
         .format = format,

@@ -76,14 +76,14 @@ void checkLines(const std::string& name, const std::string& text) {
         }
         if (++length > kLongestLine)
             throw errorAt(
-                name, number, "is longer than " + std::to_string(kLongestLine) + " letters");
+                name, number, "is longer than " + std::to_string(kLongestLine) + " characters");
         const bool ends = text[i] == '\r' && i + 1 < text.size() && text[i + 1] == '\n';
         const bool control = static_cast<unsigned char>(text[i]) < ' ' || text[i] == '\x7f';
         if (control && text[i] != '\t' && !ends)
             throw errorAt(name, number, "has a control character");
         // A backslash at the end of a line continues the line, or a comment, on the next one.
         if (text[i] == '\\')
-            throw errorAt(name, number, "'\\' has no place in a file that a scene names");
+            throw errorAt(name, number, "'\\' is not permitted in a file that a scene names");
     }
 }
 
@@ -97,14 +97,15 @@ void checkWords(const std::string& name, const std::string& text) {
         ++number;
         if (std::regex_match(line, match, directive))
             throw errorAt(
-                name, number, '#' + match[1].str() + " has no place in a file that a scene names");
+                name, number,
+                '#' + match[1].str() + " is not permitted in a file that a scene names");
         for (std::sregex_iterator each(line.begin(), line.end(), word), end; each != end; ++each)
             if (isOneOf(each->str(), kRefused))
                 throw errorAt(
                     name, number,
                     '\'' + each->str() +
-                        "' has no place in a file that a scene names: it reads "
-                        "its parameters and what its functions are given");
+                        "' is not permitted in a file that a scene names: it reads only its "
+                        "parameters and its functions' arguments");
     }
 }
 
@@ -180,8 +181,8 @@ void checkFunctions(const std::string& name, const std::string& text) {
             if (start < i && tokens[start].text != "const" && !is_struct)
                 throw errorAt(
                     name, tokens[start].line,
-                    "what is declared outside of functions has to be const, or would be the "
-                    "program's own of that name");
+                    "a declaration outside functions must be const, because it would otherwise be "
+                    "the program's own of that name");
             start = i + 1;
         }
         if (tokens[i].text != "(" || i == 0 || !tokens[i - 1].isWord() ||
@@ -192,8 +193,8 @@ void checkFunctions(const std::string& name, const std::string& text) {
             throw errorAt(
                 name, tokens[i - 1].line,
                 '\'' + tokens[i - 1].text +
-                    "' is declared and not defined, which has no place in "
-                    "a file that a scene names");
+                    "' is declared but not defined, which is not permitted in a file that a scene "
+                    "names");
     }
 }
 
@@ -238,8 +239,7 @@ std::string withBoundLoops(const std::string& name, const std::string& text) {
 
 // ---- Declarations of parameters -----------------------------------------------------------------
 
-constexpr const char* kForm =
-    "a parameter is declared so: // @parameter NAME DEFAULT [LEAST, MOST] UNIT: meaning";
+constexpr const char* kForm = "expected // @parameter NAME DEFAULT [LEAST, MOST] UNIT: meaning";
 
 std::optional<double> numberIn(const std::string& text) {
     std::istringstream stream(text);
@@ -273,12 +273,15 @@ parameterIn(const std::string& name, std::size_t line, const std::string& declar
     if (!std::regex_match(declaration, parts, form)) throw errorAt(name, line, kForm);
     const std::optional<double> minimum = numberIn(parts[3]), maximum = numberIn(parts[4]);
     if (!minimum || !maximum || *minimum >= *maximum)
-        throw errorAt(name, line, "[" + parts[3].str() + "," + parts[4].str() + "] is no range");
+        throw errorAt(
+            name, line,
+            "[" + parts[3].str() + "," + parts[4].str() +
+                "] is not a range: expected two numbers, the first below the second");
     if (std::max(-*minimum, *maximum) > double{std::numeric_limits<float>::max()})
         throw errorAt(
             name, line,
             "[" + parts[3].str() + "," + parts[4].str() +
-                "] goes beyond numbers of 32 bits, which end at 3.4e38");
+                "] exceeds the range of 32-bit numbers, which ends at 3.4e38");
     ExtensionParameter parameter{
         .name = parts[1],
         .minimum = *minimum,
@@ -390,7 +393,8 @@ Extension parseExtension(ExtensionKind kind, const std::string& name, const std:
         if (extension.parameters.size() == kMostExtensionParameters)
             throw errorAt(
                 name, number,
-                "more than " + std::to_string(kMostExtensionParameters) + " parameters");
+                "the file declares more than " + std::to_string(kMostExtensionParameters) +
+                    " parameters");
         declarations += declarationOf(parameter, constantOf(kind, extension.parameters.size()));
         extension.parameters.push_back(std::move(parameter));
     }

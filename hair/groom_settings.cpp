@@ -38,8 +38,8 @@ const Table& tableOf(const VellusSettings*) {
     static const Table table = tableWith<S>(
         {number(
              "share", &S::share, 0, 10, "1",
-             "vellus hairs, as a part of /groom/grow/strands; they follow the head alone and are "
-             "drawn where /strands/source is groom; 0: none"),
+             "vellus hairs, as a fraction of /groom/grow/strands; they only follow the head, and "
+             "are drawn if /strands/source is groom; 0: none"),
          number(
              "length", &S::length, 0.001, 0.1, "m",
              "greatest length at the edge of the scalp; twice that a band further in"),
@@ -60,8 +60,8 @@ const Table& tableOf(const GrowSettings*) {
              "of the mesh; \"*\": everywhere"),
          fileName(
              "mask", &S::mask,
-             "picture over the mesh's texture coordinates: how likely a root is, black never; "
-             "empty: everywhere alike"),
+             "picture over the mesh's texture coordinates: relative density of roots, none where "
+             "it is black; empty: the same everywhere"),
          choice(
              "placement", &S::placement,
              {{RootPlacement::poisson_disc, "poisson_disc"}, {RootPlacement::random, "random"}},
@@ -69,8 +69,8 @@ const Table& tableOf(const GrowSettings*) {
              "area"),
          number(
              "strands", &S::strands, 0, 1000000, "count",
-             "strands to grow and style, of which /groom/guides become guides, as of a file's; "
-             "/strands/source: groom draws them all; 0: guides alone are grown"),
+             "strands to grow and style; /groom/guides of them become guides, as with a file; "
+             "/strands/source groom draws all of them; 0: only guides are grown"),
          number("vertices", &S::vertices, 2, 256, "count", "vertices per guide, root included"),
          number("length", &S::length, 0.001, 2, "m", "length of a guide"),
          fileName(
@@ -99,9 +99,9 @@ const Table& tableOf(const BraidSettings*) {
     static const Table table = tableWith<S>(
         {number(
              "pitch", &S::pitch, 0, 1, "m",
-             "length of braid after which each of its three parts is where it was; 0: no braid"),
-         number("tie", &S::tie, -100, 100, "m", "where all strands are gathered"),
-         number("direction", &S::direction, -1, 1, "1", "where the braid goes from there"),
+             "length of braid over which its three parts return to their places; 0: no braid"),
+         number("tie", &S::tie, -100, 100, "m", "point where all strands are gathered"),
+         number("direction", &S::direction, -1, 1, "1", "direction of the braid from the tie"),
          number("width", &S::width, 0.001, 1, "m", "width of the braid at the tie"),
          number(
              "length", &S::length, 0, 10, "m",
@@ -122,8 +122,8 @@ const Table& tableOf(const ClumpSettings*) {
              "spacing", &S::spacing, 0.0001, 10, "m", "distance between the roots of two clumps"),
          number(
              "levels", &S::levels, 1, 6, "count",
-             "clumps within clumps: each level's are half as far apart as those of the one before, "
-             "and are drawn together first"),
+             "levels of clumps within clumps: the clumps of each level are half as far apart as "
+             "those of the level before, and are drawn together first"),
          number(
              "start", &S::start, 0, 1, "1", "fraction of the length up to which nothing moves")});
     return table;
@@ -140,11 +140,11 @@ const Table& tableOf(const WaveSettings*) {
              "random phase of a strand, up to this part of a wave"),
          number(
              "spacing", &S::spacing, 0, 10, "m",
-             "strands have the phase of the nearest root of some that are so far apart; 0: each "
-             "its own"),
+             "distance between roots that set the phase; each strand has the phase of the nearest "
+             "one; 0: each strand has its own"),
          number(
              "drift", &S::drift, 0, 10, "1",
-             "waves by which the phase wanders, at most, to either side along a strand"),
+             "largest drift of the phase to either side along a strand, in waves"),
          number(
              "start", &S::start, 0, 1, "1",
              "fraction of the length over which the amplitude grows from 0")});
@@ -161,11 +161,11 @@ const Table& tableOf(const CurlSettings*) {
              "random phase of a strand, up to this part of a turn"),
          number(
              "spacing", &S::spacing, 0, 10, "m",
-             "strands have the phase of the nearest root of some that are so far apart; 0: each "
-             "its own"),
+             "distance between roots that set the phase; each strand has the phase of the nearest "
+             "one; 0: each strand has its own"),
          number(
              "drift", &S::drift, 0, 10, "1",
-             "turns by which the phase wanders, at most, to either side along a strand"),
+             "largest drift of the phase to either side along a strand, in turns"),
          number(
              "start", &S::start, 0, 1, "1",
              "fraction of the length over which the radius grows from 0")});
@@ -188,10 +188,10 @@ const Table& tableOf(const FrizzSettings*) {
 const Table& tableOf(const FlyawaySettings*) {
     using S = FlyawaySettings;
     static const Table table = tableWith<S>(
-        {number("share", &S::share, 0, 1, "1", "part of the strands that lie apart"),
+        {number("share", &S::share, 0, 1, "1", "fraction of the strands that are flyaways"),
          number(
              "reach", &S::reach, 0, 1, "m",
-             "how far their tips are moved, by up to this; each goes its own smooth way"),
+             "largest displacement of their tips; each follows a smooth path of its own"),
          number(
              "start", &S::start, 0, 1, "1", "fraction of the length up to which nothing moves")});
     return table;
@@ -231,11 +231,11 @@ const Table& tableOf(const StyleSettings*) {
          group("wave", &S::wave, "plane waves along strands"),
          group("curl", &S::curl, "strands wound into helices"),
          group("frizz", &S::frizz, "random displacement of strands"),
-         group("flyaways", &S::flyaways, "single strands that lie apart from the others"),
+         group("flyaways", &S::flyaways, "flyaways: strands apart from the rest"),
          number(
              "clearance", &S::clearance, 0, 0.1, "m",
-             "strands are turned away from the mesh that they grow on where they would come nearer "
-             "to it; 0: they may lead through it"),
+             "distance from the mesh that hair grows on; strands that would come nearer are turned "
+             "away; 0: strands may pass through the mesh"),
          group("cut", &S::cut, "strands cut to a length or at a plane"),
          group("taper", &S::taper, "width of strands from root to tip")});
     return table;
@@ -247,7 +247,7 @@ const Table& tableOf(const StrokePoint*) {
     using S = StrokePoint;
     static const Table table = tableWith<S>({number(
         "position", &S::position, -100, 100, "m",
-        "place of the brush, where the head is before it moves")});
+        "position of the brush, relative to the head before it moves")});
     return table;
 }
 
@@ -261,18 +261,19 @@ const Table& tableOf(const StrokeSettings*) {
               {BrushTool::lengthen, "lengthen"},
               {BrushTool::push, "push"},
               {BrushTool::clump, "clump"}},
-             "comb: hair goes along with the brush; cut: strands end where they pass the path; "
-             "lengthen: they go on beyond their tips; push: hair moves away from the head; clump: "
-             "tips are drawn to the path"),
+             "comb: hair follows the brush; cut: strands end where they cross the path; lengthen: "
+             "strands continue beyond their tips; push: hair moves away from the head; clump: tips "
+             "are drawn to the path"),
          number(
              "radius", &S::radius, 0.001, 1, "m",
              "distance from the path at which the brush has no effect"),
          number(
              "strength", &S::strength, 0, 1, "1",
-             "effect on the path: part of the brush's way that hair goes along, of what is cut "
-             "off, of a strand's length that is added, of the radius that hair is pushed, of the "
-             "way to the path that tips are drawn"),
-         list("path", &S::path, 1000, "places that the brush passes, straight between them")});
+             "effect on the path. comb: fraction of the brush's motion that hair follows; cut: "
+             "fraction cut off of the length beyond; lengthen: fraction of a strand's length that "
+             "is added; push: fraction of the radius that hair moves; clump: fraction of the "
+             "distance to the path that tips move"),
+         list("path", &S::path, 1000, "positions of the brush, joined by straight lines")});
     return table;
 }
 
@@ -283,8 +284,7 @@ const Table& tableOf(const FilePlacementSettings*) {
     static const Table table = tableWith<S>(
         {number(
              "scale", &S::scale, 1e-6, 1e6, "1",
-             "metres in the file's unit of length; formats that state their unit are already in "
-             "metres"),
+             "metres per unit of the file; formats that state their unit are already in metres"),
          number(
              "rotation", &S::rotation, -360, 360, "deg",
              "rotation of the strands about x, then y, then z"),
@@ -304,30 +304,30 @@ const Table& tableOf(const GroomSettings*) {
              "guides are grown"),
          number(
              "points_per_strand", &S::points_per_strand, 0, 65536, "count",
-             "points of each strand of a PLY file that has points alone, strand after strand; 0: "
-             "the file says which points make a strand"),
+             "points per strand of a PLY file that has only points, strand after strand; 0: the "
+             "file divides its points into strands"),
          fileName(
              "mesh", &S::mesh,
-             "mesh that the strands of the file grow on; empty: none, they float. Grown guides "
-             "have /groom/grow/mesh"),
-         group("placement", &S::placement, "where the strands of the file go"),
+             "mesh that the file's strands grow on; empty: none; grown guides use "
+             "/groom/grow/mesh"),
+         group("placement", &S::placement, "placement of the file's strands"),
          number(
              "vertices", &S::vertices, 0, 256, "count",
-             "vertices per strand that the file is resampled to, 0 or at least 2; 0: as many as "
-             "its longest strand has"),
+             "vertices per strand that the file is resampled to, at least 2; 0: as many as its "
+             "longest strand has"),
          number(
              "guides", &S::guides, 0, 1000000, "count",
              "guides to grow, or to choose from the file or from grown strands; 0: all of the "
              "file's strands, or 86 grown ones"),
          group("grow", &S::grow, "guides grown on a scalp"),
-         group("style", &S::style, "styling of what is grown or read"),
+         group("style", &S::style, "styling of grown strands and of those of the file"),
          list(
              "edits", &S::edits, 1000,
              "strokes of brushes over the styled hair at rest, one after the other"),
          fileName(
              "fixed", &S::fixed,
-             "file of strands in metres beside the others that follow the head alone, with their "
-             "widths, as brows and lashes do; drawn where /strands/source is groom; empty: none")});
+             "file of further strands, in metres and with their widths, that only follow the head, "
+             "such as brows and lashes; drawn if /strands/source is groom; empty: none")});
     return table;
 }
 

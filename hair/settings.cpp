@@ -23,8 +23,8 @@ const Table& tableOf(const LodSettings*) {
          choice(
              "merged", &S::merged,
              {{MergedStrands::hairs, "hairs"}, {MergedStrands::strip, "strip"}},
-             "what a strand that stands for several is drawn as: hairs: these, side by side with "
-             "gaps; strip: one as wide as all of them (thesis)")});
+             "how a strand that stands for several is drawn; hairs: all of them, side by side with "
+             "gaps; strip: one strand as wide as all of them (thesis)")});
     return table;
 }
 
@@ -55,7 +55,7 @@ const Table& tableOf(const MeshSettings*) {
     using S = MeshSettings;
     static const Table table = tableWith<S>(
         {fileName("file", &S::file, "mesh (.gltf, .glb, .obj, ...), relative to the scene"),
-         number("translation", &S::translation, -1000, 1000, "m", "where the mesh's origin is"),
+         number("translation", &S::translation, -1000, 1000, "m", "position of the mesh's origin"),
          number(
              "rotation", &S::rotation, -360, 360, "deg",
              "rotation about x, then y, then z, before the translation"),
@@ -70,22 +70,22 @@ const Table& tableOf(const RenderSettings*) {
          number("height", &S::height, 1, 8192, "px", "height of the picture"),
          oneOf(
              "msaa", &S::msaa, {1, 2, 4, 8}, "samples",
-             "multisampling; a count the device lacks is skipped"),
+             "multisampling; a case with a count that the device lacks is skipped"),
          oneOf("ssaa", &S::ssaa, {1, 2, 4}, "factor", "supersampling along each side"),
          choice(
              "coverage", &S::coverage,
              {{Coverage::sampled, "sampled"}, {Coverage::analytic, "analytic"}},
-             "sampled: a strand is where samples hit it; analytic: a strand thinner than a pixel "
-             "is as wide as one and as much fainter, which needs a transparency"),
+             "sampled: a strand covers the samples that lie in it; analytic: a strand thinner than "
+             "a pixel is drawn a pixel wide and fainter in proportion, which needs a transparency"),
          choice(
              "transparency", &S::transparency,
              {{Transparency::none, "none"},
               {Transparency::alpha_to_coverage, "alpha_to_coverage"},
               {Transparency::weighted_blended, "weighted_blended"},
               {Transparency::fragment_list, "fragment_list"}},
-             "what opacity does; none: nothing; alpha_to_coverage: covers a fraction of the "
-             "samples, which needs msaa; weighted_blended: McGuire and Bavoil 2013; fragment_list: "
-             "fragments sorted per pixel"),
+             "effect of opacity; none: no effect; alpha_to_coverage: a strand covers that fraction "
+             "of the samples, which needs msaa; weighted_blended: McGuire and Bavoil 2013; "
+             "fragment_list: fragments sorted per pixel"),
          number(
              "list_length", &S::list_length, 1, 256, "count",
              "capacity of fragment_list: mean number of fragments per rendered pixel"),
@@ -114,12 +114,11 @@ const Table& tableOf(const RenderSettings*) {
          toggle("head", &S::head, "draw the mesh that the hair grows on"),
          number(
              "scalp_tint", &S::scalp_tint, 0, 1, "1",
-             "how much of its own colour the material that /groom/grow/scalp names has; the rest "
-             "is "
-             "that of the material with the most triangles beside it, so that at 0 no edge of it "
-             "shows"),
+             "share of its own colour that the material of /groom/grow/scalp keeps; the rest is "
+             "the colour of the material with the most triangles next to it, so that 0 hides its "
+             "edge"),
          list("meshes", &S::meshes, 16, "meshes beside the head"),
-         toggle("hair", &S::hair, "draw the strands; without them a frame is its simulation"),
+         toggle("hair", &S::hair, "draw the strands; off: a frame is only simulated"),
          choice(
              "show", &S::show,
              {{Show::shading, "shading"},
@@ -130,11 +129,11 @@ const Table& tableOf(const RenderSettings*) {
               {Show::shadow, "shadow"},
               {Show::overdraw, "overdraw"},
               {Show::density, "density"}},
-             "what colours strands: light; directions along and across them as RGB; the level of "
-             "detail from blue to red; a colour of each strand's own; the part of the lights that "
-             "shadows let through; how many fragments of strands a pixel draws; or how many there "
-             "are in front of the head"),
-         group("overlays", &S::overlays, "what is drawn over the hair")});
+             "colour of strands. shading: light; tangents, normals: direction along or across them "
+             "as RGB; lod: level of detail from blue to red; strands: a colour for each strand; "
+             "shadow: share of the light that shadows let through; overdraw: number of strand "
+             "fragments that a pixel draws; density: number of them in front of the head"),
+         group("overlays", &S::overlays, "overlays drawn over the hair")});
     return table;
 }
 
@@ -156,26 +155,27 @@ const Table& tableOf(const RunSettings*) {
              "time after which no more rounds are begun in a mode; 0: one round"),
          number(
              "case_timeout", &S::case_timeout, 0, 604800, "s",
-             "time after which a case has failed that is not made and measured, and the next one "
-             "begins: heeded between frames and in what takes long without the device; 0: none"),
+             "time limit of a case, from its preparation to the end of its measurement; a case "
+             "that exceeds it fails, and the next one begins; checked between frames and during "
+             "long work of the host; 0: none"),
          number(
              "warmup_time", &S::warmup_time, 0, 60, "s",
-             "load before a mode is measured on a device that is no processor, at least: its clock "
-             "rises"),
+             "least time of load before a mode is measured, so that the clock rises; not on a "
+             "software device"),
          number(
              "round_time", &S::round_time, 0, 60, "s",
-             "time that a round measures at least on a device that is no processor, by playing its "
-             "frames again and again; 0: once"),
+             "least time that a round measures, by playing its frames repeatedly; not on a "
+             "software device; 0: once"),
          number(
              "frame_time", &S::frame_time, 0, 1, "s",
              "simulated time that a frame advances; 0 draws the same instant again"),
          number(
              "frames_in_flight", &S::frames_in_flight, 1, 4, "count",
-             "overlapped frames that the device is given before the first of them is waited for"),
+             "overlapped frames that are submitted before the first of them is waited for"),
          toggle(
              "overlapped_stamps", &S::overlapped_stamps,
-             "stamp overlapped frames after each pass too, not at both ends alone: passes may then "
-             "overlap less"),
+             "write timestamps in overlapped frames after each pass too, not only at both ends; "
+             "passes may then overlap less"),
          toggle(
              "async_compute", &S::async_compute,
              "simulate overlapped frames on a second queue of the device, beside the drawing of "
@@ -184,24 +184,23 @@ const Table& tableOf(const RunSettings*) {
          choice(
              "clocks", &S::clocks,
              {{Clocks::as_found, "as_found"}, {Clocks::locked, "locked"}, {Clocks::free, "free"}},
-             "clocks of a GPU while a case is measured: as they are; locked by the program at what "
-             "the board sustains, where the user may; or free to change, a case of which is "
-             "skipped "
-             "where an administrator holds them"),
+             "clocks of a GPU while a case is measured. as_found: unchanged; locked: locked by the "
+             "program at a rate that the board sustains, if the user may; free: free to change; "
+             "such a case is skipped if an administrator has locked them"),
          text(
              "busy_pass", &S::busy_pass,
              "pass to slow down, to see whether a comparison finds it; empty: none"),
          number(
              "busy_work", &S::busy_work, 0, 1000000000, "count",
-             "steps of work that nobody needs, added to each busy_pass"),
+             "steps of useless work that are added to each busy_pass"),
          fileName(
              "reference", &S::reference,
              "picture (.exr, .png) that the last frame is compared with, relative to the scene "
              "file; empty: none"),
          toggle(
              "compare_backends", &S::compare_backends,
-             "what it takes to compare strand back ends: errors of the picture against "
-             "tessellation's and against 64 samples a pixel, times per point and per sample, and "
+             "also measure figures that compare strand back ends: errors of the picture against "
+             "tessellation's and against 64 samples per pixel, times per point and per sample, and "
              "the least time that the device could take")});
     return table;
 }
@@ -209,7 +208,7 @@ const Table& tableOf(const RunSettings*) {
 const Table& tableOf(const Settings*) {
     using S = Settings;
     static const Table table = tableWith<S>(
-        {text("description", &S::description, "what the scene shows, for people"),
+        {text("description", &S::description, "description of the scene, for people"),
          number("seed", &S::seed, 0, 4294967295.0, "1", "seed of every random number"),
          group("groom", &S::groom, "the guides"),
          group("simulation", &S::simulation, "how the guides move"),
@@ -217,7 +216,7 @@ const Table& tableOf(const Settings*) {
          group("lod", &S::lod, "level of detail"),
          group("shading", &S::shading, "how strands are lit"),
          group("camera", &S::camera, "the camera"), group("render", &S::render, "the picture"),
-         group("run", &S::run, "what is measured")});
+         group("run", &S::run, "how the scene is measured")});
     return table;
 }
 

@@ -35,30 +35,30 @@ const Table& tableOf(const LightSettings*) {
              "angular radius of a directional light; the sun's is 0.27"),
          number(
              "up", &S::up, -1, 1, "1",
-             "direction along which a rectangle has its height, but for what of it is along "
-             "`direction`; where that is all of it, x is taken"),
+             "direction of a rectangle's height, without its component along `direction`; if "
+             "nothing remains, x"),
          number("width", &S::width, 0.0001, 100, "m", "width of a rectangle"),
          number("height", &S::height, 0.0001, 100, "m", "height of a rectangle"),
          toggle("shadows", &S::shadows, "whether the light casts shadows: /shading/shadows"),
          number(
              "shadow_samples", &S::shadow_samples, 1, 64, "count",
-             "points of a light with a size, each with shadow maps of its own; their mean is the "
-             "light's shadow; 1: the shadow of its middle")});
+             "points of a light with a size, each with its own shadow maps; the light's shadow is "
+             "their mean; 1: the shadow of its centre")});
     return table;
 }
 
 const Table& tableOf(const ShadowSettings*) {
     using S = ShadowSettings;
     static const Table table = tableWith<S>(
-        {toggle("meshes", &S::meshes, "meshes throw shadows on meshes and hair"),
+        {toggle("meshes", &S::meshes, "meshes cast shadows on meshes and hair"),
          choice(
              "hair", &S::hair,
              {{HairShadows::none, "none"},
               {HairShadows::deep_opacity, "deep_opacity"},
               {HairShadows::deep_shadow, "deep_shadow"}},
-             "what hair throws on hair and meshes; deep_opacity: Yuksel and Keyser 2008, what "
-             "texels are covered by in the mean; deep_shadow: Lokovic and Veach 2000, what a ray "
-             "through each texel meets"),
+             "shadows that hair casts on hair and meshes; deep_opacity: the mean coverage of each "
+             "texel (Yuksel and Keyser 2008); deep_shadow: the opacity along a ray through each "
+             "texel (Lokovic and Veach 2000)"),
          number("resolution", &S::resolution, 64, 4096, "px", "width and height of a light's map"),
          number(
              "layer_depth", &S::layer_depth, 0.0001, 10, "m",
@@ -104,11 +104,11 @@ const Table& tableOf(const ShadingSettings*) {
              "red pigment; absorption (0.187, 0.4, 1.05) per fibre radius"),
          number(
              "strand_variation", &S::strand_variation, 0, 0.9, "1",
-             "strands differ in colour: each is as of hair that absorbs more or less by up to this "
-             "part"),
+             "strands differ in colour: each has the hair's to a random power, 1 more or less by "
+             "up to this part"),
          number(
              "tip_lightening", &S::tip_lightening, 0, 0.9, "1",
-             "tips are as of hair that absorbs less than at the root by this part"),
+             "tips have the hair's colour to a power lower than at the root by this part"),
          number("ambient", &S::ambient, 0, 10, "1", "ambient factor"),
          number("diffuse", &S::diffuse, 0, 10, "1", "k_d of phong and kajiya_kay"),
          number("specular", &S::specular, 0, 10, "1", "k_s of phong and kajiya_kay"),
@@ -127,18 +127,20 @@ const Table& tableOf(const ShadingSettings*) {
          number("refractive_index", &S::refractive_index, 1.01, 3, "1", "eta of the fibre"),
          number(
              "density_factor", &S::density_factor, 0, 1, "1",
-             "d of dual_scattering: part of what a strand scatters that meets other strands"),
+             "d of dual_scattering: fraction of the light scattered by a strand that meets other "
+             "strands"),
          toggle(
              "far_field", &S::far_field,
-             "marschner and dual_scattering: the mean over the part of a strand's width that a "
-             "pixel is wide, of thin strands all of it, and not the place at the pixel's middle"),
+             "marschner and dual_scattering: average over the part of a strand's width that a "
+             "pixel covers, or all of it for thin strands; off: take the point at the pixel's "
+             "centre"),
          list("lights", &S::lights, 16, "the lights"),
          number(
              "environment_lights", &S::environment_lights, 0, 48, "count",
-             "wide lights that /render/environment is to hair, each of a part of the directions "
-             "and "
-             "with the shadows of hair; 0: as to a matt surface, times ambient"),
-         group("shadows", &S::shadows, "what is between a light and what it lights")});
+             "most lights that stand for /render/environment on hair, each for a part of the "
+             "directions and with shadows of hair; 0: the irradiance of a matt surface, times "
+             "ambient"),
+         group("shadows", &S::shadows, "shadows of meshes and hair")});
     return table;
 }
 

@@ -18,13 +18,13 @@ const Table& tableOf(const LocalSettings*) {
         {choice(
              "method", &S::method,
              {{LocalMethod::iterate, "iterate"}, {LocalMethod::energy, "energy"}},
-             "how `shape` keeps its shape. iterate: the thesis's, which has no energy and rests "
-             "elsewhere at another time step; energy: joints that bend, in one direct solve with "
-             "the lengths, at rest the same at any time step"),
+             "how `shape` keeps its shape. iterate: the thesis's method, which has no energy, so "
+             "that its rest shape depends on the time step; energy: bending joints, in one direct "
+             "solve with the lengths, with the same rest shape at any time step"),
          number(
              "stiffness", &S::stiffness, 0, 1, "1",
              "k_L per iteration at 10 iterations, 1/60 s and segments of 21.4285 mm; used up to "
-             "0.95. energy: as stiff as such hair of 7 segments is against its weight"),
+             "0.95. energy: as stiff against its weight as such hair of 7 segments"),
          number(
              "iterations", &S::iterations, 0, 64, "count",
              "iterations per step; energy: one solve, 0 switches it off")});
@@ -38,12 +38,12 @@ const Table& tableOf(const LengthSettings*) {
              "method", &S::method,
              {{LengthMethod::tridiagonal, "tridiagonal"}, {LengthMethod::iterate, "iterate"}},
              "how `shape` keeps lengths. tridiagonal: direct solves along the strand, exact after "
-             "every pass; iterate: the thesis's, one segment after the other, which stretches "
-             "under load, the more the more vertices there are"),
+             "every pass; iterate: the thesis's method, one segment after the other, which "
+             "stretches under load, and more so with more vertices"),
          number(
              "iterations", &S::iterations, 0, 256, "count",
              "per step: passes of `tridiagonal`, red-black iterations of `iterate` (the thesis has "
-             "5); 0: lengths are free, but for those that /simulation/local/method energy keeps")});
+             "5); 0: lengths are free, except those that /simulation/local/method energy keeps")});
     return table;
 }
 
@@ -66,7 +66,7 @@ const Table& tableOf(const RodSettings*) {
              "implicit_euler: damps every motion by half of the substep times its squared "
              "frequency; generalized_alpha: second order in time, so that damping is the "
              "material's, and implicit Euler for strands whose Newton iterations do not converge, "
-             "that touch a body, or that air brakes")});
+             "touch a body or have air drag")});
     return table;
 }
 
@@ -75,11 +75,12 @@ const Table& tableOf(const StableCosseratSettings*) {
     static const Table table = tableWith<S>(
         {number(
              "iterations", &S::iterations, 1, 256, "count",
-             "per substep: a solve of the positions and a sweep over the orientations each"),
+             "iterations per substep, each a solve of the positions and a sweep over the "
+             "orientations"),
          number(
              "stretch_modulus", &S::stretch_modulus, 1, 1e12, "Pa",
-             "in place of youngs_modulus against stretch and shear: the greater, the better "
-             "lengths keep and the more iterations hair takes to move as it should")});
+             "replaces youngs_modulus against stretch and shear; a greater value keeps lengths "
+             "better, and hair needs more iterations to move correctly")});
     return table;
 }
 
@@ -87,7 +88,7 @@ const Table& tableOf(const PositionBasedRodSettings*) {
     using S = PositionBasedRodSettings;
     static const Table table = tableWith<S>({number(
         "iterations", &S::iterations, 1, 256, "count",
-        "per substep: each corrects every segment and joint once")});
+        "iterations per substep, each of which corrects every segment and joint once")});
     return table;
 }
 
@@ -97,16 +98,16 @@ const Table& tableOf(const AugmentedMassSpringSettings*) {
         {number("iterations", &S::iterations, 1, 64, "count", "Newton iterations per substep"),
          number(
              "spring_modulus", &S::spring_modulus, 1, 1e12, "Pa",
-             "of the springs along edges, against bending and against torsion: their tension at "
-             "twice the length, over the hair's cross-section"),
+             "modulus of the springs along edges, against bending and against torsion: their "
+             "tension at twice the length, divided by the hair's cross-section"),
          number(
              "integrity", &S::integrity, 0, 1e6, "1/s^2",
-             "acceleration toward the rest position by distance from it"),
+             "acceleration toward the rest position, per distance from it"),
          number(
              "angular_stiffness", &S::angular_stiffness, 0, 1e6, "m^2/s^2",
-             "couple that turns a segment to its rest direction, by radian, segment length and "
-             "mass per length: holds up hair of a length L against gravity g where it is above "
-             "g L")});
+             "torque that turns a segment to its rest direction, per radian, segment length and "
+             "mass per length; it holds up hair of length L against gravity g if it is above g "
+             "L")});
     return table;
 }
 
@@ -127,9 +128,9 @@ const Table& tableOf(const MaterialSettings*) {
          number("shear_modulus", &S::shear_modulus, 1, 1e12, "Pa", "G: resists twist"),
          number(
              "damping", &S::damping, 0, 1, "s",
-             "of `rod`: what bends or twists resists as if it were further on by its rate times "
-             "this (Kelvin-Voigt), so that a mode of w rad/s halves in 1.386 / (w^2 damping) "
-             "seconds; an implicit Euler substep has its own length of it at least")});
+             "damping of `rod` (Kelvin-Voigt): strain counts as strain plus this times its rate, "
+             "so that the amplitude of a mode of w rad/s halves in 1.386 / (w^2 damping) seconds; "
+             "an implicit Euler substep damps by at least its own length")});
     return table;
 }
 
@@ -145,7 +146,7 @@ const Table& tableOf(const WindSettings*) {
              "thesis mode: acceleration at magnitude 1; the thesis uses 0 to 15"),
          number(
              "direction", &S::direction, -1, 1, "1",
-             "where the wind blows to; any length but zero"),
+             "direction that the wind blows toward; any length except zero"),
          number(
              "cone_angle", &S::cone_angle, 0, 89, "deg",
              "thesis mode: half-angle of the cone of four wind vectors round the direction"),
@@ -156,13 +157,14 @@ const Table& tableOf(const WindSettings*) {
          number("speed", &S::speed, 0, 100, "m/s", "drag mode: mean speed of the wind"),
          number(
              "turbulence", &S::turbulence, 0, 2, "1",
-             "drag mode: root mean square of each component of the fluctuation over the speed"),
+             "drag mode: root mean square of each component of the fluctuation, divided by the "
+             "speed"),
          number(
              "turbulence_scale", &S::turbulence_scale, 0.01, 100, "m",
              "drag mode: size of the largest eddies, which are the gusts"),
          number(
              "turbulence_octaves", &S::turbulence_octaves, 1, 8, "count",
-             "drag mode: sizes of eddies, each half of the one before"),
+             "drag mode: number of sizes of eddies, each half the one before"),
          number("air_density", &S::air_density, 0, 1000, "kg/m^3", "drag mode: density of the air"),
          number(
              "air_viscosity", &S::air_viscosity, 1e-7, 1, "Pa s",
@@ -205,21 +207,21 @@ const Table& tableOf(const CollisionSettings*) {
         {choice(
              "parts", &S::parts,
              {{CollisionParts::vertices, "vertices"}, {CollisionParts::segments, "segments"}},
-             "what of a guide keeps out of colliders. vertices: its vertices alone; segments: what "
-             "is between them too, so that no long segment passes through a thin collider"),
+             "parts of a guide that stay outside colliders. vertices: only its vertices; segments: "
+             "its segments too, so that no long segment passes through a thin collider"),
          number("margin", &S::margin, 0, 1, "m", "distance that guides keep from colliders"),
          number(
              "friction", &S::friction, 0, 10, "1",
              "Coulomb's coefficient of friction on colliders"),
          toggle(
              "continuous", &S::continuous,
-             "stop guides where their way in a substep enters a collider, so that fast hair does "
-             "not fly through thin ones; off: look at where they end alone"),
+             "stop guides where their path in a substep enters a collider, so that fast hair does "
+             "not pass through thin ones; off: test only the ends of the paths"),
          toggle(
              "warm_start", &S::warm_start,
-             "`rod` carries forces of contact from one substep to the next, so that hair presses "
-             "on colliders with the force that its stiffness has, and sticks up to friction times "
-             "that; off: each substep begins without")});
+             "`rod` carries contact forces from one substep to the next, so that hair presses on "
+             "colliders with the force of its stiffness, and sticks up to friction times that "
+             "force; off: each substep begins without them")});
     return table;
 }
 
@@ -228,15 +230,16 @@ const Table& tableOf(const HairHairSettings*) {
     static const Table table = tableWith<S>(
         {number(
              "friction", &S::friction, 0, 1, "1",
-             "part of the difference to the other strands' mean velocity that hair loses per 1/60 "
-             "s; 0.05 for loose hair to 0.5 for hair that moves as one"),
+             "fraction of the difference from the other strands' mean velocity that hair loses per "
+             "1/60 s; 0.05 for loose hair to 0.5 for hair that moves as one"),
          number(
              "repulsion", &S::repulsion, 0, 1000, "m^2/s^2",
-             "square of the speed of sound in crowded hair: its pressure over the density beyond "
-             "the crowding; 0.1 to 0.6 for hair of 15 cm; used up to half of (cell / time step)^2"),
+             "square of the speed of sound in crowded hair: its pressure divided by the density "
+             "above `crowding`; 0.1 to 0.6 for hair of 15 cm; used up to half of (cell / time "
+             "step)^2"),
          number(
              "crowding", &S::crowding, 0.1, 100, "1",
-             "density from which hair repels hair, over the mean density at rest"),
+             "density above which hair repels hair, relative to the mean density at rest"),
          number(
              "resolution", &S::resolution, 8, 128, "count",
              "cells along each side of the grid round the hair; cells much smaller than guide "
@@ -275,7 +278,7 @@ const Table& tableOf(const AnimationSettings*) {
              "animation of the mesh's file (skin, morph targets, nodes) that deforms the head and "
              "carries each root with its triangle, before /simulation/motion moves all of it: its "
              "name, or its number where it has none; empty: none"),
-         number("speed", &S::speed, 0, 100, "1", "times as fast as the file says"),
+         number("speed", &S::speed, 0, 100, "1", "speed relative to the file's"),
          toggle("repeat", &S::repeat, "start again at the time of the last keyframe")});
     return table;
 }
@@ -303,7 +306,7 @@ const Table& tableOf(const PullSettings*) {
              "0: that vertex alone"),
          number(
              "stiffness", &S::stiffness, 0, 100000, "1/s^2",
-             "acceleration by distance from the vertex to the hand; damped critically"),
+             "acceleration per distance from the vertex to the hand; critically damped"),
          list(
              "path", &S::path, 10000,
              "keys of the hand's position; none: the hand does not pull")});
@@ -324,24 +327,23 @@ const Table& tableOf(const SimulationSettings*) {
               {Solver::augmented_mass_spring, "augmented_mass_spring"}},
              "none: frozen at rest; shape: the thesis's Verlet with shape constraints; ftl: follow "
              "the leader; rod: Cosserat rods with SI material; stable_cosserat: such rods by Hsu "
-             "et al. 2025, positions and orientations by turns; position_based_rod: such rods by "
+             "et al. 2025, positions and orientations in turns; position_based_rod: such rods by "
              "Kugelstadt and Schoemer 2016, with XPBD's compliances; augmented_mass_spring: "
-             "springs "
-             "and a ghost of the rest shape, by Amador Herrera et al. 2024"),
+             "springs and a ghost of the rest shape, by Amador Herrera et al. 2024"),
          choice(
              "parallelism", &S::parallelism,
              {{Parallelism::automatic, "automatic"},
               {Parallelism::vertex, "vertex"},
               {Parallelism::strand, "strand"},
               {Parallelism::serial, "serial"}},
-             "what an invocation of `shape` moves. vertex: two vertices; strand: up to 32, in "
-             "registers; automatic: strand on a CPU, by the number of guides on a GPU; serial: a "
-             "strand, vertex by vertex in memory, to compare with"),
+             "vertices that an invocation of `shape` moves. vertex: two; strand: up to 32, in "
+             "registers; automatic: strand on a CPU, by the number of guides on a GPU; serial: all "
+             "of a strand, one by one in memory, for comparison"),
          number("time_step", &S::time_step, 0.0005, 0.1, "s", "fixed step of simulated time"),
          number(
              "substeps", &S::substeps, 0, 64, "count",
-             "solver steps per time step; 0: one, for rods as many as keep a substep to 1/480 s "
-             "(rod, augmented_mass_spring), 1/960 s (stable_cosserat) or 1/1920 s"),
+             "solver steps per time step; 0: one, or for rods as many as keep a substep within "
+             "1/480 s (rod, augmented_mass_spring), 1/960 s (stable_cosserat) or 1/1920 s"),
          number(
              "settle_steps", &S::settle_steps, 0, 100000, "count",
              "steps simulated without wind before the first frame"),
@@ -354,13 +356,12 @@ const Table& tableOf(const SimulationSettings*) {
              "length; thesis: the raw factor, applied once per iteration"),
          choice(
              "rest", &S::rest, {{RestShape::groom, "groom"}, {RestShape::balanced, "balanced"}},
-             "what guides of `shape` and `rod` are without load. groom: as the groom has them, so "
-             "that they sag under gravity; balanced: such that they hang under gravity as the "
-             "groom has them"),
+             "rest shape of the guides of `shape` and `rod`. groom: the groom's shape, which sags "
+             "under gravity; balanced: the shape that gives the groom under gravity"),
          number(
              "most_stiffening", &S::most_stiffening, 1, 1000, "1",
              "rest: balanced: greatest factor by which a guide may be stiffened so that it hangs "
-             "stably; one that would need more keeps the groom's shape as its rest shape"),
+             "stably; a guide that would need more keeps the groom's shape as its rest shape"),
          group("global", &S::global, "pull toward the rest position"),
          group("local", &S::local, "pull toward the rest shape"),
          group("length", &S::length, "inextensible segments"),
@@ -373,8 +374,8 @@ const Table& tableOf(const SimulationSettings*) {
          group("wind", &S::wind, "wind"),
          extensionFile(
              "force", &S::force,
-             "file of GLSL (.glsl) that accelerates guides beside gravity and wind, but not while "
-             "they settle; relative to the scene file: docs/extending.md; empty: none"),
+             "file of GLSL (.glsl) that accelerates guides in addition to gravity and wind, but "
+             "not while they settle; relative to the scene file: docs/extending.md; empty: none"),
          parameters(
              "force_parameters", &S::force_parameters,
              "parameters of the file that force names, by the names, ranges and units that it "

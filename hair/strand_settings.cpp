@@ -62,8 +62,8 @@ const Table& tableOf(const StrandSettings*) {
              "automatic: the fastest that can draw the case on the device; tessellation: control, "
              "isolines, evaluation, geometry; pulling_geometry: points "
              "evaluated in the vertex stage, the same geometry stage; lines: lines a pixel wide "
-             "instead of quads; pulling: corners of quads made in the vertex stage; expanded: so "
-             "too, from points evaluated in compute; "
+             "instead of quads; pulling: corners of quads made in the vertex stage; expanded: "
+             "likewise, from points evaluated in compute; "
              "mesh: task stages choose blocks of strands, mesh stages make their quads; "
              "software: rasterised in compute"),
          choice(
@@ -88,16 +88,16 @@ const Table& tableOf(const StrandSettings*) {
          choice(
              "collision", &S::collision,
              {{StrandCollision::none, "none"}, {StrandCollision::push_out, "push_out"}},
-             "what bodies do to strands where they are drawn; none: nothing, only guides collide; "
-             "push_out: what is inside of one, or within the margin of its surface, is moved out"),
+             "collision of drawn strands with bodies; none: only guides collide; push_out: points "
+             "inside a body, or within the margin of its surface, are moved out"),
          choice(
              "randomness", &S::randomness,
              {{Randomness::hashed, "hashed"}, {Randomness::thesis, "thesis"}},
-             "where strands are between guides; hashed: different places in every root triangle; "
+             "places of strands between guides; hashed: different places in every root triangle; "
              "thesis: one pattern for all triangles, from a sine"),
          number(
              "density", &S::density, 1, 4096, "count",
-             "strands per root triangle; the source groom has its own"),
+             "strands per root triangle; a source of groom has its own strands"),
          number(
              "tessellation", &S::tessellation, 1, 64, "count", "drawn segments per guide segment"),
          choice(
@@ -122,7 +122,7 @@ const Table& tableOf(const StrandSettings*) {
              "declares"),
          number(
              "opacity", &S::opacity, 0, 1, "1",
-             "opacity of a strand, which /render/transparency makes use of"),
+             "opacity of a strand, as used by /render/transparency"),
          fileName(
              "texture", &S::texture,
              "picture (.png, ...) on strands: across them and, downward, from root to tip; its "
@@ -137,16 +137,16 @@ const Table& tableOf(const StrandSettings*) {
              "thesis's, which floats off the scalp; catmull_rom: through every vertex"),
          choice(
              "taper", &S::taper, {{Taper::strand, "strand"}, {Taper::segment, "segment"}},
-             "strand: width falls along the whole strand; segment: the published program's, which "
-             "restarts in every guide segment"),
+             "strand: width falls along the whole strand; segment: width falls anew in every guide "
+             "segment, as in the published program"),
          number(
              "taper_start", &S::taper_start, 0, 1, "1",
              "part of the taper over which the width stays root_width"),
          choice(
              "submission", &S::submission,
              {{Submission::instanced, "instanced"}, {Submission::batched, "batched"}},
-             "instanced: a root triangle is an instance; batched: patches in draws that fit the "
-             "device")});
+             "instanced: a root triangle is an instance; batched: patches are divided into draws "
+             "that fit the device")});
     return table;
 }
 

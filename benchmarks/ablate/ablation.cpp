@@ -227,15 +227,15 @@ std::string costLine(const char* what, const Cost& cost) {
 
 std::string rest(const Attribution& attribution) {
     std::string text =
-        "the pass as it always is: " + report::shortNumber(attribution.pass_time) + " ms\n";
+        "the unchanged pass: " + report::shortNumber(attribution.pass_time) + " ms\n";
     const Residual& residual = attribution.residual;
-    text += costLine("  less all marginal costs", residual.closure);
+    text += costLine("  minus all marginal costs", residual.closure);
     text += "all primitives clipped instead of discarded: " +
             report::shortNumber(attribution.clipped_time) + " ms\n";
-    text += costLine("  less the geometry rung", residual.discard);
+    text += costLine("  minus the geometry rung", residual.discard);
     if (residual.multisampling)
-        text +=
-            costLine("samples' cost with a fragment shader less without", *residual.multisampling);
+        text += costLine(
+            "cost of samples with a fragment shader minus without", *residual.multisampling);
     text += costLine("interaction residual, the sum of these", residual.interaction);
     for (const auto& [stop, cost] : attribution.watching) text += costLine(stopName(stop), cost);
     return text;

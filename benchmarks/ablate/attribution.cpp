@@ -139,8 +139,8 @@ std::vector<std::string> attributionWarnings(const Attribution& attribution) {
             warnings.push_back(
                 "discarding primitives and clipping all of them differ by " +
                 text(residual.discard) +
-                ": the driver leaves work away or does more in one of them, so that the costs "
-                "before and after the rasteriser are uncertain by as much");
+                ": the driver omits or adds work in one of them, so that the costs before and "
+                "after the rasteriser are uncertain by as much");
     }
     if (isBeyond(residual.closure, kClosureTolerance * attribution.pass_time))
         warnings.push_back(

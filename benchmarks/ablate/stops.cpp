@@ -103,9 +103,9 @@ std::string ablationObstacle(const hair::Settings& settings) {
     if (!settings.render.hair) return "/render/hair: no strands are drawn";
     if (settings.strands.backend != hair::Backend::tessellation &&
         settings.strands.backend != hair::Backend::automatic)
-        return "/strands/backend: only tessellation's stages can be taken apart";
+        return "/strands/backend: only the stages of tessellation can be measured";
     if (settings.render.transparency != hair::Transparency::none)
-        return "/render/transparency: only opaque strands' stages can be taken apart";
+        return "/render/transparency: only the stages of opaque strands can be measured";
     return {};
 }
 

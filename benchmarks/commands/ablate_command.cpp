@@ -17,13 +17,11 @@ namespace benchmarks::commands {
 namespace {
 
 std::vector<std::string> notesFor(const report::DeviceRecord& device) {
-    std::vector<std::string> notes{
-        "a marginal cost is what the pass takes longer with a stage, not how long the stage works: "
-        "stages overlap in time"};
+    std::vector<std::string> notes{"a marginal cost is the time that a stage adds to the pass, not "
+                                   "the time that the stage works: stages overlap"};
     if (device.type == "cpu")
-        notes.push_back(
-            "on a CPU device what makes primitives is one thread, and fragments are worked on by "
-            "others beside it");
+        notes.push_back("on a software device one thread makes the primitives while other threads "
+                        "work on fragments");
     return notes;
 }
 

@@ -18,9 +18,9 @@ namespace {
 
 constexpr const char* kExitStatus =
     R"(Exit status: 0 ok, 1 internal error or a full disk, 2 usage or invalid scene, 3 a check of the
-physics or of doctor failed, 10 slower, 11 inconclusive, 12 pictures or states differ, 13 no such
-baseline or one of something else, 14 nothing ran, 77 no suitable device, 130 interrupted (what was
-done is saved) or merged with cases missing.)";
+physics or of doctor failed, 10 slower, 11 inconclusive, 12 pictures or states differ, 13 the
+baseline is missing or comes from another device or scene, 14 nothing ran, 77 no suitable device,
+130 interrupted (results so far are saved) or merged with cases missing.)";
 
 // The commands of the program, declared for one command line.
 struct Declared {

@@ -7,46 +7,47 @@ namespace {
 
 constexpr const char* kConvertNotes =
     R"(Strands are edited in this order: scale, followers, vertices, guides.
-Without --scale lengths stay as they are, but that .hgl is always in metres: what IN states of its
-unit is applied. .hgl gets root triangles if IN has none. What a format can't hold is said on
-stderr. OUT may be IN; it is replaced when all is written, and an interrupt leaves it alone.)";
+Without --scale lengths stay as they are. Only .hgl is always in metres: the unit that IN states is
+applied. An .hgl file gets root triangles if IN has none. Warnings on stderr name the data that a format
+can't hold. OUT may be IN: it is replaced once all is written, and an interrupt leaves it unchanged.)";
 
 void addPointsPerStrand(
     CLI::App& command, std::uint32_t& points, const std::string& name = "--points-per-strand") {
     command
         .add_option(
             name, points,
-            "points of each strand of a PLY file that has points alone, strand after strand")
+            "points per strand of a PLY file that has only points, strand after strand")
         ->check(CLI::Range(1, 65536));
 }
 
 constexpr const char* kCompareGroomsNotes =
-    R"(Samples, evenly along the strands of one file, are held against the polylines of the other. Precision
-is the share of B that is found in A, recall that of A found in B. Strand consistency is the greatest
-share of a strand of A that is found in one strand of B, mean over strands. docs/grooms.md
-defines all that is printed.)";
+    R"(The strands of each file are sampled evenly and compared with the polylines of the other. Precision is
+the share of B that is found in A; recall is the share of A that is found in B. Strand consistency is the
+largest share of a strand of A that is found in one strand of B, averaged over strands. docs/grooms.md
+defines every figure.)";
 
 constexpr const char* kGroomSceneNotes =
-    R"(Units and axes that files do not state are those in which the most roots lie on the head; the share,
-that of the second best and every other choice are printed. A head that is not in metres with +y up is
-copied beside OUT as .head.obj, in those, without its materials. Then: hairbench render OUT -o x.png)";
+    R"(If a file states no unit or upward axis, those are chosen with which the most roots lie on the head. The
+share of roots, the share of the second-best choice and every other choice are printed. A head that is
+not in metres with +y up is converted and written beside OUT as .head.obj, without its materials.
+Then: hairbench render OUT -o x.png)";
 
 constexpr const char* kFilterNotes =
-    R"(A strand is left out by the first test that it fails; how many each test leaves out is printed. Root
-triangles stay whose strands all stay. OUT is in IN's unit.)";
+    R"(A strand is left out by the first test that it fails; the count for each test is printed. A root
+triangle stays if all of its strands stay. OUT is in IN's unit.)";
 
 constexpr const char* kSmoothNotes =
-    R"(The directions along each strand diffuse by that length of arc, and the strand is put together again
-from its root with the lengths of its segments: waves of a length w become smaller by
-1 / (1 + (2 pi MM / w)^2), and hair no shorter. Tips move. OUT is in IN's unit.)";
+    R"(The directions along each strand are diffused over that arc length L, and the strand is rebuilt from its
+root with its own segment lengths. The amplitude of a wave of length w is multiplied by
+1 / (1 + (2 pi L / w)^2); hair gets no shorter. Tips move. OUT is in IN's unit.)";
 
 constexpr const char* kFixNotes =
-    R"(Strands of one point, without length and equal to one before them are left out, so are points at the
-place of the one before them; strands of more than 256 points get 256. With --mesh strands move whole
-until their root is on the mesh, unless it is farther than --farthest-root, and points deeper than 1 mm
-inside it are put onto it, which changes lengths. With --scale OUT is in metres. What is left to a
-person: widths, roots that several strands share, a mesh that is not closed, a unit that is not stated.
-Files whose numbers are not finite are not read at all.)";
+    R"(Strands that have one point, have no length or repeat an earlier strand are left out, and so are points
+at the place of the point before them; strands of more than 256 points are resampled to 256. With --mesh
+each strand moves as a whole until its root is on the mesh, unless the root is farther off than
+--farthest-root; points deeper than 1 mm inside the mesh are moved onto it, which changes lengths. With
+--scale OUT is in metres. Not repaired: widths, roots that several strands share, a mesh that is not
+closed, a unit that is not stated. A file with numbers that are not finite is refused.)";
 
 void addEditedFiles(CLI::App& command, EditGroomOptions& options) {
     command.add_option("in", options.in, "file of hair")->required()->type_name("IN");
@@ -56,7 +57,7 @@ void addEditedFiles(CLI::App& command, EditGroomOptions& options) {
     command
         .add_option(
             "--scale", options.scale,
-            "metres in IN's unit (default what the file states, or a guess)")
+            "metres per unit of IN (default: as the file states, or a guess)")
         ->check(CLI::PositiveNumber);
     addPointsPerStrand(command, options.points_per_strand);
 }
@@ -82,9 +83,10 @@ void addGroomEdits(const CommandLine& line, CLI::App& groom) {
             addPositive(command, "--longest", options.longest, "leave out longer strands, mm");
             addPositive(
                 command, "--fewest-points", options.fewest_points,
-                "leave out strands of fewer points");
+                "leave out strands with fewer points");
             addPositive(
-                command, "--most-points", options.most_points, "leave out strands of more points");
+                command, "--most-points", options.most_points,
+                "leave out strands with more points");
             command.add_option("--mesh", options.mesh, "head, in metres")->type_name("FILE");
             addPositive(
                 command, "--farthest-root", options.farthest_root,
@@ -101,7 +103,8 @@ void addGroomEdits(const CommandLine& line, CLI::App& groom) {
          .notes = kSmoothNotes},
         smoothGroom, [](CLI::App& command, EditGroomOptions& options) {
             addEditedFiles(command, options);
-            command.add_option("--length", options.smooth_length, "arc to smooth over, mm")
+            command
+                .add_option("--length", options.smooth_length, "arc length L to smooth over, mm")
                 ->required()
                 ->check(CLI::PositiveNumber);
         });
@@ -118,12 +121,12 @@ void addGroomEdits(const CommandLine& line, CLI::App& groom) {
                 ->check(CLI::Range(2u, 65536u));
             addPositive(
                 command, "--spacing", options.spacing,
-                "distance of points, as near to it as goes, mm");
+                "distance between points, as close to this as possible, mm");
         });
     addCommand<EditGroomOptions>(
         line, groom,
         {.name = "fix",
-         .description = "mends what 'groom info' finds, and says what it did",
+         .description = "repairs faults that 'groom info' finds, and lists the repairs",
          .examples = {"hairbench groom fix in.hair out.hair --mesh head.glb"},
          .notes = kFixNotes},
         fixGroom, [](CLI::App& command, EditGroomOptions& options) {
@@ -132,7 +135,8 @@ void addGroomEdits(const CommandLine& line, CLI::App& groom) {
                 ->type_name("FILE");
             addPositive(
                 command, "--farthest-root", options.farthest_root,
-                "roots that are farther off the mesh stay, mm (default 10)");
+                "leave strands where they are if their root is farther from the mesh, mm (default "
+                "10)");
         });
 }
 
@@ -148,7 +152,7 @@ void addGroomCommands(const CommandLine& line) {
     addCommand<GroomInfoOptions>(
         line, *groom,
         {.name = "info",
-         .description = "says what is in a file of hair and what is odd about it",
+         .description = "shows what a file of hair contains and warns of its faults",
          .examples = {"hairbench groom info mine.hair --mesh head.glb"}},
         inspectGroom, [](CLI::App& command, GroomInfoOptions& options) {
             command.add_option("file", options.file, "file of hair")->required()->type_name("FILE");
@@ -160,7 +164,7 @@ void addGroomCommands(const CommandLine& line) {
             command
                 .add_option(
                     "--scale", options.scale,
-                    "metres in the file's unit (default what the file states, or a guess)")
+                    "metres per unit of the file (default: as it states, or a guess)")
                 ->check(CLI::PositiveNumber);
             addPointsPerStrand(command, options.points_per_strand);
             command.add_flag("--json", options.json, "print JSON");
@@ -182,9 +186,9 @@ void addGroomCommands(const CommandLine& line) {
             command
                 .add_option(
                     "--scale", options.scale,
-                    "metres in FILE's unit (default what the file states, or a guess)")
+                    "metres per unit of FILE (default: as it states, or a guess)")
                 ->check(CLI::PositiveNumber);
-            command.add_option("--up", options.up, "axis that is up in FILE (default a guess)")
+            command.add_option("--up", options.up, "upward axis of FILE (default: a guess)")
                 ->check(CLI::IsMember({"x", "y", "z"}));
             addPointsPerStrand(command, options.points_per_strand);
             command
@@ -195,12 +199,13 @@ void addGroomCommands(const CommandLine& line) {
             command.add_option(
                 "--device", options.device.wanted,
                 "for --sheet: index or part of the name of the device");
-            command.add_flag("--force", options.force, "replace files that are there");
+            command.add_flag("--force", options.force, "replace existing files");
         });
     addCommand<groom::ConvertOptions>(
         line, *groom,
         {.name = "convert",
-         .description = "writes a file of hair as another: " + hair::groom::writtenExtensions(),
+         .description =
+             "converts a file of hair to another format: " + hair::groom::writtenExtensions(),
          .examples =
              {"hairbench groom convert mine.hair guides.hgl --guides 200 --vertices 16 --scale "
               "0.01",
@@ -213,15 +218,15 @@ void addGroomCommands(const CommandLine& line) {
             command
                 .add_option(
                     "--scale", options.scale,
-                    "metres in IN's unit (0.01: centimetres); OUT is in metres")
+                    "metres per unit of IN (0.01: centimetres); OUT is in metres")
                 ->check(CLI::PositiveNumber);
             command.add_option(
                 "--followers", options.followers,
-                "number of copies round each strand, as TressFX makes them");
+                "number of followers round each strand, as TressFX makes them");
             command
                 .add_option(
                     "--follower-radius", options.follower_radius,
-                    "radius of the disc round a strand that its followers are in, in IN's unit")
+                    "radius of the disc round a strand in which its followers lie, in IN's unit")
                 ->check(CLI::NonNegativeNumber);
             command
                 .add_option(
@@ -230,7 +235,7 @@ void addGroomCommands(const CommandLine& line) {
                 ->check(CLI::NonNegativeNumber);
             command.add_option(
                 "--vertices", options.vertices,
-                "points per strand, even by arc length (2 to 65536)");
+                "points per strand, evenly spaced by arc length (2 to 65536)");
             command
                 .add_option(
                     "--guides", options.guides,
@@ -248,7 +253,7 @@ void addGroomCommands(const CommandLine& line) {
     addCommand<CompareGroomsOptions>(
         line, *groom,
         {.name = "compare",
-         .description = "says how alike two files of hair are, by the measures of papers",
+         .description = "measures how similar two files of hair are, by published metrics",
          .examples = {"hairbench groom compare truth.hair mine.hair --mesh head.glb"},
          .notes = kCompareGroomsNotes},
         compareGrooms, [](CLI::App& command, CompareGroomsOptions& options) {
@@ -259,40 +264,43 @@ void addGroomCommands(const CommandLine& line) {
             command
                 .add_option(
                     "--mesh", options.mesh,
-                    "head, in metres, to say how much of either is inside it")
+                    "head, in metres; the share of each file inside it is printed")
                 ->type_name("FILE");
             command
                 .add_option(
                     "--scale-a", options.first_scale,
-                    "metres in A's unit (default what the file states, or a guess)")
+                    "metres per unit of A (default: as it states, or a guess)")
                 ->check(CLI::PositiveNumber);
-            command.add_option("--scale-b", options.second_scale, "metres in B's unit")
+            command
+                .add_option(
+                    "--scale-b", options.second_scale,
+                    "metres per unit of B (default: as it states, or a guess)")
                 ->check(CLI::PositiveNumber);
             addPointsPerStrand(command, options.first_points_per_strand, "--points-per-strand-a");
             addPointsPerStrand(command, options.second_points_per_strand, "--points-per-strand-b");
             addRepeated(
                 command, "--threshold", options.thresholds,
-                "when a point counts as found: distance in mm and angle in degrees; repeatable "
-                "(default 2/20, 3/30, 4/40)")
+                "greatest distance in mm and angle in degrees at which a point counts as found; "
+                "repeatable (default 2/20, 3/30, 4/40)")
                 ->type_name("MM/DEGREES");
             command
                 .add_option(
                     "--spacing", options.spacing,
-                    "greatest distance of samples along strands, mm (default 2)")
+                    "greatest distance between samples along strands, mm (default 2)")
                 ->check(CLI::PositiveNumber);
             command
                 .add_option(
                     "--curvature-step", options.curvature_step,
-                    "arc that curvature is taken over, mm (default 5)")
+                    "arc length over which curvature is measured, mm (default 5)")
                 ->check(CLI::PositiveNumber);
             command.add_option(
                 "--consistency-samples", options.consistency_samples,
-                "samples of a strand that its consistency is made of (default 16); 0: all");
+                "samples per strand for strand consistency (default 16); 0: all");
             command.add_flag(
                 "--undirected", options.undirected,
-                "strands that run opposite ways are alike: B does not know root from tip");
+                "ignore the direction of strands, for a B that does not tell root from tip");
             command.add_option(
-                "--threads", options.threads, "threads (default as many as there are processors)");
+                "--threads", options.threads, "number of threads (default: one per processor)");
             command.add_flag("--json", options.json, "print JSON");
             command.add_option("-o,--out", options.out, "write JSON to a file")->type_name("FILE");
         });

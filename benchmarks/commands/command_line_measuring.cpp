@@ -10,12 +10,13 @@ namespace {
 // ---- run, gate, ablate, doctor ------------------------------------------------------------------
 
 constexpr const char* kGateNotes =
-    R"(A and B are a build folder, the prefix that a build is installed to, a program, or a command line that
-'run SCENE --out FILE ...' is added to; one with {scene} and {out} in it is taken as it is. Whole processes
-run as A B, B A, A B ...; a sample is a process's median. After 12, 24 and 48 pairs verdicts are passed; it
-is over if no metric is inconclusive or one has regressed. One that is stopped gives the verdicts that were
-passed last. Exit status: 0 nothing is slower, 10 something is, 11 inconclusive (--fail-on inconclusive),
-12 pictures or states differ, 130 interrupted before the first verdict.)";
+    R"(A and B are each a build folder, the prefix that a build is installed to, a program, or a command line.
+'run SCENE --out FILE ...' is added to a command line, unless it contains {scene} and {out}. Whole processes
+run in the order A B, B A, A B ...; a sample is a process's median. Verdicts are given after 12, 24 and 48
+pairs, and after 8 on changes of 20 % in every pair; the gate ends if no metric is inconclusive or one has
+regressed. A gate that is stopped prints the last verdicts. Exit status: 0 nothing is slower, 10 something
+is slower, 11 inconclusive (--fail-on inconclusive, or out of time before the first verdicts), 12 pictures
+or states differ, 130 interrupted before the first verdict.)";
 
 void addRunOptions(CLI::App& command, run::RunOptions& options) {
     addSceneOptions(command, options.scene);
@@ -33,20 +34,21 @@ void addRunOptions(CLI::App& command, run::RunOptions& options) {
                 else
                     options.scene.sets.push_back("/run/clocks=" + clocks);
             },
-            "locked: lock the GPU's clocks at what it sustains, where the user may; free: only "
-            "where nobody holds them; both: each case with either (/run/clocks)")
+            "locked: lock the GPU's clocks at a rate that it sustains, if the user may; free: run "
+            "only if nobody has locked them; both: run each case both ways (/run/clocks)")
         ->check(CLI::IsMember({"locked", "free", "both"}));
     command.add_flag("--list", options.list, "print the cases' names and stop");
     command.add_flag(
-        "--dry-run", options.dry_run, "say what would run, estimate time and memory in seconds");
+        "--dry-run", options.dry_run,
+        "list what would run and estimate its time and memory, within seconds");
     command
         .add_option_function<std::string>(
             "--max-memory",
             [&options](const std::string& size) {
                 options.max_memory = measure::parseMemorySize(size);
             },
-            "skip cases that need more than SIZE (500M, 2G) of the device's memory, or of the "
-            "host's; on a software device of both together")
+            "skip cases that need more than SIZE (500M, 2G) of device memory or of host memory; on "
+            "a software device, of both together")
         ->type_name("SIZE")
         ->check([](const std::string& size) -> std::string {
             try {
@@ -59,13 +61,13 @@ void addRunOptions(CLI::App& command, run::RunOptions& options) {
     command.add_option(
         "--order-seed", options.order_seed,
         "seed of the order in which cases run (default: random)");
-    command.add_flag("--resume", options.resume, "go on where an interrupted or killed run ended");
+    command.add_flag("--resume", options.resume, "continue an interrupted or killed run");
     command
         .add_option("--shard", options.shard, "run one part of the cases: 2/8 is the second of 8")
         ->type_name("I/N");
     command.add_flag_callback(
         "--no-pictures", [&options] { options.pictures = false; },
-        "no pictures of the cases beside the report");
+        "write no pictures of the cases beside the report");
     command.add_option("--save-baseline", options.save_baseline, "keep the report under this name")
         ->type_name("NAME");
     command
@@ -77,10 +79,10 @@ void addRunOptions(CLI::App& command, run::RunOptions& options) {
 }
 
 void addGateOptions(CLI::App& command, gate::GateOptions& options) {
-    command.add_option("--a", options.a, "what to compare with")
+    command.add_option("--a", options.a, "build to compare with")
         ->required()
         ->type_name("CMD_OR_BUILD");
-    command.add_option("--b", options.b, "what may be slower")
+    command.add_option("--b", options.b, "build that may be slower")
         ->required()
         ->type_name("CMD_OR_BUILD");
     addScene(command, "--scene", options.scene.scene, "scene file, or the name of a shipped scene")
@@ -107,20 +109,21 @@ void addGateOptions(CLI::App& command, gate::GateOptions& options) {
     command
         .add_option(
             "--calibrate", options.calibration,
-            "pairs of A with itself first: changes that A has by itself count as none (default 0)")
+            "pairs of A with itself that run first; changes as large as between those count as "
+            "none (default 0)")
         ->check(CLI::Range(0, 256));
     addVerdictOptions(command, options.verdict);
     command
         .add_option(
             "--smallest-share", options.verdict.smallest_share,
-            "passes that are less of their frame decide nothing (default 0.02)")
+            "passes below this share of their frame do not affect the verdict (default 0.02)")
         ->check(CLI::Range(0.0, 1.0));
     command.add_flag(
-        "--all", options.all, "go on after a regression until nothing is inconclusive");
+        "--all", options.all, "continue after a regression until nothing is inconclusive");
     command
         .add_option(
             "--max-minutes", options.max_minutes,
-            "time after which no process is begun; the verdicts passed last are given")
+            "minutes after which no process is started; the last verdicts are printed")
         ->check(CLI::PositiveNumber);
     command.add_option("-o,--out", options.out, "report (default results/local/gate-<scene>.json)")
         ->type_name("FILE");
@@ -131,7 +134,9 @@ void addAblateOptions(CLI::App& command, AblateOptions& options) {
     addSamplingOptions(command, options.scene);
     command.add_option("--filter", options.filter, "run the cases whose name matches")
         ->type_name("REGEX");
-    command.add_option("--passes", options.passes, "times up and down the ladder (default 8)")
+    command
+        .add_option(
+            "--passes", options.passes, "passes up and down the ladder of stages (default 8)")
         ->check(CLI::Range(2, 1000));
     command
         .add_option("-o,--out", options.out, "report (default results/local/ablation-<scene>.json)")
@@ -143,20 +148,19 @@ void addDoctorOptions(CLI::App& command, DoctorOptions& options) {
     command
         .add_option(
             "--pairs", options.pairs,
-            "pairs of equal processes from which the smallest slowdown that a gate can find here "
-            "is "
-            "estimated (48 for a firm answer; default 0: no estimate)")
+            "pairs of equal processes to estimate the smallest slowdown that a gate can find here "
+            "(48 for a firm answer; default 0: no estimate)")
         ->check(CLI::Range(0, 256));
     command.add_flag(
         "--planted", options.planted,
-        "plant slowdowns of 1.5 times the smallest in one pass and say whether a gate finds them; "
-        "takes long");
-    command.add_option("-o,--out", options.out, "findings as JSON")->type_name("FILE");
+        "plant slowdowns of 1.5 times that estimate in one pass and report whether a gate finds "
+        "them; takes long");
+    command.add_option("-o,--out", options.out, "file for the findings (JSON)")->type_name("FILE");
     command
         .add_option(
             "--rules", options.rules,
-            "holds a report against the twelve rules of Hoefler and Belli (SC 2015) instead of "
-            "looking at the machine")
+            "check a report against the twelve rules of Hoefler and Belli (SC 2015) instead of "
+            "examining the machine")
         ->type_name("REPORT")
         ->excludes("--pairs")
         ->excludes("--planted")
@@ -164,8 +168,8 @@ void addDoctorOptions(CLI::App& command, DoctorOptions& options) {
     command
         .add_option(
             "--reports", options.reports,
-            "says of reports instead whether they may be kept: of the form that their schema says, "
-            "and to be trusted or marked")
+            "check instead whether reports may be kept: they match their schema, and they can be "
+            "trusted or are marked")
         ->type_name("REPORT...")
         ->excludes("--pairs")
         ->excludes("--planted")
@@ -199,13 +203,13 @@ void addMeasuringCommands(const CommandLine& line) {
     addCommand<AblateOptions>(
         line, line.app,
         {.name = "ablate",
-         .description = "measures what each stage of the strands costs, by frames without it",
+         .description = "measures the cost of each stage of the strands, by frames without it",
          .examples = {"hairbench ablate rest"}},
         ablateScene, addAblateOptions);
     addCommand<DoctorOptions>(
         line, line.app,
         {.name = "doctor",
-         .description = "says whether timings of this machine can be trusted, and why",
+         .description = "checks whether timings of this machine can be trusted, and says why",
          .examples =
              {"hairbench doctor", "hairbench doctor --pairs 48 -o doctor.json",
               "hairbench doctor --rules results/mine.json",
@@ -236,9 +240,9 @@ void addCompareOptions(CLI::App& command, report::CompareOptions& options) {
     command
         .add_option(
             "--baseline", options.baseline,
-            "report A is the one that run --save-baseline kept under this name")
+            "take the report that 'run --save-baseline' kept under this name as A")
         ->type_name("NAME");
-    command.add_flag("--all", options.all, "list metrics that stayed the same too");
+    command.add_flag("--all", options.all, "also list metrics that stayed the same");
     command.add_flag("--json", options.json, "print JSON");
     addVerdictOptions(command, options.verdict);
 }
@@ -302,7 +306,8 @@ void addReportCommands(const CommandLine& line) {
                 ->required()
                 ->type_name("FILE");
             command.add_flag(
-                "--force", options.force, "join what is of other scenes, builds, devices");
+                "--force", options.force,
+                "join reports even if their scenes, builds or devices differ");
         });
 }
 
@@ -312,7 +317,7 @@ void addCheckCommands(const CommandLine& line) {
     addCommand<PhysicsOptions>(
         line, line.app,
         {.name = "physics",
-         .description = "holds the solvers against theory and writes a report",
+         .description = "checks the solvers against theory and writes a report",
          .examples =
              {"hairbench physics", "hairbench physics --solver rod --check 'cantilever|catenary'"}},
         checkPhysics, [](CLI::App& command, PhysicsOptions& options) {
@@ -339,8 +344,8 @@ void addCheckCommands(const CommandLine& line) {
             addOutsideOption(command, options.outside);
             command.add_flag(
                 "--start", options.start,
-                "settle each scene's hair on the device, its axes apart, and say what is wrong "
-                "with it: stretched, inside a body, still moving, not balanced");
+                "settle each scene's hair on the device, without its sweep, and report faults: "
+                "stretched, inside a body, still moving, not balanced");
             command.add_option(
                 "--device", options.device.wanted,
                 "for --start: index or part of the name of the device");
@@ -355,13 +360,14 @@ void addCheckCommands(const CommandLine& line) {
             command
                 .add_option(
                     "--markdown", options.examples,
-                    "print a page of every field instead, with examples from the scenes of FOLDER")
+                    "print a Markdown page of every field instead, with examples from the scenes "
+                    "of FOLDER")
                 ->type_name("FOLDER");
         });
     addCommand(
         line, line.app,
         {.name = "devices",
-         .description = "lists the Vulkan devices and what they lack",
+         .description = "lists the Vulkan devices and the features that they lack",
          .examples = {"hairbench devices"}},
         printDevices);
 }

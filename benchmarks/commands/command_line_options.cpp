@@ -45,12 +45,13 @@ std::string asShare(std::string& text) {
     try {
         std::size_t used = 0;
         const double percent = std::stod(text, &used);
-        if (used != text.size()) return "'" + text + "%' is no share";
+        if (used != text.size())
+            return "'" + text + "%' is not a percentage: expected a number before '%', as in 3%";
         std::ostringstream share;
         share << percent / 100.0;
         text = share.str();
     } catch (const std::exception&) {
-        return "'" + text + "%' is no share";
+        return "'" + text + "%' is not a percentage: expected a number before '%', as in 3%";
     }
     return {};
 }
@@ -77,8 +78,8 @@ void addDeviceOptions(CLI::App& command, engine::DeviceOptions& options) {
             [&options](double seconds) {
                 options.patience = std::chrono::duration<double>(seconds);
             },
-            "how long the device may be silent about what it was given before it is taken for lost "
-            "(default 600, of a software device 3600)")
+            "time without an answer after which the device is taken for lost (default 600, for a "
+            "software device 3600)")
         ->type_name("SECONDS")
         ->check(CLI::PositiveNumber);
 }
@@ -117,8 +118,8 @@ void addSamplingOptions(CLI::App& command, scene::SceneOptions& options) {
     command
         .add_option(
             "--precision", options.precision,
-            "half width of the median's confidence interval, relative to it, at which rounds end "
-            "(default 1%)")
+            "end rounds once half the width of the median's confidence interval is this share of "
+            "the median (default 1%)")
         ->transform(CLI::Validator(asShare, "SHARE"));
     command.add_option(
         "--max-time", options.max_time,
@@ -134,14 +135,19 @@ void addVerdictOptions(CLI::App& command, report::VerdictOptions& options) {
     command
         .add_option(
             "--metrics", options.metrics,
-            "judge the metrics whose name matches (default the times of frames and passes; on a "
-            "software device their CPU time)")
+            "judge the metrics whose name matches (default: the times of frames and passes; on a "
+            "software device, their CPU time)")
         ->type_name("REGEX");
     command
         .add_option_function<std::string>(
-            "--fail-on", [&options](const std::string&) { options.fail_on_inconclusive = true; },
-            "inconclusive: exit with 11 where nothing is slower but not all is known")
-        ->check(CLI::IsMember({"inconclusive"}));
+            "--fail-on",
+            [&options](const std::string& what) {
+                options.fail_on_inconclusive = what == "inconclusive";
+                options.pass_without_verdicts = what == "regressed";
+            },
+            "inconclusive: exit with status 11 if nothing is slower but a metric is inconclusive; "
+            "regressed: exit with status 0 then, even if a gate had no time for a verdict")
+        ->check(CLI::IsMember({"inconclusive", "regressed"}));
 }
 
 }  // namespace benchmarks::commands

@@ -6,12 +6,12 @@ namespace benchmarks::commands {
 namespace {
 
 constexpr const char* kLodNotes =
-    R"(The hair of one frame stands still; the camera keeps its direction. Error: root mean square of
-the picture with /lod's levels less that of level 0, display values counting from 0 to 1. Popping:
-root mean square of what changes from one place to the next, less what changes at level 0. Coverage: share
-of a square round the hair that it hides, without the head. Times: medians of isolated frames.
-With --reference: whole levels, each lit by one directional light that many degrees from the camera, against level
-0 path-traced; popping is what the last 0.05 of the level change.)";
+    R"(The hair of one frame stands still; the camera keeps its direction. Error: root mean square of the
+difference between the pictures with /lod's levels and at level 0, in display values from 0 to 1.
+Popping: root mean square of the change from one distance to the next, minus the change at level 0.
+Coverage: share of a square round the hair that the hair covers, without the head. Times: medians of
+isolated frames. With --reference, whole levels are compared with the path-traced level 0, lit by one
+directional light at each angle from the camera; popping is the change over the last 0.05 of the level.)";
 
 }  // namespace
 
@@ -28,7 +28,7 @@ void addPictureCommands(const CommandLine& line) {
             command.add_option("--width", options.width, "width of the window (default 1600)");
             command.add_option("--height", options.height, "height of the window (default 900)");
             command.add_option(
-                "--scale", options.scale, "scale of letters and widgets (default the screen's)");
+                "--scale", options.scale, "scale of text and widgets (default: the screen's)");
             command.add_option(
                 "--frames", options.frames,
                 "frames that the window draws before it closes (default: until it is closed)");
@@ -65,9 +65,9 @@ void addPictureCommands(const CommandLine& line) {
             command
                 .add_option(
                     "-o,--out", options.out,
-                    "picture: .png as a display shows it, .exr linear light without exposure and "
-                    "tone map; "
-                    "of several frames with their number in it, as in out/%04d.png")
+                    "picture to write: .png as a display shows it, or .exr with linear radiance, "
+                    "before exposure and tone mapping; for several frames a name with their "
+                    "number, as in out/%04d.png")
                 ->required()
                 ->type_name("FILE");
             CLI::Option* frame =
@@ -76,7 +76,7 @@ void addPictureCommands(const CommandLine& line) {
             command
                 .add_option(
                     "--frames", options.frames,
-                    "frames to draw: A, A+1 ... below B, or every STEPth")
+                    "frames to draw: A, A+1 ... B-1, or every STEPth of them")
                 ->type_name("A:B[:STEP]")
                 ->excludes(frame);
         });
@@ -92,11 +92,13 @@ void addPictureCommands(const CommandLine& line) {
             command
                 .add_option(
                     "--export", options.recording.out,
-                    "file; .usda holds every frame, other formats (see 'groom convert') the last")
+                    "file to write; .usda holds every frame, other formats (see 'groom convert') "
+                    "the last")
                 ->required()
                 ->type_name("FILE");
             command.add_flag(
-                "--guides", options.recording.guides, "the guides instead of the drawn strands");
+                "--guides", options.recording.guides,
+                "write the guides instead of the drawn strands");
         });
     addCommand<ExportOptions>(
         line, line.app,
@@ -147,21 +149,22 @@ void addPictureCommands(const CommandLine& line) {
     addCommand<LodOptions>(
         line, line.app,
         {.name = "lod",
-         .description =
-             "moves the camera away and compares level of detail by distance with full detail",
+         .description = "moves the camera away and compares levels of detail with full detail",
          .examples = {"hairbench lod rest --from 0.5 --to 20 --steps 40 -o lod.json"},
          .notes = kLodNotes},
         walkLod, [](CLI::App& command, LodOptions& options) {
             addSceneOptions(command, options.scene);
             command
-                .add_option("--from", options.from, "first distance from /camera/target, m (0.5)")
+                .add_option(
+                    "--from", options.from, "first distance from /camera/target, m (default 0.5)")
                 ->check(CLI::PositiveNumber);
-            command.add_option("--to", options.to, "last distance from /camera/target, m (20)")
+            command
+                .add_option("--to", options.to, "last distance from /camera/target, m (default 20)")
                 ->check(CLI::PositiveNumber);
             command
                 .add_option(
                     "--steps", options.steps,
-                    "number of distances, each by the same factor farther (40)")
+                    "number of distances, each farther by the same factor (default 40)")
                 ->check(CLI::Range(2u, 10000u));
             command
                 .add_option("-o,--out", options.out, "report file (default results/local/lod.json)")

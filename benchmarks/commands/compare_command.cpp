@@ -1,3 +1,5 @@
+#include <algorithm>
+#include <cmath>
 #include <iostream>
 #include <vector>
 
@@ -26,7 +28,7 @@ Pair wantedReports(const report::CompareOptions& options) {
         if (!both) throw engine::Error("compare", "two reports are needed, or one and --baseline");
         return {options.a, options.b};
     }
-    if (both) throw engine::Error("--baseline", "is report A: give the other one only");
+    if (both) throw engine::Error("--baseline", "names report A: give only report B");
     const std::filesystem::path& b = options.b.empty() ? options.a : options.b;
     if (b.empty()) throw engine::Error("compare", "a report is needed");
     return {{}, b};
@@ -58,6 +60,21 @@ void print(
 
 }  // namespace
 
+namespace {
+
+// Says how many changes can't be known, which must not look as if they were none.
+void tellUnknown(const report::ReportComparison& comparison) {
+    const auto unknown = std::ranges::count_if(comparison.changes, [](const report::Change& each) {
+        return !std::isfinite(each.comparison.upper);
+    });
+    if (unknown > 0)
+        std::cerr << "hairbench: " << unknown << " of " << comparison.changes.size()
+                  << " changes can't be known, because the reports have too few frames: measure "
+                     "longer (--max-time 10)\n";
+}
+
+}  // namespace
+
 int compareReports(const report::CompareOptions& options) {
     Pair files = wantedReports(options);
     const scene::Json b = report::readReport(files.b);
@@ -79,7 +96,7 @@ int compareReports(const report::CompareOptions& options) {
     if (with_baseline && !comparison.same_device) {
         for (const std::string& each : comparison.warnings)
             std::cerr << engine::shownText(each) << '\n';
-        std::cerr << "hairbench: baseline '" << options.baseline << "' is of another device\n";
+        std::cerr << "hairbench: baseline '" << options.baseline << "' comes from another device\n";
         return report::kNoBaseline;
     }
     if (comparison.changes.empty() && comparison.mismatches.empty()) {
@@ -97,6 +114,7 @@ int compareReports(const report::CompareOptions& options) {
             comparison, files,
             comparison.common_cases > 1 ? report::ShowCases::yes : report::ShowCases::no,
             options.all);
+    tellUnknown(comparison);
     return report::verdictStatus(
         report::overallVerdict(comparison), options.verdict.fail_on_inconclusive);
 }

@@ -44,7 +44,7 @@ std::string functionName(const CommandHelp& command) { return '_' + joined(comma
 // ---- bash ---------------------------------------------------------------------------------------
 
 constexpr const char* kBashStart =
-    R"sh(# What bash completes for hairbench; made by 'hairbench completion bash'.
+    R"sh(# Completions of hairbench for bash, made by 'hairbench completion bash'.
 
 # Names of files that go on with the word, folders with a slash.
 _hairbench_files() {
@@ -201,7 +201,7 @@ std::string zshFunction(const CommandHelp& command) {
 
 std::string zshCompletion(const CommandHelp& program) {
     std::string text = R"sh(#compdef hairbench
-# What zsh completes for hairbench; made by 'hairbench completion zsh'.
+# Completions of hairbench for zsh, made by 'hairbench completion zsh'.
 
 # A scene is a file or the name of one that is shipped.
 __hairbench_scenes() {
@@ -219,7 +219,7 @@ __hairbench_scenes() {
 // ---- fish ---------------------------------------------------------------------------------------
 
 constexpr const char* kFishStart =
-    R"sh(# What fish completes for hairbench; made by 'hairbench completion fish'.
+    R"sh(# Completions of hairbench for fish, made by 'hairbench completion fish'.
 
 # Whether this command is typed so far.
 function __hairbench_at
@@ -298,7 +298,7 @@ std::vector<std::string> shellNames() {
 std::string completionFor(std::string_view shell, const CommandHelp& program) {
     const auto found = std::ranges::find(kShells, shell, &Shell::name);
     if (found == kShells.end())
-        throw engine::Error("no completions for the shell " + std::string(shell));
+        throw engine::Error("no completions for the shell '" + std::string(shell) + '\'');
     return found->completion(program);
 }
 

@@ -72,7 +72,8 @@ int examineMachine(const DoctorOptions& options) {
         return doctor::meetsRules(findings) ? report::kOk : report::kCheckFailed;
     }
     if (options.planted && options.pairs == 0)
-        throw engine::Error("--planted", "needs --pairs: how large a slowdown to plant");
+        throw engine::Error(
+            "--planted", "needs --pairs, which estimate how large a slowdown to plant");
     if (!options.out.empty()) engine::checkWritable(options.out);
     doctor::DoctorReport report;
     const auto finish = [&] {

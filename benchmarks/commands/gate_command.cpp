@@ -39,7 +39,7 @@ void printEnd(const gate::GateRun& run) {
     else if (run.end == gate::GateRun::End::out_of_time)
         std::cerr << "out of time after " << run.pairs << (run.pairs == 1 ? " pair\n" : " pairs\n");
     else if (run.mismatches.empty() && run.changes.empty())
-        std::cerr << "hairbench: no case ran in both that has a time to judge\n";
+        std::cerr << "hairbench: no case with a time to judge ran in both builds\n";
     if (run.mismatches.empty() && (run.decided_at > 0 || run.end == gate::GateRun::End::decided) &&
         !run.changes.empty())
         std::cout << "verdict: " << report::verdictName(gate::overallVerdict(run)) << '\n';

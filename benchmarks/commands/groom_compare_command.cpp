@@ -35,8 +35,7 @@ groom::ComparedFile readCompared(
         unit = {findings.unit, findings.metres_per_unit, findings.unit_reason};
         if (!findings.unit_stated && findings.metres_per_unit != 1.0)
             std::cerr << "hairbench: " << engine::shownText(path.string())
-                      << ": its lengths are taken as " << findings.unit
-                      << ", which it doesn't state\n";
+                      << ": states no unit; lengths are taken as " << findings.unit << '\n';
     }
     groom::ComparedFile file{
         .file = path, .format = hair::groom::strandImporterOf(path).name, .unit = unit};
@@ -57,7 +56,8 @@ hair::groom::MatchThreshold parsedThreshold(const std::string& text) {
         }
     } catch (const std::exception&) {  // not a number: see below
     }
-    throw engine::Error("--threshold", "'" + text + "' is not like 2/20, for 2 mm and 20 degrees");
+    throw engine::Error(
+        "--threshold", "'" + text + "' is not MM/DEGREES, as in 2/20 for 2 mm and 20 degrees");
 }
 
 }  // namespace

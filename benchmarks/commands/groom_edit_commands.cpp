@@ -59,8 +59,8 @@ double unitOf(const StrandSet& strands, const EditGroomOptions& options) {
     const auto findings = hair::groom::inspect(strands, nullptr, {});
     if (!findings.unit_stated)
         warnOf(
-            options.in, {"its lengths are taken as " + findings.unit +
-                         ", which it doesn't state; --scale states it"});
+            options.in,
+            {"states no unit; lengths are taken as " + findings.unit + "; --scale sets the unit"});
     return findings.metres_per_unit;
 }
 
@@ -108,9 +108,9 @@ int filterGroom(const EditGroomOptions& options) {
         .farthest_root = metresOf(options.farthest_root),
         .deepest = metresOf(options.deepest)};
     if ((settings.farthest_root || settings.deepest) && options.mesh.empty())
-        throw engine::Error("--mesh", "--farthest-root and --deepest need it");
+        throw engine::Error("--mesh", "is missing; --farthest-root and --deepest need it");
     if (!options.mesh.empty() && !settings.farthest_root && !settings.deepest)
-        throw engine::Error("--mesh", "it is for --farthest-root and --deepest");
+        throw engine::Error("--mesh", "has no effect without --farthest-root or --deepest");
     const std::optional<hair::groom::BodyMesh> mesh = meshOf(options);
     return editGroom(options, [&](const StrandSet& strands, double unit) {
         return hair::groom::filterStrands(strands, settings, mesh ? &*mesh : nullptr, unit);
@@ -129,7 +129,7 @@ int smoothGroom(const EditGroomOptions& options) {
 
 int resampleGroom(const EditGroomOptions& options) {
     if (options.vertices.has_value() == options.spacing.has_value())
-        throw engine::Error("--vertices, --spacing", "one of them is needed, and not both");
+        throw engine::Error("--vertices, --spacing", "give exactly one of them");
     return editGroom(options, [&](StrandSet strands, double unit) {
         EditedStrands edited{
             .strands = {}, .notes = {{"resampled: strands", strands.strandCount()}}};
@@ -143,7 +143,7 @@ int resampleGroom(const EditGroomOptions& options) {
 
 int fixGroom(const EditGroomOptions& options) {
     if (options.farthest_root && options.mesh.empty())
-        throw engine::Error("--mesh", "--farthest-root needs it");
+        throw engine::Error("--mesh", "is missing; --farthest-root needs it");
     constexpr double kFarthestRoot = 10.0;  // mm
     const std::optional<hair::groom::BodyMesh> mesh = meshOf(options);
     return editGroom(options, [&](StrandSet strands, double unit) {

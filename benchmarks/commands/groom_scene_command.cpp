@@ -43,7 +43,7 @@ fs::path convertedHead(const fs::path& scene) {
 
 void refuseToReplace(const fs::path& path, const GroomSceneOptions& options) {
     if (!options.force && fs::exists(path))
-        throw engine::Error(path.string(), "is there already; --force replaces it");
+        throw engine::Error(path.string(), "exists already; --force replaces it");
 }
 
 // Returns the name of a file relative to the scene, as the scene names it.
@@ -141,7 +141,7 @@ int makeGroomScene(const GroomSceneOptions& options) {
     refuseToReplace(options.out, options);
     if (!options.sheet.empty()) {
         if (hair::groom::lowerCaseExtension(options.sheet) != ".png")
-            throw engine::Error(options.sheet.string(), "a sheet is a .png");
+            throw engine::Error(options.sheet.string(), "is not a .png file, as --sheet writes");
         refuseToReplace(options.sheet, options);
     }
     hair::groom::StrandSet strands =

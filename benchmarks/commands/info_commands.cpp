@@ -35,7 +35,7 @@ void printStart(
     measure::HairCache& cache) {
     const scene::CaseSpec spec = scene::singleCase(scene, {.scene = path}, &cache.assets());
     const measure::StartInspection start = [&] {
-        const engine::Step step("looks at the hair of " + spec.name);
+        const engine::Step step("inspects the hair of " + spec.name);
         const measure::Case first(device, spec.settings, scene.directory, &cache);
         return measure::inspectStart(first);
     }();
@@ -118,8 +118,7 @@ void printLacking(const engine::DeviceInfo& device) {
     for (const engine::Feature feature : engine::allFeatures())
         if (!device.features.contains(feature))
             lacking += "\n     " + std::string(engine::featureName(feature));
-    if (!lacking.empty())
-        std::cout << "   but for cases that need what it has not:" << lacking << '\n';
+    if (!lacking.empty()) std::cout << "   can't run cases that need" << lacking << '\n';
 }
 
 }  // namespace

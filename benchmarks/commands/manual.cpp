@@ -128,14 +128,17 @@ struct Variable {
 };
 
 constexpr auto kVariables = std::to_array<Variable>({
-    {"HAIRBENCH_PYTHON", "the interpreter that USD is read with"},
-    {"HAIRBENCH_REFERENCE_PYTHON", "the interpreter of 'hairbench reference' and 'hairbench diff'"},
-    {"HAIRBENCH_PLOTLY", "the plotly.js of 'hairbench report': any bundle, packed by gzip or not"},
+    {"HAIRBENCH_PYTHON", "the Python interpreter that reads USD files"},
+    {"HAIRBENCH_REFERENCE_PYTHON",
+     "the Python interpreter of 'hairbench reference' and 'hairbench diff'"},
+    {"HAIRBENCH_PLOTLY", "the plotly.js bundle for 'hairbench report', compressed by gzip or not"},
     {"HAIRBENCH_BASELINES",
      "the folder of 'run --save-baseline' (default results/local/baselines)"},
-    {"XDG_CACHE_HOME", "has hairbench/, what is made once and kept (default ~/.cache)"},
-    {"XDG_CONFIG_HOME", "has hairbench/, what the viewer remembers (default ~/.config)"},
-    {"XDG_DATA_HOME", "has hairbench/, the Python environments (default ~/.local/share)"},
+    {"XDG_CACHE_HOME", "the folder that holds hairbench/, the cache (default ~/.cache)"},
+    {"XDG_CONFIG_HOME",
+     "the folder that holds hairbench/, the viewer's preferences (default ~/.config)"},
+    {"XDG_DATA_HOME",
+     "the folder that holds hairbench/, the Python environments (default ~/.local/share)"},
 });
 
 std::string environmentText() {
@@ -165,7 +168,7 @@ const CommandHelp& commandOf(const CommandHelp& program, const std::vector<std::
         const auto below = std::ranges::find_if(
             command->commands, [&](const CommandHelp& each) { return each.words.back() == word; });
         if (below == command->commands.end())
-            throw engine::Error(typedName(*command) + " has no command " + word);
+            throw engine::Error(typedName(*command) + " has no command '" + word + '\'');
         command = &*below;
     }
     return *command;

@@ -14,7 +14,7 @@ namespace benchmarks::commands {
 int renderReference(const ReferenceOptions& options) {
     const std::string extension = hair::groom::lowerCaseExtension(options.out);
     if (extension != ".exr" && extension != ".png")
-        throw engine::Error(options.out.string(), "is neither .exr nor .png");
+        throw engine::Error(options.out.string(), "is neither .png nor .exr");
     scene::Scene scene = scene::loadScene(options.scene.scene, options.scene.outside);
     measure::HairCache cache = measure::userHairCache(options.scene.cache);
     const scene::CaseSpec spec = scene::singleCase(scene, options.scene, &cache.assets());

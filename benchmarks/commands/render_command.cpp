@@ -26,7 +26,7 @@ bool isLinear(const std::filesystem::path& file) {
 void checkFormat(const std::filesystem::path& file) {
     const std::string extension = hair::groom::lowerCaseExtension(file);
     if (extension.empty() || extension == ".png" || extension == ".exr") return;
-    throw engine::Error(file.string(), "pictures are .png or .exr");
+    throw engine::Error(file.string(), "is neither .png nor .exr");
 }
 
 void writePicture(
@@ -65,7 +65,9 @@ int renderScene(const RenderOptions& options) {
         range = scene::parseFrameRange(options.frames);
         paths.emplace(options.out);
         if (!paths->hasNumber() && range.count() > 1)
-            throw engine::Error(options.out.string(), "needs a number, as in out/%04d.png");
+            throw engine::Error(
+                options.out.string(),
+                "needs a place for the number of the frame, as in out/%04d.png");
     }
     const auto file = [&](std::uint32_t frame) { return paths ? paths->of(frame) : options.out; };
     checkFormat(file(range.first));

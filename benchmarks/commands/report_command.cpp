@@ -16,14 +16,16 @@ int writeReportPage(const ReportPageOptions& options) {
     engine::writeFileAtomically(options.out, report::assemblePage(parts, data));
     for (const scene::Json& each : data.at("left_out"))
         std::cerr << "hairbench: left out " << engine::shownText(each.at("file").get<std::string>())
-                  << ": " << engine::shownText(each.at("reason").get<std::string>())
-                  << ", no report of hairbench run\n";
+                  << ": is not a report of 'hairbench run': "
+                  << engine::shownText(each.at("reason").get<std::string>()) << '\n';
     std::size_t missing = 0;
     for (const scene::Json& report : data.at("reports"))
         for (const scene::Json& each : report.at("cases"))
             missing += each.contains("picture_missing");
     if (missing > 0)
-        std::cerr << "hairbench: pictures of cases that are not there: " << missing << '\n';
+        std::cerr << "hairbench: " << missing
+                  << (missing == 1 ? " picture of a case is missing\n"
+                                   : " pictures of cases are missing\n");
     std::cout << "page: " << engine::shownText(options.out.string()) << '\n';
     return report::kOk;
 }

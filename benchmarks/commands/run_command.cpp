@@ -58,7 +58,8 @@ int runScene(const run::RunOptions& options) {
     if (!options.baseline.empty())
         if (const auto file = report::baselineFile(options.baseline, plan.name);
             !std::filesystem::is_regular_file(file)) {
-            std::cerr << "hairbench: there is no such baseline: " << file.string() << '\n';
+            std::cerr << "hairbench: no baseline '" << options.baseline << "': " << file.string()
+                      << ": there is no such file\n";
             return report::kNoBaseline;
         }
     const std::filesystem::path out = run::reportFile(options, plan);
@@ -83,7 +84,7 @@ int runScene(const run::RunOptions& options) {
         return report::kInterrupted;
     }
     if (!finished.no_device.empty()) {
-        print_short("hairbench: the device is gone", finished);
+        print_short("hairbench: the device was lost", finished);
         std::cerr << "hairbench: " << engine::shownText(finished.no_device) << '\n';
         return report::kNoDevice;
     }

@@ -63,8 +63,7 @@ int viewScene(const viewer::ViewOptions& options) {
         return report::kCheckFailed;
     } catch (const engine::DeviceLost& error) {
         std::cerr << "hairbench: the device was lost (" << error.what()
-                  << "): its driver gave up, as after a hang or a reset; what was not saved is "
-                     "gone\n";
+                  << "), as after a hang or a reset of its driver; unsaved changes are lost\n";
         return report::kInternalError;
     }
 }

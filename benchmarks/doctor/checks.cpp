@@ -56,14 +56,14 @@ std::string clockText(const ClockFacts& clocks) {
                    ? megahertz(*clocks.highest_mhz)
                    : megahertz(*clocks.lowest_mhz) + " to " + megahertz(*clocks.highest_mhz);
     else
-        text = clocks.taken_for_idle ? "unknown: the driver takes the device for idle"
+        text = clocks.taken_for_idle ? "unknown: the driver reports the device as idle"
                                      : "shader clock unknown";
     if (const auto base = clocks.conditions.base_clock_mhz) text += " of " + megahertz(*base);
     if (clocks.held) text += ", held by the administrator";
     if (const auto degrees = clocks.conditions.temperature)
         text += ", " + report::shortNumber(*degrees) + " degrees C";
     if (!clocks.conditions.throttle_reasons.empty())
-        text += ", held back by " + joined(clocks.conditions.throttle_reasons, ", ");
+        text += ", throttled by " + joined(clocks.conditions.throttle_reasons, ", ");
     return text;
 }
 
@@ -74,23 +74,23 @@ Health disturbance(const Facts& facts, double share, double little, double much)
 }
 
 Judgement judgeClocks(const Facts& facts) {
-    if (isSoftware(facts)) return {Health::ok, "the processor's: see there"};
+    if (isSoftware(facts)) return {Health::ok, "those of the processor: see there"};
     if (!facts.clocks)
         return {
-            Health::unknown, "no NVML, nor files of amdgpu",
-            "watch the clocks by other means: throttling goes unnoticed"};
+            Health::unknown, "neither NVML nor files of amdgpu",
+            "watch the clocks by other means: throttling would go unnoticed"};
     const ClockFacts& clocks = *facts.clocks;
     const std::string seen = clockText(clocks);
     if (measure::isThrottled(clocks.conditions, 0.0, 0.0))
         return {
             Health::bad, seen,
-            "the device is throttled: let it cool down, raise its power limit, end what else uses "
-            "it"};
+            "the device is throttled: let it cool down, raise its power limit, end other programs "
+            "that use it"};
     if (!clocks.conditions.throttle_reasons.empty())
         return {
             Health::warn, seen,
-            "lock the clocks at what the device can hold (NVIDIA: nvidia-smi --lock-gpu-clocks, "
-            "as administrator)"};
+            "lock the clocks at a rate that the device sustains (NVIDIA: nvidia-smi "
+            "--lock-gpu-clocks, as administrator)"};
     if (!clocks.held)
         return {
             Health::warn, seen,
@@ -103,8 +103,7 @@ Judgement judgeProcessor(const Facts& facts) {
     const ProcessorFacts& processor = facts.processor;
     std::string seen = processor.count ? std::to_string(*processor.count) + " processors"
                                        : std::string("processors");
-    if (processor.quota)
-        seen += ", " + report::shortNumber(*processor.quota) + " of them to be used";
+    if (processor.quota) seen += ", " + report::shortNumber(*processor.quota) + " of them usable";
     seen += processor.governors.empty() ? "; frequency scaling unknown"
                                         : "; governor " + joined(processor.governors, ", ");
     if (isSoftware(facts) && processor.quota && processor.count &&
@@ -141,7 +140,7 @@ Judgement judgeSteal(const Facts& facts) {
 Judgement judgePower(const Facts& facts) {
     if (!facts.on_battery) return {Health::unknown, "no power supply is listed"};
     if (!*facts.on_battery) return {Health::ok, "mains"};
-    return {Health::warn, "battery", "plug the machine in: it saves power now"};
+    return {Health::warn, "battery", "plug the machine in: on battery it saves power"};
 }
 
 // ---- The program --------------------------------------------------------------------------------
@@ -181,7 +180,7 @@ Judgement judgeLayers(const Facts& facts) {
     for (const std::string& layer : facts.layers.loaded) {
         if (isHarmless(layer)) continue;
         judgement.health = Health::warn;
-        judgement.advice = "layers take time of every call: unset VK_INSTANCE_LAYERS and "
+        judgement.advice = "layers slow down every call: unset VK_INSTANCE_LAYERS and "
                            "VK_LOADER_LAYERS_ENABLE, or set VK_LOADER_LAYERS_DISABLE='*'";
         if (contains(layer, "validation")) {
             judgement.health = Health::bad;
@@ -224,8 +223,8 @@ Judgement judgeTimestamps(const Facts& facts) {
     if (*stamps.step_ns > kCoarseStep)
         return {
             Health::warn, seen,
-            "passes below " + report::shortNumber(*stamps.step_ns * 1e-4) +
-                " ms are known to worse than 1 %: make the scene larger"};
+            "the error of passes below " + report::shortNumber(*stamps.step_ns * 1e-4) +
+                " ms is above 1 %: make the scene larger"};
     return {Health::ok, seen};
 }
 
@@ -243,18 +242,18 @@ Judgement judgePassSum(const Facts& facts) {
     if (whole) return {Health::ok, seen};
     return {
         Health::bad, seen,
-        "don't believe times of passes here; frame times stand. Close other programs and try "
-        "again; if it stays, it is the driver"};
+        "times of passes can't be trusted here; times of frames can. Close other programs and try "
+        "again; if it persists, the driver is at fault"};
 }
 
 Judgement judgeStamps(const Facts& facts) {
     if (facts.timestamps.valid_bits == 0) return {Health::unknown, "needs timestamps"};
     const std::vector<std::string>& faults = facts.passes.faults;
-    if (faults.empty()) return {Health::ok, "as by submitting and waiting for each pass"};
+    if (faults.empty()) return {Health::ok, "the same as by submitting and waiting for each pass"};
     return {
         Health::bad, joined(faults, "; "),
-        "reports of this device have passes by wall clock. Close other programs and try again; "
-        "if it stays, it is the driver"};
+        "reports of this device time passes by wall clock. Close other programs and try again; if "
+        "it persists, the driver is at fault"};
 }
 
 Judgement judgeRepeat(const Facts& facts) {
@@ -276,7 +275,7 @@ Judgement judgeRepeat(const Facts& facts) {
     if (frame.lower > b || frame.upper < -b)
         return {
             Health::bad, seen,
-            "equal runs look different: close other programs, lock clocks, let the machine cool "
+            "equal runs seem to differ: close other programs, lock clocks, let the machine cool "
             "down"};
     return {Health::ok, seen};
 }
@@ -290,7 +289,7 @@ Judgement judgeNoise(const Facts& facts) {
     if (frame <= kNoisy) return {Health::ok, seen};
     if (isSoftware(facts) && cpu <= kNoisy)
         return {
-            Health::warn, seen, "frame times show large changes only: compare CPU times instead"};
+            Health::warn, seen, "frame times show only large changes: compare CPU times instead"};
     return {
         Health::warn, seen,
         "only large changes can be found: see other load, clocks and processor; `--pairs 48` says "

@@ -55,8 +55,8 @@ Finding judgePlanted(const std::vector<PlantedGate>& gates) {
         {}};
     if (found == all && elsewhere == 0) return finding;
     finding.health = Health::bad;
-    finding.advice = "gates of this machine miss slowdowns or name the wrong pass: mend the rest "
-                     "of this list, and repeat";
+    finding.advice = "gates on this machine miss slowdowns or name the wrong pass: fix the other "
+                     "findings, and repeat";
     return finding;
 }
 

@@ -134,7 +134,7 @@ ReportExamination examineReport(const std::filesystem::path& file) {
     const std::string text = engine::readFile(file);
     Json report = scene::parseJson(text, file.string());
     const std::optional<std::string> kind = kindOf(report);
-    if (!kind) throw engine::Error(file.string(), "is no report of hairbench");
+    if (!kind) throw engine::Error(file.string(), "is not a report of hairbench");
     ReportExamination examination{
         .schema = scene::textAt(report, "/schema"),
         .device = scene::textAt(report, "/environment/device/name"),

@@ -11,6 +11,7 @@
 #include <nlohmann/json.hpp>
 
 #include "benchmarks/report/text.h"
+#include "benchmarks/scene/json.h"
 #include "engine/error.h"
 
 namespace benchmarks::doctor {
@@ -93,9 +94,9 @@ RuleFinding subsets(const Judged& judged) {
     if (judged.report().value("interrupted", false))
         return notMet("the run was interrupted: --resume measures the rest");
     if (judged.unexplained() > 0)
-        return notMet(countText(judged.unexplained(), "case") + " without times say no reason");
+        return notMet(countText(judged.unexplained(), "case") + " without times give no reason");
     if (judged.hasOption({"--filter", "--shard"}))
-        return author("a part of the scene's cases was asked for (--filter, --shard): say why");
+        return author("only a part of the scene's cases was run (--filter, --shard): say why");
     return met(
         std::to_string(judged.measured().size()) + " of " + countText(judged.all(), "case") +
         " measured, the others with their reasons");
@@ -112,7 +113,7 @@ RuleFinding means(const Judged& judged) {
         if (!(std::abs(rate * cost / 1e3 - 1.0) <= kRounding))
             return notMet(
                 "fps of " + result->at("name").get<std::string>() +
-                " is not frames over their time");
+                " is not the number of frames over their time");
     }
     return met("fps is frames over the time that they took, a harmonic mean; means are of times");
 }
@@ -129,7 +130,7 @@ RuleFinding intervals(const Judged& judged) {
     if (lacking > 0)
         return notMet(
             countText(lacking) + " of " + countText(all, "time") +
-            " have too few samples for an interval: a longer --max-time");
+            " have too few samples for an interval: raise --max-time");
     std::size_t hashed = 0;
     for (const Json* result : judged.measured())
         if (result->contains("image_hash") && result->contains("state_hash")) ++hashed;
@@ -150,8 +151,8 @@ RuleFinding normality(const Judged& judged) {
 }
 
 RuleFinding comparison(const Judged&) {
-    return author("one report compares nothing: hairbench gate, or compare, which say so where "
-                  "nothing can be decided");
+    return author("one report compares nothing: use 'hairbench gate' or 'hairbench compare', which "
+                  "say what can't be decided");
 }
 
 RuleFinding percentiles(const Judged& judged) {
@@ -192,9 +193,9 @@ RuleFinding synchronisation(const Judged& judged) {
     for (const Json* result : judged.measured())
         if (result->value("sampling", Json::array()).empty())
             return notMet(
-                "how " + result->at("name").get<std::string>() + " was sampled is not known");
+                "the sampling of " + result->at("name").get<std::string>() + " is not known");
     if (judged.text("/methods").empty())
-        return notMet("no paragraph on methods: an older hairbench");
+        return notMet("no paragraph on methods: an older hairbench wrote the report");
     return met("modes, frames in flight, rounds and warm-up of each case; the paragraph 'methods'");
 }
 
@@ -202,7 +203,7 @@ RuleFinding bounds(const Judged& judged) {
     for (const Json* result : judged.measured())
         if (result->contains("roofline")) return met("the roofline of the stages that were used");
     return author("no bound of the device is in the report: name its bandwidth or arithmetic rate, "
-                  "or what of it the frame could reach");
+                  "or the share that the frame could reach");
 }
 
 RuleFinding plots(const Judged&) {
@@ -227,7 +228,7 @@ constexpr std::array kRules{
     Rule{"the whole set-up", setup},
     Rule{"synchronisation and summary of parallel times", synchronisation},
     Rule{"upper bounds of performance", bounds},
-    Rule{"plots that show what they rest on", plots}};
+    Rule{"plots that show their data", plots}};
 
 }  // namespace
 
@@ -252,7 +253,7 @@ std::vector<RuleFinding> judgeRules(const scene::Json& report) try {
     }
     return findings;
 } catch (const Json::exception& error) {
-    throw engine::Error("the report can't be judged", error.what());
+    throw engine::Error("the report can't be judged", scene::jsonReason(error));
 }
 
 bool meetsRules(const std::vector<RuleFinding>& findings) {
@@ -277,7 +278,7 @@ std::string rulesText(const std::vector<RuleFinding>& findings) {
     };
     return text + '\n' + count(RuleVerdict::met) + " of " + std::to_string(findings.size()) +
            " rules are met by the report, " + count(RuleVerdict::not_met) + " are not, " +
-           count(RuleVerdict::author) + " are for who writes about it\n";
+           count(RuleVerdict::author) + " are for the author\n";
 }
 
 }  // namespace benchmarks::doctor

@@ -56,7 +56,7 @@ BlockReport readBlock(const std::filesystem::path& path) {
         for (const scene::Json& each : report.at("cases")) block.cases.push_back(readCase(each));
         return block;
     } catch (const scene::Json::exception& error) {
-        throw engine::Error(path.string(), error.what());
+        throw engine::Error(path.string(), scene::jsonReason(error));
     }
 }
 
@@ -280,7 +280,7 @@ Side parseSide(char name, const GateOptions& options) {
     side.options = runOptions(name, options);
     if (isPattern(side.text)) {
         if (side.text.find("{out}") == std::string::npos)
-            throw engine::Error(context, "has {scene} but no {out}, where the report is to go");
+            throw engine::Error(context, "has {scene} but no {out} for the report");
         if (!side.options.empty())
             throw engine::Error(
                 context, "has {out} and is taken as it is: put '" + side.options.front() +

@@ -127,9 +127,14 @@ scene::Json gateReport(
         {"alpha", run.rule.alpha},
         {"smallest_share", options.smallest_share},
         {"decisions", scene::Json::array()}};
+    if (run.rule.first_pairs == *std::begin(report::kStages)) {
+        object["rule"]["large_change"] = report::kLargeChange;
+        object["rule"]["decisions"].push_back(report::kEarlyStage);
+    }
     for (const std::size_t stage : report::kStages)
         if (stage >= run.rule.first_pairs) object["rule"]["decisions"].push_back(stage);
     object["pairs"] = run.pairs;
+    if (run.repeated_blocks > 0) object["repeated_blocks"] = run.repeated_blocks;
     object["unmatched"] = run.unmatched;
     object["times"] = timesJson(run);
     scene::Json& too_short = object["too_short"] = scene::Json::array();
@@ -179,7 +184,7 @@ std::string mismatchesText(const GateRun& run) {
     if (run.unstable != 0)
         text += std::string("The runs of ") + run.unstable + " differ among themselves.\n";
     for (const report::Mismatch& each : run.mismatches) text += report::mismatchText(each) + '\n';
-    return text + "mismatch: times of different work say nothing\n";
+    return text + "mismatch: times of different work can't be compared\n";
 }
 
 report::ShowCases showCases(const GateRun& run) {

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <iterator>
 #include <limits>
+#include <span>
 
 #include "benchmarks/report/statistics.h"
 #include "engine/error.h"
@@ -19,6 +20,16 @@ constexpr report::Comparison kNothingKnown{
     .upper = std::numeric_limits<double>::infinity(),
     .decisive_change = 0.0,
     .p = 1.0};
+
+// The verdict on a change that is large in every pair; otherwise inconclusive.
+report::Verdict verdictOnLarge(std::span<const double> differences, double decisive_change) {
+    const double bound = std::log1p(std::max(report::kLargeChange, decisive_change));
+    if (std::ranges::all_of(differences, [&](double each) { return each > bound; }))
+        return report::Verdict::regressed;
+    if (std::ranges::all_of(differences, [&](double each) { return each < -bound; }))
+        return report::Verdict::improved;
+    return report::Verdict::inconclusive;
+}
 
 }  // namespace
 
@@ -35,7 +46,7 @@ bool Gate::isStage(std::size_t pairs) const {
 Gate::Step Gate::next() const {
     const bool a_first = pairs_ % 2 == 0;
     if (waiting_) return a_first ? Step::run_b : Step::run_a;
-    if (isStage(pairs_)) {
+    if (isStage(pairs_) || (decided_at_ > 0 && pairs_ == decided_at_)) {
         if (pairs_ == *std::rbegin(report::kStages)) return Step::decided;
         bool open = false;
         bool regressed = false;
@@ -60,7 +71,7 @@ void Gate::add(std::vector<double> medians) {
     const Step step = next();
     assert(step != Step::decided);
     if (medians.size() != metrics_.size())
-        throw engine::Error("gate", "a process measured something else than the others");
+        throw engine::Error("gate", "a process measured other metrics than the others");
     if (!waiting_) {
         waiting_ = std::move(medians);
         return;
@@ -81,6 +92,7 @@ void Gate::addPair(const std::vector<double>& a, const std::vector<double>& b) {
             comparable_[i] = 0;
     }
     ++pairs_;
+    if (pairs_ == report::kEarlyStage && isStage(*std::begin(report::kStages))) passEarlyVerdicts();
     if (isStage(pairs_)) passVerdicts();
 }
 
@@ -89,6 +101,21 @@ bool Gate::isClockChange(std::size_t metric) const {
     const report::Verdict time = decided_[metric].verdict;
     return (time == report::Verdict::regressed || time == report::Verdict::improved) &&
            decided_[*metrics_[metric].cycles].verdict == report::Verdict::same;
+}
+
+void Gate::passEarlyVerdicts() {
+    std::vector<report::Comparison> now = compareNow();
+    bool any = false;
+    for (std::size_t i = 0; i < now.size(); ++i) {
+        now[i].verdict = comparable_[i] ? verdictOnLarge(differences_[i], now[i].decisive_change)
+                                        : report::Verdict::inconclusive;
+        if (now[i].verdict == report::Verdict::inconclusive) continue;
+        now[i].pairs = pairs_;
+        any = any || metrics_[i].decides;
+    }
+    if (!any) return;
+    decided_ = std::move(now);
+    decided_at_ = pairs_;
 }
 
 void Gate::passVerdicts() {

@@ -20,10 +20,11 @@ struct GateMetric {
 // Tells which build to run next and when enough is known, and passes verdicts; its owner runs the
 // processes. Pairs of blocks go A B, B A, A B ..., so that a drift of the machine raises as many
 // differences as it lowers. Verdicts are passed after 12, 24 and 48 pairs (from the rule's
-// first_pairs on). A verdict other than "inconclusive" is final, as each stage has its share of the
-// level. The gate ends when no deciding metric is inconclusive, or when one has regressed and `all`
-// is false. After 48 pairs, inconclusive metrics stay inconclusive. All blocks must do the same
-// work: the owner must stop if pictures or states differ.
+// first_pairs on), and after 8 on changes of report::kLargeChange in every pair. A verdict other
+// than "inconclusive" is final, as each stage has its share of the level. The gate ends when no
+// deciding metric is inconclusive, or when one has regressed and `all` is false. After 48 pairs,
+// inconclusive metrics stay inconclusive. All blocks must do the same work: the owner must stop if
+// pictures or states differ.
 class Gate {
 public:
     enum class Step { run_a, run_b, decided };
@@ -59,6 +60,7 @@ public:
 private:
     void addPair(const std::vector<double>& a, const std::vector<double>& b);
     bool isStage(std::size_t pairs) const;
+    void passEarlyVerdicts();
     void passVerdicts();
     std::vector<report::Comparison> compareNow() const;
 

@@ -49,7 +49,7 @@ int exitStatus(const GateRun& run, const report::VerdictOptions& options) {
     if (run.end == GateRun::End::interrupted && run.decided_at == 0) return report::kInterrupted;
     if (run.end == GateRun::End::failed) return run.failure_status;
     if (run.end == GateRun::End::out_of_time && run.decided_at == 0)
-        return report::verdictStatus(report::Verdict::inconclusive, options.fail_on_inconclusive);
+        return options.pass_without_verdicts ? report::kOk : report::kInconclusive;
     if (run.mismatches.empty() && run.changes.empty()) return report::kNothingRan;
     return report::verdictStatus(overallVerdict(run), options.fail_on_inconclusive);
 }
@@ -100,6 +100,17 @@ double medianOfBlocks(const GateRun& run, char side, std::size_t time) {
         if (each.phase == Phase::gate && each.side == side && std::isfinite(each.medians[time]))
             medians.push_back(each.medians[time]);
     return medians.empty() ? kNotMeasured : report::summarize(medians).median;
+}
+
+// Times that a block is run again in which a case failed that had not failed before, as by heat or
+// a lost device. A case that fails every time differs, which ends the gate.
+constexpr int kMostRepeats = 2;
+
+bool isLost(const BlockReport& first, const BlockReport& block) {
+    return std::ranges::any_of(block.cases, [&](const BlockCase& each) {
+        const BlockCase* const before = findCase(first, each.outcome.name);
+        return each.outcome.status == "failed" && before && before->outcome.status == "ok";
+    });
 }
 
 std::string pieceName(const char* phase, std::size_t pair, char side) {
@@ -185,7 +196,7 @@ void GateSession::chooseTimes() {
     }
     addCycles(common);
     if (run_.times.empty() && run_.too_short.empty() && !regex_.empty() && !common.empty())
-        throw engine::Error("--metrics", "'" + regex_ + "' is in no metric's name");
+        throw engine::Error("--metrics", "'" + regex_ + "' matches no metric's name");
 }
 
 // For each judged time, adds the same in cycles if both sides have it.
@@ -211,8 +222,12 @@ bool GateSession::block(const Side& side, Phase phase, std::size_t pair) {
     progress_->begin(
         pieceName(phase == Phase::calibration ? "calibration," : "gate,", pair, side.name));
     const auto seed = static_cast<std::uint32_t>(seed_ + pair);
-    const BlockReport report = runner_.run(side, seed);
     const BlockReport& first = side.name == 'A' ? *run_.first_a : *run_.first_b;
+    BlockReport report = runner_.run(side, seed);
+    for (int again = 0; again < kMostRepeats && isLost(first, report); ++again) {
+        ++run_.repeated_blocks;
+        report = runner_.run(side, seed);
+    }
     run_.mismatches = mismatches(first, report);
     if (!run_.mismatches.empty()) run_.unstable = side.name;
     run_.blocks.push_back({phase, side.name, pair, seed, mediansOf(run_.times, report)});

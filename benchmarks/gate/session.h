@@ -53,6 +53,7 @@ struct GateRun {
     std::vector<GateTime> too_short;  // see kShortestTime
     std::vector<BlockRecord> blocks;  // in the order in which they ran
     std::vector<report::Mismatch> mismatches;
+    std::size_t repeated_blocks = 0;  // that were lost, to heat for example, and run again
     char unstable = 0;  // the side whose own blocks differ, 'A' or 'B'; else 0
     std::size_t pairs = 0;  // number of compared pairs
     std::size_t decided_at = 0;  // number of pairs at the verdicts; 0: none yet

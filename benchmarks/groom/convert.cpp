@@ -41,13 +41,13 @@ void checkOptions(const ConvertOptions& options, const hair::groom::StrandExport
                               std::to_string(most) + "] for " + std::string(exporter.extension));
     if (!options.mesh.empty() && !isGuideFile(exporter))
         throw engine::Error(
-            "--mesh", "it is for root triangles, which " + std::string(exporter.extension) +
-                          " doesn't hold; .hgl does");
+            "--mesh", "has no effect: it is for root triangles, which " +
+                          std::string(exporter.extension) + " can't hold; .hgl can");
     if (options.followers == 0 && options.follower_radius > 0.0)
-        throw engine::Error("--follower-radius", "there are no followers without --followers");
+        throw engine::Error("--follower-radius", "has no effect without --followers");
     if (options.followers > 0 && options.follower_radius == 0.0)
         throw engine::Error(
-            "--followers", "without --follower-radius they are all where their strand is");
+            "--followers", "needs --follower-radius: without it all followers lie on their strand");
 }
 
 // Returns the factor that converts lengths to metres; nothing if lengths stay as they are.
@@ -59,8 +59,9 @@ std::optional<double> scaleOf(
     const double guess = hair::groom::inspect(strands, nullptr, {}).metres_per_unit;
     if (guess != 1.0)
         log.warn(
-            options.in, "the lengths are taken as metres, but don't look like it; is --scale " +
-                            report::plainNumber(guess) + " meant?");
+            options.in,
+            "the lengths are taken as metres, but do not look like metres: did you mean --scale " +
+                report::plainNumber(guess) + "?");
     return {};
 }
 
@@ -86,7 +87,7 @@ edited(hair::groom::StrandSet strands, const ConvertOptions& options, const Conv
     }
     if (options.vertices) {
         strands = hair::groom::resample(std::move(strands), *options.vertices);
-        log.say("resampled: to " + report::countText(*options.vertices, "point") + " a strand");
+        log.say("resampled: to " + report::countText(*options.vertices, "point") + " per strand");
     }
     if (options.guides) {
         GuideChoice choice = chooseGuides(strands, *options.guides, options.seed);
@@ -95,7 +96,7 @@ edited(hair::groom::StrandSet strands, const ConvertOptions& options, const Conv
             report::countText(strands.strandCount(), "strand"));
         log.say("error: of the strands made from them " + choice.error);
         log.say(
-            "left: of the file's strands as /strands/source groom draws them with so many guides " +
+            "left: of the file's strands as /strands/source groom draws them with these guides " +
             choice.left);
         strands = std::move(choice.guides);
     }

@@ -153,7 +153,8 @@ void chooseSimulation(const Mesh* head, GroomScene& scene) {
         if (!warning.empty()) scene.warnings.push_back("the head: " + warning);
     } catch (const engine::Error& error) {
         scene.warnings.push_back(
-            std::string("the head is no body, and hair does not collide with it: ") + error.what());
+            std::string("the head can't be a body, so hair does not collide with it: ") +
+            error.what());
         return;
     }
     simulation.collision = {.margin = 0.002f, .friction = 3.0f};
@@ -185,8 +186,8 @@ void chooseWidths(const StrandSet& strands, GroomScene& scene) {
         }
         scene.warnings.push_back(
             "widths of " + report::lengthText(median) +
-            " (median) in the file are none of hair, and are left out; /strands/width groom draws "
-            "them all the same");
+            " (median) in the file are not those of hair, and are left out; /strands/width groom "
+            "draws them nevertheless");
     }
     const double count =
         drawn.source == hair::StrandSource::groom ? strands.strandCount() : kDrawnBetweenGuides;
@@ -196,7 +197,7 @@ void chooseWidths(const StrandSet& strands, GroomScene& scene) {
     scene.choices.push_back(
         {"widths", report::lengthText(drawn.root_width) + " to " +
                        report::lengthText(drawn.tip_width) +
-                       ": what covers as 100,000 hairs of 0.08 mm do, 0.6 mm at most"});
+                       ": as much coverage as 100,000 hairs of 0.08 mm, 0.6 mm at most"});
 }
 
 void chooseColor(const StrandSet& strands, GroomScene& scene) {
@@ -362,7 +363,7 @@ void findLengths(const StrandSet& strands, GroomScene& scene) {
     if (median >= kShortestHair && median <= kLongestHair) return;
     scene.warnings.push_back(
         "the median strand is " + report::lengthText(median) +
-        " long; if that is not so, the unit is another: --scale states it");
+        " long; if that is wrong, the unit is wrong: --scale sets it");
 }
 
 void findOnHead(
@@ -398,7 +399,7 @@ void findOnHead(
     if (off > 0)
         scene.warnings.push_back(
             shareText(off, count) + " of the roots are more than 1 mm off the head, up to " +
-            report::lengthText(farthest) + "; up to 10 mm can be mended: " + mend);
+            report::lengthText(farthest) + "; up to 10 mm can be repaired: " + mend);
     if (inside > 0)
         scene.warnings.push_back(
             shareText(inside, count) +
@@ -412,18 +413,18 @@ void findPlacement(const LayGuess& guess, GroomScene& scene) {
     const auto percent = [](double share) { return report::shortNumber(100.0 * share) + " %"; };
     if (!guess.fits) {
         scene.warnings.push_back(
-            "the hair fits the head in no unit and no turn: at best " + percent(best.share) +
-            " of the roots are within 5 mm of it, the median one " +
+            "the hair does not fit the head in any unit or orientation: at best " +
+            percent(best.share) + " of the roots are within 5 mm of it, the median one " +
             report::lengthText(best.median) + " away (" + layText(guess.best->hair) +
-            "); is it the head of this hair, in the same place? Both are placed each by itself: "
-            "--scale, --up and /groom/placement place the hair");
+            "); is it the head of this hair, in the same place? Each is placed by itself: --scale, "
+            "--up and /groom/placement place the hair");
         return;
     }
     if (!guess.runner_up || guess.runner_up->fit.share < best.share - 0.1) return;
     scene.warnings.push_back(
-        "the hair fits nearly as well otherwise, " + layText(guess.runner_up->hair) + ": " +
-        percent(guess.runner_up->fit.share) + " of the roots within 5 mm in place of " +
-        percent(best.share) + "; look at the picture, --scale and --up state what is so");
+        "the hair fits nearly as well in another way, " + layText(guess.runner_up->hair) + ": " +
+        percent(guess.runner_up->fit.share) + " of the roots within 5 mm instead of " +
+        percent(best.share) + "; look at the picture: --scale and --up set the unit and the axis");
 }
 
 }  // namespace

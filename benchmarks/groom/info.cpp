@@ -44,8 +44,8 @@ GuideChoice
 chooseGuides(const hair::groom::StrandSet& strands, std::uint32_t count, std::uint32_t seed) {
     if (count > strands.strandCount())
         throw engine::Error(
-            "--guides", std::to_string(count) + " are more than the " +
-                            std::to_string(strands.strandCount()) + " strands there are");
+            "--guides", std::to_string(count) + " is more than the " +
+                            std::to_string(strands.strandCount()) + " strands of the file");
     const hair::groom::Groom dense = hair::groom::toGroom(strands, 0);
     const std::vector<std::uint32_t> chosen = hair::groom::chooseGuides(dense, count, seed);
     hair::groom::Groom guides = hair::groom::pickStrands(dense, chosen);
@@ -138,22 +138,22 @@ void findInUnits(
     odd.add(
         "unit", !found.unit_stated && found.metres_per_unit != 1.0 ? 1 : 0,
         "lengths that look like " + found.unit + ", and a file that doesn't state its unit",
-        "say it: --scale " + scale +
+        "state it: --scale " + scale +
             " here and in hairbench groom convert, /groom/placement/scale " + scale +
             " in a scene");
     const double length = found.lengths.median * found.metres_per_unit;
     odd.add(
         "lengths", found.unit_stated && (length < kShortest || length > kLongest) ? 1 : 0,
         "a median strand of " + report::lengthText(length) + ", in the unit that is stated",
-        "if this is hair, the unit is another: --scale overrides it here and in hairbench groom "
+        "if this is hair, the unit is wrong: --scale overrides it here and in hairbench groom "
         "convert");
     const double width = found.widths.median * found.metres_per_unit;
     odd.add(
         "widths", strands.widths.known() && (width < kThinnest || width > kThickest) ? 1 : 0,
         "widths of " + report::lengthText(width) +
             " (median); human hair is 0.017 to 0.181 mm wide",
-        "scale them to the unit of the points where the hair is made, or take no notice: they are "
-        "for drawing alone");
+        "scale them to the unit of the points where the hair is made, or ignore this: they affect "
+        "only drawing");
 }
 
 void findOnMesh(const hair::groom::MeshFindings& found, Oddities& odd) {
@@ -172,7 +172,7 @@ void findOnMesh(const hair::groom::MeshFindings& found, Oddities& odd) {
     odd.add(
         "mesh_not_closed", found.not_closed.empty() ? 0 : 1,
         "a mesh that is not closed: " + found.not_closed,
-        "close it if it is to be known which strands are inside");
+        "close it, so that strands inside can be found");
 }
 
 }  // namespace
@@ -324,9 +324,9 @@ std::string pointsText(const hair::groom::StrandFindings& found) {
     const hair::groom::Spread& each = found.points_per_strand;
     if (found.strands == 0) return text;
     if (each.minimum == each.maximum)
-        return text + ", " + report::plainNumber(each.minimum) + " a strand";
+        return text + ", " + report::plainNumber(each.minimum) + "  per strand";
     return text + ", " + report::plainNumber(each.minimum) + " to " +
-           report::plainNumber(each.maximum) + " a strand, median " +
+           report::plainNumber(each.maximum) + " per strand, median " +
            report::plainNumber(each.median);
 }
 

@@ -261,8 +261,9 @@ void guessApart(
     const auto [up, lead] = upOf(strands);
     guess.hair.up = up;
     guess.hair_reason += std::string(" +") + axisName(up) +
-                         " is up, where strands leave the scalp to and hang down from, by " +
-                         report::shortNumber(lead) + " of their length before the next axis.";
+                         " is up: strands leave the scalp toward it and hang down from it, by " +
+                         report::shortNumber(lead) +
+                         " of their length more than for the next axis.";
 }
 
 }  // namespace

@@ -84,8 +84,8 @@ Recorded Recording::everyFrame() {
                 now.widths.values != recorded.strands.widths.values) {
                 throw engine::Error(
                     "/lod/mode", "frame " + std::to_string(frame) +
-                                     " draws other strands than frame 0, of which .usda holds one "
-                                     "set: \"forced\" draws the same in all");
+                                     " draws other strands than frame 0, and .usda holds one set: "
+                                     "'forced' draws the same in all");
             }
             animation->frame(now.points);
         });

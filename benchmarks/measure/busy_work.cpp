@@ -54,7 +54,7 @@ void BusyPass::checkThatItRan() const {
     if (std::ranges::find(seen_, name_) != seen_.end()) return;
     std::string known;
     for (const std::string& name : seen_) known += (known.empty() ? "" : ", ") + name;
-    throw engine::Error("/run/busy_pass", "there is no pass '" + name_ + "'; there are " + known);
+    throw engine::Error("/run/busy_pass", "unknown pass '" + name_ + "'; known: " + known);
 }
 
 BusyPasses::BusyPasses(engine::Passes& passes, BusyPass& busy) : passes_(passes), busy_(busy) {

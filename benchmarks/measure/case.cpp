@@ -264,15 +264,12 @@ std::string droppedFragments(const Case& test_case) {
 
 // ---- Strands for a file -------------------------------------------------------------------------
 
-hair::groom::StrandSet drawnStrands(const hair::rendering::StrandPoints& points) {
-    hair::groom::StrandSet set;
-    set.metres_per_unit = 1.0;
+namespace {
+
+// Calls each(point) for the points of every drawn strand, root first, and end() after each strand.
+template <class Each, class End>
+void forDrawnPoints(const hair::rendering::StrandPoints& points, Each each, End end) {
     const hair::rendering::StrandPlan& plan = points.plan;
-    const std::size_t most =
-        plan.strands() * (std::uint64_t{plan.segments} * plan.forced_tessellation + 1);
-    set.ends.reserve(plan.strands());
-    set.points.reserve(most);
-    set.widths.values.reserve(most);
     for (std::uint32_t triangle = 0; triangle < plan.triangles; ++triangle) {
         for (std::uint32_t strand = 0; strand < plan.forced_density; ++strand) {
             for (std::uint32_t segment = 0; segment < plan.segments; ++segment) {
@@ -280,15 +277,46 @@ hair::groom::StrandSet drawnStrands(const hair::rendering::StrandPoints& points)
                 for (std::uint32_t i = segment == 0 ? 0 : 1; i <= plan.forced_tessellation; ++i) {
                     const auto& point = points.at(triangle, strand, segment, i);
                     if (point.width < 0.0f) break;
-                    set.points.push_back(point.position);
-                    set.widths.values.push_back(point.width);
+                    each(point);
                 }
             }
-            const auto end = static_cast<std::uint32_t>(set.points.size());
-            if (end > (set.ends.empty() ? 0 : set.ends.back())) set.ends.push_back(end);
+            end();
         }
     }
+}
+
+std::size_t mostPoints(const hair::rendering::StrandPlan& plan) {
+    return plan.strands() * (std::uint64_t{plan.segments} * plan.forced_tessellation + 1);
+}
+
+}  // namespace
+
+hair::groom::StrandSet drawnStrands(const hair::rendering::StrandPoints& points) {
+    hair::groom::StrandSet set;
+    set.metres_per_unit = 1.0;
+    set.ends.reserve(points.plan.strands());
+    set.points.reserve(mostPoints(points.plan));
+    set.widths.values.reserve(mostPoints(points.plan));
+    forDrawnPoints(
+        points,
+        [&](const hair::gpu::StrandPointRecord& point) {
+            set.points.push_back(point.position);
+            set.widths.values.push_back(point.width);
+        },
+        [&] {
+            const auto end = static_cast<std::uint32_t>(set.points.size());
+            if (end > (set.ends.empty() ? 0 : set.ends.back())) set.ends.push_back(end);
+        });
     return set;
+}
+
+std::vector<float> drawnPowers(const hair::rendering::StrandPoints& points) {
+    std::vector<float> powers;
+    powers.reserve(mostPoints(points.plan));
+    forDrawnPoints(
+        points, [&](const hair::gpu::StrandPointRecord& point) { powers.push_back(point.power); },
+        [] {});
+    return powers;
 }
 
 hair::groom::StrandSet

@@ -143,6 +143,9 @@ std::string droppedFragments(const Case& test_case);
 // Strands as they are drawn. Joints of segments appear once, and undrawn points are omitted.
 hair::groom::StrandSet drawnStrands(const hair::rendering::StrandPoints& points);
 
+// Returns the powers of the colours of their points: shaders/strands/own_color.glsl.
+std::vector<float> drawnPowers(const hair::rendering::StrandPoints& points);
+
 // The guides at `positions`, [guide][vertex].
 hair::groom::StrandSet
 guideStrands(const hair::groom::Groom& groom, std::vector<glm::vec3> positions);

@@ -69,16 +69,17 @@ std::optional<std::string> DiskCache::load(const std::string& key) const {
     Header header;
     file.read(magic.data(), static_cast<std::streamsize>(magic.size()));
     file.read(reinterpret_cast<char*>(&header), sizeof header);
-    if (!file || magic != kMagic) return unusable("no entry of this cache");
-    if (size > options_.most_bytes) return unusable("damaged");  // larger than the whole cache
+    if (!file || magic != kMagic) return unusable("is not an entry of this cache");
+    if (size > options_.most_bytes) return unusable("is damaged");  // larger than the whole cache
     const std::uintmax_t body = size - kMagic.size() - sizeof header;
-    if (header.key_size > body || header.size != body - header.key_size) return unusable("damaged");
+    if (header.key_size > body || header.size != body - header.key_size)
+        return unusable("is damaged");
     std::string found(header.key_size, '\0');
     std::string bytes(header.size, '\0');
     file.read(found.data(), static_cast<std::streamsize>(found.size()));
     file.read(bytes.data(), static_cast<std::streamsize>(bytes.size()));
-    if (!file || headerOf(found, bytes).hash != header.hash) return unusable("damaged");
-    if (found != key) return unusable("of something else");
+    if (!file || headerOf(found, bytes).hash != header.hash) return unusable("is damaged");
+    if (found != key) return unusable("belongs to other data");
     fs::last_write_time(path, fs::file_time_type::clock::now(), error);  // marks it as used
     return bytes;
 }

@@ -224,7 +224,7 @@ const BakedField* HairCache::field(const std::string& key) {
     if (!bytes) return nullptr;
     std::optional<BakedField> field = fieldOf(*bytes);
     if (!field) {
-        disk_.warn(key, "no distance field");
+        disk_.warn(key, "is not a distance field");
         return nullptr;
     }
     return &fields_.add(key, std::move(*field), bytes->size());
@@ -236,7 +236,7 @@ const SettledState* HairCache::settled(const std::string& key) {
     if (!bytes) return nullptr;
     std::optional<SettledState> state = stateOf(*bytes);
     if (!state) {
-        disk_.warn(key, "no state");
+        disk_.warn(key, "is not a state");
         return nullptr;
     }
     return &states_.add(key, std::move(*state), bytes->size());

@@ -228,13 +228,15 @@ ClockHold::ClockHold(
         throw engine::Unsupported(
             context, "a software device has the processors' clocks, which an administrator sets: "
                      "cpupower frequency-set --governor performance");
-    if (!source_) throw engine::Unsupported(context, "nothing tells the clocks of " + device.name);
+    if (!source_)
+        throw engine::Unsupported(context, "the clocks of " + device.name + " are not known");
     if (clocks == hair::Clocks::locked && !source_->lock())
         throw engine::Unsupported(
-            context, "the driver lets this user lock no clocks; as administrator: " +
+            context, "the driver does not let this user lock clocks; as administrator: " +
                          source_->lockCommand() + ", and then without /run/clocks");
     if (clocks == hair::Clocks::free && source_->read().held)
-        throw engine::Unsupported(context, "an administrator holds the clocks of " + device.name);
+        throw engine::Unsupported(
+            context, "an administrator has locked the clocks of " + device.name);
 }
 
 struct MachineWatch::Sources {

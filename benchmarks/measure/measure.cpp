@@ -109,7 +109,7 @@ std::vector<std::uint8_t> measureFrames(
     for (const SampledMode* mode : {&std::as_const(overlapped), &isolated})
         if (mode->all_throttled && result.status == report::Status::ok) {
             result.status = report::Status::failed;
-            result.reason = mode->sampling.mode + ": heat or power held the device back in all " +
+            result.reason = mode->sampling.mode + ": heat or power throttled the device in all " +
                             std::to_string(mode->sampling.throttled_rounds) + " rounds";
         }
 

@@ -302,7 +302,7 @@ memoryRooms(const engine::Device& device, std::optional<std::uint64_t> most) {
     if (const auto left = freeInControlGroup())
         rooms.push_back({of, *left, "the control group's limit"});
     if (const auto available = availableMemory())
-        rooms.push_back({of, *available, "what the host has available"});
+        rooms.push_back({of, *available, "available memory of the host"});
     return rooms;
 }
 
@@ -323,7 +323,7 @@ std::string whyItDoesNotFit(const report::MemoryNeed& need, const std::vector<Me
 
 std::uint64_t parseMemorySize(const std::string& text) {
     const auto refuse = [&]() -> std::uint64_t {
-        throw engine::Error("'" + text.substr(0, 40) + "' is no size, as 500M and 2G are");
+        throw engine::Error("'" + text.substr(0, 40) + "' is not a size, as in 500M or 2G");
     };
     double number = 0.0;
     const char* const end = text.data() + text.size();

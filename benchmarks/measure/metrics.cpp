@@ -248,7 +248,7 @@ void addPassSum(
         if (sum.over_device && sum.over_work) text += " and to ";
         if (sum.over_work)
             text += report::shortNumber(*sum.over_work) +
-                    " of its wall clock less what a submission takes";
+                    " of its wall clock minus the time of a submission";
         result.trust.warnings.push_back(std::move(text));
     }
 }

@@ -55,7 +55,7 @@ def main():
     if sizes[0] != sizes[1]:
         raise ValueError(f"{paths[0]} is {sizes[0]}, {paths[1]} is {sizes[1]}")
     if min(reference.shape[:2]) < SSIM_WINDOW:
-        raise ValueError(f"{paths[0]}: SSIM needs {SSIM_WINDOW} x {SSIM_WINDOW} px at least")
+        raise ValueError(f"{paths[0]}: SSIM needs at least {SSIM_WINDOW} x {SSIM_WINDOW} px")
     figures, error_map = compare(reference, picture)
     figures["light_ratio"] = light / reference_light if reference_light > 0 else None
     for out in sys.argv[3:]:

@@ -25,6 +25,7 @@
 #include "benchmarks/scene/json.h"
 #include "engine/error.h"
 #include "engine/files.h"
+#include "engine/float_pictures.h"
 #include "engine/frame_loop.h"
 #include "engine/pictures.h"
 #include "engine/process.h"
@@ -242,15 +243,28 @@ void writeCamera(std::ostream& out, const hair::Settings& settings) {
         << "        <rfilter type=\"box\"/>\n    </film>\n</sensor>\n";
 }
 
-void writeHair(std::ostream& out, const hair::ShadingSettings& shading, const std::string& file) {
+void writeAbsorption(
+    std::ostream& out, const hair::ShadingSettings& shading, const std::string& file) {
+    if (!file.empty()) {
+        out << "<texture type=\"bitmap\" name=\"sigma_a\">\n            "
+            << element("string", "filename", file) << "            "
+            << element("boolean", "raw", "true") << "            "
+            << element("string", "filter_type", "nearest") << "            "
+            << element("string", "wrap_mode", "clamp") << "        </texture>\n";
+        return;
+    }
     const glm::dvec3 absorbed = hair::rendering::absorption(shading);
     // Mitsuba accepts colours up to 1 here, and a scale.
     const double scale = std::max({absorbed.x, absorbed.y, absorbed.z, 1.0});
-    out << "<shape type=\"bsplinecurve\">\n    " << element("string", "filename", file)
-        << "    <bsdf type=\"hair\">\n        " << rgb("sigma_a", absorbed / scale) << "        "
-        << element("float", "scale", scale) << "        "
-        << element("float", "longitudinal_roughness", shading.longitudinal_roughness) << "        "
-        << element("float", "azimuthal_roughness", shading.azimuthal_roughness)
+    out << rgb("sigma_a", absorbed / scale) << "        " << element("float", "scale", scale);
+}
+
+void writeHair(std::ostream& out, const hair::ShadingSettings& shading, const MitsubaParts& parts) {
+    out << "<shape type=\"bsplinecurve\">\n    " << element("string", "filename", parts.hair_file)
+        << "    <bsdf type=\"hair\">\n        ";
+    writeAbsorption(out, shading, parts.absorption_file);
+    out << "        " << element("float", "longitudinal_roughness", shading.longitudinal_roughness)
+        << "        " << element("float", "azimuthal_roughness", shading.azimuthal_roughness)
         << "        "
         // In Mitsuba, scales open towards the root of a curve that begins there; the scales of hair
         // do not.
@@ -259,10 +273,16 @@ void writeHair(std::ostream& out, const hair::ShadingSettings& shading, const st
         << element("float", "ext_ior", 1.0) << "    </bsdf>\n</shape>\n";
 }
 
+// Factor on a base colour that makes Mitsuba's `principled` reflect, straight above, what glTF's
+// surface does (shaders/shading/surface_brdf.glsl). glTF scatters only what the surface lets in, 1
+// - 0.04 of a dielectric; `principled` (Burley 2012) has no such factor.
+double letIn(float metallic) { return 1.0 - 0.04 * (1.0 - double{metallic}); }
+
 // A picture's rows go down with v, in Mitsuba as in glTF.
-void writeColor(std::ostream& out, const char* name, const MitsubaParts::Mesh& mesh) {
+void writeColor(
+    std::ostream& out, const char* name, const MitsubaParts::Mesh& mesh, double factor) {
     if (mesh.texture.empty()) {
-        out << rgb(name, hair::rendering::toLinear(mesh.color));
+        out << rgb(name, factor * hair::rendering::toLinear(mesh.color));
         return;
     }
     out << "<texture type=\"bitmap\" name=\"" << name << "\">\n            "
@@ -272,13 +292,13 @@ void writeColor(std::ostream& out, const char* name, const MitsubaParts::Mesh& m
 
 void writeMatt(std::ostream& out, const MitsubaParts::Mesh& mesh) {
     out << "<bsdf type=\"diffuse\">\n        ";
-    writeColor(out, "reflectance", mesh);
+    writeColor(out, "reflectance", mesh, 1);
     out << "    </bsdf>\n";
 }
 
 void writeGlossy(std::ostream& out, const MitsubaParts::Mesh& mesh) {
     out << "<bsdf type=\"principled\">\n        ";
-    writeColor(out, "base_color", mesh);
+    writeColor(out, "base_color", mesh, letIn(mesh.metallic));
     out << "        " << element("float", "metallic", mesh.metallic) << "        "
         << element("float", "roughness", mesh.roughness) << "    </bsdf>\n";
 }
@@ -300,7 +320,7 @@ void writeMitsubaScene(
     out << kBegin;
     writeCamera(out, settings);
     writeMitsubaLights(out, settings, parts.environment_file);
-    if (!parts.hair_file.empty()) writeHair(out, settings.shading, parts.hair_file);
+    if (!parts.hair_file.empty()) writeHair(out, settings.shading, parts);
     for (const MitsubaParts::Mesh& mesh : parts.meshes) writeMesh(out, settings.render, mesh);
     out << "</scene>\n";
 }
@@ -320,6 +340,20 @@ void writeMitsubaCurves(std::ostream& out, const hair::groom::StrandSet& strands
         }
         out << '\n';
     }
+}
+
+void writeMitsubaAbsorption(
+    const std::filesystem::path& path, const hair::groom::StrandSet& strands,
+    std::span<const float> powers, const glm::dvec3& absorption) {
+    std::vector<float> pixels;
+    for (std::uint32_t strand = 0; strand < strands.strandCount(); ++strand) {
+        for (std::uint32_t i = strands.first(strand) + 1; i < strands.ends[strand]; ++i) {
+            const double power = 0.5 * (double{powers[i - 1]} + double{powers[i]});
+            for (int channel = 0; channel < 3; ++channel)
+                pixels.push_back(static_cast<float>(power * power * absorption[channel]));
+        }
+    }
+    engine::writeExr(path, 1, static_cast<std::uint32_t>(pixels.size() / 3), pixels);
 }
 
 void writeMaterialPly(
@@ -362,10 +396,9 @@ namespace {
 
 // ---- Files of meshes ----------------------------------------------------------------------------
 
-// The material's picture times its colour, multiplied in linear RGB and converted back to display
-// RGB: Mitsuba has no such factor.
-engine::Pixels colored(engine::Pixels picture, const glm::vec3& color) {
-    const glm::dvec3 factor = hair::rendering::toLinear(color);
+// The material's picture times a linear colour, converted back to display RGB: Mitsuba has no such
+// factor.
+engine::Pixels colored(engine::Pixels picture, const glm::dvec3& factor) {
     for (std::size_t i = 0; i < picture.rgba.size(); i += 4) {
         glm::dvec3 display;
         for (int c = 0; c < 3; ++c) display[c] = picture.rgba[i + static_cast<std::size_t>(c)];
@@ -392,7 +425,8 @@ const char* wrapName(hair::groom::Wrap wrap) {
 // Writes a mesh, moved by `pose`, into `folder`: "<name>_0.ply" and so on, one file per material
 // with triangles, and the pictures of base colours as PNG.
 std::vector<MitsubaParts::Mesh> writeMitsubaMesh(
-    const std::filesystem::path& folder, const std::string& name, const hair::groom::Mesh& mesh,
+    const std::filesystem::path& folder, const std::string& name,
+    const hair::RenderSettings& render, const hair::groom::Mesh& mesh,
     const hair::simulation::RigidMotion& pose) {
     std::vector<MitsubaParts::Mesh> parts;
     for (std::uint32_t i = 0; i < mesh.materials.size(); ++i) {
@@ -412,8 +446,9 @@ std::vector<MitsubaParts::Mesh> writeMitsubaMesh(
             engine::checkInterrupted);
         if (material.base_color_texture && !mesh.texture_coordinates.empty()) {
             const hair::groom::MaterialTexture& texture = *material.base_color_texture;
-            const engine::Pixels picture =
-                colored(mesh.pictures.at(texture.picture), material.base_color);
+            const double share = hair::rendering::hasLinearLight(render) ? letIn(part.metallic) : 1;
+            const glm::dvec3 factor = share * hair::rendering::toLinear(material.base_color);
+            const engine::Pixels picture = colored(mesh.pictures.at(texture.picture), factor);
             part.texture = stem + ".png";
             part.wrap = wrapName(texture.horizontal);
             engine::writePng(folder / part.texture, picture.width, picture.height, picture.rgba);
@@ -448,7 +483,7 @@ std::vector<MitsubaParts::Mesh> writeMeshes(
     std::vector<MitsubaParts::Mesh> parts;
     if (auto mesh = scene::loadMesh(settings, scene.directory); mesh && settings.render.head) {
         played.deform(*mesh);
-        parts = writeMitsubaMesh(folder, "head", *mesh, played.carried());
+        parts = writeMitsubaMesh(folder, "head", settings.render, *mesh, played.carried());
     }
     const auto& wanted = settings.render.meshes;
     hair::rendering::RenderAssets assets =
@@ -457,7 +492,7 @@ std::vector<MitsubaParts::Mesh> writeMeshes(
         const hair::groom::Mesh mesh =
             hair::rendering::placed(std::move(assets.meshes[i]), wanted[i]);
         std::ranges::move(
-            writeMitsubaMesh(folder, "mesh_" + std::to_string(i), mesh, {}),
+            writeMitsubaMesh(folder, "mesh_" + std::to_string(i), settings.render, mesh, {}),
             std::back_inserter(parts));
     }
     return parts;
@@ -490,16 +525,23 @@ MitsubaExport exportMitsuba(
         throw engine::Error(
             scene.path.string(),
             "/shading/model: " + settings.shading.model_file +
-                " is the scene's own, and what is path-traced are fibres: set another for it");
+                " is the scene's own, and only fibres can be path-traced: set another model");
     MitsubaParts parts;
     MitsubaExport result;
     measure::Case played(device, settings, scene.directory, &cache);
     play(device, played, frame);
     if (settings.render.hair) {
-        const hair::groom::StrandSet strands = measure::drawnStrands(played.strands());
+        const hair::rendering::StrandPoints drawn = played.strands();
+        const hair::groom::StrandSet strands = measure::drawnStrands(drawn);
         if (strands.ends.empty()) throw engine::Error(scene.path.string(), "no strands are drawn");
         parts.hair_file = "hair.txt";
         write(parts.hair_file, [&](std::ostream& out) { writeMitsubaCurves(out, strands); });
+        if (drawn.plan.own_colors) {
+            parts.absorption_file = "absorption.exr";
+            writeMitsubaAbsorption(
+                folder / parts.absorption_file, strands, measure::drawnPowers(drawn),
+                hair::rendering::absorption(settings.shading));
+        }
         result.strands = strands.strandCount();
         result.points = strands.points.size();
     }
@@ -531,7 +573,7 @@ public:
         if (what == "passes") progress_.emplace(number);
         if (what == "pass" && progress_)
             progress_->begin(
-                std::to_string(number) + " of " + std::to_string(samples_) + " samples a pixel");
+                std::to_string(number) + " of " + std::to_string(samples_) + " samples per pixel");
     }
 
 private:

@@ -61,6 +61,7 @@ struct MitsubaParts {
         bool two_sided = false;  // visible from behind too
     };
     std::string hair_file;  // empty: no hair
+    std::string absorption_file;  // writeMitsubaAbsorption(); empty: one absorption for all hair
     std::vector<Mesh> meshes;
     std::string environment_file;  // empty: no environment
 };
@@ -95,6 +96,14 @@ lightRadiance(const hair::LightSettings& light, const glm::dvec3& color, const g
 // there. Radii are half the widths. Strands of one point are omitted. A radius that the spline
 // would make negative, just beyond a tip that narrows to nothing, is set to 0.
 void writeMitsubaCurves(std::ostream& out, const hair::groom::StrandSet& strands);
+
+// Writes sigma_a of the same curves as an OpenEXR picture of one column: a pixel for each segment,
+// in their order. Mitsuba's texture coordinate v goes over all segments of a `bsplinecurve` in
+// equal steps. `powers` of the strands' points are those of their colours; a colour c^a has a^2
+// times the absorption, by equation (9) of Chiang et al. 2016.
+void writeMitsubaAbsorption(
+    const std::filesystem::path& path, const hair::groom::StrandSet& strands,
+    std::span<const float> powers, const glm::dvec3& absorption);
 
 // Writes a PLY file of the triangles with this material, moved by `pose`, with texture coordinates
 // if the mesh has them.

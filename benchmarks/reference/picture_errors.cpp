@@ -67,7 +67,7 @@ PictureErrors comparePictures(
     std::string text;
     runReferenceTool("compare.py", arguments, [&](std::string_view line) { text += line; });
     if (!map.empty()) engine::writeFileAtomically(map, engine::readFile(drawn));
-    const scene::Json figures = scene::parseJson(text, "what compare.py wrote");
+    const scene::Json figures = scene::parseJson(text, "the output of compare.py");
     PictureErrors errors{
         .width = figures.at("width"),
         .height = figures.at("height"),

@@ -22,11 +22,15 @@ std::filesystem::path baselineFolder() {
 void checkName(const std::string& name) {
     if (name.empty() || name.starts_with('.') || name.starts_with('-'))
         throw engine::Error(
-            "baseline", "'" + name + "' is no name: it may not be empty or begin with . or -");
+            "baseline",
+            "'" + name + "' is not a name: it must not be empty or begin with '.' or '-'");
     for (const char each : name)
         if (std::string_view("/\\:*?\"<>|").find(each) != std::string_view::npos ||
             static_cast<unsigned char>(each) < 32)
-            throw engine::Error("baseline", "'" + name + "' is no name: it is to be a folder's");
+            throw engine::Error(
+                "baseline", "'" + name +
+                                "' is not a name: it must be one of a single folder, without '/' "
+                                "or control characters");
 }
 
 }  // namespace

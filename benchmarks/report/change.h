@@ -16,6 +16,7 @@ namespace benchmarks::report {
 struct VerdictOptions {
     double threshold = 0.02;  // smaller changes, as a share, do not count
     bool fail_on_inconclusive = false;
+    bool pass_without_verdicts = false;  // a gate that is out of time before the first ones passes
     std::string metrics;  // regex of the metrics that count; empty: all times
     // A pass with a smaller share of its frame than this is shown but decides nothing (gate).
     double smallest_share = 0.02;
@@ -50,7 +51,7 @@ struct Comparison {
 };
 
 // Gives verdicts on several metrics at once. Each has one difference ln(B/A) per pair and its own
-// tau. With b = ln(1 + tau) and a = alpha / 3, the level of each try:
+// tau. With b = ln(1 + tau) and a = alpha / 4, the level of each try:
 //   regressed, improved   the median of the differences lies above b, below -b: two-sided exact
 //                         signed-rank tests at level a, adjusted by Benjamini and Hochberg. For a
 //                         single metric, its interval with confidence 1 - a then lies there
@@ -118,7 +119,8 @@ inline constexpr int kUsageError = 2;  // wrong command line, or an invalid scen
 inline constexpr int kCheckFailed = 3;  // a gated check of physics or doctor did not pass
 inline constexpr int kRegressed = 10;  // something became slower
 inline constexpr int kInconclusive = 11;  // nothing is known to be slower, but some changes are
-                                          // undecided; only with --fail-on inconclusive
+                                          // undecided; only with --fail-on inconclusive. Also a
+                                          // gate out of time before the first verdicts
 inline constexpr int kMismatch = 12;  // pictures or states differ
 inline constexpr int kNoBaseline = 13;  // the baseline is missing, of another device, or has
                                         // nothing in common

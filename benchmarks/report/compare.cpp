@@ -165,7 +165,7 @@ const scene::Json* findCase(const scene::Json& report, const std::string& name) 
 std::vector<double> costs(const MetricReading& metric) {
     if (metric.samples.empty())
         throw engine::Error(
-            "the reports can't be compared", metric.name() + " has no samples in one");
+            "the reports can't be compared", metric.name() + "  has no samples in one of them");
     std::vector<double> values;
     for (const double sample : metric.samples) values.push_back(costOf(metric, sample));
     return values;
@@ -300,7 +300,7 @@ compareReports(const scene::Json& a, const scene::Json& b, const VerdictOptions&
         addUnmatched(b, a, "B", comparer.found().unmatched);
         return std::move(comparer).finish();
     } catch (const scene::Json::exception& error) {
-        throw engine::Error("the reports can't be compared", error.what());
+        throw engine::Error("the reports can't be compared", scene::jsonReason(error));
     }
 }
 

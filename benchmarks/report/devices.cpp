@@ -11,6 +11,7 @@
 #include "benchmarks/report/baseline.h"
 #include "benchmarks/report/compare.h"
 #include "benchmarks/report/metric.h"
+#include "benchmarks/scene/json.h"
 #include "engine/error.h"
 
 namespace benchmarks::report {
@@ -88,7 +89,7 @@ std::vector<OnDevice> compareDevices(std::span<const scene::Json> reports) {
         try {
             device.ratio = timeRatio(reports[i], reports[first]);
         } catch (const scene::Json::exception& error) {
-            throw engine::Error("the reports can't be compared", error.what());
+            throw engine::Error("the reports can't be compared", scene::jsonReason(error));
         }
         device.differences = environmentDifferences(reports[first], reports[i]);
     }

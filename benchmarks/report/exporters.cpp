@@ -397,7 +397,7 @@ std::vector<Nanoseconds> samplesOf(const MetricReading& metric) {
     std::vector<Nanoseconds> samples;
     for (const double sample : metric.samples) {
         if (!(sample >= 0.0 && sample <= kLongest))
-            throw engine::Error(metric.name(), "has a sample that is no time of a frame");
+            throw engine::Error(metric.name(), "has a sample that is not the time of a frame");
         samples.push_back(std::llround(sample * kNanosecondsPerMillisecond));
     }
     return samples;
@@ -474,7 +474,7 @@ std::string exportReport(const scene::Json& report, std::string_view format) {
             throw engine::Error("/schema", schema + " is not " + kReportSchema);
         return exporter->write(report);
     } catch (const scene::Json::exception& error) {
-        throw engine::Error("no report", error.what());
+        throw engine::Error("the report can't be converted", scene::jsonReason(error));
     }
 }
 

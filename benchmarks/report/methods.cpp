@@ -92,7 +92,7 @@ std::string Methods::casesText() const {
     text += measured_ == 1 ? " was measured" : " were measured";
     if (header_.contains("order_seed")) text += " in random order";
     if (skipped_ > 0)
-        text += ", " + std::to_string(skipped_) + " skipped for what the machine lacks";
+        text += ", " + std::to_string(skipped_) + " skipped because the machine lacks something";
     if (failed_ > 0) text += ", " + std::to_string(failed_) + " failed";
     return text + ". ";
 }
@@ -123,16 +123,16 @@ std::string Methods::roundsText() const {
 }
 
 std::string Methods::statisticText() const {
-    std::string text =
-        "Times are medians over all samples, with 95 % intervals by order statistics for as many "
-        "independent samples as the dependent ones are worth. ";
+    std::string text = "Times are medians over all samples, with 95 % intervals by order "
+                       "statistics for the effective number of independent samples. ";
     if (warmup_rounds_ > 0)
         text += countText(warmup_rounds_, "round") + " at the start of a mode " +
-                (warmup_rounds_ == 1 ? "was" : "were") + " left out as times still settled. ";
+                (warmup_rounds_ == 1 ? "was" : "were") +
+                " left out because times had not settled. ";
     if (throttled_rounds_ > 0)
         text += countText(throttled_rounds_, "round") +
                 (throttled_rounds_ == 1 ? " was" : " were") +
-                " left out as heat or power held the device back. ";
+                " left out because heat or power throttled the device. ";
     return text;
 }
 
@@ -140,7 +140,7 @@ std::string Methods::statisticText() const {
 std::string Methods::clocksChoiceText() const {
     std::string text;
     if (locked_ > 0)
-        text += "The device's clocks were locked at what its board sustains in " +
+        text += "The device's clocks were locked at a rate that its board sustains in " +
                 countText(locked_, "case") + ". ";
     if (free_ > 0)
         text += "The device's clocks were free to change in " + countText(free_, "case") + ". ";
@@ -158,9 +158,8 @@ std::string Methods::clocksText() const {
 }
 
 std::string Methods::trustText() const {
-    std::string text =
-        "In each case all modes had to end with the same picture and the same guides, and the "
-        "passes' timestamps were held against the host's clock";
+    std::string text = "In each case all modes had to end with the same picture and the same "
+                       "guides, and the passes' timestamps were checked against the host's clock";
     if (warned_ == 0) return text + ".";
     return text + "; " + countText(warned_, "case") + (warned_ == 1 ? " has" : " have") +
            " warnings in the report.";

@@ -18,6 +18,7 @@
 #include "benchmarks/report/environment.h"
 #include "benchmarks/report/metric.h"
 #include "benchmarks/report/report.h"
+#include "benchmarks/scene/json.h"
 #include "benchmarks/scene/pattern.h"
 #include "engine/error.h"
 #include "engine/files.h"
@@ -155,7 +156,7 @@ void readReports(
         }
     if (reports.empty())
         throw engine::Error(
-            files.front().string(), "is no report of hairbench run but " +
+            files.front().string(), "is not a report of 'hairbench run' but " +
                                         left_out.front().at("reason").get<std::string>() +
                                         (files.size() > 1 ? ", nor is any other of these" : ""));
 }
@@ -182,8 +183,8 @@ std::string readPlotly() {
     if (!file)
         throw engine::Error(
             "report",
-            "plotly.min.js.gz is missing, which a page draws with: scripts/setup fetches it "
-            "before the build, or HAIRBENCH_PLOTLY names a plotly.js");
+            "plotly.min.js.gz, which draws the figures of a page, is missing: scripts/setup "
+            "fetches it before the build, or HAIRBENCH_PLOTLY names a plotly.js");
     return engine::readFile(*file);
 }
 
@@ -243,7 +244,7 @@ scene::Json pageData(std::span<const std::filesystem::path> files) {
             if (const auto backends = compareBackends(report))
                 report["backends"] = backendsJson(*backends);
         } catch (const scene::Json::exception& error) {
-            throw engine::Error(file.string(), error.what());
+            throw engine::Error(file.string(), scene::jsonReason(error));
         }
     }
     const std::vector<OnDevice> devices =

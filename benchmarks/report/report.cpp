@@ -404,7 +404,8 @@ void moveSamplesIn(scene::Json& report, const fs::path& path) {
         scene::Json& samples = files[file_name][{name, metric}];
         if (!fits(value, samples))
             throw engine::Error(
-                path.string(), file.string() + " is of another report: " + name + ", " + metric);
+                path.string(),
+                file.string() + " belongs to another report: " + name + ", " + metric);
         value.erase("sample_count");
         replaceMember(value, "samples_file", "samples", std::move(samples));
     };
@@ -429,7 +430,7 @@ std::optional<std::size_t> countAt(const scene::Json& object, const char* member
     const auto found = object.find(member);
     if (found == object.end()) return std::nullopt;
     if (!found->is_number_unsigned())
-        throw engine::Error('/' + std::string(member), "is no number of things");
+        throw engine::Error('/' + std::string(member), "is not a count");
     return found->get<std::size_t>();
 }
 
@@ -440,7 +441,7 @@ void checkCounts(const scene::Json& report) {
     if (const auto shard = report.find("shard"); shard != report.end()) {
         const std::size_t index = countAt(*shard, "index").value_or(0);
         if (index < 1 || index > countAt(*shard, "count").value_or(0))
-            throw engine::Error("/shard", "is none");
+            throw engine::Error("/shard", "has an index outside [1, count]");
     }
     const auto cases = report.find("cases");
     if (cases == report.end()) return;
@@ -450,10 +451,11 @@ void checkCounts(const scene::Json& report) {
         if (!index) continue;  // from an older report
         if (count && *index >= *count)
             throw engine::Error(
-                "/cases", "one has the number " + std::to_string(*index) + ", counted from 0, of " +
-                              std::to_string(*count) + " cases");
+                "/cases", "a case has the number " + std::to_string(*index) +
+                              ", counted from 0, but there are " + std::to_string(*count) +
+                              " cases");
         if (!seen.insert(*index).second)
-            throw engine::Error("/cases", "two have the number " + std::to_string(*index));
+            throw engine::Error("/cases", "two cases have the number " + std::to_string(*index));
     }
 }
 
@@ -463,22 +465,24 @@ scene::Json readReport(const std::filesystem::path& path) {
     scene::Json report = scene::parseJson(engine::readFile(path), path.string());
     const auto schema = report.is_object() ? report.find("schema") : report.end();
     if (!report.is_object() || schema == report.end() || !schema->is_string())
-        throw engine::Error(path.string(), "is no report of hairbench run");
+        throw engine::Error(path.string(), "is not a report of 'hairbench run'");
     if (!isReadable(schema->get_ref<const std::string&>()))
         throw engine::Error(
             path.string(), schema->get<std::string>() + " is not " + std::string(kReportSchema));
-    const auto damaged = [&](const std::exception& error) {
-        return engine::Error(path.string(), std::string("is damaged: ") + error.what());
+    const auto damaged = [&](const std::string& reason) {
+        return engine::Error(path.string(), "is damaged: " + reason);
     };
     try {
         checkCounts(report);
-    } catch (const std::exception& error) {
-        throw damaged(error);
+    } catch (const scene::Json::exception& error) {
+        throw damaged(scene::jsonReason(error));
+    } catch (const engine::Error& error) {
+        throw damaged(error.what());
     }
     try {
         moveSamplesIn(report, path);  // its errors name the file at fault
     } catch (const scene::Json::exception& error) {
-        throw damaged(error);
+        throw damaged(scene::jsonReason(error));
     }
     return report;
 }

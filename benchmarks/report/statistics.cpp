@@ -241,6 +241,7 @@ MedianInterval medianInterval(std::span<const double> samples, double alpha, dou
     const double infinity = std::numeric_limits<double>::infinity();
     MedianInterval interval{quantile(samples, 0.5), -infinity, infinity, 1.0};
     const auto size = static_cast<double>(samples.size());
+    if (effective < std::min(size, kLeastEffective)) return interval;
     effective = std::clamp(std::floor(effective), 1.0, size);
     const Cut cut = largestCut(static_cast<std::size_t>(effective), alpha);
     // Ranks count from 1. The rank cut.count lies at this share of the way from the middle to the
@@ -264,6 +265,7 @@ MedianInterval medianInterval(std::span<const double> samples, double alpha) {
 }
 
 double effectiveSamples(std::span<const double> samples) {
+    constexpr double kCaution = 5.0;
     const std::size_t n = samples.size();
     const double median = quantile(samples, 0.5);
     std::vector<double> side;  // a median splits evenly, so their mean is about 0
@@ -289,7 +291,9 @@ double effectiveSamples(std::span<const double> samples) {
         previous = std::min(previous, pair);
         time += 2.0 * previous;
     }
-    return std::clamp(size / std::max(time, 1.0), 1.0, size);
+    time = std::max(time, 1.0);
+    time *= 1.0 + kCaution * std::sqrt((time - 1.0) / size);
+    return std::clamp(size / time, 1.0, size);
 }
 
 double relativeHalfWidth(const MedianInterval& interval) {
@@ -356,12 +360,12 @@ double studentQuantile(double p, std::size_t degrees_of_freedom) {
 
 PowerLaw fitPowerLaw(std::span<const double> x, std::span<const double> y, double alpha) {
     if (x.size() != y.size() || x.size() < 2)
-        throw engine::Error("statistics", "a power law takes two points at least");
+        throw engine::Error("statistics", "a power law needs at least two points");
     const auto logarithms = [](std::span<const double> values) {
         std::vector<double> logs;
         for (const double value : values) {
             if (!(value > 0.0) || !std::isfinite(value))
-                throw engine::Error("statistics", "a power law is of what is greater than 0");
+                throw engine::Error("statistics", "a power law needs values above 0");
             logs.push_back(std::log(value));
         }
         return logs;
@@ -378,7 +382,7 @@ PowerLaw fitPowerLaw(std::span<const double> x, std::span<const double> y, doubl
         products += (u[i] - mean_u) * (v[i] - mean_v);
     }
     if (!(squares > 0.0))
-        throw engine::Error("statistics", "a power law takes two places at least");
+        throw engine::Error("statistics", "a power law needs at least two different places");
     const double exponent = products / squares;
     const double intercept = mean_v - exponent * mean_u;
     PowerLaw law{

@@ -195,7 +195,7 @@ void BackendComparison::add(
     replay(device, test_case, settings.run);
     const std::string state = test_case.stateHash();
     if (state != result.state_hash)
-        return warn("the simulation did not come to the same state again");
+        return warn("the simulation did not reach the same state again");
 
     const auto compare = [&](Measured what, const Reference& with) {
         if (with.pixels.empty())
@@ -219,7 +219,7 @@ void BackendComparison::add(
     if (settings.lod.mode == hair::LodMode::distance)
         return warn("only the device knows how many points are drawn");
     if (!settings.strands.texture.empty())
-        return warn("samples that a texture has holes at are not counted");
+        return warn("samples in the holes of a texture are not counted");
     const std::uint32_t samples =
         settings.render.msaa * settings.render.ssaa * settings.render.ssaa;
     const Covered covered = coveredBy(
@@ -243,7 +243,7 @@ void BackendComparison::add(
     if (const auto work = measure::strandWork(settings.strands.backend, counts))
         addWork(*work, *limits_, time, result);
     else
-        warn("no model says what this back end must do");
+        warn("no model gives the least work of this back end");
 }
 
 }  // namespace benchmarks::run

@@ -128,6 +128,10 @@ hair::Settings smaller(const hair::Settings& settings) {
     return small;
 }
 
+CaseKind kindOf(const hair::Settings& settings) {
+    return {settings.strands.backend, settings.shading.model, settings.simulation.solver};
+}
+
 double mostTimesLonger(const FrameWork& of, const FrameWork& tried) {
     const auto ratio = [](double a, double b) { return a / std::max(b, 1.0); };
     return std::max(
@@ -155,28 +159,39 @@ constexpr std::chrono::seconds kTrials{4};
 
 struct Estimate {
     std::optional<double> frame;  // ms
+    double creation = 0.0;  // s, with the first frame
     std::optional<std::uint64_t> bytes;  // of the device's memory
     bool was_tried = false;  // unchanged, not made smaller
     std::string problem;
 };
 
 struct Trial {
+    CaseKind kind;
     FrameWork work;
-    double frame = 0.0;  // ms
+    double frame = 0.0;  // ms, of the second frame: the first one compiles pipelines
+    double creation = 0.0;  // s, with the first frame
 };
 
-// Returns the time of the second frame, because the first one compiles pipelines.
-double frameTime(const engine::Device& device, measure::Case& test_case) {
+// Creates the case and draws two frames. Sets the memory that it holds on the device.
+Trial tryFrames(
+    const engine::Device& device, const hair::Settings& settings,
+    const std::filesystem::path& directory, measure::HairCache& cache, std::uint64_t& bytes) {
+    const Clock::time_point begin = Clock::now();
+    measure::Case test_case(device, settings, directory, &cache);
     engine::FrameLoop loop(device, engine::Timing::isolated);
+    Trial trial{.kind = kindOf(settings), .work = frameWork(settings)};
     for (int i = 0; i < 2; ++i) {
         engine::checkInterrupted();
         loop.frame([&](engine::Passes& passes) { test_case.frame(passes); });
+        if (i == 0) trial.creation = std::chrono::duration<double>(Clock::now() - begin).count();
     }
     const engine::FrameRecord frame = loop.finish().back();
-    return frame.record + frame.wall;
+    trial.frame = frame.record + frame.wall;
+    bytes = device.allocatedBytes();
+    return trial;
 }
 
-// Returns an upper bound in seconds for measuring a case, except for its creation: every mode takes
+// Returns an upper bound in seconds for measuring a case that exists: every mode takes
 // /run/max_time without reaching the precision, the check of the timestamps takes its longest and
 // fails, and every reference picture has to be drawn. `frame_ms` is the time of one frame.
 double mostSeconds(const hair::RunSettings& run, double frame_ms) {
@@ -245,12 +260,14 @@ void Trials::tryCase(std::size_t place, Size size) {
     Estimate& estimate = estimates_[place];
     const hair::Settings settings =
         size == Size::whole ? this->settings(place) : smaller(this->settings(place));
+    std::uint64_t bytes = 0;
     try {
-        measure::Case test_case(device_, settings, plan_.cases[place].directory, &cache_);
-        const double frame = frameTime(device_, test_case);
-        trials_.push_back({.work = frameWork(settings), .frame = frame});
+        const Trial trial =
+            tryFrames(device_, settings, plan_.cases[place].directory, cache_, bytes);
+        trials_.push_back(trial);
         if (size == Size::smaller) return;
-        estimate = {.frame = frame, .bytes = device_.allocatedBytes(), .was_tried = true};
+        estimate = {
+            .frame = trial.frame, .creation = trial.creation, .bytes = bytes, .was_tried = true};
     } catch (const engine::Unsupported& error) {
         estimate = {.was_tried = true, .problem = error.what()};
     } catch (const engine::Error& error) {
@@ -289,7 +306,14 @@ void Trials::play() {
         if (isSmall(settings(place), speed_) || (is_over() && !trials_.empty())) continue;
         try_case(place, Size::smaller);
     }
+    std::set<CaseKind> kinds;  // a trial of which succeeded or failed
+    for (const Trial& trial : trials_) kinds.insert(trial.kind);
     for (const std::size_t place : order) {
+        if (kinds.insert(kindOf(settings(place))).second)
+            try_case(place, isSmall(settings(place), speed_) ? Size::whole : Size::smaller);
+    }
+    for (const std::size_t place : order) {
+        if (estimates_[place].was_tried) continue;
         const bool small = isSmall(settings(place), speed_);
         // Unsupported cases leave no trial, so a large case is tried if there is none yet.
         if (is_over() || (!small && !trials_.empty())) break;
@@ -302,10 +326,17 @@ void Trials::estimateOthers() {
         Estimate& estimate = estimates_[place];
         if (estimate.was_tried || !fits(place)) continue;
         const FrameWork work = frameWork(settings(place));
-        // Each trial gives an upper bound.
+        const CaseKind kind = kindOf(settings(place));
+        // Each trial of its kind gives an upper bound.
         for (const Trial& trial : trials_) {
-            const double frame = trial.frame * std::max(1.0, mostTimesLonger(work, trial.work));
-            estimate.frame = std::min(frame, estimate.frame.value_or(frame));
+            if (trial.kind != kind) continue;
+            const double longer = std::max(1.0, mostTimesLonger(work, trial.work));
+            const double frame = trial.frame * longer;
+            if (estimate.frame && *estimate.frame <= frame) continue;
+            estimate.frame = frame;
+            // A settling step is a part of a frame. Smaller cases are created without settling.
+            estimate.creation =
+                trial.creation * longer + settings(place).simulation.settle_steps * frame / 1e3;
         }
     }
 }
@@ -325,7 +356,8 @@ void print(const RunPlan& plan, const Trials& trials) {
         const Estimate& each = trials.estimates()[i];
         const std::string about = each.was_tried ? "" : "about ";
         std::optional<double> most;
-        if (each.frame) most = mostSeconds(plan.cases[i].spec.settings.run, *each.frame);
+        if (each.frame)
+            most = each.creation + mostSeconds(plan.cases[i].spec.settings.run, *each.frame);
         columns[0].cells.push_back(plan.cases[i].spec.name);
         columns[1].cells.push_back(each.bytes ? about + report::sizeText(*each.bytes) : "-");
         columns[2].cells.push_back(each.frame ? about + report::shortNumber(*each.frame) : "-");
@@ -344,10 +376,11 @@ void print(const RunPlan& plan, const Trials& trials) {
     else
         std::cout << "none of which could be tried\n";
     if (tried < count && seconds > 0.0)
-        std::cout << tried << " of them tried; others' times are estimated from "
-                  << (tried > 0 ? "those" : "a smaller case")
-                  << " by counts of guides, strands and samples, and their memory by sizes of what "
-                     "they keep\n";
+        std::cout
+            << tried
+            << " of them tried; the times of the others are estimated from smaller cases of "
+               "the same back end, shading and solver by counts of guides, strands and samples, "
+               "and their memory by the sizes of their data\n";
 }
 
 }  // namespace

@@ -26,17 +26,28 @@ bool isSmall(const hair::Settings& settings, double speed);
 // lights, no settling, coarse distance fields and shadows.
 hair::Settings smaller(const hair::Settings& settings);
 
+// Costs of work differ between cases of two kinds: a trial tells nothing of another kind.
+struct CaseKind {
+    hair::Backend backend{};
+    hair::ShadingModel shading{};
+    hair::Solver solver{};
+
+    auto operator<=>(const CaseKind&) const = default;
+};
+CaseKind kindOf(const hair::Settings& settings);
+
 // Returns an upper bound of a frame's time of `of` over that of `tried`, if times grow at most
 // linearly with each part of the work: the sum of the parts then grows at most as much as the part
 // that grows most.
 double mostTimesLonger(const FrameWork& of, const FrameWork& tried);
 
-// Prints an upper bound of the measuring time of each case, and the sum. Tries two frames of cases
-// until some seconds are over: first the cases with the most work of a kind, made smaller(), then
-// the small cases unchanged. Estimates the times of other cases by mostTimesLonger() and marks them
-// as estimates. Memory is the device memory that a case held if it was tried unchanged, otherwise
-// an upper bound (measure/memory_need.h). Cases that do not fit are not tried. Without a device,
-// prints only the names and the reason. Returns the exit status.
+// Prints an upper bound of the time of each case, from its creation to its last round, and the sum.
+// Tries two frames of cases: first those with the most work of a sort, made smaller(), then one of
+// each CaseKind, then the small cases unchanged until some seconds are over. Estimates the times of
+// other cases from those of their kind by mostTimesLonger() and marks them as estimates. Memory is
+// the device memory that a case held if it was tried unchanged, otherwise an upper bound
+// (measure/memory_need.h). Cases that do not fit are not tried. Without a device, prints only the
+// names and the reason. Returns the exit status.
 int estimateRun(
     const RunPlan& plan, const engine::DeviceOptions& device, measure::HairCache& cache);
 

@@ -11,6 +11,7 @@
 
 #include "benchmarks/report/report.h"
 #include "benchmarks/run/record.h"
+#include "benchmarks/scene/json.h"
 #include "engine/error.h"
 
 namespace benchmarks::run {
@@ -64,7 +65,7 @@ std::vector<scene::Json> joinedCases(std::vector<Part>& parts, const fs::path& o
             const auto name = result.at("name").get<std::string>();
             const std::size_t index = indexOf(result);
             if (const auto earlier = names.find(name); earlier != names.end()) {
-                judge.object(part.path, name + " is in " + earlier->second.string() + " too");
+                judge.object(part.path, name + " is also in " + earlier->second.string());
                 continue;
             }
             if (const auto earlier = indices.find(index);
@@ -153,7 +154,7 @@ scene::Json mergedReport(
     try {
         return merged(std::move(parts), rules, notes);
     } catch (const scene::Json::exception& error) {
-        throw engine::Error("merge", std::string("a report is damaged: ") + error.what());
+        throw engine::Error("merge", "a report is damaged: " + scene::jsonReason(error));
     }
 }
 

@@ -39,10 +39,11 @@ report::Shard parseShard(const std::string& text) {
     if (slash == std::string::npos ||
         !readNumber(std::string_view(text).substr(0, slash), shard.index) ||
         !readNumber(std::string_view(text).substr(slash + 1), shard.count))
-        throw engine::Error("--shard", "'" + text + "' is not as 2/8: the second of eight parts");
+        throw engine::Error(
+            "--shard", "'" + text + "' is not I/N, as in 2/8 for the second of eight parts");
     if (shard.index < 1 || shard.index > shard.count)
         throw engine::Error(
-            "--shard", "'" + text + "': the part is between 1 and the number of parts");
+            "--shard", "'" + text + "': the part must be from 1 to the number of parts");
     return shard;
 }
 

@@ -148,7 +148,7 @@ Journal::Journal(std::filesystem::path path, Lasts lasts) : path_(std::move(path
     if (path_.has_parent_path()) std::filesystem::create_directories(path_.parent_path(), error);
     file_ = open(path_.c_str(), O_RDWR | O_CREAT | O_NOFOLLOW | O_CLOEXEC, 0666);
     if (file_ < 0 && errno == ELOOP)
-        throw engine::Error(path_.string(), "is a link, and its place is the journal's");
+        throw engine::Error(path_.string(), "is a link, where the journal must be written");
     if (file_ < 0) throw engine::Error(path_.string(), std::strerror(errno));
     struct stat status{};
     if (fstat(file_, &status) == 0 && !S_ISREG(status.st_mode)) {
@@ -176,7 +176,7 @@ void Journal::read(const std::function<void(scene::Json value, const Place& plac
     const auto take = [&](std::string_view line) {
         auto value = valueIn(line);
         if (!value && number == 1)
-            throw engine::Error(path_.string(), "is no journal of hairbench run");
+            throw engine::Error(path_.string(), "is not a journal of 'hairbench run'");
         if (value)
             visit(*std::move(value), {.begin = size_, .size = line.size()});
         else
@@ -199,7 +199,7 @@ void Journal::read(const std::function<void(scene::Json value, const Place& plac
         }
         text.erase(0, begin);
         if (text.size() > kLongestLine)
-            throw engine::Error(path_.string(), "is no journal of hairbench run");
+            throw engine::Error(path_.string(), "is not a journal of 'hairbench run'");
     }
 }
 
@@ -207,7 +207,7 @@ scene::Json Journal::at(const Place& place) const {
     std::string line(place.size, '\0');
     const bool is_there = readAt(file_, line, place.begin) == line.size();
     auto value = is_there ? valueIn(line) : std::nullopt;
-    if (!value) throw engine::Error(path_.string(), "was changed while the run was under way");
+    if (!value) throw engine::Error(path_.string(), "was changed during the run");
     return *std::move(value);
 }
 
@@ -262,9 +262,9 @@ std::optional<std::string> headDifference(const scene::Json& journal, const scen
     const auto shard = [](const scene::Json& each) {
         return each.at("header").value("shard", scene::Json());
     };
-    if (shard(journal) != shard(head)) return "it is of another --shard";
-    if (journal.at("filter") != head.at("filter")) return "it is of another --filter";
-    if (journal.at("cases_hash") != head.at("cases_hash")) return "its cases are others";
+    if (shard(journal) != shard(head)) return "its --shard differs";
+    if (journal.at("filter") != head.at("filter")) return "its --filter differs";
+    if (journal.at("cases_hash") != head.at("cases_hash")) return "its cases differ";
     return std::nullopt;
 }
 
@@ -279,7 +279,7 @@ bool goesOn(
     const std::string& name) {
     const auto difference = headDifference(journal, head);
     if (resume) {
-        if (difference) throw engine::Error(name, "can't go on: " + *difference);
+        if (difference) throw engine::Error(name, "can't be resumed: " + *difference);
         return true;
     }
     if (cases == 0) return false;
@@ -338,9 +338,9 @@ RunRecord::RunRecord(
     const RunPlan& plan, const report::ReportHeader& header, const RecordOptions& options)
     : out_(options.out) {
     if (!engine::isReplaceable(out_)) {
-        if (options.resume) throw engine::Error("--resume", out_.string() + " is no file");
+        if (options.resume) throw engine::Error("--resume", out_.string() + " is not a file");
         std::cerr << "hairbench: " << engine::shownText(out_.string())
-                  << " is no file: this run has no journal, and can't be resumed\n";
+                  << " is not a file: this run has no journal, and can't be resumed\n";
         scratch_ = std::make_unique<engine::ScratchFolder>();
     }
     const fs::path file = scratch_ ? scratch_->path() / "journal" : journalFile(out_);
@@ -370,7 +370,7 @@ RunRecord::RunRecord(
                           << " is damaged: left out\n";
             for (; strays > 0; --strays)
                 std::cerr << engine::shownText(name)
-                          << ": a line is no case of this run, or there twice: left out\n";
+                          << ": a line is not a case of this run, or repeats one: left out\n";
         } else {
             left = CasesLeft(plan);
             done_.clear();
@@ -386,7 +386,8 @@ RunRecord::RunRecord(
             ++order;
         }
     } catch (const scene::Json::exception& error) {
-        throw engine::Error(name, std::string("is no journal of hairbench run: ") + error.what());
+        throw engine::Error(
+            name, "is not a journal of 'hairbench run': " + scene::jsonReason(error));
     }
 }
 

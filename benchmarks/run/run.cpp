@@ -134,7 +134,7 @@ void checkReferences(const RunPlan& plan) {
         if (!file.empty() && !std::filesystem::is_regular_file(each.directory / file))
             throw engine::Error(
                 plan.scene.path,
-                "/run/reference: " + (each.directory / file).string() + ": is no file");
+                "/run/reference: " + (each.directory / file).string() + ": is not a file");
     }
 }
 

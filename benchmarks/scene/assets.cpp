@@ -59,7 +59,8 @@ void checkMeshes(const hair::RenderSettings& render, const std::filesystem::path
     for (std::size_t i = 0; i < render.meshes.size(); ++i) {
         if (render.meshes[i].file.empty())
             throw engine::Error(
-                scene.string(), "/render/meshes/" + std::to_string(i) + "/file: is empty");
+                scene.string(), "/render/meshes/" + std::to_string(i) +
+                                    "/file: is empty; expected the name of a mesh file");
     }
 }
 

@@ -60,10 +60,10 @@ std::optional<std::vector<Document>> rangeValues(std::string_view text) {
     const double last = (*parts)[1];
     const double step = parts->size() == 3 ? (*parts)[2] : 1.0;
     if (step <= 0.0) throw engine::Error(std::string(text), "the step is not above 0");
-    if (last < first) throw engine::Error(std::string(text), "ends before it begins");
+    if (last < first) throw engine::Error(std::string(text), "the last value is below the first");
     if (powers && (first < 0.0 || last > kLargestExponent || first != std::trunc(first) ||
                    step != std::trunc(step)))
-        throw engine::Error(std::string(text), "exponents are whole numbers in [0, 52]");
+        throw engine::Error(std::string(text), "exponents must be whole numbers in [0, 52]");
     // The tolerance gives 0:1:0.1 its eleven values although 0.1 * 10 is rounded.
     const double count = std::floor((last - first) / step * (1.0 + 1e-12)) + 1.0;
     if (count > static_cast<double>(kMaximumCases))
@@ -118,8 +118,8 @@ std::string joinedTail(const std::vector<std::string>& tokens, std::size_t count
 void requireFew(const std::string& axis, std::size_t values) {
     if (values > kMostAxisValues)
         throw engine::Error(
-            axis, std::to_string(values) + " values, an axis has at most " +
-                      std::to_string(kMostAxisValues));
+            axis, "has " + std::to_string(values) + " values; at most " +
+                      std::to_string(kMostAxisValues) + " are permitted");
 }
 
 }  // namespace
@@ -131,9 +131,9 @@ void requireQuick(
     const std::size_t size = valueCount(document);
     if (size > kSmall && count > kMost / size)
         throw engine::Error(
-            context, std::to_string(count) + ' ' + what + " of a scene that has " +
-                         std::to_string(size) + " values: together at most " +
-                         std::to_string(kMost) + " are tried");
+            context, std::to_string(count) + ' ' + what + " of a scene with " +
+                         std::to_string(size) + " values are too many: the product is at most " +
+                         std::to_string(kMost));
 }
 
 namespace {
@@ -190,7 +190,7 @@ Axis checkedAxis(const Axis& axis, const Json& resolved) {
     std::set<std::string> texts;
     for (const Document& value : echoed.values)
         if (!texts.insert(value.text()).second)
-            throw engine::Error(axis.pointer, valueLabel(value.json()) + " is there twice");
+            throw engine::Error(axis.pointer, valueLabel(value.json()) + " appears twice");
     return echoed;
 }
 
@@ -299,7 +299,7 @@ Exclusion exclusion(const Json& conditions, const Json& resolved) {
     for (const auto& [pointer, values] : conditions.items()) {
         fields.push_back(checkedAxis(writtenAxis(pointer, values), resolved));
         if (std::ranges::any_of(values, [](const Json& value) { return value.is_object(); }))
-            throw engine::Error(pointer, "a condition is on single fields, not on a group");
+            throw engine::Error(pointer, "a condition must name a single field, not a group");
     }
     return fields;
 }
@@ -313,8 +313,8 @@ void requireFewConditions(const Json& exclude) {
             for (const Json& values : conditions) count += values.size();
     if (count > kMostConditions)
         throw engine::Error(
-            "/sweep/exclude",
-            std::to_string(count) + " values, it has at most " + std::to_string(kMostConditions));
+            "/sweep/exclude", "has " + std::to_string(count) + " values; at most " +
+                                  std::to_string(kMostConditions) + " are permitted");
 }
 
 }  // namespace

@@ -84,7 +84,7 @@ void checkReach(const hair::Extension& extension) {
     if (reach == extension.parameters.end() || reach->is_vector || reach->minimum < 0.0)
         throw engine::Error(
             extension.shader->name,
-            "declares no parameter `reach`, a number from 0 m on that no offset is longer than");
+            "must declare a parameter 'reach': a number of at least 0 m that no offset exceeds");
 }
 
 void loadOne(

@@ -131,7 +131,7 @@ public:
         for (const auto& [name, schema] : members.items()) {
             if (schema.contains("properties")) continue;
             if (!std::exchange(has_table, true))
-                text_ += "| field | values | unit | default | what | example |\n"
+                text_ += "| field | values | unit | default | meaning | example |\n"
                          "|---|---|---|---|---|---|\n";
             addRow(pointer + '/' + name, schema);
         }

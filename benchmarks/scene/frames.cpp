@@ -32,7 +32,7 @@ FramePaths::FramePaths(const std::filesystem::path& pattern) {
             digits_ = static_cast<std::size_t>(text[i + 1] - '0');
             i += 2;
         }
-        if (text.compare(i, 1, "d") != 0) refuse("a % begins neither %d, %04d nor %%");
+        if (text.compare(i, 1, "d") != 0) refuse("'%' must begin %d, %04d (with any digit) or %%");
     }
 }
 
@@ -57,17 +57,17 @@ FrameRange parseFrameRange(std::string_view text) {
         std::uint32_t number = 0;
         const auto [after, error] = std::from_chars(at, end, number);
         if (error != std::errc() || number > kMost)
-            refuse("is not A:B or A:B:STEP, of numbers up to a million");
+            refuse("is not A:B or A:B:STEP with whole numbers from 0 to 1000000");
         numbers.push_back(number);
         if (after == end) break;
         if (*after != ':' || numbers.size() == 3)
-            refuse("is not A:B or A:B:STEP, of numbers up to a million");
+            refuse("is not A:B or A:B:STEP with whole numbers from 0 to 1000000");
         at = after + 1;
     }
-    if (numbers.size() < 2) refuse("is one frame: --frame draws it");
+    if (numbers.size() < 2) refuse("is one frame; give it by --frame");
     const FrameRange range{numbers[0], numbers[1], numbers.size() == 3 ? numbers[2] : 1};
     if (range.step == 0) refuse("has a step of 0");
-    if (range.first >= range.end) refuse("holds no frame: B is not drawn");
+    if (range.first >= range.end) refuse("contains no frame: B must be above A");
     return range;
 }
 

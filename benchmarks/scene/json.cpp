@@ -43,7 +43,7 @@ unknownName(std::string_view what, std::string_view name, const std::vector<std:
         const auto nearest = std::ranges::min_element(known, {}, distance);
         if (nearest != known.end() &&
             2 * distance(*nearest) <= std::max(name.size(), nearest->size()))
-            text += " (did you mean \"" + *nearest + "\"?)";
+            text += " (did you mean '" + *nearest + "'?)";
     }
     text += "; known: ";
     const std::size_t start = text.size();
@@ -119,7 +119,7 @@ std::string escapedToken(std::string_view token) {
 std::vector<std::string> pointerTokens(std::string_view pointer) {
     if (!pointer.starts_with('/'))
         throw engine::Error(
-            '"' + std::string(pointer) + '"',
+            '\'' + std::string(pointer) + '\'',
             "a JSON pointer starts with '/', as in /strands/density");
     std::vector<std::string> tokens;
     for (std::size_t begin = 1; begin <= pointer.size();) {
@@ -188,6 +188,11 @@ std::string reasonOf(std::string text) {
     return text;
 }
 
+std::string withArticle(std::string_view type) {
+    if (type == "null") return "null";
+    return (type.starts_with('a') || type.starts_with('o') ? "an " : "a ") + std::string(type);
+}
+
 // Builds the document from parsing events, because nlohmann's own parser silently keeps the last of
 // duplicate keys.
 class Builder : public nlohmann::json_sax<Json> {
@@ -209,15 +214,15 @@ public:
     bool key(string_t& key) override {
         if (key.size() > kLongestKey)
             throw engine::Error(
-                name_, "a name of " + std::to_string(key.size()) + " bytes, at most " +
-                           std::to_string(kLongestKey) + " are read");
+                name_, "a name has " + std::to_string(key.size()) + " bytes; at most " +
+                           std::to_string(kLongestKey) + " are permitted");
         levels_.back().key = key;
         if (levels_.back().value.size() >= kMostMembers)
             throw engine::Error(
                 name_ + ": " + pointer(),
-                "is one of over " + std::to_string(kMostMembers) + " members of an object");
+                "the object has more than " + std::to_string(kMostMembers) + " members");
         if (levels_.back().value.contains(key))
-            throw engine::Error(name_ + ": " + pointer(), "is there twice");
+            throw engine::Error(name_ + ": " + pointer(), "appears twice");
         return true;
     }
 
@@ -255,7 +260,8 @@ private:
 
     bool open(Json value) {
         if (levels_.size() == kDeepest)
-            throw engine::Error(name_, "nested deeper than " + std::to_string(kDeepest));
+            throw engine::Error(
+                name_, "is nested deeper than " + std::to_string(kDeepest) + " levels");
         levels_.push_back({std::move(value), {}});
         return true;
     }
@@ -322,6 +328,29 @@ std::size_t valueCount(const Json& document) {
     if (document.is_structured())
         for (const Json& each : document) count += valueCount(each);
     return count;
+}
+
+std::string jsonReason(const std::exception& error) {
+    const std::string text = reasonOf(error.what());
+    const std::string_view all = text;
+    // "type must be number, but is string"
+    constexpr std::string_view kWanted = "type must be ", kFound = ", but is ";
+    if (const std::size_t found = all.find(kFound);
+        all.starts_with(kWanted) && found != std::string_view::npos)
+        return "expected " + withArticle(all.substr(kWanted.size(), found - kWanted.size())) +
+               ", found " + withArticle(all.substr(found + kFound.size()));
+    // "key 'name' not found"
+    constexpr std::string_view kKey = "key ", kMissing = " not found";
+    if (all.starts_with(kKey) && all.ends_with(kMissing))
+        return std::string(all.substr(kKey.size(), all.size() - kKey.size() - kMissing.size())) +
+               " is missing";
+    // "cannot use at() with number"
+    constexpr std::string_view kWith = " with ";
+    if (const std::size_t with = all.rfind(kWith);
+        all.starts_with("cannot use ") && with != std::string_view::npos)
+        return "expected an object or an array, found " +
+               withArticle(all.substr(with + kWith.size()));
+    return text;
 }
 
 Json parseJson(std::string_view text, const std::string& name) {

@@ -3,6 +3,7 @@
 #include <array>
 #include <charconv>
 #include <cstddef>
+#include <exception>
 #include <memory>
 #include <string>
 #include <string_view>
@@ -47,16 +48,20 @@ std::size_t valueCount(const Json& document);
 
 // Parses one JSON document. Errors call the text `name`, usually its file:
 //   scene.json:3:17: syntax error while parsing value - unexpected '}'; ...
-//   scene.json: /strands/density: is there twice
+//   scene.json: /strands/density: appears twice
 // Stricter than JSON: duplicate members and nesting deeper than 64 are errors. No comments.
 Json parseJson(std::string_view text, const std::string& name);
+
+// Returns the reason of an exception of the JSON library in our words:
+//   expected a number, found a string
+std::string jsonReason(const std::exception& error);
 
 // Returns the number of insertions, deletions and substitutions that turn `a` into `b` (Levenshtein
 // 1966), in bytes.
 std::size_t editDistance(std::string_view a, std::string_view b);
 
 // Returns an error text about a name that is not among `known`, without a final full stop:
-//   unknown key (did you mean "density"?); known: backend, density
+//   unknown key (did you mean 'density'?); known: backend, density
 // `what` is the beginning, here "unknown key". Suggests the nearest name if the edit distance is at
 // most half the length of the longer name.
 std::string

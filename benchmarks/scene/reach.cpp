@@ -98,9 +98,8 @@ void Reach::check(const fs::path& file) const {
     const auto holds = [&](const fs::path& folder) { return isBelow(place, folder); };
     if (std::ranges::none_of(folders_, holds))
         throw engine::Error(
-            file.string(),
-            "lies outside of " + folders_.front().string() +
-                ", the scene's folder: where that is meant, --allow-outside opens it");
+            file.string(), "is outside " + folders_.front().string() +
+                               ", the scene's folder; --allow-outside permits it");
 }
 
 void Reach::check(const fs::path& file, const fs::path& owner) const {

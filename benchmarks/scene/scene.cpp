@@ -91,7 +91,9 @@ std::string readScene(const fs::path& path) {
     std::string text = engine::readFile(path, kLargestSceneFile);
     if (!engine::isPng(text)) {
         if (text.size() > kLargestScene)
-            throw engine::Error(path.string(), "is larger than 16 MiB, and no picture");
+            throw engine::Error(
+                path.string(),
+                "is larger than 16 MiB, the limit of a scene file, and is not a picture");
         return text;
     }
     auto scene = inFile(path, [&] { return engine::pngText(text, kSceneKeyword); });
@@ -196,8 +198,7 @@ Loaded load(const fs::path& path, const Reach& reach, std::vector<fs::path> open
         if (!document.is_object())
             throw engine::Error("expected an object, found " + described(document));
         if (document.contains("suite"))
-            throw engine::Error(
-                "/suite", "this is a suite of scenes, and one scene is wanted here");
+            throw engine::Error("/suite", "is a suite of scenes; expected a single scene");
         stringMember(document, "$schema");
         if (const std::string* const base = stringMember(document, "base")) {
             const fs::path base_path = path.parent_path() / *base;
@@ -205,7 +206,7 @@ Loaded load(const fs::path& path, const Reach& reach, std::vector<fs::path> open
             if (opened.size() > kMostBases)
                 throw engine::Error(
                     "/base",
-                    "more than " + std::to_string(kMostBases) + " scenes are built one on another");
+                    "the chain of bases is longer than " + std::to_string(kMostBases) + " scenes");
             if (std::ranges::find(opened, fs::weakly_canonical(base_path)) != opened.end())
                 throw engine::Error(
                     "/base", base_path.string() + " is built on this file: a cycle");

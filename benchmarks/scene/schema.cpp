@@ -29,7 +29,7 @@ constexpr float kParallel = 1e-4f;
 
 Broken hasGuides(const hair::Settings& s) {
     if (!s.groom.file.empty() || !s.groom.grow.mesh.empty()) return {};
-    return "is empty, and /groom/file too: there is nothing to take guides from";
+    return "is empty, and so is /groom/file: guides need one of them";
 }
 
 Broken strandsHaveTwoEnds(const hair::Settings& s) {
@@ -40,22 +40,22 @@ Broken strandsHaveTwoEnds(const hair::Settings& s) {
 Broken groomHasStrandsOfItsOwn(const hair::Settings& s) {
     if (s.strands.source != hair::StrandSource::groom || !s.groom.file.empty()) return {};
     if (s.groom.grow.strands > 0) return {};
-    return "is groom, but there is neither /groom/file nor /groom/grow/strands";
+    return "is groom, but neither /groom/file nor /groom/grow/strands is set";
 }
 
 Broken partingHasLength(const hair::Settings& s) {
     const hair::PartingSettings& parting = s.groom.grow.parting;
     if (parting.strength == 0.0f || parting.from != parting.to) return {};
-    return "is where /groom/grow/parting/from is";
+    return "equals /groom/grow/parting/from";
 }
 
 Broken windHasDirection(const hair::Settings& s) {
     const hair::WindSettings& wind = s.simulation.wind;
     if (glm::length(wind.direction) > 0.0f) return {};
     if (wind.mode == hair::WindMode::thesis && wind.strength > 0.0f)
-        return "has no length while /simulation/wind/strength is above 0";
+        return "is zero, but /simulation/wind/strength is above 0";
     if (wind.mode == hair::WindMode::drag && wind.speed > 0.0f)
-        return "has no length while /simulation/wind/speed is above 0";
+        return "is zero, but /simulation/wind/speed is above 0";
     return {};
 }
 
@@ -67,7 +67,7 @@ Broken solverHasBalancedRest(const hair::Settings& s) {
     case hair::Solver::rod:
         return {};
     default:
-        return "is balanced, which the solvers shape and rod can be";
+        return "is balanced, which only the solvers shape and rod support";
     }
 }
 
@@ -77,7 +77,7 @@ Broken solverHasEllipticSections(const hair::Settings& s) {
     case hair::Solver::position_based_rod:
     case hair::Solver::augmented_mass_spring:
         if (s.simulation.material.ellipticity == 1.0f) return {};
-        return "is not 1, but of the solvers of rods only rod has sections that are not round";
+        return "is not 1, but of the rod solvers only rod supports elliptic cross-sections";
     default:
         return {};
     }
@@ -86,9 +86,10 @@ Broken solverHasEllipticSections(const hair::Settings& s) {
 Broken solverCarriesContact(const hair::Settings& s) {
     if (!s.simulation.collision.warm_start) return {};
     if (s.simulation.solver != hair::Solver::rod)
-        return "is on, but of the solvers only rod carries forces of contact";
+        return "is on, but only the solver rod carries contact forces from one substep to the next";
     if (s.simulation.rod.integrator != hair::RodIntegrator::implicit_euler)
-        return "is on, but forces of contact are carried by implicit_euler alone";
+        return "is on, but only the integrator implicit_euler carries contact forces from one "
+               "substep to the next";
     return {};
 }
 
@@ -98,10 +99,10 @@ Broken solverKeepsSegmentsOut(const hair::Settings& s) {
     case hair::Solver::stable_cosserat:
     case hair::Solver::position_based_rod:
     case hair::Solver::augmented_mass_spring:
-        return "is segments, which the solvers shape, ftl and rod keep out of bodies";
+        return "is segments, which only the solvers shape, ftl and rod support";
     default:
         if (s.simulation.collision.warm_start)
-            return "is segments, but warm_start carries forces of contact of vertices alone";
+            return "is segments, but warm_start carries only the contact forces of vertices";
         return {};
     }
 }
@@ -142,7 +143,7 @@ Broken repeatedMotionCloses(const hair::Settings& s) {
     if (keys.front().translation == keys.back().translation &&
         sameDirection(keys.front().rotation, keys.back().rotation))
         return {};
-    return "is set, but the last of the keyframes is not the pose of the first";
+    return "is on, but the last keyframe does not have the pose of the first";
 }
 
 Broken lodDistancesAscend(const hair::Settings& s) {
@@ -169,12 +170,12 @@ Broken planesAscend(const hair::Settings& s) {
 
 Broken cameraLooksSomewhere(const hair::Settings& s) {
     if (s.camera.position != s.camera.target) return {};
-    return "is where /camera/position is";
+    return "equals /camera/position";
 }
 
 Broken upStandsOut(const hair::Settings& s) {
     const float length = glm::length(s.camera.up);
-    if (length == 0.0f) return "has no length";
+    if (length == 0.0f) return "is zero";
     const glm::vec3 view = glm::normalize(s.camera.target - s.camera.position);
     if (glm::length(glm::cross(s.camera.up / length, view)) > kParallel) return {};
     return "is parallel to the view";
@@ -187,7 +188,7 @@ Broken busyWorkHasAPass(const hair::Settings& s) {
 
 Broken stampsAreOfOneQueue(const hair::Settings& s) {
     if (!s.run.async_compute || !s.run.overlapped_stamps) return {};
-    return "is on, but passes on two queues have no common order: /run/async_compute is on, too";
+    return "is on, but so is /run/async_compute: passes on two queues have no common order";
 }
 
 // Each pass of a frame has timestamps, and there is only room for this many steps per frame.
@@ -195,7 +196,7 @@ constexpr float kMostStepsPerFrame = 200.0f;
 
 Broken frameHasRoomForItsSteps(const hair::Settings& s) {
     if (s.run.frame_time <= kMostStepsPerFrame * s.simulation.time_step) return {};
-    return "is more than 200 of /simulation/time_step";
+    return "is more than 200 times /simulation/time_step";
 }
 
 Broken lightsHaveDirections(const hair::Settings& s) {
@@ -204,9 +205,9 @@ Broken lightsHaveDirections(const hair::Settings& s) {
         if (glm::length(light.direction) > 0.0f) continue;
         const std::string entry = "entry " + std::to_string(i);
         if (light.type == hair::LightType::directional)
-            return entry + " is directional, but its direction has no length";
+            return entry + " is directional, but its direction is zero";
         if (light.type == hair::LightType::rectangle)
-            return entry + " is a rectangle, but its direction has no length";
+            return entry + " is a rectangle, but its direction is zero";
     }
     return {};
 }
@@ -217,8 +218,8 @@ Broken lightsHaveRoomForTheirMaps(const hair::Settings& s) {
         further += hair::rendering::shadowMaps(light) - 1;
     if (further <= hair::gpu::kMostFurtherMaps) return {};
     return "has " + std::to_string(further) +
-           " shadow maps beyond one a light by shadow_samples, over " +
-           std::to_string(hair::gpu::kMostFurtherMaps);
+           " shadow maps by shadow_samples besides one per light; at most " +
+           std::to_string(hair::gpu::kMostFurtherMaps) + " are permitted";
 }
 
 struct Rule {
@@ -405,14 +406,15 @@ Json sweepSchema(const Json& members) {
         "fields that change together: each object is one axis, whose fields have as many values "
         "each",
         values);
-    axes["cases"] = rows("one axis by its rows: the fields' values in each", true);
+    axes["cases"] =
+        rows("one axis, given by rows: each object holds the values of all its fields", true);
     axes["exclude"] = rows(
-        "combinations that are left out: where all fields of an object have one of its values",
+        "combinations that are left out: those in which every field of an object has one of its "
+        "values",
         values);
     return {
-        {"description", "what is varied: JSON pointer of a field -> its values; one case for each "
-                        "combination, in the "
-                        "written order, the last axis fastest"},
+        {"description", "fields that vary: JSON pointer of a field -> its values; one case for "
+                        "each combination, in the written order, the last axis fastest"},
         {"type", {"object", "null"}},
         {"propertyNames", {{"pattern", "^(/.*|zip|cases|exclude)$"}}},
         {"properties", std::move(axes)},
@@ -435,9 +437,8 @@ std::string sceneSchema() {
         {"type", "string"}};
     members["sweep"] = std::move(sweep);
     members["suite"] = {
-        {"description",
-         "scene files, relative to this one, that are run one after another; nothing but $schema "
-         "and description is beside it"},
+        {"description", "scene files, relative to this one, that are run one after another; only "
+                        "$schema and description may stand beside it"},
         {"type", "array"},
         {"minItems", 1},
         {"items", {{"type", "string"}}}};

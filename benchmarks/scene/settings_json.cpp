@@ -114,7 +114,7 @@ void read(
         known.emplace_back(row.names[i].name);
     }
     throw engine::Error(
-        pointer, unknownName("unknown name \"" + escapedToken(name) + '"', name, known));
+        pointer, unknownName("unknown name '" + escapedToken(name) + '\'', name, known));
 }
 
 void read(
@@ -168,8 +168,8 @@ void read(
     if (!value.is_array()) throw mismatch(pointer, "an array", value);
     if (value.size() > row.maximum_count)
         throw engine::Error(
-            pointer, std::to_string(value.size()) + " elements are more than " +
-                         std::to_string(row.maximum_count));
+            pointer, "has " + std::to_string(value.size()) + " elements; at most " +
+                         std::to_string(row.maximum_count) + " are permitted");
     row.resize(settings, 0);  // absent members of an element get a new element's defaults
     row.resize(settings, value.size());
     for (std::size_t i = 0; i < value.size(); ++i)

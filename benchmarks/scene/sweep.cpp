@@ -35,7 +35,7 @@ Json suiteDocument(const std::filesystem::path& path) {
 void checkMembers(const Json& document) {
     for (const auto& [key, value] : document.items()) {
         if (key != "$schema" && key != "description" && key != "suite")
-            throw engine::Error('/' + key, "is no member of a suite: $schema, description, suite");
+            throw engine::Error('/' + key, "unknown key; known: $schema, description, suite");
         if (key != "suite" && !value.is_string())
             throw engine::Error('/' + key, "expected a string, found " + described(value));
     }
@@ -70,7 +70,7 @@ std::vector<Scene> loadScenes(const std::filesystem::path& path, Outside outside
             scenes.push_back(loadScene(member, reach));
             const std::string& name = scenes.back().name;
             if (std::ranges::count(scenes, name, &Scene::name) > 1)
-                throw engine::Error("/suite", "two scenes are called " + name);
+                throw engine::Error("/suite", "two scenes have the name '" + name + '\'');
         }
     } catch (const engine::Error& error) {
         throw engine::Error(path.string(), error.what());
@@ -105,7 +105,8 @@ std::vector<Axis> withOverrides(const Scene& scene, std::span<const Axis> overri
         else if (place->tied.empty())
             *place = std::move(axis);
         else
-            throw engine::Error("-a", axis.pointer + ": the sweep ties it to other fields");
+            throw engine::Error(
+                "-a", axis.pointer + ": the scene's sweep changes it together with other fields");
     }
     return axes;
 }
@@ -125,7 +126,8 @@ std::size_t caseCount(const std::vector<Axis>& axes) {
     for (const Axis& axis : axes) {
         count *= axis.values.size();
         if (count > kMaximumCases)
-            throw engine::Error("/sweep", "more than " + std::to_string(kMaximumCases) + " cases");
+            throw engine::Error(
+                "/sweep", "has more than " + std::to_string(kMaximumCases) + " cases");
     }
     return count;
 }
@@ -260,9 +262,10 @@ std::vector<CaseSpec> expand(const Scene& scene, std::span<const Axis> overrides
         requireQuick("/sweep", count, "cases", scene.resolved.json());
         if (exclusions.count() > kMostExclusionTests / count)
             throw engine::Error(
-                "/sweep/exclude", std::to_string(exclusions.count()) + " for " +
-                                      std::to_string(count) + " cases are more than " +
-                                      std::to_string(kMostExclusionTests) + " to try");
+                "/sweep/exclude", std::to_string(exclusions.count()) + " conditions for " +
+                                      std::to_string(count) +
+                                      " cases are too many: the product is at most " +
+                                      std::to_string(kMostExclusionTests));
         for (std::size_t i = 0; i < count; ++i) {
             CaseSpec spec;
             spec.axes = combination(axes, i);
@@ -304,7 +307,7 @@ void setField(Scene& scene, const std::string& argument) {
 
 // Returns the number as a scene file would have it: 0.02, although settings are floats.
 Json decimal(double number) {
-    if (!std::isfinite(number)) throw engine::Error("neither infinite numbers nor NaN are taken");
+    if (!std::isfinite(number)) throw engine::Error("expected a finite number");
     return Json::parse(decimalText(number));
 }
 

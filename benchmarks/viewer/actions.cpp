@@ -30,21 +30,21 @@ constexpr std::array kActions{
         "Ctrl+Shift+S", "writes the state shown as a scene, to a path that is asked for"},
     ActionRow{
         Action::copy_axes, "File", "Copy as -a...", kCtrl | kShift | ImGuiKey_C, "Ctrl+Shift+C",
-        "puts what differs from the scene on the clipboard, as options of the command line"},
+        "copies the changes to the scene to the clipboard, as options of the command line"},
     ActionRow{
         Action::screenshot, "File", "Screenshot", ImGuiKey_F12, "F12",
         "writes the picture as a PNG with the scene in it, which can be opened again"},
     ActionRow{
         Action::record, "File", "Record frames", kCtrl | ImGuiKey_R, "Ctrl+R",
-        "writes every frame that is played as a PNG, until it is chosen again"},
+        "writes every frame that is played as a PNG, until this is chosen again"},
     ActionRow{Action::quit, "File", "Quit", kCtrl | ImGuiKey_Q, "Ctrl+Q", "closes the window"},
 
     ActionRow{
         Action::undo, "Edit", "Undo", kCtrl | ImGuiKey_Z, "Ctrl+Z",
-        "takes the last change of a setting back"},
+        "undoes the last change of a setting"},
     ActionRow{
         Action::redo, "Edit", "Redo", kCtrl | ImGuiKey_Y, "Ctrl+Y",
-        "makes the change again that was taken back last"},
+        "repeats the change that was undone last"},
 
     ActionRow{Action::play, "Play", "Play", ImGuiKey_Space, "Space", "plays or pauses"},
     ActionRow{Action::step, "Play", "Step", ImGuiKey_Period, ".", "plays one frame, while paused"},
@@ -61,7 +61,7 @@ constexpr std::array kActions{
     ActionRow{Action::view_top, "Camera", "Top", kAlt | ImGuiKey_4, "Alt+4", "looks from above"},
     ActionRow{
         Action::view_close, "Camera", "Close-up", kAlt | ImGuiKey_5, "Alt+5",
-        "looks from so near that strands are seen"},
+        "looks from close enough to see single strands"},
     ActionRow{
         Action::view_far, "Camera", "Far", kAlt | ImGuiKey_6, "Alt+6",
         "looks from afar, as at someone across a street"},
@@ -94,29 +94,30 @@ constexpr std::array kActions{
         Action::tool_lights, "Tools", "Lights", ImGuiKey_L, "L",
         "the mouse moves lights round the hair and turns the environment"},
 
-    ActionRow{Action::dark_theme, "View", "Dark", 0, "", "light letters on dark"},
-    ActionRow{Action::light_theme, "View", "Light", 0, "", "dark letters on light"},
+    ActionRow{Action::dark_theme, "View", "Dark", 0, "", "light text on dark"},
+    ActionRow{Action::light_theme, "View", "Light", 0, "", "dark text on light"},
     ActionRow{
         Action::larger, "View", "Larger", kCtrl | ImGuiKey_Equal,
-        "Ctrl+=", "larger letters and widgets"},
+        "Ctrl+=", "larger text and widgets"},
     ActionRow{
         Action::smaller, "View", "Smaller", kCtrl | ImGuiKey_Minus, "Ctrl+-",
-        "smaller letters and widgets"},
+        "smaller text and widgets"},
     ActionRow{
         Action::reset_layout, "View", "Reset layout", 0, "",
-        "columns and letters as they were at first"},
+        "columns and text as they were at first"},
     ActionRow{
         Action::preview, "View", "Preview what moves", ImGuiKey_P, "P",
-        "draws fewer strands and pixels while something moves that takes too long whole"},
+        "draws fewer strands and pixels while something moves, if the whole picture takes too "
+        "long"},
     ActionRow{
         Action::present_fifo, "View", "In step with the screen (fifo)", 0, "",
         "never torn, and never more pictures than the screen shows"},
     ActionRow{
         Action::present_mailbox, "View", "Newest picture (mailbox)", 0, "",
-        "never torn, and the pictures between are left out"},
+        "never torn; older pictures are left out"},
     ActionRow{
         Action::present_immediate, "View", "At once (immediate)", 0, "",
-        "as fast as it goes, torn where a picture comes in between"},
+        "as fast as possible, and possibly torn"},
     ActionRow{Action::show_shading, "View", "Strands: light", 0, "", "strands as they are lit"},
     ActionRow{
         Action::show_tangents, "View", "Strands: tangents", 0, "",
@@ -126,13 +127,13 @@ constexpr std::array kActions{
         "directions across strands as colours"},
     ActionRow{
         Action::show_levels, "View", "Strands: levels of detail", 0, "",
-        "from blue to red as it is coarser"},
+        "from blue (fine) to red (coarse)"},
     ActionRow{
         Action::show_strands, "View", "Strands: each its own", 0, "",
         "each strand in a colour of its own"},
     ActionRow{
         Action::show_shadow, "View", "Strands: shadow", 0, "",
-        "what part of the lights reaches strands"},
+        "the share of the lights that reaches strands"},
     ActionRow{
         Action::show_overdraw, "View", "Strands: overdraw", 0, "",
         "fragments that a pixel draws: red is full at 8, green at 32, blue at 128"},
@@ -145,7 +146,7 @@ constexpr std::array kActions{
         "shows the scene twice, as A and B, whose settings can differ"},
     ActionRow{
         Action::edit_other, "Window", "Edit the other side", ImGuiKey_Tab, "Tab",
-        "makes the panel of settings that of the other side"},
+        "switches the settings panel to the other side"},
     ActionRow{
         Action::panel_scene, "Window", "Scene", kCtrl | ImGuiKey_1, "Ctrl+1", "every setting"},
     ActionRow{
@@ -158,7 +159,7 @@ constexpr std::array kActions{
         "how two sides are shown"},
     ActionRow{
         Action::panel_shaders, "Window", "Shaders", kCtrl | ImGuiKey_5, "Ctrl+5",
-        "what was reloaded, and what the compiler says"},
+        "reloaded shaders and messages of the compiler"},
     ActionRow{
         Action::left_column, "Window", "Left column", ImGuiKey_F9, "F9",
         "shows or hides the left column"},

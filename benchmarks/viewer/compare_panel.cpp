@@ -64,7 +64,7 @@ constexpr std::array kViews{
         "One picture over the other: A left of a line that is dragged, B right."},
     Choice<Views>{
         "Difference", Views::difference,
-        "How far the colours of each pixel are apart, brightened: black where they are the same."},
+        "The difference of the colours of each pixel, brightened: black where they are the same."},
     Choice<Views>{"Only A", Views::a, "The first picture alone."},
     Choice<Views>{"Only B", Views::b, "The second picture alone."}};
 
@@ -90,7 +90,7 @@ CompareWish startButton() {
 CompareWish sideButtons() {
     CompareWish wish = CompareWish::nothing;
     if (ImGui::Button("Stop comparing")) wish = CompareWish::stop;
-    ImGui::SetItemTooltip("Shows A alone. The settings of B are gone unless they were saved.");
+    ImGui::SetItemTooltip("Shows A alone. The settings of B are lost unless they were saved.");
     sameLineIfItFits("Swap");
     if (ImGui::Button("Swap")) wish = CompareWish::swap;
     ImGui::SetItemTooltip("A becomes B, and B becomes A.");
@@ -112,9 +112,8 @@ void figureLines(const DifferenceFigures& figures) {
             "pixels that differ: %s %%", report::shortNumber(100.0 * figures.share()).c_str());
     }
     ImGui::EndGroup();
-    ImGui::SetItemTooltip(
-        "How far the display's colours are apart, in steps of 1/255. The average is\n"
-        "over red, green and blue of all pixels.");
+    ImGui::SetItemTooltip("The difference of the display's colours, in steps of 1/255. The average "
+                          "is\nover red, green and blue of all pixels.");
 }
 
 void differencePart(PictureArea& area) {

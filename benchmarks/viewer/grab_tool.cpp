@@ -180,7 +180,7 @@ Edit GrabTool::update(
     if (settings.simulation.solver == hair::Solver::none)
         handles.hint("The solver is none: this hair can't be pulled.");
     else if (settings.simulation.pulls.size() >= mostOf(&hair::SimulationSettings::pulls) && !drags)
-        handles.hint("There are as many pulls as there can be: clear them first.");
+        handles.hint("The limit of pulls is reached: clear them first.");
     else if (drags && !runs)
         handles.hint("Paused: the hair follows while frames are played or stepped.");
     return edit;

@@ -53,8 +53,7 @@ std::string medianText(const report::Metric& metric) {
 void measuredTable(const report::CaseResult& result) {
     for (const report::Sampling& mode : result.sampling) sampling(mode);
     ImGui::PushTextWrapPos(0.0f);
-    ImGui::TextDisabled(
-        "Medians in ms, rates in 1/s; in brackets where they lie with 95 %% confidence");
+    ImGui::TextDisabled("Medians in ms, rates in 1/s; in brackets the 95 %% confidence intervals");
     ImGui::PopTextWrapPos();
     {
         FigureTable table("##measured", FigureTable::Columns::one);
@@ -175,7 +174,7 @@ void SaveBox::show(
         if (ImGui::Button("Cancel")) ImGui::CloseCurrentPopup();
         std::error_code ignored;
         if (std::filesystem::exists(path_, ignored))
-            ImGui::TextDisabled("This file is there already and will be replaced.");
+            ImGui::TextDisabled("This file exists and will be replaced.");
         if (!problem_.empty()) {
             ImGui::PushTextWrapPos(ImGui::GetFontSize() * 22.0f);
             ImGui::TextUnformatted(problem_.c_str());
@@ -195,8 +194,8 @@ void MeasurePanel::buttons(std::size_t sides) {
         if (ImGui::Button(sides > 1 ? kNames[i] : "Measure")) wanted_ = i;
         helpMarker("Measures the settings as 'hairbench run' does: rounds of /run/warmup and "
                    "/run/frames frames from the first frame on, in each mode until the median is "
-                   "known to /run/precision or /run/max_time is over. What is shown waits "
-                   "meanwhile, and is then as it was");
+                   "known to /run/precision or /run/max_time is over. The shown scene waits "
+                   "meanwhile and then goes on unchanged");
     }
 }
 
@@ -238,7 +237,7 @@ void MeasurePanel::progress() {
     }
     if (ImGui::Button("Cancel")) link_.cancel();
     ImGui::SameLine();
-    ImGui::TextDisabled("%s", link_.isCancelled() ? "ends" : "heeded after each round");
+    ImGui::TextDisabled("%s", link_.isCancelled() ? "ending" : "takes effect after each round");
     ImGui::EndPopup();
 }
 

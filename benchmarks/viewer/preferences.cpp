@@ -273,7 +273,7 @@ std::string preferencesText(const Preferences& preferences) {
 
 Preferences readPreferences(const std::string& text) {
     const scene::Json document = scene::Json::parse(text, nullptr, false);
-    if (!document.is_object()) throw engine::Error("they are no JSON object");
+    if (!document.is_object()) throw engine::Error("they are not a JSON object");
     Preferences preferences;
     readName(document, "theme", kThemes, themeName, preferences.theme);
     readNumber(document, "zoom", kSmallestZoom, kLargestZoom, preferences.zoom);

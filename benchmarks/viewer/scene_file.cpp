@@ -73,8 +73,9 @@ std::vector<Argument> axisArguments(const scene::Scene& scene, scene::Json& want
     for (const scene::Axis& axis : scene.axes) {
         if (!axis.tied.empty())
             throw engine::Error(
-                "the sweep ties " + axis.pointer +
-                " to other fields, which a command line can't take apart; save a scene instead");
+                "the sweep changes " + axis.pointer +
+                " together with other fields, which a command line can't express; save a scene "
+                "instead");
         arguments.push_back({axis.pointer, scene::valueAt(wanted, axis.pointer), true});
     }
     return arguments;
@@ -120,7 +121,7 @@ void check(scene::Scene scene, const std::vector<Argument>& arguments, const sce
     const std::vector<scene::CaseSpec> cases = scene::expand(scene, axes);
     if (cases.size() != 1 || scene::writeSettings(cases.front().settings).dump() != wanted.dump())
         throw engine::Error(
-            scene.path.string(), "a command line can't say it; save a scene instead");
+            scene.path.string(), "a command line can't express it; save a scene instead");
 }
 
 // ---- Readable JSON ------------------------------------------------------------------------------
@@ -251,7 +252,7 @@ void addMesh(hair::RenderSettings& render, const fs::path& file, const std::stri
     const std::size_t most = std::get<hair::List>(field.kind).maximum_count;
     if (render.meshes.size() >= most)
         throw engine::Error(
-            file.string(), "there are " + std::to_string(most) + " meshes already, the most");
+            file.string(), "the scene has " + std::to_string(most) + " meshes already, the limit");
     hair::groom::importMesh(file);
     render.meshes.push_back({.file = name});
 }
@@ -483,7 +484,7 @@ withDropped(hair::Settings settings, const fs::path& directory, const fs::path& 
         std::error_code error;
         throw engine::Error(
             file.string(), fs::is_regular_file(file, error)
-                               ? "is no groom, mesh or environment (.exr, .hdr)"
+                               ? "is not a groom, mesh or environment (.exr, .hdr)"
                                : "no such file");
     }
     const std::string name = nameIn(directory, file);

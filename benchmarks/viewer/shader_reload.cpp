@@ -138,11 +138,11 @@ void showProblems(const std::vector<ShaderProblem>& problems) {
 
 void showChanged(const std::vector<std::string>& changed) {
     if (changed.empty()) {
-        ImGui::TextWrapped("All files are as the program was built with them.");
+        ImGui::TextWrapped("All files are the same as in the build.");
         return;
     }
     ImGui::TextDisabled("Changed since the build");
-    ImGui::TextWrapped("The runner draws with what the program was built with.");
+    ImGui::TextWrapped("The runner draws with the shaders of the build.");
     for (std::size_t i = 0; i < changed.size(); ++i) {
         ImGui::PushID(static_cast<int>(i));
         const bool needs_rebuild = ShaderReload::needsRebuild(changed[i]);

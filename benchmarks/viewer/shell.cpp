@@ -316,7 +316,7 @@ double Shell::picturesPerSecond() const {
 void Shell::stopDrawing(const std::string& why) {
     stopped = true;
     timings.measuring().end(std::nullopt, why);
-    message.complain(why + "; nothing is drawn any more, and the scene can be saved");
+    message.complain(why + "; nothing is drawn any more, but the scene can be saved");
     actOnFollowed();
 }
 
@@ -409,7 +409,7 @@ void Shell::actOnFollowed() {
     for (Waiting& each : std::exchange(waiting, {})) {
         Side* const side = scene.find(each.side);
         if (!side) {
-            message.complain("the scene that was to be written was closed before");
+            message.complain("the scene was closed before it was written");
         } else if (stopped && each.needs == Needs::picture) {
             message.complain("no picture can be drawn any more");
         } else if (
@@ -418,7 +418,7 @@ void Shell::actOnFollowed() {
             // The request is applied, unless its settings are impossible.
             message.attempt([&] {
                 if (!side->problem().empty())
-                    throw engine::Error("what the panel says can't be", side->problem());
+                    throw engine::Error("the panel's settings are invalid", side->problem());
                 each.act(*side);
             });
         } else {
@@ -513,7 +513,8 @@ void Shell::drop(const std::filesystem::path& file) {
         open(file);
     } else if (what == Dropped::unknown) {
         message.complain(
-            file.string() + ": no scene, screenshot, groom, mesh or environment, by its name");
+            file.string() +
+            ": is not a scene, screenshot, groom, mesh or environment, by its name");
     } else {
         message.attempt([&] {
             const hair::Settings settings =
@@ -548,7 +549,7 @@ std::optional<std::filesystem::path> PathPopup::show() {
     const bool entered = ImGui::IsItemDeactivated() && ImGui::IsKeyPressed(ImGuiKey_Enter);
     const bool replaces = exists(typed_);
     ImGui::TextDisabled(
-        "%s", replaces ? "This file exists, and will be replaced." : "The scene, as JSON.");
+        "%s", replaces ? "This file exists and will be replaced." : "The scene, as JSON.");
     ImGui::BeginDisabled(typed_.empty());
     const bool pressed = ImGui::Button(replaces ? "Replace###save" : "Save###save");
     ImGui::EndDisabled();

@@ -24,9 +24,9 @@ struct BrushRow {
 };
 
 constexpr BrushRow kBrushes[] = {
-    {hair::BrushTool::comb, "Comb", "Hair goes along with the brush"},
+    {hair::BrushTool::comb, "Comb", "Hair follows the brush"},
     {hair::BrushTool::cut, "Cut", "Hair ends where the brush passes"},
-    {hair::BrushTool::lengthen, "Lengthen", "Hair goes on beyond its tips"},
+    {hair::BrushTool::lengthen, "Lengthen", "Hair grows beyond its tips"},
     {hair::BrushTool::push, "Push", "Hair moves away from the head"},
     {hair::BrushTool::clump, "Clump", "Tips are drawn to the brush's path"}};
 
@@ -188,9 +188,9 @@ Edit StrokeTool::update(
     const bool drags = drag_ && drag_->played == &played;
     draw(pointer, handles, played);
     if (!played.has_guides)
-        handles.hint("Pause first: so many guides are not followed while frames are played.");
+        handles.hint("Pause first: with so many guides the brush does not follow played frames.");
     else if (settings.groom.edits.size() >= mostOf(&hair::GroomSettings::edits) && !drags)
-        handles.hint("There are as many strokes as there can be: save strands, or clear strokes.");
+        handles.hint("The limit of strokes is reached: save the strands, or clear the strokes.");
     else if (drags)
         handles.hint("Lines show the guides; the hair follows when the brush is let go.");
     return edit;

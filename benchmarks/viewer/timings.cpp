@@ -297,8 +297,8 @@ report::CaseResult frozenResult(const FrozenSide& frozen, const report::CaseResu
             " between " + std::to_string(range->first) + " and " + std::to_string(range->second);
     warnings.push_back(
         "taken in the viewer: " + frames +
-        ", one at a time and with the window's pictures between them, in no rounds; their "
-        "timestamps were not held against the CPU's clock");
+        ", one at a time, without rounds and with the window's pictures between them; their "
+        "timestamps were not checked against the CPU's clock");
     if (!result.image_hash.empty())
         warnings.push_back("the hashes are of frame " + std::to_string(frozen.frame));
     return result;

@@ -169,8 +169,8 @@ void splitFigures(const ShownSide& side, const ShownSide* compared) {
     row("Waiting", "CPU: from submission until the device is done.",
         [](const FrameSplit& split) { return Known(split.wait); });
     row("CPU time",
-        "What all threads of the program used of the CPU from recording to completion: on a "
-        "software device what a frame costs, however busy the machine is.",
+        "CPU time of all threads of the program from recording to completion: on a software device "
+        "the cost of a frame, however busy the machine is.",
         [](const FrameSplit& split) { return split.cpu; });
     row("Device", "From the first to the last timestamp of an isolated frame.",
         [](const FrameSplit& split) { return split.device; });
@@ -181,8 +181,8 @@ void splitFigures(const ShownSide& side, const ShownSide* compared) {
         "overlap. Software devices stamp early, so that this may be too short there",
         [](const FrameSplit& split) { return split.device_overlapped; });
     row("Saved",
-        "What overlap within a frame saves the device: the passes alone less the overlapped frame. "
-        "The runner's frame.overlap also has what two frames in flight save",
+        "Time that overlap within a frame saves the device: the passes alone minus the overlapped "
+        "frame. The runner's frame.overlap also has the time that two frames in flight save",
         [](const FrameSplit& split) { return split.saved(); });
 }
 
@@ -428,8 +428,8 @@ void passTable(const PassRows& rows, const PassRows* compared, const TimeSeries*
         ImGui::Separator();
         show(
             {*ui, nullptr, std::nullopt, ImGui::GetColorU32(ImGuiCol_TextDisabled),
-             "what the window itself costs the device: widgets and copies of the pictures. It is "
-             "in no other figure\n"},
+             "the device's time for the window itself: widgets and copies of the pictures. No "
+             "other figure includes it\n"},
             layout);
     }
     ImGui::EndTable();
@@ -518,13 +518,12 @@ void TimingsPanel::show(
         FigureTable table("##window", FigureTable::Columns::one);
         table.row(
             "Panels answer in, ms",
-            "Longest time of the last 300 pictures of the window, from when it looked at mouse and "
-            "keys until the picture with what they did was handed to the desktop",
+            "Longest time of the last 300 pictures of the window, from reading mouse and keys "
+            "until the picture with their effect was given to the desktop",
             window.slowest_answer);
         table.row(
             "Pictures / s",
-            "Of the scene, previews among them, that came in the last 2 s, with all that lies "
-            "between them",
+            "Pictures of the scene in the last 2 s, including previews and all work between them",
             window.pictures_per_second > 0.0 ? std::optional(window.pictures_per_second)
                                              : std::nullopt);
     }
@@ -590,9 +589,8 @@ void TimingsPanel::statistics(Side& side) {
     ImGui::BeginDisabled(!device_.hasPipelineStatistics());
     if (ImGui::Button("Count")) wants_counts_ = side.id();
     ImGui::EndDisabled();
-    helpMarker(
-        "Draws the frame that is shown once more, untimed, with pipeline statistics of the strands "
-        "pass, and holds them against the counts that follow from the settings");
+    helpMarker("Draws the frame that is shown once more, untimed, with pipeline statistics of the "
+               "strands pass, and compares them with the counts that follow from the settings");
     if (!device_.hasPipelineStatistics()) {
         ImGui::TextWrapped("This device has no pipeline statistics.");
         return;

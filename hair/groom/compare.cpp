@@ -129,7 +129,7 @@ MeasuredStrands measureStrands(const StrandSet& set, double spacing, const char*
         with_length.push_back(i);
         middles.push_back(set.strand(i)[set.size(i) / 2]);
     }
-    if (with_length.empty()) throw engine::Error(name, "it has no strand with a length to compare");
+    if (with_length.empty()) throw engine::Error(name, "has no strand with a length to compare");
 
     // Neighbours in space follow each other, because they look at the same part of the other groom.
     MeasuredStrands measured{.set = set};
@@ -439,7 +439,7 @@ Found findIn(
     found.together = found.matched;
     const bool counts = kind == MatchedStrands::counted;
     const char* const step =
-        counts ? "looks for strands in the second groom" : "looks for strands in the first groom";
+        counts ? "finds strands in the second groom" : "finds strands in the first groom";
     forEachStrand(step, strands.count(), settings.threads, [&] {
         return StrandSearch(strands, others, tree, settings, kind, found);
     });
@@ -572,7 +572,7 @@ penetrationOf(const MeasuredStrands& strands, const DepthInside& depths, std::ui
         double deepest = 0.0;
     };
     std::vector<Inside> inside(strands.count());
-    forEachStrand("looks for strands in the head", strands.count(), threads, [&] {
+    forEachStrand("finds strands inside the head", strands.count(), threads, [&] {
         return [&, depthOf = depths](std::uint32_t strand) mutable {
             forEachSample(strands, strand, [&](std::size_t, const StrandSample& sample) {
                 const double depth = depthOf(sample.point);
@@ -603,15 +603,14 @@ penetrationOf(const MeasuredStrands& strands, const DepthInside& depths, std::ui
 
 void checkCompareSettings(const CompareSettings& settings) {
     const auto isPositive = [](double value) { return std::isfinite(value) && value > 0.0; };
-    if (!isPositive(settings.spacing)) throw engine::Error("spacing", "it is not a length");
+    if (!isPositive(settings.spacing)) throw engine::Error("spacing", "is not a length above 0");
     if (!isPositive(settings.curvature_step))
-        throw engine::Error("curvature step", "it is not a length");
+        throw engine::Error("curvature step", "is not a length above 0");
     if (settings.thresholds.empty()) throw engine::Error("thresholds", "there are none");
     for (const MatchThreshold& each : settings.thresholds)
         if (!isPositive(each.distance) || !(each.angle >= 0.0 && each.angle <= 180.0))
             throw engine::Error(
-                "threshold",
-                "a distance is more than 0, an angle from 0 to 180 degrees, and both are finite");
+                "threshold", "expected a finite distance above 0 and an angle in [0, 180] degrees");
 }
 
 SampledStrands sampledOf(const MeasuredStrands& strands) {

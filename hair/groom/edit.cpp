@@ -165,7 +165,7 @@ EditedStrands filterStrands(
     const StrandSet& strands, const FilterSettings& settings, const BodyMesh* mesh,
     double metres_per_unit) {
     if ((settings.farthest_root || settings.deepest) && !mesh)
-        throw engine::Error("there is no mesh to hold roots and points against");
+        throw engine::Error("there is no mesh to compare roots and points with");
     std::optional<DepthInside> depth;
     if (mesh) depth.emplace(*mesh);
     const auto metresOf = [&](const glm::vec3& point) {

@@ -82,7 +82,7 @@ struct OtherFormat {
 
 constexpr std::string_view kToUsd = "import it in Blender and export its curves as USD";
 constexpr std::string_view kFromMaya = "export its curves as USD from Maya";
-constexpr std::string_view kUnpack = "unpack it and give what is in it";
+constexpr std::string_view kUnpack = "unpack it and give its contents";
 
 constexpr OtherFormat kOtherFormats[] = {
     {"\x89HDF\r\n\x1a\n", "an HDF5 file, such as an Alembic of before 2013",
@@ -118,8 +118,8 @@ void refuseOther(
     const OtherFormat* const other = otherFormatOf(head, extension);
     if (!other || (is_ours && other->magic.size() < 4)) return;
     throw engine::Error(
-        path.string(), std::string(other->name) + ", which is not read: " +
-                           std::string(other->advice) + "; known are " + readExtensions());
+        path.string(), "is " + std::string(other->name) + ", which is not read: " +
+                           std::string(other->advice) + "; known: " + readExtensions());
 }
 
 const StrandImporter& importerOf(const fs::path& path, engine::OpenFile& file) {
@@ -136,8 +136,7 @@ const StrandImporter& importerOf(const fs::path& path, engine::OpenFile& file) {
     refuseOther(path, head, extension, is_ours);
     if (is_ours) return *by_extension;
     throw engine::Error(
-        path.string(),
-        "unknown format of strands \"" + extension + "\"; known are " + readExtensions());
+        path.string(), "unknown format of strands '" + extension + "'; known: " + readExtensions());
 }
 
 }  // namespace
@@ -159,7 +158,7 @@ const StrandExporter& strandExporterOf(const std::filesystem::path& path) {
         if (exporter.extension == extension) return exporter;
     throw engine::Error(
         path.string(),
-        "strands can't be written as \"" + extension + "\"; known are " + writtenExtensions());
+        "strands can't be written as '" + extension + "'; known: " + writtenExtensions());
 }
 
 std::vector<std::string> exportStrands(

@@ -135,7 +135,7 @@ void inspectInside(
     std::uint32_t strands_inside = 0;
     std::size_t points_inside = 0;
     double deepest = 0.0;
-    engine::Step step("looks for strands in the mesh", strands.strandCount());
+    engine::Step step("finds strands inside the mesh", strands.strandCount());
     for (std::uint32_t i = 0; i < strands.strandCount(); ++i) {
         step.advance();
         std::size_t inside = 0;
@@ -158,7 +158,7 @@ MeshFindings inspectOnMesh(const StrandSet& strands, const Mesh& mesh, double me
     const NearestSurface surface(mesh.positions, mesh.triangles);
     std::vector<float> distances;
     distances.reserve(strands.strandCount());
-    engine::Step step("looks for roots on the mesh", strands.strandCount());
+    engine::Step step("finds roots on the mesh", strands.strandCount());
     for (std::uint32_t i = 0; i < strands.strandCount(); ++i) {
         step.advance();
         const glm::dvec3 root = glm::dvec3(strands.strand(i)[0]) * metres_per_unit;

@@ -28,7 +28,7 @@ NamedFileCheck ownFolderOnly(const fs::path& file) {
                 std::mismatch(folder.begin(), folder.end(), place.begin(), place.end());
             if (end != folder.end())
                 throw engine::Error(
-                    named.string(), "lies outside of " + folder.string() +
+                    named.string(), "is outside " + folder.string() +
                                         ", the folder of the file that names it: copy it there");
         },
         {folder}};

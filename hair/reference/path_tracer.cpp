@@ -63,6 +63,7 @@ struct Piece {
     glm::dvec4 b;
     glm::dvec3 plane_a;  // unit normals towards the tip; also the strand's tangents
     glm::dvec3 plane_b;
+    std::uint32_t span;  // between knots, of all curves
 };
 
 // Largest distance of a chord from its B-spline span, over the radius. Determines the number of
@@ -91,15 +92,20 @@ int chordsOfSpan(std::span<const glm::dvec4> control, std::size_t span) {
     return std::clamp(static_cast<int>(std::ceil(chords)), 1, kMostChords);
 }
 
-void addPieces(std::vector<Piece>& pieces, std::span<const glm::dvec4> control) {
+// `spans`: the number of spans of the curves before this one; those of this one are added.
+void addPieces(
+    std::vector<Piece>& pieces, std::span<const glm::dvec4> control, std::uint32_t& spans) {
     std::vector<glm::dvec4> points;
+    std::vector<std::uint32_t> ends_span;  // [point], the span that it ends
     for (std::size_t span = 0; span + 3 < control.size(); ++span) {
         const int chords = chordsOfSpan(control, span);
         for (int i = span == 0 ? 0 : 1; i <= chords; ++i) {
             const glm::dvec4 point = splinePoint(control, span, double(i) / chords);
-            if (points.empty() || glm::dvec3(point) != glm::dvec3(points.back()))
-                points.push_back(point);
+            if (!points.empty() && glm::dvec3(point) == glm::dvec3(points.back())) continue;
+            points.push_back(point);
+            ends_span.push_back(spans);
         }
+        ++spans;
     }
     const auto along = [&](std::size_t i) {
         return glm::normalize(glm::dvec3(points[i + 1] - points[i]));
@@ -108,7 +114,7 @@ void addPieces(std::vector<Piece>& pieces, std::span<const glm::dvec4> control) 
         const glm::dvec3 begin = i == 0 ? along(i) : glm::normalize(along(i - 1) + along(i));
         const glm::dvec3 end =
             i + 2 == points.size() ? along(i) : glm::normalize(along(i) + along(i + 1));
-        pieces.push_back({points[i], points[i + 1], begin, end});
+        pieces.push_back({points[i], points[i + 1], begin, end, ends_span[i + 1]});
     }
 }
 
@@ -357,7 +363,8 @@ private:
 
     static std::vector<Piece> piecesOf(const TracedScene& scene) {
         std::vector<Piece> pieces;
-        for (const auto& control : scene.curves) addPieces(pieces, control);
+        std::uint32_t spans = 0;
+        for (const auto& control : scene.curves) addPieces(pieces, control, spans);
         return pieces;
     }
 
@@ -534,14 +541,16 @@ private:
         // The azimuth of the normal, phi_o - asin(h), is 0.
         const double across_axis = std::hypot(wo.y, wo.z);
         const double h = across_axis > 0 ? std::clamp(wo.z / across_axis, -1.0, 1.0) : 0.0;
+        Fiber fiber = scene_.fiber;
+        if (!scene_.absorptions.empty()) fiber.absorption = scene_.absorptions[piece.span];
         gathered += carried * lit(point, random, [&](const glm::dvec3& wi) {
-                        return scattering(scene_.fiber, wo, axes.local(wi), h);
+                        return scattering(fiber, wo, axes.local(wi), h);
                     });
         const std::array u{random.number(), random.number(), random.number(), random.number()};
-        const glm::dvec3 wi = sampleDirection(scene_.fiber, wo, h, u);
-        const double density = samplingPdf(scene_.fiber, wo, wi, h);
+        const glm::dvec3 wi = sampleDirection(fiber, wo, h, u);
+        const double density = samplingPdf(fiber, wo, wi, h);
         if (!(density > 0)) return false;
-        carried *= scattering(scene_.fiber, wo, wi, h) / density;
+        carried *= scattering(fiber, wo, wi, h) / density;
         ray = {point, glm::normalize(axes.world(wi))};
         return true;
     }

@@ -45,6 +45,8 @@ struct TracedScene {
     // Control points of uniform cubic B-splines from root to tip, with radii: round fibres without
     // caps. A ray hits them from outside; inside a fibre it goes on to the next one.
     std::vector<std::vector<glm::dvec4>> curves;
+    // sigma_a of each span between knots, all curves in their order; empty: that of `fiber`.
+    std::vector<glm::dvec3> absorptions;
     std::vector<MattMesh> meshes;
     std::vector<PointLight> points;
     std::vector<DirectionalLight> directions;

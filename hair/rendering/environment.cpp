@@ -3,9 +3,13 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <functional>
 #include <numbers>
 #include <span>
 
+#include <glm/geometric.hpp>
+#include <glm/mat3x3.hpp>
+#include <glm/matrix.hpp>
 #include <glm/trigonometric.hpp>
 
 #include "engine/float_pictures.h"
@@ -59,8 +63,13 @@ parametersOf(const engine::FloatPixels& light, float turn, std::uint64_t texels)
     return parameters;
 }
 
+struct TexelLight {
+    glm::dvec3 light;  // radiance times solid angle
+    double solid_angle;
+};
+
 // Calls f(direction, light) for each texel: the direction of its middle, unit length, and its
-// radiance times its solid angle.
+// light.
 template <class Function>
 void forEachTexel(const engine::FloatPixels& picture, double turn, Function f) {
     using std::numbers::pi;
@@ -75,32 +84,165 @@ void forEachTexel(const engine::FloatPixels& picture, double turn, Function f) {
             const glm::dvec3 direction{
                 std::sin(polar) * std::sin(azimuth), std::cos(polar),
                 std::sin(polar) * std::cos(azimuth)};
-            f(direction, solid_angle * glm::dvec3(texel[0], texel[1], texel[2]));
+            f(direction,
+              TexelLight{solid_angle * glm::dvec3(texel[0], texel[1], texel[2]), solid_angle});
         }
     }
 }
 
-// Directions spread about evenly over the sphere.
-std::vector<glm::dvec3> spread(std::uint32_t count) {
-    std::vector<glm::dvec3> directions;
-    if (count == 12) {
-        const double golden = std::numbers::phi;
-        for (const double a : {-1.0, 1.0}) {
-            for (const double b : {-golden, golden}) {
-                directions.push_back(glm::normalize(glm::dvec3(0.0, a, b)));
-                directions.push_back(glm::normalize(glm::dvec3(a, b, 0.0)));
-                directions.push_back(glm::normalize(glm::dvec3(b, 0.0, a)));
-            }
+// Light of some of an environment's directions.
+struct LightPart {
+    glm::dvec3 light{0};  // radiance times solid angle
+    double weight = 0;  // the mean of its channels
+    glm::dvec3 moment{0};  // sum of weight times direction
+    double solid_angle = 0;
+
+    void add(const LightPart& other) {
+        light += other.light;
+        weight += other.weight;
+        moment += other.moment;
+        solid_angle += other.solid_angle;
+    }
+    // The direction that the irradiance comes from.
+    glm::dvec3 middle() const {
+        const double length = glm::length(moment);
+        return length > 1e-9 * weight ? moment / length : glm::dvec3(0, 1, 0);
+    }
+    // The weight times 1 - the mean cosine with the middle.
+    double spread() const { return weight - glm::length(moment); }
+};
+
+// Sums of the picture's texels over at most 128 x 64 cells, without the dark ones.
+std::vector<LightPart> cellsOf(const engine::FloatPixels& picture, double turn) {
+    const std::uint32_t columns = std::min(picture.width, 128u);
+    const std::uint32_t rows = std::min(picture.height, 64u);
+    std::vector<LightPart> cells(std::size_t{columns} * rows);
+    std::size_t texel = 0;
+    forEachTexel(picture, turn, [&](const glm::dvec3& direction, const TexelLight& at) {
+        const std::size_t row = texel / picture.width * rows / picture.height;
+        const std::size_t column = texel % picture.width * columns / picture.width;
+        const double weight = (at.light.r + at.light.g + at.light.b) / 3;
+        cells[row * columns + column].add({at.light, weight, weight * direction, at.solid_angle});
+        ++texel;
+    });
+    std::erase_if(cells, [](const LightPart& cell) { return cell.weight == 0; });
+    return cells;
+}
+
+// Cells divided into parts by k-means on the sphere: each cell belongs to the part with the nearest
+// middle, weighted by light.
+class LightParts {
+public:
+    explicit LightParts(std::span<const LightPart> cells) : cells_(cells) { divide({}); }
+
+    const std::vector<LightPart>& parts() const { return parts_; }
+    double spread() const {
+        double sum = 0;
+        for (const LightPart& part : parts_) sum += part.spread();
+        return sum;
+    }
+
+    // Divides the part with the widest light in two, across its longest axis.
+    void split() {
+        const auto widest = std::ranges::max_element(parts_, {}, &LightPart::spread);
+        const auto index = static_cast<std::size_t>(widest - parts_.begin());
+        const glm::dvec3 axis = longestAxis(index);
+        const glm::dvec3 mean = widest->moment / widest->weight;
+        std::vector<glm::dvec3> middles;
+        for (const LightPart& part : parts_) middles.push_back(part.middle());
+        std::array<LightPart, 2> halves;
+        for (std::size_t i = 0; i < cells_.size(); ++i)
+            if (owners_[i] == index)
+                halves[glm::dot(cells_[i].middle() - mean, axis) > 0 ? 1 : 0].add(cells_[i]);
+        middles[index] = halves[0].middle();
+        middles.push_back(halves[1].middle());
+        divide(middles);
+    }
+
+    void settle(int times) {
+        for (int i = 0; i < times; ++i) {
+            std::vector<glm::dvec3> middles;
+            for (const LightPart& part : parts_) middles.push_back(part.middle());
+            divide(middles);
         }
-        return directions;
     }
-    const double turn = 2 * std::numbers::pi * (2 - std::numbers::phi);
-    for (std::uint32_t i = 0; i < count; ++i) {
-        const double y = 1 - (2.0 * i + 1) / count;
-        const double across = std::sqrt(1 - y * y);
-        directions.emplace_back(across * std::cos(turn * i), y, across * std::sin(turn * i));
+
+private:
+    // Without middles, all cells are one part. Parts without a cell disappear.
+    void divide(std::span<const glm::dvec3> middles) {
+        std::vector<LightPart> parts(std::max<std::size_t>(middles.size(), 1));
+        owners_.resize(cells_.size());
+        for (std::size_t i = 0; i < cells_.size(); ++i) {
+            const glm::dvec3 direction = cells_[i].middle();
+            const auto nearest = std::ranges::max_element(
+                middles, {}, [&](const glm::dvec3& middle) { return glm::dot(middle, direction); });
+            owners_[i] = middles.empty() ? 0 : static_cast<std::size_t>(nearest - middles.begin());
+            parts[owners_[i]].add(cells_[i]);
+        }
+        std::vector<std::size_t> kept(parts.size());
+        parts_.clear();
+        for (std::size_t i = 0; i < parts.size(); ++i) {
+            kept[i] = parts_.size();
+            if (parts[i].weight > 0) parts_.push_back(parts[i]);
+        }
+        for (std::size_t& owner : owners_) owner = kept[owner];
     }
-    return directions;
+
+    // The axis of the greatest variance of a part's directions, by the power method.
+    glm::dvec3 longestAxis(std::size_t part) const {
+        const glm::dvec3 mean = parts_[part].moment / parts_[part].weight;
+        glm::dmat3 variance(0);
+        for (std::size_t i = 0; i < cells_.size(); ++i) {
+            if (owners_[i] != part) continue;
+            const glm::dvec3 offset = cells_[i].middle() - mean;
+            variance += cells_[i].weight * glm::outerProduct(offset, offset);
+        }
+        glm::dvec3 axis = glm::normalize(glm::dvec3(0.8, 0.53, 0.29));  // along no likely axis
+        for (int i = 0; i < 30; ++i) {
+            const glm::dvec3 next = variance * axis;
+            if (!(glm::length(next) > 0)) break;
+            axis = glm::normalize(next);
+        }
+        return axis;
+    }
+
+    std::span<const LightPart> cells_;
+    std::vector<std::size_t> owners_;  // [cell], its part
+    std::vector<LightPart> parts_;
+};
+
+// Lights whose directions are within a mean cosine of 1 - this, some 8 degrees, need no more parts:
+// hair's narrowest lobes are about as wide.
+constexpr double kNarrow = 0.005;
+
+std::vector<LightPart> partsOf(std::span<const LightPart> cells, std::uint32_t count) {
+    LightParts parts(cells);
+    double weight = 0;
+    for (const LightPart& cell : cells) weight += cell.weight;
+    while (parts.parts().size() < count && parts.spread() > kNarrow * weight) {
+        const std::size_t before = parts.parts().size();
+        parts.split();
+        if (parts.parts().size() == before) break;
+        parts.settle(3);
+    }
+    parts.settle(12);
+    std::vector<LightPart> result = parts.parts();
+    std::ranges::sort(result, std::ranges::greater(), &LightPart::weight);
+    return result;
+}
+
+// How much wider discs are than the light of their part, from 1 to the root of 2. Discs of even
+// light would leave dark gaps between them, so they have twice the area. Uneven light, with a mean
+// square of its radiance of 1.5 times the squared mean or more, keeps its contrast.
+double widening(std::span<const LightPart> cells) {
+    double weight = 0;
+    double squares = 0;
+    for (const LightPart& cell : cells) {
+        weight += cell.weight;
+        squares += cell.weight * cell.weight / cell.solid_angle;
+    }
+    const double unevenness = 4 * std::numbers::pi * squares / (weight * weight) - 1;
+    return std::lerp(std::numbers::sqrt2, 1.0, std::clamp(2 * unevenness, 0.0, 1.0));
 }
 
 }  // namespace
@@ -109,9 +251,9 @@ std::vector<glm::dvec3> spread(std::uint32_t count) {
 
 std::array<glm::dvec3, 9> irradianceHarmonics(const engine::FloatPixels& picture, double turn) {
     std::array<glm::dvec3, 9> sums{};
-    forEachTexel(picture, turn, [&](const glm::dvec3& direction, const glm::dvec3& light) {
+    forEachTexel(picture, turn, [&](const glm::dvec3& direction, const TexelLight& at) {
         const std::array basis = harmonics(direction);
-        for (std::size_t i = 0; i < sums.size(); ++i) sums[i] += basis[i] * light;
+        for (std::size_t i = 0; i < sums.size(); ++i) sums[i] += basis[i] * at.light;
     });
     for (std::size_t i = 0; i < sums.size(); ++i) sums[i] *= kLobe[i];
     return sums;
@@ -121,30 +263,25 @@ std::array<glm::dvec3, 9> irradianceHarmonics(const engine::FloatPixels& picture
 
 std::vector<LightSettings> environmentLights(
     const engine::FloatPixels& picture, const RenderSettings& render, std::uint32_t count) {
-    const std::vector<glm::dvec3> middles = spread(count);
-    std::vector<glm::dvec3> irradiances(count);
     const engine::FloatPixels light = soundLight(picture, render.environment_strength);
-    const double turn = glm::radians(double{render.environment_turn});
-    forEachTexel(light, turn, [&](const glm::dvec3& direction, const glm::dvec3& radiance) {
-        const auto nearest = std::ranges::max_element(
-            middles, {}, [&](const glm::dvec3& middle) { return glm::dot(middle, direction); });
-        irradiances[static_cast<std::size_t>(nearest - middles.begin())] += radiance;
-    });
-    // A cap of a part's solid angle, 2 pi (1 - cos r), with its area doubled, so that the light of
-    // neighbouring parts joins without a gap.
-    const double radius =
-        std::numbers::sqrt2 * std::acos(std::max(1.0 - 2.0 / std::max(count, 1u), -1.0));
+    const std::vector<LightPart> cells =
+        cellsOf(light, glm::radians(double{render.environment_turn}));
+    if (cells.empty()) return {};
+    const double wider = widening(cells);
     std::vector<LightSettings> lights;
-    for (std::uint32_t i = 0; i < count; ++i) {
+    for (const LightPart& part : partsOf(cells, count)) {
         // A light's colour is irradiance / pi, split into display RGB up to 1 and a strength.
-        const glm::dvec3 color = irradiances[i] / std::numbers::pi;
+        const glm::dvec3 color = part.light / std::numbers::pi;
         const double strength = std::max({color.r, color.g, color.b, 1e-12});
-        const glm::dvec3 part = color / strength;
+        const glm::dvec3 share = color / strength;
         const bool is_linear = hasLinearLight(render);
+        // The mean cosine of a cap's directions with its middle is (1 + cos r) / 2.
+        const double cosine = 1 - 2 * part.spread() / part.weight;
+        const double radius = wider * std::acos(std::clamp(cosine, -1.0, 1.0));
         lights.push_back(
             {.type = LightType::directional,
-             .direction = glm::vec3(-middles[i]),
-             .color = glm::vec3(is_linear ? toDisplay(part) : toDisplay(color)),
+             .direction = glm::vec3(-part.middle()),
+             .color = glm::vec3(is_linear ? toDisplay(share) : toDisplay(color)),
              .strength = is_linear ? static_cast<float>(strength) : 1.0f,
              .angular_radius = static_cast<float>(std::min(glm::degrees(radius), 90.0))});
     }

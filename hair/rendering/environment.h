@@ -45,10 +45,11 @@ private:
 // eq. 3). shaders/environment/radiance.glsl defines how the picture lies round +y.
 std::array<glm::dvec3, 9> irradianceHarmonics(const engine::FloatPixels& picture, double turn);
 
-// Returns `count` directional lights that stand for a picture of light, turned and scaled as the
-// settings say. Each light is in the middle of the directions nearest to it and has all of their
-// light; its disc is somewhat wider than they are. The middles are on a Fibonacci spiral. 12
-// middles are the corners of an icosahedron, where means of harmonics up to l = 5 are exact.
+// Returns at most `count` directional lights that stand for a picture of light, turned and scaled
+// as the settings say, the strongest first. Each is a disc with all light of some directions: in
+// the direction that their irradiance comes from, and as wide as gives the same irradiance. The
+// parts are chosen so that light is as near as can be to the middle of its part; fewer lights are
+// returned where all of it is. A black picture has none.
 std::vector<LightSettings> environmentLights(
     const engine::FloatPixels& picture, const RenderSettings& render, std::uint32_t count);
 

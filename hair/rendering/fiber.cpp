@@ -24,6 +24,39 @@ double square(double x) { return x * x; }
 
 double logistic(double x, double scale) { return 1 / (1 + std::exp(-x / scale)); }
 
+// The way of a ray in a fibre, without its absorption.
+struct FiberWay {
+    double fresnel = 0;
+    double length = 0;  // of a way through the fibre, in radii
+    std::array<double, 3> azimuths{};  // FiberPath::azimuths
+};
+
+FiberWay fiberWay(const Fiber& fiber, double theta_o, double h) {
+    const double gamma_o = std::asin(std::clamp(h, -1.0, 1.0));
+    const double cos_theta_t = std::sqrt(1 - square(std::sin(theta_o) / fiber.eta));
+    // sin gamma_t = h / eta', where eta' is the refractive index in the plane across the fibre.
+    const double gamma_t =
+        std::asin(h * std::cos(theta_o) / std::sqrt(square(fiber.eta) - square(std::sin(theta_o))));
+    FiberWay way;
+    way.length = 2 * std::cos(gamma_t) / cos_theta_t;
+    way.fresnel = fresnel(std::max(std::cos(theta_o) * std::cos(gamma_o), 1e-12), fiber.eta);
+    for (std::size_t p = 0; p < way.azimuths.size(); ++p) {
+        const auto count = static_cast<double>(p);
+        way.azimuths[p] = 2 * count * gamma_t - 2 * gamma_o + count * kPi;
+    }
+    return way;
+}
+
+// A_p, with the part of light that a way through the fibre leaves.
+PerLobe<glm::dvec3> lobeAttenuations(double fresnel, const glm::dvec3& transmitted) {
+    PerLobe<glm::dvec3> attenuations;
+    attenuations[0] = glm::dvec3(fresnel);
+    attenuations[1] = square(1 - fresnel) * transmitted;
+    attenuations[2] = attenuations[1] * transmitted * fresnel;
+    attenuations[3] = attenuations[2] * transmitted * fresnel / (1.0 - transmitted * fresnel);
+    return attenuations;
+}
+
 // ---- Many fibres --------------------------------------------------------------------------------
 
 double mean(const glm::dvec3& color) { return (color.r + color.g + color.b) / 3; }
@@ -59,8 +92,18 @@ gpu::HairOptics makeHairOptics(const ShadingSettings& shading) {
         // The logistic distribution integrates to tanh(a / 2s) over [-a, a].
         .trimmed = static_cast<float>(1 / std::tanh(std::numbers::pi / (2 * s))),
         .density_factor = shading.density_factor,
-        .unused = 0,
+        .mean_row = 0,
+        .own_row = 0,
+        .least_power = 0,
+        .rows_per_power = 0,
+        .body = glm::vec3(1),
         .averages = 0};
+    const OwnPowers powers = ownPowers(shading);
+    if (powers.greatest > powers.least) {
+        optics.least_power = static_cast<float>(powers.least);
+        optics.rows_per_power =
+            static_cast<float>((gpu::kFiberAverageRows - 1) / (powers.greatest - powers.least));
+    }
     for (int p = 0; p < 4; ++p) {
         const auto lobe = static_cast<std::size_t>(p);
         optics.variances[p] = static_cast<float>(fiber.variances[lobe]);
@@ -70,20 +113,112 @@ gpu::HairOptics makeHairOptics(const ShadingSettings& shading) {
     return optics;
 }
 
-// Returns the averages that dual scattering looks up, over cos theta_i.
+// A part of the width of a fibre, for light at one angle.
+struct FiberSlice {
+    double width = 0;
+    double fresnel = 0;
+    double length = 0;  // of a way through the fibre, in radii
+    PerLobe<double> forward{};  // the part of each lobe that goes on forward
+};
+
+// Strands of one absorption, and the part of all strands that they are.
+struct AbsorptionShare {
+    glm::dvec3 absorption{0};
+    double share = 1;
+};
+
+std::vector<FiberSlice> slicesOf(const Fiber& fiber, double theta) {
+    constexpr int kPlaces = 256;
+    std::vector<FiberSlice> slices;
+    for (int i = 0; i < kPlaces; ++i) {
+        // Steps are in gamma, h = sin gamma, because A_p has square roots of 1 - h^2. Both halves
+        // of a fibre are alike.
+        const double step = kPi / 2 / kPlaces;
+        const double gamma = (i + 0.5) * step;
+        const FiberWay way = fiberWay(fiber, theta, std::sin(gamma));
+        FiberSlice& slice = slices.emplace_back();
+        slice.width = std::sin(gamma + step / 2) - std::sin(gamma - step / 2);
+        slice.fresnel = way.fresnel;
+        slice.length = way.length;
+        for (std::size_t p = 0; p < kFiberLobes; ++p)
+            slice.forward[p] = p < way.azimuths.size()
+                                   ? halfTurn(kPi - way.azimuths[p], fiber.azimuthal_scale)
+                                   : 0.5;
+    }
+    return slices;
+}
+
+// Returns the averages over the width and over strands of several absorptions.
+FiberAverages averageOverSlices(
+    const Fiber& fiber, std::span<const FiberSlice> slices,
+    std::span<const AbsorptionShare> shares) {
+    FiberAverages averages;
+    WeightedMeans forward_means;
+    WeightedMeans backward_means;
+    for (const AbsorptionShare& strands : shares) {
+        for (const FiberSlice& slice : slices) {
+            const PerLobe<glm::dvec3> attenuations =
+                lobeAttenuations(slice.fresnel, glm::exp(-strands.absorption * slice.length));
+            for (std::size_t p = 0; p < kFiberLobes; ++p) {
+                const double forward = slice.forward[p];
+                const glm::dvec3 carried = strands.share * slice.width * attenuations[p];
+                averages.forward += forward * carried;
+                averages.backward += (1 - forward) * carried;
+                // Lobes with different shifts spread light, too.
+                const double shift = fiber.shifts[p];
+                const double spread = fiber.variances[p] + square(shift);
+                forward_means.add(forward * mean(carried), shift, spread);
+                backward_means.add((1 - forward) * mean(carried), shift, spread);
+            }
+        }
+    }
+    averages.forward_shift = forward_means.meanShift();
+    averages.backward_shift = backward_means.meanShift();
+    averages.forward_variance = forward_means.meanVariance() - square(averages.forward_shift);
+    averages.backward_variance = backward_means.meanVariance() - square(averages.backward_shift);
+    return averages;
+}
+
+// Returns the strands round one with this mean power: three powers that stand for all between
+// mean (1 - variation) and mean (1 + variation), by Gauss and Legendre's rule.
+std::vector<AbsorptionShare>
+strandsAround(const glm::dvec3& absorption, double mean_power, double variation) {
+    if (variation == 0) return {{square(mean_power) * absorption, 1}};
+    std::vector<AbsorptionShare> shares;
+    for (const double place : {-1.0, 0.0, 1.0}) {
+        const double power = mean_power * (1 + variation * place * std::sqrt(0.6));
+        shares.push_back({square(power) * absorption, place == 0.0 ? 8.0 / 18.0 : 5.0 / 18.0});
+    }
+    return shares;
+}
+
+// Returns the averages that dual scattering looks up, row by row over cos theta_i.
 std::vector<gpu::FiberAverage> makeFiberAverages(const ShadingSettings& shading) {
     const Fiber fiber = makeFiber(shading);
-    std::vector<gpu::FiberAverage> table;
+    const OwnPowers powers = ownPowers(shading);
+    const std::uint32_t rows = powers.greatest > powers.least ? gpu::kFiberAverageRows : 1;
+    std::vector<gpu::FiberAverage> table(std::size_t{rows} * gpu::kFiberAverages);
     for (std::uint32_t i = 0; i < gpu::kFiberAverages; ++i) {
         const double cos_theta = static_cast<double>(i) / (gpu::kFiberAverages - 1);
-        FiberAverages averages = averageOverFiber(fiber, std::acos(cos_theta));
-        averages.forward *= double{shading.density_factor};
-        averages.backward *= double{shading.density_factor};
-        const LocalScattering local = localScattering(averages);
-        table.push_back(
-            {.forward = glm::dvec4(averages.forward, averages.forward_variance),
-             .local = glm::dvec4(local.albedo, local.variance),
-             .shifts = glm::dvec2(averages.forward_shift, local.shift)});
+        const std::vector<FiberSlice> slices = slicesOf(fiber, std::acos(cos_theta));
+        for (std::uint32_t row = 0; row < rows; ++row) {
+            const double power =
+                rows == 1 ? 1.0
+                          : powers.least + (powers.greatest - powers.least) * row / (rows - 1);
+            const AbsorptionShare own{square(power) * fiber.absorption, 1};
+            FiberAverages around = averageOverSlices(
+                fiber, slices,
+                strandsAround(fiber.absorption, power, double{shading.strand_variation}));
+            around.forward *= double{shading.density_factor};
+            around.backward *= double{shading.density_factor};
+            const LocalScattering local = localScattering(around);
+            table[std::size_t{row} * gpu::kFiberAverages + i] = {
+                .forward = glm::dvec4(around.forward, around.forward_variance),
+                .local = glm::dvec4(local.albedo, local.variance),
+                .shifts = glm::dvec2(around.forward_shift, local.shift),
+                .own = double{shading.density_factor} *
+                       averageOverSlices(fiber, slices, {&own, 1}).forward};
+        }
     }
     return table;
 }
@@ -128,60 +263,23 @@ double halfTurn(double x, double scale) {
 }
 
 FiberPath fiberPath(const Fiber& fiber, double theta_o, double h) {
-    const double gamma_o = std::asin(std::clamp(h, -1.0, 1.0));
-    const double cos_theta_t = std::sqrt(1 - square(std::sin(theta_o) / fiber.eta));
-    // sin gamma_t = h / eta', where eta' is the refractive index in the plane across the fibre.
-    const double gamma_t =
-        std::asin(h * std::cos(theta_o) / std::sqrt(square(fiber.eta) - square(std::sin(theta_o))));
-    const glm::dvec3 transmitted =
-        glm::exp(-fiber.absorption * (2 * std::cos(gamma_t) / cos_theta_t));
-    const double f = fresnel(std::max(std::cos(theta_o) * std::cos(gamma_o), 1e-12), fiber.eta);
-
-    FiberPath path;
-    path.attenuations[0] = glm::dvec3(f);
-    path.attenuations[1] = square(1 - f) * transmitted;
-    path.attenuations[2] = path.attenuations[1] * transmitted * f;
-    path.attenuations[3] = path.attenuations[2] * transmitted * f / (1.0 - transmitted * f);
-    for (std::size_t p = 0; p < path.azimuths.size(); ++p) {
-        const auto count = static_cast<double>(p);
-        path.azimuths[p] = 2 * count * gamma_t - 2 * gamma_o + count * kPi;
-    }
-    return path;
+    const FiberWay way = fiberWay(fiber, theta_o, h);
+    return {
+        .attenuations = lobeAttenuations(way.fresnel, glm::exp(-fiber.absorption * way.length)),
+        .azimuths = way.azimuths};
 }
 
 // ---- Many fibres --------------------------------------------------------------------------------
 
 FiberAverages averageOverFiber(const Fiber& fiber, double theta) {
-    constexpr int kPlaces = 256;
-    FiberAverages averages;
-    WeightedMeans forward_means;
-    WeightedMeans backward_means;
-    for (int i = 0; i < kPlaces; ++i) {
-        // Steps are in gamma, h = sin gamma, because A_p has square roots of 1 - h^2. Both halves
-        // of a fibre are alike.
-        const double step = kPi / 2 / kPlaces;
-        const double gamma = (i + 0.5) * step;
-        const double width = std::sin(gamma + step / 2) - std::sin(gamma - step / 2);
-        const FiberPath path = fiberPath(fiber, theta, std::sin(gamma));
-        for (std::size_t p = 0; p < kFiberLobes; ++p) {
-            const double forward = p < path.azimuths.size()
-                                       ? halfTurn(kPi - path.azimuths[p], fiber.azimuthal_scale)
-                                       : 0.5;
-            const glm::dvec3 carried = width * path.attenuations[p];
-            averages.forward += forward * carried;
-            averages.backward += (1 - forward) * carried;
-            // Lobes with different shifts spread light, too.
-            const double shift = fiber.shifts[p];
-            const double spread = fiber.variances[p] + square(shift);
-            forward_means.add(forward * mean(carried), shift, spread);
-            backward_means.add((1 - forward) * mean(carried), shift, spread);
-        }
-    }
-    averages.forward_shift = forward_means.meanShift();
-    averages.backward_shift = backward_means.meanShift();
-    averages.forward_variance = forward_means.meanVariance() - square(averages.forward_shift);
-    averages.backward_variance = backward_means.meanVariance() - square(averages.backward_shift);
-    return averages;
+    const AbsorptionShare own{fiber.absorption, 1};
+    return averageOverSlices(fiber, slicesOf(fiber, theta), {&own, 1});
+}
+
+OwnPowers ownPowers(const ShadingSettings& shading) {
+    const double variation{shading.strand_variation};
+    return {
+        .least = (1 - variation) * (1 - double{shading.tip_lightening}), .greatest = 1 + variation};
 }
 
 LocalScattering localScattering(const FiberAverages& averages) {
@@ -219,8 +317,8 @@ LocalScattering localScattering(const FiberAverages& averages) {
 // ---- Buffers of shaders -------------------------------------------------------------------------
 
 // Scalar layout aligns 64-bit members to 8, as C++ does.
-static_assert(offsetof(gpu::HairOptics, averages) == 80 && sizeof(gpu::HairOptics) == 88);
-static_assert(sizeof(gpu::FiberAverage) == 40);
+static_assert(offsetof(gpu::HairOptics, averages) == 104 && sizeof(gpu::HairOptics) == 112);
+static_assert(sizeof(gpu::FiberAverage) == 52);
 
 HairOpticsBuffers::HairOpticsBuffers(const engine::Device& device, const Settings& settings) {
     gpu::HairOptics optics = makeHairOptics(settings.shading);

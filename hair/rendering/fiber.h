@@ -95,6 +95,14 @@ struct FiberAverages {
 
 FiberAverages averageOverFiber(const Fiber& fiber, double theta);
 
+// Powers of the strands' own colours (shaders/strands/own_color.glsl): the colour c^a belongs to
+// a^2 times the absorption (hair/rendering/render_assets.h).
+struct OwnPowers {
+    double least = 1;
+    double greatest = 1;
+};
+OwnPowers ownPowers(const ShadingSettings& shading);
+
 // Light that passes fibres forward, is scattered backward behind them once or three times and
 // passes fibres forward again, which adds to a fibre's own scattering. The light leaves through the
 // i fibres in front of the fibre that turns it back, which let a_f^i through. It arrives by another

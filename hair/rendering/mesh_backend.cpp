@@ -78,8 +78,8 @@ MeshSizes meshSizes(const engine::DeviceInfo& device) {
     for (const Needed& need : needs) {
         if (need.there < need.wanted)
             throw engine::Unsupported(
-                kMesh, "mesh workgroups of the device have " + std::to_string(need.there) + " " +
-                           need.what + ", not " + std::to_string(need.wanted));
+                kMesh, "mesh work groups of the device have " + std::to_string(need.there) + " " +
+                           need.what + "; " + std::to_string(need.wanted) + " are needed");
     }
     const std::uint32_t words = std::min(
                                     {limits.maxTaskPayloadSize, limits.maxTaskSharedMemorySize,

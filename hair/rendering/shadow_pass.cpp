@@ -371,10 +371,10 @@ void checkAtlas(const engine::Device& device, const ShadowAtlas& atlas) {
     const std::uint32_t width = atlas.extent().width;
     if (width > most) {
         throw engine::Unsupported(
-            "/shading/shadows/resolution", std::to_string(atlas.parts) + " lights' maps of " +
-                                               std::to_string(atlas.side) + " px are an image of " +
-                                               std::to_string(width) + " px, over the device's " +
-                                               std::to_string(most));
+            "/shading/shadows/resolution",
+            std::to_string(atlas.parts) + " lights' maps of " + std::to_string(atlas.side) +
+                " px need an image of " + std::to_string(width) +
+                " px; the device supports at most " + std::to_string(most));
     }
 }
 

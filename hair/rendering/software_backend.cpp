@@ -24,9 +24,10 @@ std::uint32_t checkedSamples(const engine::Device& device, std::uint32_t samples
     const bool known = samples == 1 || samples == 2 || samples == 4 || samples == 8;
     if (!known)
         throw engine::Unsupported(
-            kSoftware, std::to_string(samples) + " samples a pixel; it knows the places of 1 to 8");
+            kSoftware, std::to_string(samples) + " samples per pixel; only 1 to 8 are supported");
     if (samples > 1 && !device.info().limits.standardSampleLocations)
-        throw engine::Unsupported(kSoftware, "the device has samples at places of its own");
+        throw engine::Unsupported(
+            kSoftware, "the device does not have the standard sample locations");
     return samples;
 }
 

@@ -180,8 +180,8 @@ std::uint32_t intervalsFor(
     if (count > most)
         throw engine::Error(
             pointer, "makes " + std::to_string(std::llround(count)) + ' ' + things +
-                         " on a strand, more than the " + std::to_string(std::llround(most)) +
-                         " that offsets can have");
+                         " on a strand; offsets can have at most " +
+                         std::to_string(std::llround(most)));
     return static_cast<std::uint32_t>(std::ceil(count * intervals_each));
 }
 

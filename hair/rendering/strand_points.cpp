@@ -20,7 +20,7 @@ namespace hair::rendering {
 namespace {
 
 using Record = gpu::StrandPointRecord;
-static_assert(sizeof(Record) == 32 && offsetof(Record, tangent) == 16);
+static_assert(sizeof(Record) == 36 && offsetof(Record, tangent) == 16);
 static_assert(offsetof(gpu::StrandPointsPush, count) == 16);
 
 // Shaders number points in 32 bits.
@@ -29,7 +29,8 @@ std::uint32_t pointCount(const StrandPlan& plan) {
     constexpr std::uint64_t kMost = std::numeric_limits<std::uint32_t>::max();
     if (count > kMost) {
         throw engine::Unsupported(
-            "strand points", std::to_string(count) + " are over " + std::to_string(kMost));
+            "strand points", std::to_string(count) + " are too many: at most " +
+                                 std::to_string(kMost) + " are supported");
     }
     return static_cast<std::uint32_t>(count);
 }

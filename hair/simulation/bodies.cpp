@@ -44,8 +44,8 @@ constexpr std::uint32_t kBlocksPerBatch = 1024;
 
 [[noreturn]] void throwTooLarge(const char* what, double bytes, double limit) {
     std::ostringstream reason;
-    reason << what << " take " << bytes / 1048576.0 << " MiB; this device's buffers hold "
-           << limit / 1048576.0;
+    reason << what << " need " << bytes / 1048576.0 << " MiB; this device's buffers hold at most "
+           << limit / 1048576.0 << " MiB";
     throw engine::Unsupported("distance field", reason.str());
 }
 

@@ -99,7 +99,7 @@ HeadMotion::HeadMotion(const MotionSettings& settings) : settings_(settings) {
         if (settings.keyframes[i].time <= settings.keyframes[i - 1].time)
             throw engine::Error(
                 "/simulation/motion/keyframes/" + std::to_string(i) + "/time",
-                "is not after the keyframe before");
+                "is not after the previous keyframe");
 }
 
 Keyframe HeadMotion::keyframeAt(double time) const {

@@ -88,7 +88,7 @@ std::vector<float> windingsAt(
         .nodes = node_buffer.address(),
         .triangles = triangles.address(),
         .windings = windings.address()};
-    engine::Step step("looks for the inside of an open mesh, block", count);
+    engine::Step step("finds the inside of an open mesh, block", count);
     for (; push.first_block < count; push.first_block += push.block_count) {
         push.block_count = std::min(kWindingBlocks, count - push.first_block);
         runOnce(device, [&](engine::Commands& commands) {
@@ -262,10 +262,10 @@ OpenBody makeOpenBody(
         .sides = sidesOf(winding, grid, windings), .positions = mesh.positions, .triangles = {}};
     if (std::ranges::find(body.sides, -1.0f) == body.sides.end()) {
         std::ostringstream reason;
-        reason << "its winding number there is " << std::ranges::max(windings)
-               << " at most, and inside is where it is 1/2 or more; raise /resolution, or close "
+        reason << "the winding number there is at most " << std::ranges::max(windings)
+               << ", and a point is inside if it is 1/2 or more; raise /resolution, or close "
                   "more of the mesh";
-        throw engine::Error("no point of the grid is inside of the surface", reason.str());
+        throw engine::Error("no point of the grid is inside the surface", reason.str());
     }
     for (std::size_t i = 0; i < mesh.triangles.size(); ++i)
         if (!mesh.inner[i]) body.triangles.push_back(mesh.triangles[i]);

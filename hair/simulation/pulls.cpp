@@ -31,7 +31,7 @@ void checkVertex(
     const char* things) {
     if (number >= count)
         throw engine::Error(
-            pull + "/" + member, std::to_string(number) + " is none of the groom's " +
+            pull + "/" + member, std::to_string(number) + " is too large: the groom has " +
                                      std::to_string(count) + " " + things);
 }
 
@@ -58,14 +58,14 @@ void checkPulls(
     for (std::size_t i = 0; i < pulls.size(); ++i) {
         const std::string name = "/simulation/pulls/" + std::to_string(i);
         checkVertex(name, "guide", pulls[i].guide, guides, "guides");
-        checkVertex(name, "vertex", pulls[i].vertex, vertices_per_guide, "vertices of a guide");
+        checkVertex(name, "vertex", pulls[i].vertex, vertices_per_guide, "vertices per guide");
         const auto& path = pulls[i].path;
         const auto late =
             std::ranges::adjacent_find(path, std::ranges::greater_equal{}, &PullKey::time);
         if (late != path.end())
             throw engine::Error(
                 name + "/path/" + std::to_string(late - path.begin() + 1) + "/time",
-                "is not after the key before");
+                "is not after the previous key");
     }
 }
 

@@ -54,7 +54,7 @@ bool hasSegmentPass(const SimulationSettings& settings) {
         if (settings.collision.warm_start)
             throw engine::Error(
                 "/simulation/collision/parts",
-                "is segments, but warm_start carries forces of contact of vertices alone");
+                "is segments, but warm_start carries only the contact forces of vertices");
         return false;
     case Solver::none:
         return false;
@@ -64,7 +64,7 @@ bool hasSegmentPass(const SimulationSettings& settings) {
     default:
         throw engine::Error(
             "/simulation/collision/parts",
-            "is segments, which the solvers shape, ftl and rod keep out of bodies");
+            "is segments, which only the solvers shape, ftl and rod support");
     }
 }
 

@@ -48,8 +48,7 @@ gpu::uvec3 cellOf(const glm::dvec3& whole) {
 
 glm::dvec3 windDirection(const WindSettings& settings) {
     const glm::dvec3 direction = settings.direction;
-    if (glm::length(direction) < 1e-6)
-        throw engine::Error("/simulation/wind/direction", "has no length");
+    if (glm::length(direction) < 1e-6) throw engine::Error("/simulation/wind/direction", "is zero");
     return glm::normalize(direction);
 }
 

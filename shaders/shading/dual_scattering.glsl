@@ -5,17 +5,52 @@
 
 #include "shading/fiber_bsdf.glsl"
 #include "shading/lights.glsl"
+#include "strands/options.glsl"
 
 layout(buffer_reference, scalar) readonly buffer FiberAverages { FiberAverage at[]; };
 
-FiberAverage fiberAverage(HairOptics optics, float cos_theta) {
+FiberAverage mixed(FiberAverage a, FiberAverage b, float part) {
+    return FiberAverage(mix(a.forward, b.forward, part), mix(a.local, b.local, part),
+                        mix(a.shifts, b.shifts, part), mix(a.own, b.own, part));
+}
+
+// An entry of a row and the part of the way to the next one.
+struct AveragePlace {
+    uint first;
+    float part;
+};
+
+AveragePlace averagePlace(float cos_theta) {
     float place = cos_theta * float(kFiberAverages - 1u);
     uint first = min(uint(place), kFiberAverages - 2u);
-    float part = place - float(first);
-    FiberAverage a = FiberAverages(optics.averages).at[first];
-    FiberAverage b = FiberAverages(optics.averages).at[first + 1u];
-    return FiberAverage(mix(a.forward, b.forward, part), mix(a.local, b.local, part),
-                        mix(a.shifts, b.shifts, part));
+    return AveragePlace(first, place - float(first));
+}
+
+FiberAverage averageInRow(HairOptics optics, AveragePlace place, uint row) {
+    uint first = row * kFiberAverages + place.first;
+    return mixed(FiberAverages(optics.averages).at[first],
+                 FiberAverages(optics.averages).at[first + 1u], place.part);
+}
+
+// The averages of the strands around.
+FiberAverage fiberAverage(HairOptics optics, float cos_theta) {
+    AveragePlace place = averagePlace(cos_theta);
+    if (kOwnColors == 0u) return averageInRow(optics, place, 0u);
+    uint row = min(uint(optics.mean_row), kFiberAverageRows - 2u);
+    return mixed(averageInRow(optics, place, row), averageInRow(optics, place, row + 1u),
+                 optics.mean_row - float(row));
+}
+
+// a_f of the strand itself.
+vec3 ownForward(HairOptics optics, float cos_theta) {
+    AveragePlace place = averagePlace(cos_theta);
+    uint row = min(uint(optics.own_row), kFiberAverageRows - 2u);
+    uint at = row * kFiberAverages + place.first;
+    FiberAverages table = FiberAverages(optics.averages);
+    uint next = at + kFiberAverages;
+    return mix(mix(table.at[at].own, table.at[at + 1u].own, place.part),
+               mix(table.at[next].own, table.at[next + 1u].own, place.part),
+               optics.own_row - float(row));
 }
 
 // The part of N_p in the half turn with its middle at these distances from the lobe's own. The
@@ -35,6 +70,9 @@ vec3 passedForward(HairOptics optics, vec3 to_light) {
     return fiberAverage(optics, sqrt(max(1.0 - to_light.x * to_light.x, 0.0))).forward.rgb;
 }
 
+// The fibre has its own colour, and those around it the mean colour. Light that they send back
+// leaves through the fibre itself, so it has a_f of this one instead of the mean.
+//
 // f |cos theta_i| of a fibre whose light has come along `path`, which was computed with
 // passedForward(). The result includes the losses on the path, except those by meshes. Directions
 // are as in fiberBsdf(); `view` belongs to to_eye.
@@ -71,6 +109,9 @@ vec3 dualScattering(HairOptics optics, FiberView view, vec3 to_eye, vec3 to_ligh
     // the light that passes them.
     vec3 albedo = path.kept *
                   (average.local.rgb * (1.0 - path.ended) + average.forward.rgb * path.returned);
+    albedo *= optics.body;
+    if (kOwnColors != 0u)
+        albedo *= ownForward(optics, cos_i) / max(average.forward.rgb, vec3(1e-6));
 
     vec4 through = longitudinalLobes(
         sin_i, cos_i, view.sin_tilted, view.cos_tilted, optics.variances);

@@ -89,7 +89,7 @@ FiberView fiberView(HairOptics optics, vec3 to_eye, float h) {
     vec3 transmitted = exp(-optics.absorption * (2.0 * cos_gamma_t * optics.eta / inner));
     float f = fiberFresnel(cos_o * cos_gamma_o, optics.eta);
     view.attenuations[0] = vec3(f);
-    view.attenuations[1] = (1.0 - f) * (1.0 - f) * transmitted;
+    view.attenuations[1] = (1.0 - f) * (1.0 - f) * optics.body * transmitted;
     view.attenuations[2] = view.attenuations[1] * transmitted * f;
     view.attenuations[3] =
         view.attenuations[2] * transmitted * f / max(1.0 - transmitted * f, 1e-6);

@@ -15,6 +15,7 @@
 #include "shading/phong.glsl"
 #include "shading/shadows.glsl"
 #include "strands/options.glsl"
+#include "strands/own_color.glsl"
 
 // A point of a strand's quad.
 struct StrandFragment {
@@ -26,6 +27,7 @@ struct StrandFragment {
     float width;  // m
     float fiber_width;  // m: width of one of the hairs that a merged strand stands for; otherwise
                         // `width`
+    float power;  // the strand's colour is the hair's to this power: strands/own_color.glsl
 };
 
 // Unit vectors: x along the strand, y across it towards the eye, z perpendicular to both. On a
@@ -210,10 +212,24 @@ vec3 rectangleScattering(HairOptics optics, mat3 frame, Footprint footprint, vec
     return sum / max(facing, 1e-18);
 }
 
+// The optics of a strand with its own colour. `painted`: the texture's factor.
+HairOptics ownOptics(PictureParameters picture, StrandFragment fragment, vec3 painted) {
+    HairOptics optics = HairOpticsReference(picture.optics).optics;
+    if (kStrandTexture != 0u) optics.body = painted;
+    if (kOwnColors != 0u) {
+        vec2 powers = vec2(meanPower(picture, fragment.along), fragment.power);
+        vec2 rows = max((powers - optics.least_power) * optics.rows_per_power, 0.0);
+        optics.mean_row = rows.x;
+        optics.own_row = rows.y;
+        optics.absorption *= fragment.power * fragment.power;
+    }
+    return optics;
+}
+
 // Shades with the models marschner and dual_scattering, in working colours. A light's irradiance is
 // pi times its colour.
-vec3 shadeFiber(PictureParameters picture, StrandFragment fragment) {
-    HairOptics optics = HairOpticsReference(picture.optics).optics;
+vec3 shadeFiber(PictureParameters picture, StrandFragment fragment, vec3 painted) {
+    HairOptics optics = ownOptics(picture, fragment, painted);
     mat3 frame = fiberFrame(fragment);
     vec3 to_eye = fragment.to_eye * frame;
     Footprint footprint = footprintOf(picture, fragment);
@@ -280,9 +296,9 @@ vec3 shadeExtended(PictureParameters picture, StrandFragment fragment, vec3 hair
 
 #endif
 
-// Shades the point in working colours. `hair_color` is the picture's, with the texture's factor and
-// the strand's own factor if there are any.
-vec3 shadeStrand(PictureParameters picture, StrandFragment fragment, vec3 hair_color) {
+// Shades the point in working colours. `painted` is the texture's factor on the hair's colour.
+vec3 shadeStrand(PictureParameters picture, StrandFragment fragment, vec3 painted) {
+    vec3 hair_color = picture.hair_color * painted * ownColor(picture, fragment.power);
     vec3 sum;
 #ifdef HAIRBENCH_EXTENDED_SHADING
     if (kModel == kModelExtension) {
@@ -292,9 +308,7 @@ vec3 shadeStrand(PictureParameters picture, StrandFragment fragment, vec3 hair_c
     if (kModel == kModelPhong || kModel == kModelKajiyaKay) {
         sum = shadeOpaque(picture, fragment, hair_color);
     } else {
-        sum = shadeFiber(picture, fragment);
-        if (kStrandTexture != 0u || kOwnColors != 0u)
-            sum *= hair_color / max(picture.hair_color, vec3(1e-4));
+        sum = shadeFiber(picture, fragment, painted);
     }
     if (kEnvironment == kEnvironmentHarmonics)
         sum += picture.ambient * hair_color * environmentLight(picture, cylinderNormal(fragment));

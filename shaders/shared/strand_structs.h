@@ -159,6 +159,7 @@ struct StrandPointRecord {
     float width;  // m; negative: the level of detail does not draw this point
     vec3 tangent;  // d position / d t, t in [0, 1] along the guide segment; m
     float along;  // 0 at the root, 1 at the tip
+    float power;  // the strand's colour is the hair's to this power: strands/own_color.glsl
 };
 
 // Push constants of strands/evaluate.comp.

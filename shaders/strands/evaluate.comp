@@ -2,6 +2,7 @@
 // Writes points of strands, from a first one on, to a buffer; one invocation per point. It uses the
 // same functions as the back ends that draw strands.
 #extension GL_GOOGLE_include_directive : require
+#include "strands/own_color.glsl"
 #include "strands/strand.glsl"
 
 layout(local_size_x = kStrandPointsGroupSize) in;
@@ -43,5 +44,6 @@ void main() {
     record.width = drawn ? point.width : -1.0;
     record.tangent = point.tangent;
     record.along = point.along;
+    record.power = ownPower(picture, point.merged, point.along);
     StrandPointRecords(push.records).records[slot] = record;
 }

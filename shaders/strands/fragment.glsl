@@ -6,7 +6,6 @@
 #include "shading/strand_shading.glsl"
 #include "strands/coverage.glsl"
 #include "strands/merged_coverage.glsl"
-#include "strands/own_color.glsl"
 #include "strands/texture.glsl"
 
 layout(push_constant, scalar) uniform Push { StrandPush push; };
@@ -55,12 +54,12 @@ SeenStrand seenStrand(PictureParameters picture) {
         if (!toMergedHair(merged_hairs, seen.fragment)) seen.coverage = 0.0;
     }
     seen.factors = strandTexel(seen.fragment.across, seen.fragment.along);
-    if (kOwnColors != 0u) seen.factors.rgb *= ownColor(picture, merged_hairs, tangent_and_along.w);
+    seen.fragment.power = ownPower(picture, kTellsHairs ? merged_hairs : 0u, seen.fragment.along);
     return seen;
 }
 
 vec3 strandColor(PictureParameters picture, SeenStrand seen) {
-    return shadeStrand(picture, seen.fragment, picture.hair_color * seen.factors.rgb);
+    return shadeStrand(picture, seen.fragment, seen.factors.rgb);
 }
 
 // Returns colour and opacity; discards invisible fragments.

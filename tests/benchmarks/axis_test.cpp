@@ -70,14 +70,14 @@ TEST(ParseAxis, TakesForStringsWhatIsNoRange) {
 
 TEST(ParseAxis, RefusesRangesWithoutValues) {
     const std::pair<const char*, const char*> errors[] = {
-        {"5:3", "5:3: ends before it begins"},
+        {"5:3", "5:3: the last value is below the first"},
         {"1:3:0", "1:3:0: the step is not above 0"},
         {"1:3:-1", "1:3:-1: the step is not above 0"},
         {"0:1e9", "0:1e9: has more than 100000 values"},
-        {"pow2:6:4", "pow2:6:4: ends before it begins"},
-        {"pow2:-1:4", "pow2:-1:4: exponents are whole numbers in [0, 52]"},
-        {"pow2:1:53", "pow2:1:53: exponents are whole numbers in [0, 52]"},
-        {"pow2:1:3:0.5", "pow2:1:3:0.5: exponents are whole numbers in [0, 52]"}};
+        {"pow2:6:4", "pow2:6:4: the last value is below the first"},
+        {"pow2:-1:4", "pow2:-1:4: exponents must be whole numbers in [0, 52]"},
+        {"pow2:1:53", "pow2:1:53: exponents must be whole numbers in [0, 52]"},
+        {"pow2:1:3:0.5", "pow2:1:3:0.5: exponents must be whole numbers in [0, 52]"}};
     for (const auto& [range, error] : errors) {
         const std::string argument = std::string("/a=") + range;
         EXPECT_EQ(errorText([&] { scene::parseAxis(argument); }), "-a " + argument + ": " + error);

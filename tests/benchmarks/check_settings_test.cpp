@@ -35,7 +35,7 @@ TEST(CheckSettings, WantsFramesWithRoomForTheirSteps) {
         });
     };
     EXPECT_EQ(steps(199.0f), "no error");
-    EXPECT_EQ(steps(201.0f), "/run/frame_time: is more than 200 of /simulation/time_step");
+    EXPECT_EQ(steps(201.0f), "/run/frame_time: is more than 200 times /simulation/time_step");
 }
 
 TEST(CheckSettings, WantsAPassForBusyWork) {
@@ -68,10 +68,9 @@ TEST(CheckSettings, WantsCoverageToBeSeen) {
 TEST(CheckSettings, WantsACameraThatLooksSomewhere) {
     EXPECT_EQ(
         broken([](hair::Settings& s) { s.camera.target = s.camera.position; }),
-        "/camera/target: is where /camera/position is");
+        "/camera/target: equals /camera/position");
     EXPECT_EQ(
-        broken([](hair::Settings& s) { s.camera.up = glm::vec3(0.0f); }),
-        "/camera/up: has no length");
+        broken([](hair::Settings& s) { s.camera.up = glm::vec3(0.0f); }), "/camera/up: is zero");
     EXPECT_EQ(
         broken([](hair::Settings& s) { s.camera.up = {0.0f, 0.0f, -0.5f}; }),
         "/camera/up: is parallel to the view");
@@ -84,7 +83,7 @@ TEST(CheckSettings, WantsRectanglesToShineSomewhere) {
             s.shading.lights[0].direction = glm::vec3(0.0f);
             s.shading.lights[0].type = hair::LightType::rectangle;
         }),
-        "/shading/lights: entry 0 is a rectangle, but its direction has no length");
+        "/shading/lights: entry 0 is a rectangle, but its direction is zero");
 }
 
 TEST(CheckSettings, WantsRoomForTheMapsOfLights) {
@@ -95,8 +94,8 @@ TEST(CheckSettings, WantsRoomForTheMapsOfLights) {
     };
     EXPECT_EQ(spheres(2), "no error");  // 126 maps
     EXPECT_EQ(
-        spheres(3),
-        "/shading/lights: has 189 shadow maps beyond one a light by shadow_samples, over 128");
+        spheres(3), "/shading/lights: has 189 shadow maps by shadow_samples besides one per light; "
+                    "at most 128 are permitted");
 }
 
 TEST(CheckSettings, WantsDirectionalLightToGoSomewhere) {
@@ -106,7 +105,7 @@ TEST(CheckSettings, WantsDirectionalLightToGoSomewhere) {
         broken([&](hair::Settings& s) {
             still(s), s.shading.lights[0].type = hair::LightType::directional;
         }),
-        "/shading/lights: entry 0 is directional, but its direction has no length");
+        "/shading/lights: entry 0 is directional, but its direction is zero");
 }
 
 TEST(CheckSettings, WantsWindToBlowSomewhere) {
@@ -114,12 +113,12 @@ TEST(CheckSettings, WantsWindToBlowSomewhere) {
     EXPECT_EQ(broken(calm), "no error");
     EXPECT_EQ(
         broken([&](hair::Settings& s) { calm(s), s.simulation.wind.strength = 3.0f; }),
-        "/simulation/wind/direction: has no length while /simulation/wind/strength is above 0");
+        "/simulation/wind/direction: is zero, but /simulation/wind/strength is above 0");
     const auto blows = [&](hair::Settings& s) { calm(s), s.simulation.wind.speed = 3.0f; };
     EXPECT_EQ(broken(blows), "no error");  // thesis mode does not use speed
     EXPECT_EQ(
         broken([&](hair::Settings& s) { blows(s), s.simulation.wind.mode = hair::WindMode::drag; }),
-        "/simulation/wind/direction: has no length while /simulation/wind/speed is above 0");
+        "/simulation/wind/direction: is zero, but /simulation/wind/speed is above 0");
 }
 
 TEST(CheckSettings, WantsSolversThatKnowSectionsAndForcesOfContact) {
@@ -134,12 +133,12 @@ TEST(CheckSettings, WantsSolversThatKnowSectionsAndForcesOfContact) {
     EXPECT_EQ(with(hair::Solver::shape, 1.8f, false), "no error");  // it has no material
     EXPECT_EQ(
         with(hair::Solver::stable_cosserat, 1.8f, false),
-        "/simulation/material/ellipticity: is not 1, but of the solvers of rods only rod has "
-        "sections that are not round");
+        "/simulation/material/ellipticity: is not 1, but of the rod solvers only rod supports "
+        "elliptic cross-sections");
     EXPECT_EQ(
         with(hair::Solver::shape, 1.0f, true),
-        "/simulation/collision/warm_start: is on, but of the solvers only rod carries forces of "
-        "contact");
+        "/simulation/collision/warm_start: is on, but only the solver rod carries contact forces "
+        "from one substep to the next");
 }
 
 TEST(CheckSettings, WantsSolversThatKeepSegmentsOut) {
@@ -154,12 +153,11 @@ TEST(CheckSettings, WantsSolversThatKeepSegmentsOut) {
         EXPECT_EQ(with(solver, false), "no error");
     EXPECT_EQ(
         with(hair::Solver::stable_cosserat, false),
-        "/simulation/collision/parts: is segments, which the solvers shape, ftl and rod keep out "
-        "of bodies");
+        "/simulation/collision/parts: is segments, which only the solvers shape, ftl and rod "
+        "support");
     EXPECT_EQ(
-        with(hair::Solver::rod, true),
-        "/simulation/collision/parts: is segments, but warm_start carries forces of contact of "
-        "vertices alone");
+        with(hair::Solver::rod, true), "/simulation/collision/parts: is segments, but warm_start "
+                                       "carries only the contact forces of vertices");
 }
 
 TEST(CheckSettings, WantsKeyframesInOrder) {
@@ -185,9 +183,8 @@ TEST(CheckSettings, WantsRepeatedMotionToClose) {
     };
     EXPECT_EQ(ending({.time = 1.0f, .rotation = {0, -35, 0}}), "no error");
     EXPECT_EQ(ending({.time = 1.0f, .rotation = {360, 325, -720}}), "no error");
-    const std::string reason =
-        "/simulation/motion/repeat: is set, but the last of the keyframes is not the pose of the "
-        "first";
+    const std::string reason = "/simulation/motion/repeat: is on, but the last keyframe does not "
+                               "have the pose of the first";
     EXPECT_EQ(ending({.time = 1.0f, .rotation = {0, 35, 0}}), reason);
     EXPECT_EQ(ending({.time = 1.0f, .rotation = {0, -35, 0}, .translation = {0, 0, 0.1f}}), reason);
 }
@@ -196,7 +193,7 @@ TEST(CheckSettings, WantsASourceOfGuides) {
     EXPECT_EQ(broken([](hair::Settings& s) { s.groom.file = "a.hgl"; }), "no error");
     EXPECT_EQ(
         broken([](hair::Settings& s) { s.groom.grow.mesh = ""; }),
-        "/groom/grow/mesh: is empty, and /groom/file too: there is nothing to take guides from");
+        "/groom/grow/mesh: is empty, and so is /groom/file: guides need one of them");
 }
 
 TEST(CheckSettings, WantsStrandsOfTwoVerticesAtLeast) {
@@ -213,7 +210,7 @@ TEST(CheckSettings, WantsAPartingWithLength) {
             s.groom.grow.parting.to = s.groom.grow.parting.from;
         });
     };
-    EXPECT_EQ(closed(1.0f), "/groom/grow/parting/to: is where /groom/grow/parting/from is");
+    EXPECT_EQ(closed(1.0f), "/groom/grow/parting/to: equals /groom/grow/parting/from");
     EXPECT_EQ(closed(0.0f), "no error");
 }
 
@@ -226,7 +223,7 @@ TEST(CheckSettings, DrawsStrandsOfAFileOnlyWhereThereIsOne) {
     };
     EXPECT_EQ(
         own(""),
-        "/strands/source: is groom, but there is neither /groom/file nor /groom/grow/strands");
+        "/strands/source: is groom, but neither /groom/file nor /groom/grow/strands is set");
     EXPECT_EQ(own("a.hair"), "no error");
     EXPECT_EQ(
         broken([](hair::Settings& s) {

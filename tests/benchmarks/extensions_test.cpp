@@ -91,8 +91,7 @@ TEST_F(SceneExtensions, ParametersAreHeldToTheFile) {
     EXPECT_EQ(with(R"("bands": [1, 2, 3])"), at + "bands: expected a number, found an array");
     EXPECT_EQ(with(R"("bands": "x")"), at + "bands: expected a number, found the string \"x\"");
     EXPECT_EQ(
-        with(R"("band": 2)"),
-        at + "band: unknown key (did you mean \"bands\"?); known: bands, tint");
+        with(R"("band": 2)"), at + "band: unknown key (did you mean 'bands'?); known: bands, tint");
     EXPECT_EQ(
         error(R"({"shading": {"model_parameters": {"bands": 2}}})"),
         "in/s.json: /shading/model_parameters: is set, but /shading/model names no file");
@@ -148,13 +147,13 @@ TEST_F(SceneExtensions, FilesAreBoundAsAllThatAreNamed) {
     };
     EXPECT_THAT(
         named("../private.glsl"),
-        AllOf(HasSubstr("in/s.json: /shading/model: "), HasSubstr("lies outside of")));
+        AllOf(HasSubstr("in/s.json: /shading/model: "), HasSubstr("is outside")));
     EXPECT_THAT(named("none.glsl"), HasSubstr("in/s.json: /shading/model: in/none.glsl: "));
     folder.write("in/folder.glsl/x", "");
     EXPECT_THAT(named("folder.glsl"), HasSubstr("in/s.json: /shading/model: in/folder.glsl: "));
     folder.write("in/large.glsl", std::string(hair::kLargestExtension + 1, ' '));
     EXPECT_THAT(named("large.glsl"), HasSubstr("in/s.json: /shading/model: in/large.glsl: "));
-    EXPECT_THAT(named("toon.frag"), HasSubstr("unknown name \"toon.frag\""));
+    EXPECT_THAT(named("toon.frag"), HasSubstr("unknown name 'toon.frag'"));
 }
 
 TEST_F(SceneExtensions, ErrorsOfTheCompilerHaveFileAndLine) {
@@ -171,11 +170,11 @@ TEST_F(SceneExtensions, ErrorsOfTheCompilerHaveFileAndLine) {
     EXPECT_EQ(
         modelError("float shadeHair(HairPoint point) { return 1.0; }\n"),
         "in/s.json: /shading/model: in/mine.glsl:1: 'shadeHair' : overloaded functions must have "
-        "the same return type; wanted is vec3 shadeHair(HairPoint point)");
+        "the same return type; expected vec3 shadeHair(HairPoint point)");
     EXPECT_EQ(
         modelError("vec3 shadeHair(HairPoint point) { return point.color; }\nvoid main() {}\n"),
-        "in/s.json: /shading/model: in/mine.glsl: 'main' is a function of the program's own: "
-        "rename it");
+        "in/s.json: /shading/model: in/mine.glsl: 'main' has the name of one of the program's own "
+        "functions: rename it");
 }
 
 // A file cannot use the program's functions, buffers and extensions.
@@ -191,19 +190,19 @@ TEST_F(SceneExtensions, SeesItsInterfaceAlone) {
     EXPECT_EQ(body("    point.color = push.picture.xxx;"), at + "'push' : undeclared identifier");
     EXPECT_EQ(
         body("#include \"common/picture.glsl\""),
-        at + "#include has no place in a file that a scene names");
+        at + "#include is not permitted in a file that a scene names");
     EXPECT_EQ(
         body("# extension GL_EXT_buffer_reference : require"),
-        at + "#extension has no place in a file that a scene names");
-    EXPECT_EQ(body("ab\\"), at + "'\\' has no place in a file that a scene names");
-    EXPECT_EQ(body("#define AB 1"), at + "#define has no place in a file that a scene names");
+        at + "#extension is not permitted in a file that a scene names");
+    EXPECT_EQ(body("ab\\"), at + "'\\' is not permitted in a file that a scene names");
+    EXPECT_EQ(body("#define AB 1"), at + "#define is not permitted in a file that a scene names");
     // Otherwise the linker would find the program's functions, some of which take addresses.
     for (const char* const declaration :
          {"void storePair(uvec2 at, uint index, uvec2 pair);", "float[2] storePair(uvec2 at);",
           "struct S { float x; } storePair(uvec2 at);", "const vec3 storePair(uvec2 at) ;"})
         EXPECT_EQ(
-            body(declaration), at + "'storePair' is declared and not defined, which has no place "
-                                    "in a file that a scene names");
+            body(declaration), at + "'storePair' is declared but not defined, which is not "
+                                    "permitted in a file that a scene names");
     EXPECT_EQ(
         body("if (point.along > 2.0) {} normalize(point.color); do {} while (false);"), "no error");
     for (const char* const global :
@@ -212,7 +211,7 @@ TEST_F(SceneExtensions, SeesItsInterfaceAlone) {
           "struct PictureParameters { vec3 eye; } extended_picture;"})
         EXPECT_THAT(
             modelError("\n" + std::string(global) + "\n"),
-            testing::StartsWith(at + "what is declared outside of functions has to be const"));
+            testing::StartsWith(at + "a declaration outside functions must be const"));
     EXPECT_EQ(
         modelError("struct Pair { float a; float b; };\nconst float kOne[2] = float[2](1.0, 2.0);\n"
                    "float[2] both(Pair p) { return float[2](p.a, p.b); }\n"
@@ -222,11 +221,11 @@ TEST_F(SceneExtensions, SeesItsInterfaceAlone) {
     // The compiler ends a comment at a carriage return.
     EXPECT_EQ(
         body("// \r#extension GL_EXT_buffer_reference : require"), at + "has a control character");
-    EXPECT_EQ(body("//" + std::string(60000, 'x')), at + "is longer than 1000 letters");
+    EXPECT_EQ(body("//" + std::string(60000, 'x')), at + "is longer than 1000 characters");
     for (const char* const word : {"layout", "buffer", "uniform", "shared"})
         EXPECT_THAT(
             body("    " + std::string(word) + " x;"),
-            testing::StartsWith(at + '\'' + word + "' has no place"));
+            testing::StartsWith(at + '\'' + word + "' is not permitted"));
 }
 
 // The compiler continues a line, or a comment, after a backslash at its end. So the compiler would
@@ -240,7 +239,7 @@ TEST_F(SceneExtensions, HaveNoBackslashAnywhere) {
                 modelError(
                     "// x " + std::string(end) + "/*\n" + hidden + "\n// */\n" +
                     "vec3 shadeHair(HairPoint point) { return point.color; }\n"),
-                "in/s.json: /shading/model: in/mine.glsl:1: '\\' has no place in a file that a "
+                "in/s.json: /shading/model: in/mine.glsl:1: '\\' is not permitted in a file that a "
                 "scene names")
                 << hidden;
 }
@@ -254,7 +253,7 @@ TEST_F(SceneExtensions, AreTheSameInEveryStage) {
             "\n    return point.color;\n}\n");
     };
     const std::string at = "in/s.json: /shading/model: in/mine.glsl:2: ";
-    const std::string no_place = " has no place in a file that a scene names";
+    const std::string no_place = " is not permitted in a file that a scene names";
     EXPECT_EQ(shading("if (point.along > 2.0) discard;"), at + "'discard'" + no_place);
     for (const char* const derivative : {"dFdx", "dFdy", "fwidth"})
         EXPECT_EQ(
@@ -315,8 +314,8 @@ TEST_F(SceneExtensions, LoopsHaveConditionsOfEveryForm) {
     EXPECT_EQ(
         modelError("bool hairbenchNextTurn() { return true; }\n"
                    "vec3 shadeHair(HairPoint point) { return point.color; }\n"),
-        "in/s.json: /shading/model: in/mine.glsl: 'hairbenchNextTurn' is a function of the "
-        "program's own: rename it");
+        "in/s.json: /shading/model: in/mine.glsl: 'hairbenchNextTurn' has the name of one of the "
+        "program's own functions: rename it");
 }
 
 // Beyond these bounds a driver's compiler may take minutes and gigabytes, or crash.
@@ -335,8 +334,7 @@ TEST_F(SceneExtensions, AreBoundedInSize) {
     EXPECT_EQ(array("1024"), "no error");
     for (const char* const size : {"1025", "1048576", "2147483647"})
         EXPECT_EQ(
-            array(size),
-            at + ":2: a type of " + size + " numbers is too large: at most 1024 may be");
+            array(size), at + ":2: a type has " + size + " numbers; at most 1024 are permitted");
     // Inlined, these are 2^18 bodies of the innermost function.
     std::string doubling = "float f0(float x) { return sin(x); }\n";
     for (int i = 1; i <= 18; ++i) {
@@ -355,11 +353,11 @@ TEST_F(SceneExtensions, AreBoundedInSize) {
     };
     EXPECT_EQ(nested(32), "no error");
     EXPECT_EQ(
-        nested(33), at + ": is too large: blocks within each other: 33, with the body of each "
-                         "function where it is called; at most 32 may be");
+        nested(33), at + ": is too large: nested blocks: 33, counting the body of each function at "
+                         "each call; at most 32 are permitted");
     EXPECT_EQ(
         with("float f(float x) { return f(x); }\n", "point.color.x = f(1.0);"),
-        at + ": 'f' calls itself, which no function may");
+        at + ": 'f' calls itself: recursion is not permitted");
 }
 
 // Everything in the language that works with values alone is allowed.
@@ -405,13 +403,14 @@ TEST_F(SceneExtensions, DeclarationsHaveAForm) {
          {"bands", "bands 3", "bands 3 [1, 2]", "Bands 1 [0, 2] 1: x", "1a 1 [0, 2] 1: x",
           "a 1 [0, 2] 1", "a 1 [0; 2] 1: x", "a 1 0 [0, 2] 1: x"})
         EXPECT_EQ(
-            declared(wrong), at + "a parameter is declared so: // @parameter NAME DEFAULT [LEAST, "
-                                  "MOST] UNIT: meaning")
+            declared(wrong), at + "expected // @parameter NAME DEFAULT [LEAST, MOST] UNIT: meaning")
             << wrong;
-    EXPECT_EQ(declared("a 1 [2, 0] 1: x"), at + "[2, 0] is no range");
+    EXPECT_EQ(
+        declared("a 1 [2, 0] 1: x"),
+        at + "[2, 0] is not a range: expected two numbers, the first below the second");
     EXPECT_EQ(
         declared("a 1e39 [0, 1e40] 1: x"),
-        at + "[0, 1e40] goes beyond numbers of 32 bits, which end at 3.4e38");
+        at + "[0, 1e40] exceeds the range of 32-bit numbers, which ends at 3.4e38");
     EXPECT_EQ(
         declared("a 1e39 [0, 2] 1: x"),
         at + "1e39 is neither a number nor (x, y, z) within the range");
@@ -429,8 +428,8 @@ TEST_F(SceneExtensions, OffsetsDeclareHowFarTheyReach) {
     folder.write("in/offset.glsl", "vec3 offsetHair(HairPlace place) { return vec3(0.0); }\n");
     EXPECT_THAT(
         error(R"({"strands": {"offset_function": "offset.glsl"}})"),
-        testing::StartsWith("in/s.json: /strands/offset_function: in/offset.glsl: declares no "
-                            "parameter `reach`"));
+        testing::StartsWith("in/s.json: /strands/offset_function: in/offset.glsl: must declare a "
+                            "parameter 'reach'"));
 }
 
 // The shipped extensions compile, and the documentation page names them.

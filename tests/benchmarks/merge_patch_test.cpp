@@ -35,7 +35,7 @@ TEST(MergePatch, DoesWhatTheRfcSays) {
 TEST(MergePatch, RemovesNothingThatCannotBeThere) {
     EXPECT_EQ(
         errorText([] { merged(R"({"a":{"b":1}})", R"({"a":{"bb":null}})", R"({"a":{"c":1}})"); }),
-        "/a/bb: nothing to remove (did you mean \"b\"?); known: c, b");
+        "/a/bb: nothing to remove (did you mean 'b'?); known: c, b");
     EXPECT_EQ(
         errorText([] { merged("{}", R"({"a":{"b":null}})"); }),
         "/a/b: the base has nothing to remove here");

@@ -19,12 +19,13 @@ TEST(Methods, NamesDeviceClocksSamplesAndWhatWasLeftOut) {
     const std::string text = methodsText(reportJson(sampleReport()));
     EXPECT_THAT(text, HasSubstr(" on " + sampleReport().environment.device.name));
     EXPECT_THAT(text, HasSubstr("1 case of scene"));
-    EXPECT_THAT(text, HasSubstr("1 skipped for what the machine lacks, 1 failed"));
+    EXPECT_THAT(text, HasSubstr("1 skipped because the machine lacks something, 1 failed"));
     EXPECT_THAT(text, HasSubstr("Under load the device's shaders ran at 1500 MHz"));
     EXPECT_THAT(text, HasSubstr("at 61.5 degrees Celsius"));
     EXPECT_THAT(text, HasSubstr("95 % intervals by order statistics"));
     EXPECT_THAT(text, HasSubstr("1 round at the start of a mode was left out"));
-    EXPECT_THAT(text, HasSubstr("2 rounds were left out as heat or power held the device back"));
+    EXPECT_THAT(
+        text, HasSubstr("2 rounds were left out because heat or power throttled the device"));
     EXPECT_THAT(text, HasSubstr("1 case has warnings in the report."));
     EXPECT_THAT(text, Not(HasSubstr("without a pause")));
 }

@@ -172,6 +172,15 @@ TEST(MitsubaScene, HasSurroundingsInsteadOfABackground) {
     EXPECT_THAT(text, Not(HasSubstr("constant")));
 }
 
+TEST(MitsubaScene, TakesTheAbsorptionOfSingleStrandsFromAPicture) {
+    const std::string text =
+        sceneOf({}, {.hair_file = "hair.txt", .absorption_file = "absorption.exr"});
+    EXPECT_TRUE(isWellFormed(text)) << text;
+    EXPECT_THAT(text, HasSubstr(R"(<texture type="bitmap" name="sigma_a">)"));
+    EXPECT_THAT(text, HasSubstr(R"(<string name="filename" value="absorption.exr"/>)"));
+    EXPECT_THAT(text, Not(HasSubstr("\"scale\"")));
+}
+
 TEST(MitsubaScene, HasTheMaterialsOfMeshes) {
     hair::Settings settings;
     const reference::MitsubaParts parts{
@@ -189,6 +198,9 @@ TEST(MitsubaScene, HasTheMaterialsOfMeshes) {
     EXPECT_TRUE(isWellFormed(glossy)) << glossy;
     EXPECT_THAT(glossy, HasSubstr(R"(<rgb name="base_color" value="1, 1, 0"/>)"));
     EXPECT_THAT(glossy, HasSubstr(R"(<float name="metallic" value="1"/>)"));
+    // A dielectric of index 1.5 lets 1 - (0.5 / 2.5)^2 of the light in.
+    const std::string dielectric = sceneOf(settings, {.meshes = {{.color = {1, 1, 0}}}});
+    EXPECT_THAT(dielectric, HasSubstr(R"(<rgb name="base_color" value="0.96, 0.96, 0"/>)"));
     EXPECT_THAT(glossy, HasSubstr(R"(<float name="roughness" value="0.5"/>)"));
 }
 

@@ -61,14 +61,14 @@ TEST_F(SceneReach, EndsAtItsFolder) {
         EXPECT_THAT(
             error(fieldOf(name)), AllOf(
                                       StartsWith("in/s.json: /simulation/distance_fields/0/mesh: "),
-                                      HasSubstr("lies outside of"), HasSubstr("--allow-outside")))
+                                      HasSubstr("is outside"), HasSubstr("--allow-outside")))
             << name;
     EXPECT_EQ(error(fieldOf("../private/head.obj"), scene::Outside::allowed), "no error");
 }
 
 TEST_F(SceneReach, EndsWhereLinksLeadOut) {
     fs::create_directory_symlink("../private", folder.file("in/linked"));
-    EXPECT_THAT(error(fieldOf("linked/head.obj")), HasSubstr("lies outside of"));
+    EXPECT_THAT(error(fieldOf("linked/head.obj")), HasSubstr("is outside"));
     fs::create_symlink("round", folder.file("in/round"));
     EXPECT_THAT(error(fieldOf("round")), HasSubstr("round: "));
 }
@@ -76,9 +76,9 @@ TEST_F(SceneReach, EndsWhereLinksLeadOut) {
 TEST_F(SceneReach, IsThatOfBasesToo) {
     EXPECT_THAT(
         error(R"({"base": "../private/base.json"})"),
-        AllOf(StartsWith("in/s.json: /base: "), HasSubstr("lies outside of")));
+        AllOf(StartsWith("in/s.json: /base: "), HasSubstr("is outside")));
     // A file out of reach is not even looked up.
-    EXPECT_THAT(error(R"({"base": "../../none.json"})"), HasSubstr("lies outside of"));
+    EXPECT_THAT(error(R"({"base": "../../none.json"})"), HasSubstr("is outside"));
     EXPECT_EQ(
         error(
             R"({"base": "../private/base.json", "groom": {"grow": {"mesh": ")" HAIRBENCH_SCENES_DIR
@@ -95,7 +95,7 @@ TEST_F(SceneReach, IsThatOfEveryValueOfAnAxis) {
           R"("/render": [{"environment": "../private/sky.exr"}, {"msaa": 1}])",
           R"("zip": [{"/strands/density": [1, 2], "/render/environment": ["", "/etc/sky.exr"]}])",
           R"("cases": [{"/render/environment": "../private/sky.exr"}, {"/strands/density": 2}])"})
-        EXPECT_THAT(error(base + axis + "}}"), HasSubstr("lies outside of")) << axis;
+        EXPECT_THAT(error(base + axis + "}}"), HasSubstr("is outside")) << axis;
     EXPECT_EQ(error(base + R"("/render/environment": ["", "below/sky.exr"]}})"), "no error");
 }
 
@@ -106,9 +106,9 @@ TEST_F(SceneReach, IsThatOfTheSuiteForItsMembers) {
     EXPECT_EQ(errorText([&] { scene::loadScenes(suite); }), "no error");
     EXPECT_THAT(
         errorText([&] { scene::loadScene(folder.file("in/below/m.json")); }),
-        HasSubstr("lies outside of"));
+        HasSubstr("is outside"));
     const fs::path other = folder.write("in/other.json", R"({"suite": ["../private/base.json"]})");
-    EXPECT_THAT(errorText([&] { scene::loadScenes(other); }), HasSubstr("lies outside of"));
+    EXPECT_THAT(errorText([&] { scene::loadScenes(other); }), HasSubstr("is outside"));
     EXPECT_EQ(errorText([&] { scene::loadScenes(other, scene::Outside::allowed); }), "no error");
 }
 
@@ -117,15 +117,15 @@ TEST_F(SceneReach, IsTheWholeFolderOfScenes) {
     const fs::path path = folder.write("in/below/s.json", fieldOf("../far/head.obj"));
     folder.write("in/far/head.obj", kTetrahedron);
     const auto load = [&] { return errorText([&] { scene::loadScene(path); }); };
-    EXPECT_THAT(load(), HasSubstr("lies outside of"));
+    EXPECT_THAT(load(), HasSubstr("is outside"));
     folder.write("in/scene.schema.json", "{}");
     EXPECT_EQ(load(), "no error");
     folder.write("in/below/scene.schema.json", "{}");  // the nearest one counts
-    EXPECT_THAT(load(), HasSubstr("lies outside of"));
+    EXPECT_THAT(load(), HasSubstr("is outside"));
     fs::remove(folder.file("in/below/scene.schema.json"));
     EXPECT_EQ(load(), "no error");
     fs::permissions(folder.file("in"), fs::perms::all);  // anybody could have put the schema there
-    EXPECT_THAT(load(), HasSubstr("lies outside of"));
+    EXPECT_THAT(load(), HasSubstr("is outside"));
 }
 
 // 36 bytes for the corners of a triangle. Tests buffers and pictures of a glTF file, and textures
@@ -151,16 +151,15 @@ TEST_F(SceneReach, IsThatOfFilesThatFilesName) {
     };
     EXPECT_THAT(
         error(meshOf("../private/buffer.bin", "none.png")),
-        AllOf(StartsWith("in/m.gltf: "), HasSubstr("buffer.bin: lies outside of")));
+        AllOf(StartsWith("in/m.gltf: "), HasSubstr("buffer.bin: is outside")));
     EXPECT_THAT(
         error(meshOf("../private/buffer.bin", "none.png"), scene::Outside::allowed),
         HasSubstr("none.png: no such file"));
     folder.write("in/buffer.bin", std::string(36, '\0'));
     EXPECT_THAT(
         error(meshOf("buffer.bin", "../private/skin.png")),
-        AllOf(StartsWith("in/m.gltf: "), HasSubstr("skin.png: lies outside of")));
-    EXPECT_THAT(
-        error(meshOf("buffer.bin", "..%2Fprivate%2Fskin.png")), HasSubstr("lies outside of"));
+        AllOf(StartsWith("in/m.gltf: "), HasSubstr("skin.png: is outside")));
+    EXPECT_THAT(error(meshOf("buffer.bin", "..%2Fprivate%2Fskin.png")), HasSubstr("is outside"));
 
     folder.write("in/m.mtl", "newmtl skin\nmap_Kd ../private/skin.png\n");
     folder.write(
@@ -169,14 +168,14 @@ TEST_F(SceneReach, IsThatOfFilesThatFilesName) {
     EXPECT_THAT(
         error(R"({"base": ")" HAIRBENCH_SCENES_DIR
               R"(/smoke.json", "render": {"meshes": [{"file": "m.obj"}]}})"),
-        AllOf(StartsWith("in/m.obj: "), HasSubstr("skin.png: lies outside of")));
+        AllOf(StartsWith("in/m.obj: "), HasSubstr("skin.png: is outside")));
 }
 
 // Another program opens the materials.
 TEST_F(SceneReach, IsThatOfMaterialsToo) {
     folder.write("private/a.mtl", "newmtl a\nKd 1 0 0\n");
     folder.write("in/a.obj", std::string("mtllib ../private/a.mtl\n") + kTetrahedron);
-    EXPECT_THAT(error(fieldOf("a.obj")), HasSubstr("lies outside of the scene's folder"));
+    EXPECT_THAT(error(fieldOf("a.obj")), HasSubstr("is outside the scene's folder"));
     EXPECT_EQ(error(fieldOf("a.obj"), scene::Outside::allowed), "no error");
 }
 

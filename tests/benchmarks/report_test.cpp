@@ -236,16 +236,18 @@ TEST(ReadReport, RefusesCountsThatNoSweepHas) {
     EXPECT_EQ(error("/case_count", 1'000'000'000'000'000'000u), "no error");  // not allocated
     for (const scene::Json& wrong :
          {scene::Json(-1), scene::Json(1.5), scene::Json(1e300), scene::Json("6"), scene::Json()})
-        EXPECT_EQ(
-            error("/case_count", wrong), "r.json: is damaged: /case_count: is no number of things")
+        EXPECT_EQ(error("/case_count", wrong), "r.json: is damaged: /case_count: is not a count")
             << wrong;
     EXPECT_EQ(
-        error("/case_count", 0),
-        "r.json: is damaged: /cases: one has the number 0, counted from 0, of 0 cases");
-    EXPECT_EQ(error("/cases/1/index", 0), "r.json: is damaged: /cases: two have the number 0");
-    EXPECT_EQ(error("/cases/1/index", -1), "r.json: is damaged: /index: is no number of things");
-    EXPECT_EQ(error("/shard/index", 3), "r.json: is damaged: /shard: is none");
-    EXPECT_EQ(error("/shard/count", 0), "r.json: is damaged: /shard: is none");
+        error("/case_count", 0), "r.json: is damaged: /cases: a case has the number 0, counted "
+                                 "from 0, but there are 0 cases");
+    EXPECT_EQ(
+        error("/cases/1/index", 0), "r.json: is damaged: /cases: two cases have the number 0");
+    EXPECT_EQ(error("/cases/1/index", -1), "r.json: is damaged: /index: is not a count");
+    EXPECT_EQ(
+        error("/shard/index", 3), "r.json: is damaged: /shard: has an index outside [1, count]");
+    EXPECT_EQ(
+        error("/shard/count", 0), "r.json: is damaged: /shard: has an index outside [1, count]");
 }
 
 TEST(CheckWritable, MakesTheFolderButNotTheFile) {

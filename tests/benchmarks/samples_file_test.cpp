@@ -92,7 +92,7 @@ TEST_F(SamplesFile, IsMissedAndMustBeOfTheReport) {
     for (const std::string& wrong : {doubled, line.dump(), std::string()}) {
         folder_.write("r.samples.jsonl", wrong);
         EXPECT_EQ(
-            error(), "r.json: r.samples.jsonl is of another report: "
+            error(), "r.json: r.samples.jsonl belongs to another report: "
                      "thesis/density:64/backend:tessellation, frame.time");
     }
     folder_.write("r.samples.jsonl", right.substr(0, right.size() / 2));

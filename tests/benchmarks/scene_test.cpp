@@ -131,19 +131,19 @@ const BadScene kBadJson[] = {
                     "literal"},
     {R"({"seed": 1e999})", ":1:14: number overflow parsing '1e999'"},
     {"[1]", ": expected an object, found an array of 1"},
-    {R"({"seed": 1, "seed": 2})", ": /seed: is there twice"},
+    {R"({"seed": 1, "seed": 2})", ": /seed: appears twice"},
     {R"({"simulation": {"colliders": [{}, {"radius": 1, "radius": 2}]}})",
-     ": /simulation/colliders/1/radius: is there twice"}};
+     ": /simulation/colliders/1/radius: appears twice"}};
 INSTANTIATE_TEST_SUITE_P(Json, SceneError, testing::ValuesIn(kBadJson));
 
 const BadScene kBadFields[] = {
     {R"({"strands": {"tessalation": 1}})",
-     ": /strands/tessalation: unknown key (did you mean \"tessellation\"?); known: backend, "
+     ": /strands/tessalation: unknown key (did you mean 'tessellation'?); known: backend, "
      "source, interpolation, blend, collision_rule, collision, randomness, density, tessellation, "
      "width, root_width, tip_width, curl, variation, offsets, offset_function, "
      "offset_parameters, opacity, texture, curve, taper, "
      "taper_start, submission"},
-    {R"({"sweeep": {}})", ": /sweeep: unknown key (did you mean \"sweep\"?); known: description, "
+    {R"({"sweeep": {}})", ": /sweeep: unknown key (did you mean 'sweep'?); known: description, "
                           "seed, groom, simulation, strands, "
                           "lod, shading, camera, render, run, $schema, base, sweep"},
     {R"({"run": {"a/b\n~": 1}})",
@@ -171,7 +171,7 @@ const BadScene kBadFields[] = {
     {R"({"strands": {"density": 2.5}})", ": /strands/density: 2.5 is not an integer"},
     {R"({"render": {"msaa": 3}})", ": /render/msaa: 3 is not one of 1, 2, 4, 8 samples"},
     {R"({"strands": {"curve": "bsplin"}})",
-     ": /strands/curve: unknown name \"bsplin\" (did you mean \"bspline\"?); known: bspline, "
+     ": /strands/curve: unknown name 'bsplin' (did you mean 'bspline'?); known: bspline, "
      "bspline_unpinned, catmull_rom"},
     {R"({"camera": {"position": [0, 1]}})",
      ": /camera/position: expected an array of 3 numbers, found an array of 2"},
@@ -199,29 +199,28 @@ const BadScene kBadReaderMembers[] = {
      ": /sweep: /strands/density: expected an array of values, found 3"},
     {R"({"sweep": {"/strands/density": []}})",
      ": /sweep: /strands/density: an axis needs at least one value"},
-    {R"({"sweep": {"/strands/density": [4, 4.0]}})",
-     ": /sweep: /strands/density: 4 is there twice"},
+    {R"({"sweep": {"/strands/density": [4, 4.0]}})", ": /sweep: /strands/density: 4 appears twice"},
     {R"({"sweep": {"/strands/density": [1, 0]}})",
      ": /sweep: /strands/density: 0 is outside [1, 4096] count"},
     {R"({"sweep": {"/strands/density": [1, null]}})",
      ": /sweep: /strands/density: expected an integer, found null"},
     {R"({"sweep": {"strands": [1]}})",
-     ": /sweep: \"strands\": a JSON pointer starts with '/', as in /strands/density"},
+     ": /sweep: 'strands': a JSON pointer starts with '/', as in /strands/density"},
     {R"({"sweep": {"/lod~2": [1]}})",
      ": /sweep: /lod~2: '~' must be written ~0, and '/' in a name ~1"},
     {R"({"sweep": {"/lod/levle": [1]}})", ": /sweep: /lod/levle: unknown key (did you mean "
-                                          "\"level\"?); known: mode, level, near_distance, "
+                                          "'level'?); known: mode, level, near_distance, "
                                           "far_distance, maximum_level, merged"},
     {R"({"sweep": {"/seed/x": [1]}})", ": /sweep: /seed/x: 1 has no members"},
     {R"({"sweep": {"/sweep": [1]}})",
-     ": /sweep: /sweep: unknown key (did you mean \"seed\"?); known: description, seed, "
+     ": /sweep: /sweep: unknown key (did you mean 'seed'?); known: description, seed, "
      "groom, simulation, strands, lod, shading, "
      "camera, render, run"},
     {R"({"sweep": {"/camera/up/3": [1]}})", ": /sweep: /camera/up/3: the array has 3 elements"},
     {R"({"sweep": {"/simulation/colliders/0/radius": [1]}})",
      ": /sweep: /simulation/colliders/0: the array has 0 elements"},
     {R"({"sweep": {"/simulation/wind": [{"strenght": 1}]}})",
-     ": /sweep: /simulation/wind/strenght: unknown key (did you mean \"strength\"?); known: "
+     ": /sweep: /simulation/wind/strenght: unknown key (did you mean 'strength'?); known: "
      "mode, strength, direction, cone_angle, gust_rate, speed, turbulence, turbulence_scale, "
      "turbulence_octaves, air_density, air_viscosity"}};
 INSTANTIATE_TEST_SUITE_P(ReaderMembers, SceneError, testing::ValuesIn(kBadReaderMembers));
@@ -244,7 +243,7 @@ TEST(SceneErrors, OfALongList) {
         folder.write("s.json", R"({"simulation": {"distance_fields": [)" + list + "]}}");
     EXPECT_EQ(
         folder.relative(errorText([&] { scene::loadScene(path); })),
-        "s.json: /simulation/distance_fields: 9 elements are more than 8");
+        "s.json: /simulation/distance_fields: has 9 elements; at most 8 are permitted");
 }
 
 TEST(SceneErrors, OfDeepNesting) {
@@ -252,7 +251,7 @@ TEST(SceneErrors, OfDeepNesting) {
     const auto path = folder.write("s.json", std::string(1000000, '['));
     EXPECT_EQ(
         folder.relative(errorText([&] { scene::loadScene(path); })),
-        "s.json: nested deeper than 64");
+        "s.json: is nested deeper than 64 levels");
 }
 
 TEST(SceneErrors, OfABaseNameBothFiles) {
@@ -284,7 +283,7 @@ TEST(SceneErrors, OfALongChainOfBases) {
     for (const char* path : {"17.json", "4000.json"})
         EXPECT_THAT(
             errorText([&] { scene::loadScene(folder.file(path)); }),
-            HasSubstr("/base: more than 16 scenes are built one on another"));
+            HasSubstr("/base: the chain of bases is longer than 16 scenes"));
 }
 
 TEST(SceneErrors, OfManyMembers) {
@@ -296,7 +295,7 @@ TEST(SceneErrors, OfManyMembers) {
         EXPECT_EQ(
             folder.relative(errorText(
                 [&] { scene::loadScene(folder.write("s.json", before + members + after)); })),
-            std::string("s.json: ") + place + ": is one of over 4096 members of an object");
+            std::string("s.json: ") + place + ": the object has more than 4096 members");
 }
 
 TEST(SceneErrors, OfALongName) {
@@ -306,7 +305,7 @@ TEST(SceneErrors, OfALongName) {
             scene::loadScene(folder.write("s.json", "{\"" + std::string(length, 'a') + "\": 1}"));
         }));
     };
-    EXPECT_EQ(load(10000000), "s.json: a name of 10000000 bytes, at most 512 are read");
+    EXPECT_EQ(load(10000000), "s.json: a name has 10000000 bytes; at most 512 are permitted");
     EXPECT_THAT(load(512), HasSubstr("unknown key; known: description, seed, groom, "));
 }
 
@@ -322,10 +321,10 @@ TEST(SceneErrors, OfALongAxis) {
     };
     EXPECT_EQ(
         load(R"("/seed": [)" + values + "]"),
-        "s.json: /sweep: /seed: 100000 values, an axis has at most 10000");
+        "s.json: /sweep: /seed: has 100000 values; at most 10000 are permitted");
     EXPECT_EQ(
         load(R"("cases": [)" + rows + "]"),
-        "s.json: /sweep/cases: 100000 values, an axis has at most 10000");
+        "s.json: /sweep/cases: has 100000 values; at most 10000 are permitted");
 }
 
 // Their sizes are sufficient for the errors, so they are not read.
@@ -339,7 +338,7 @@ TEST(SceneErrors, OfALargeFile) {
     folder.write("t.json", std::string(std::size_t{17} << 20, ' '));
     EXPECT_EQ(
         folder.relative(errorText([&] { scene::loadScene(folder.file("t.json")); })),
-        "t.json: is larger than 16 MiB, and no picture");
+        "t.json: is larger than 16 MiB, the limit of a scene file, and is not a picture");
 }
 
 // Reading a pipe without a writer would wait forever.
@@ -349,14 +348,14 @@ TEST(SceneErrors, OfAPipe) {
     const auto load = [&](const std::filesystem::path& path) {
         return folder.relative(errorText([&] { scene::loadScenes(path); }));
     };
-    EXPECT_EQ(load(folder.file("pipe.json")), "pipe.json: not a file");
+    EXPECT_EQ(load(folder.file("pipe.json")), "pipe.json: is not a file");
     EXPECT_EQ(
         load(folder.write("s.json", R"({"base": "pipe.json"})")),
-        "s.json: /base: pipe.json: not a file");
+        "s.json: /base: pipe.json: is not a file");
     EXPECT_THAT(
         load(folder.write("suite.json", R"({"suite": ["pipe.json"]})")),
-        HasSubstr("pipe.json: not a file"));
-    EXPECT_EQ(load("/dev/zero"), "/dev/zero: not a file");
+        HasSubstr("pipe.json: is not a file"));
+    EXPECT_EQ(load("/dev/zero"), "/dev/zero: is not a file");
 }
 
 TEST(SceneErrors, OfARemovalThatRemovesNothing) {
@@ -366,7 +365,7 @@ TEST(SceneErrors, OfARemovalThatRemovesNothing) {
         folder.write("s.json", R"({"base": "base.json", "sweep": {"/strands/densty": null}})");
     EXPECT_EQ(
         folder.relative(errorText([&] { scene::loadScene(path); })),
-        "s.json: /sweep/~1strands~1densty: nothing to remove (did you mean \"/strands/density\"?); "
+        "s.json: /sweep/~1strands~1densty: nothing to remove (did you mean '/strands/density'?); "
         "known: "
         "/strands/density");
 }

@@ -107,14 +107,14 @@ TEST_F(Sweep, RefusesBadOverrides) {
         "-a: /strands/density: expected an integer, found the string \"many\"");
     EXPECT_EQ(
         error("{}", {scene::parseAxis("density=1")}),
-        "-a: \"density\": a JSON pointer starts with '/', as in /strands/density");
+        "-a: 'density': a JSON pointer starts with '/', as in /strands/density");
     EXPECT_EQ(
         error("{}", {scene::parseAxis("/run/frame=1")}),
-        "-a: /run/frame: unknown key (did you mean \"frames\"?); known: warmup, frames, "
+        "-a: /run/frame: unknown key (did you mean 'frames'?); known: warmup, frames, "
         "precision, max_time, case_timeout, warmup_time, round_time, frame_time, frames_in_flight, "
         "overlapped_stamps, async_compute, clocks, busy_pass, busy_work, "
         "reference, compare_backends");
-    EXPECT_EQ(error("{}", {scene::parseAxis("/seed=1,1")}), "-a: /seed: 1 is there twice");
+    EXPECT_EQ(error("{}", {scene::parseAxis("/seed=1,1")}), "-a: /seed: 1 appears twice");
 }
 
 TEST_F(Sweep, RefusesAxesInsideOneAnother) {
@@ -135,7 +135,7 @@ TEST_F(Sweep, RefusesMoreCasesThanAnyoneRuns) {
         error(
             "{}", {scene::parseAxis("/seed=" + values),
                    scene::parseAxis("/simulation/settle_steps=" + values)}),
-        "s.json: /sweep: more than 100000 cases");
+        "s.json: /sweep: has more than 100000 cases");
 }
 
 std::string listFrom(int first, int count) {
@@ -163,7 +163,7 @@ TEST_F(Sweep, RefusesMoreExclusionsThanAnyoneNeeds) {
     for (int i = 0; i < 101; ++i) exclude += R"(,{"/seed": )" + listFrom(0, 1000) + "}";
     EXPECT_EQ(
         error(R"({"sweep": {"/seed": [1, 2], "exclude": [)" + exclude + "]}}"),
-        "s.json: /sweep/exclude: 101001 values, it has at most 100000");
+        "s.json: /sweep/exclude: has 101001 values; at most 100000 are permitted");
 }
 
 // Each case copies the points of all edits.
@@ -176,7 +176,7 @@ TEST_F(Sweep, RefusesManyCasesOfALargeScene) {
         error(
             R"({"groom": {"edits": [)" + edits + R"(]}, "sweep": {"/seed": )" + listFrom(0, 1000) +
             "}}"),
-        HasSubstr("/sweep: 1000 cases of a scene that has "));
+        HasSubstr("/sweep: 1000 cases of a scene with "));
 }
 
 TEST_F(Sweep, ChecksTheRulesBetweenFieldsOfEveryCase) {

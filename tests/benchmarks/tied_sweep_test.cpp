@@ -113,7 +113,7 @@ TEST_F(TiedSweep, IsChangedFromTheCommandLine) {
             "s/msaa:8/guides:86/density:16"));
     EXPECT_EQ(
         error(kZip, {scene::parseAxis("/strands/density=8")}),
-        "-a: /strands/density: the sweep ties it to other fields");
+        "-a: /strands/density: the scene's sweep changes it together with other fields");
 }
 
 TEST_F(TiedSweep, RefusesWhatDoesNotFit) {
@@ -139,7 +139,7 @@ TEST_F(TiedSweep, RefusesWhatDoesNotFit) {
         {R"({"exclude": [{"/seed": 1}]})",
          "/sweep/exclude/0: /seed: expected an array of values, found 1"},
         {R"({"exclude": [{"/camera": [{}]}]})",
-         "/sweep/exclude/0: /camera: a condition is on single fields, not on a group"}};
+         "/sweep/exclude/0: /camera: a condition must name a single field, not a group"}};
     for (const auto& [sweep, expected] : errors)
         EXPECT_EQ(error(sweep), std::string("s.json: ") + expected) << sweep;
 }

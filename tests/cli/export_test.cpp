@@ -109,7 +109,7 @@ TEST_F(ExportCli, RefusesAPictureOfAnotherKind) {
     const Outcome outcome =
         hairbench("reference " + shippedScene("smoke.json") + "-o " + quoted("a.jpg"));
     EXPECT_EQ(outcome.status, 2);
-    EXPECT_THAT(outcome.output, HasSubstr("a.jpg: is neither .exr nor .png"));
+    EXPECT_THAT(outcome.output, HasSubstr("a.jpg: is neither .png nor .exr"));
     EXPECT_TRUE(fs::is_empty(folder_.path()));
 }
 

@@ -74,10 +74,8 @@ TEST_F(GroomCli, ConvertChoosesGuidesAndSaysHowGoodTheyAre) {
         ContainsRegex(
             "chose: 20 guides of 400 strands\nerror: .* nm in the mean .* % of the mean length"));
     EXPECT_THAT(
-        outcome.output,
-        ContainsRegex(
-            "left: of the file's strands as /strands/source groom draws them with so many guides "
-            ".* in the mean, .* at most"));
+        outcome.output, ContainsRegex("left: of the file's strands as /strands/source groom draws "
+                                      "them with these guides .* in the mean, .* at most"));
     EXPECT_EQ(json("guides.hgl")["strands"], 20);
 }
 
@@ -144,8 +142,8 @@ INSTANTIATE_TEST_SUITE_P(
         // Refused before IN is read: none.hair does not exist either.
         RefusedGroom{
             "UnknownExtension", "none.hair", "out.foo", "",
-            "can't be written as \".foo\"; known are .hair"},
-        RefusedGroom{"NoExtension", "four.hair", "out", "", "can't be written as \"\""},
+            "can't be written as '.foo'; known: .hair"},
+        RefusedGroom{"NoExtension", "four.hair", "out", "", "can't be written as ''"},
         RefusedGroom{
             "OneVertex", "none.hair", "out.hair", "--vertices 1", "1 is outside [2, 65536]"},
         RefusedGroom{
@@ -165,7 +163,7 @@ INSTANTIATE_TEST_SUITE_P(
         RefusedGroom{"BrokenFile", "broken.hair", "out.hair", "", "broken.hair: byte"},
         RefusedGroom{
             "TooManyGuides", "four.hair", "out.hair", "--guides 5",
-            "5 are more than the 4 strands there are"}),
+            "5 is more than the 4 strands of the file"}),
     [](const auto& each) { return each.param.name; });
 
 TEST_F(GroomCli, RefusesOptionsThatMakeNoSense) {

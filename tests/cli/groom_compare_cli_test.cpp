@@ -194,14 +194,15 @@ TEST_F(GroomCompareCli, RefusesInOneLineWithStatus2) {
         EXPECT_THAT(outcome.output, HasSubstr(reason));
     };
     const std::string scales = "--scale-a 0.01 --scale-b 0.01 ";
-    expectRefused(compare("four.hair", "point.hair", scales), "the second groom: it has no strand");
+    expectRefused(compare("four.hair", "point.hair", scales), "the second groom: has no strand");
     expectRefused(compare("four.hair", "nan.hair", scales), "nan.hair: ");
     expectRefused(compare("four.hair", "none.hair", scales), "none.hair: ");
     for (const std::string wrong : {"2", "2/", "/20", "2/20x", "a/b"})
         expectRefused(
-            compare("four.hair", "four.hair", scales + "--threshold " + wrong), "is not like 2/20");
+            compare("four.hair", "four.hair", scales + "--threshold " + wrong),
+            "is not MM/DEGREES");
     expectRefused(
-        compare("four.hair", "four.hair", scales + "--threshold 2/200"), "from 0 to 180 degrees");
+        compare("four.hair", "four.hair", scales + "--threshold 2/200"), "in [0, 180] degrees");
 }
 
 }  // namespace

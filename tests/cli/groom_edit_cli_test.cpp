@@ -102,8 +102,8 @@ TEST_F(GroomEditCli, RefusesInOneLineWithStatus2) {
     };
     expectRefused("filter", "--scale 0.01 --deepest 1", "--mesh: ");
     expectRefused("filter", "--scale 0.01 --shortest 5000", "no strand is left");
-    expectRefused("resample", "--scale 0.01", "one of them is needed");
-    expectRefused("resample", "--scale 0.01 --vertices 4 --spacing 2", "and not both");
+    expectRefused("resample", "--scale 0.01", "give exactly one of them");
+    expectRefused("resample", "--scale 0.01 --vertices 4 --spacing 2", "give exactly one of them");
     expectRefused("fix", "--scale 0.01 --farthest-root 2", "--mesh: ");
     expectRefused("smooth", "--scale 0.01 --length 0", "--length");
 }

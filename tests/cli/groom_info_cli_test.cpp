@@ -19,7 +19,7 @@ TEST_F(GroomCli, InfoSaysWhatIsInAFile) {
     EXPECT_EQ(outcome.status, 0);
     EXPECT_THAT(outcome.output, ContainsRegex("comment +made for a test\n"));
     EXPECT_THAT(outcome.output, ContainsRegex("strands +4\n"));
-    EXPECT_THAT(outcome.output, ContainsRegex("points +13, 3 to 4 a strand, median 3\n"));
+    EXPECT_THAT(outcome.output, ContainsRegex("points +13, 3 to 4 per strand, median 3\n"));
     EXPECT_THAT(outcome.output, HasSubstr("40.0 x 300 x 40.0 mm"));
     EXPECT_THAT(outcome.output, ContainsRegex("widths +70.0 µm everywhere\n"));
     EXPECT_THAT(outcome.output, ContainsRegex("colour +0.5 0.25 0.125 everywhere\n"));
@@ -103,7 +103,7 @@ TEST_F(GroomCli, TakesPointsPerStrandOfAPlyOfPoints) {
     EXPECT_THAT(without.output, HasSubstr("--points-per-strand"));
     const Outcome outcome = info("points.ply", "--points-per-strand 2");
     EXPECT_EQ(outcome.status, 0);
-    EXPECT_THAT(outcome.output, ContainsRegex("points +4, 2 a strand\n"));
+    EXPECT_THAT(outcome.output, ContainsRegex("points +4, 2 per strand\n"));
     EXPECT_THAT(outcome.output, ContainsRegex("groups +none\n *guides +not stated\n"));
     EXPECT_EQ(json("points.ply", "--points-per-strand 4")["strands"], 1);
 }

@@ -95,7 +95,7 @@ TEST_F(RunReferenceCli, NamesAReferenceThatIsNotThere) {
     const Outcome outcome = run();
     EXPECT_EQ(outcome.status, 2);
     EXPECT_THAT(outcome.output, HasSubstr("/run/reference: "));
-    EXPECT_THAT(outcome.output, HasSubstr("truth.png: is no file"));
+    EXPECT_THAT(outcome.output, HasSubstr("truth.png: is not a file"));
 }
 
 }  // namespace

@@ -46,7 +46,7 @@ TEST(StrangersScene, OpensNothingOutsideOfItsFolder) {
         EXPECT_EQ(outcome.status, kUsage) << command << '\n' << outcome.output;
         EXPECT_THAT(
             outcome.output, AllOf(
-                                HasSubstr("/render/meshes/0/file: "), HasSubstr("lies outside of"),
+                                HasSubstr("/render/meshes/0/file: "), HasSubstr("is outside"),
                                 HasSubstr("--allow-outside")))
             << command;
     }

@@ -49,7 +49,8 @@ TEST(MedianInterval, IsWiderForFewerEffectiveSamples) {
     const MedianInterval all = medianInterval(values, 0.05);
     const MedianInterval quarter = medianInterval(values, 0.05, 250.0);
     EXPECT_NEAR((quarter.upper - quarter.lower) / (all.upper - all.lower), 2.0, 0.1);
-    EXPECT_TRUE(std::isinf(medianInterval(values, 0.05, 5.0).upper));
+    EXPECT_TRUE(std::isfinite(medianInterval(values, 0.05, kLeastEffective).upper));
+    EXPECT_TRUE(std::isinf(medianInterval(values, 0.05, kLeastEffective - 1.0).upper));
 }
 
 TEST(MedianInterval, OfManySamplesDoesNotUnderflow) {
@@ -66,11 +67,11 @@ TEST(MedianInterval, OfManySamplesDoesNotUnderflow) {
 
 TEST(EffectiveSamples, OfWhiteNoiseAreNearlyAll) {
     // In theory it is all. The cut-off of the sum of correlations biases it downward by a few times
-    // 1 / sqrt(n).
+    // 1 / sqrt(n), and the caution about it by as much again.
     Noise noise(3);
     double sum = 0.0;
     for (int trial = 0; trial < 100; ++trial) sum += effectiveSamples(series(noise, 1000, 0.0));
-    EXPECT_GT(sum / 100, 850.0);
+    EXPECT_GT(sum / 100, 750.0);
 }
 
 TEST(EffectiveSamples, OfACorrelatedSeriesAreThoseOfTheory) {
@@ -86,7 +87,8 @@ TEST(EffectiveSamples, OfACorrelatedSeriesAreThoseOfTheory) {
         mean += effectiveSamples(series(noise, kCount, kCorrelation)) / 50;
     // The noise of each estimate, some 15 %, falls to 2 % in the mean. Its second-order bias
     // remains.
-    EXPECT_NEAR(mean, kCount / time, 0.15 * kCount / time);
+    const double cautious = kCount / (time * (1.0 + 5.0 * std::sqrt((time - 1.0) / kCount)));
+    EXPECT_NEAR(mean, cautious, 0.15 * cautious);
 }
 
 TEST(EffectiveSamples, OfAlternatingOrEqualOnesAreAll) {
@@ -112,12 +114,10 @@ double coverage(double correlation, bool effective) {
 }
 
 TEST(MedianInterval, CoversTheMedianOfDependentSamples) {
-    // The interval is for 95 %. Independent samples reach it, less 4 standard deviations of 1,000
-    // trials. The effective number of dependent samples is itself uncertain, which costs a few
-    // percent.
+    // The interval is for 95 %; 4 standard deviations of 1,000 trials are 2.8 %.
     EXPECT_GE(coverage(0.0, false), 0.95 - 0.028);
     EXPECT_GE(coverage(0.0, true), 0.95 - 0.028);
-    EXPECT_GE(coverage(0.8, true), 0.90);
+    EXPECT_GE(coverage(0.8, true), 0.95 - 0.028);
     // Dependent frames treated as independent would mislead: half the true width covers at most 70
     // %.
     EXPECT_LE(coverage(0.8, false), 0.75);

@@ -162,7 +162,7 @@ TEST_F(LesserDevice, StrandsAreDrawnByWhatTheDeviceHas) {
     EXPECT_EQ(
         drawnBy().reason,
         "automatic: the first that can draw it; not software: /strands/backend: software: the "
-        "device has samples at places of its own; not tessellation: /strands/backend: "
+        "device does not have the standard sample locations; not tessellation: /strands/backend: "
         "tessellation: the device has no geometry stages");
 }
 
@@ -173,7 +173,7 @@ TEST_F(LesserDevice, StrandsInComputeNeedSamplesAtKnownPlaces) {
     make([](DeviceInfo& info) { info.limits.standardSampleLocations = VK_FALSE; });
     EXPECT_EQ(
         skipped(settings),
-        "/strands/backend: software: the device has samples at places of its own");
+        "/strands/backend: software: the device does not have the standard sample locations");
     settings.render.msaa = 1;
     EXPECT_EQ(skipped(settings), "not skipped");
 }

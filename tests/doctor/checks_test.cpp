@@ -105,13 +105,13 @@ const Fault kFaults[] = {
     {"layers", Health::warn, [](Facts& f) { f.layers.loaded = {"libMangoHud.so"}; }, "MangoHud"},
     {"layers", Health::ok, [](Facts& f) { f.layers.loaded = {"libVkLayer_MESA_device_select.so"}; },
      "device_select"},
-    {"clocks", Health::unknown, [](Facts& f) { f.clocks.reset(); }, "no NVML"},
+    {"clocks", Health::unknown, [](Facts& f) { f.clocks.reset(); }, "neither NVML"},
     {"clocks", Health::bad,
      [](Facts& f) {
          f.clocks->conditions.clock_mhz = 1400;
          f.clocks->conditions.throttle_reasons = {"hardware thermal slowdown"};
      },
-     "held back by hardware thermal slowdown"},
+     "throttled by hardware thermal slowdown"},
     {"clocks", Health::warn,
      [](Facts& f) { f.clocks->conditions.throttle_reasons = {"power cap"}; }, "power cap"},
     {"clocks", Health::warn,
@@ -122,7 +122,7 @@ const Fault kFaults[] = {
      "1200 MHz to 1500 MHz"},
     {"clocks", Health::warn, [](Facts& f) { f.clocks = ClockFacts{}; }, "unknown"},
     {"clocks", Health::warn, [](Facts& f) { f.clocks = ClockFacts{.taken_for_idle = true}; },
-     "takes the device for idle"},
+     "reports the device as idle"},
     {"processor", Health::unknown, [](Facts& f) { f.processor.governors.clear(); }, "unknown"},
     {"processor", Health::warn,
      [](Facts& f) { f.processor.governors = {"performance", "schedutil"}; }, "schedutil"},

@@ -122,7 +122,7 @@ TEST_F(KeptReport, IsAcceptedWhereAMarkSaysWhyItIsKept) {
 
 TEST_F(KeptReport, IsOneOfHairbench) {
     const fs::path file = folder_.write("other.json", R"({"schema": "other/1.0.0"})");
-    EXPECT_THAT(errorText([&] { examineReport(file); }), HasSubstr("is no report of hairbench"));
+    EXPECT_THAT(errorText([&] { examineReport(file); }), HasSubstr("is not a report of hairbench"));
 }
 
 // Checks them like the pull request that adds a report.

@@ -64,7 +64,7 @@ TEST(Rules, AreTwelveOfWhichAReportCanMeetNine) {
     EXPECT_TRUE(meetsRules(findings));
     EXPECT_THAT(
         rulesText(findings),
-        HasSubstr("9 of 12 rules are met by the report, 0 are not, 3 are for who writes"));
+        HasSubstr("9 of 12 rules are met by the report, 0 are not, 3 are for the author"));
 }
 
 TEST(Rules, SayWhatTheyCannotJudge) {
@@ -111,7 +111,7 @@ TEST(Rules, AreNotMetByWhatAReportLacks) {
          [](Json& report) { report["environment"]["host"].erase("processor"); }},
         {9, "differ from their commit",
          [](Json& report) { report["environment"]["build"]["dirty"] = true; }},
-        {10, "sampled is not known", [](Json& report) { report["cases"][0].erase("sampling"); }},
+        {10, "is not known", [](Json& report) { report["cases"][0].erase("sampling"); }},
         {10, "no paragraph", [](Json& report) { report.erase("methods"); }}};
     const std::vector<std::string> healthy = rulesVerdicts(rulesReport());
     for (const Lack& lack : lacks) {

@@ -81,7 +81,7 @@ TEST_F(DeviceTest, TreatsALimitOnTheSizeOfFilesAsOneOnMemoryInFiles) {
     std::string error;
     limited(255, [&] { error = errorText([] { const Device refused({.wanted = ""}); }); });
     EXPECT_THAT(
-        error, is_in_file ? HasSubstr("files may have 261120 KiB at most here: raise the limit")
+        error, is_in_file ? HasSubstr("files may have at most 261120 KiB here: raise the limit")
                           : HasSubstr("no error"));
     limited(256, [&] {
         const Device small({.wanted = ""});
@@ -100,7 +100,7 @@ TEST_F(DeviceTest, RefusesAPictureThatIsTooLarge) {
     EXPECT_THAT(
         messageOf<Unsupported>(
             [&] { Target(device(), {.width = 1u << 20, .height = 4, .msaa = 1, .ssaa = 1}); }),
-        HasSubstr("an image side of 1048576 px is over the device's"));
+        HasSubstr("an image side of 1048576 px exceeds the device's"));
 }
 
 // strands/frames.comp reads guides and their first frames and writes normals. Here all three are at

@@ -60,7 +60,7 @@ TEST(RunApart, EndsWhatTakesTooMuchOrCrashes) {
             }
             return std::string();
         }),
-        "not done after 1 s of the processor");
+        "needed more than 1 s of CPU time");
     EXPECT_EQ(failed([]() -> std::string { _exit(3); }), "ended with status 3");
     EXPECT_EQ(failed([]() -> std::string { throw Error("anything"); }), "ended with status 1");
     EXPECT_EQ(
@@ -73,7 +73,7 @@ TEST(RunApart, EndsWhatTakesTooMuchOrCrashes) {
 #if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
     EXPECT_EQ(
         failed([] { return std::string(std::size_t{1} << 30, 'x'); }),
-        "not done with 256 MiB of memory");
+        "needed more than 256 MiB of memory");
 #endif
 }
 
@@ -139,7 +139,7 @@ TEST(RunTool, FailsWithTheLastLine) {
 TEST(RunTool, EndsWhatTakesTooMuchOfTheProcessor) {
     EXPECT_EQ(
         errorText([] { runTool({"sh", "-c", "while :; do :; done"}, {.seconds = 1}); }),
-        "sh was not done after 1 s of the processor");
+        "sh needed more than 1 s of CPU time");
 }
 
 #if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
@@ -148,7 +148,7 @@ TEST(RunTool, GivesNoMoreMemoryThanIsAllowed) {
     EXPECT_NE(
         errorText(
             [&] { runTool({"sh", "-c", grow}, {.seconds = 10, .bytes = std::size_t{64} << 20}); }),
-        "sh was not done after 10 s of the processor");
+        "sh needed more than 10 s of CPU time");
 }
 #endif
 

@@ -67,7 +67,7 @@ std::string faultOf(const std::vector<std::uint32_t>& words) {
 }
 std::string faultOf(const Module& module) { return faultOf(assembled(module)); }
 
-const std::string kNoPlace = " has no place in a file that a scene names";
+const std::string kNoPlace = " is not permitted in a file that a scene names";
 
 TEST(SpirvJudge, AllowsFunctionsOfValues) {
     EXPECT_EQ(faultOf(Module{}), "");
@@ -130,7 +130,7 @@ TEST(SpirvJudge, RefusesEveryStorageClassButFunction) {
     }
     EXPECT_EQ(
         faultOf(Module{.types = "%there = OpVariable %to_float Function"}),
-        "a variable outside of functions" + kNoPlace);
+        "a variable outside functions" + kNoPlace);
 }
 
 TEST(SpirvJudge, RefusesPointersInMemory) {
@@ -202,24 +202,23 @@ TEST(SpirvJudge, BoundsTypes) {
     const auto fault = [](const std::string& types) { return faultOf(Module{.types = types}); };
     EXPECT_EQ(fault(arrayOf("a", "vec4", 256)), "");
     EXPECT_EQ(
-        fault(arrayOf("a", "vec4", 257)),
-        "a type of 1028 numbers is too large: at most 1024 may be");
-    EXPECT_THAT(fault(arrayOf("a", "float", 0xffffffff)), HasSubstr("is too large"));
+        fault(arrayOf("a", "vec4", 257)), "a type has 1028 numbers; at most 1024 are permitted");
+    EXPECT_THAT(fault(arrayOf("a", "float", 0xffffffff)), HasSubstr("at most 1024 are permitted"));
     // 2^66 numbers must not wrap around to 4.
     EXPECT_THAT(
         fault(
             arrayOf("a", "float", 1u << 31) + arrayOf("b", "a", 1u << 31) + arrayOf("c", "b", 16)),
-        HasSubstr("is too large"));
+        HasSubstr("at most 1024 are permitted"));
     EXPECT_THAT(
         fault(arrayOf("a", "float", 1024) + "%pair = OpTypeStruct %a %float"),
-        HasSubstr("a type of 1025 numbers"));
+        HasSubstr("a type has 1025 numbers"));
     std::string deep;
     for (int i = 0; i < 16; ++i)
         deep += arrayOf("a" + std::to_string(i), i ? "a" + std::to_string(i - 1) : "float", 1);
-    EXPECT_EQ(fault(deep), "types are within each other more than 16 deep");
+    EXPECT_EQ(fault(deep), "types are nested more than 16 deep");
     EXPECT_EQ(
         fault("%size = OpSpecConstant %uint 2\n%list = OpTypeArray %float %size"),
-        "an array whose size is no number" + kNoPlace);
+        "an array whose size is not a number" + kNoPlace);
 }
 
 // Returns functions f0 to f<last>. Each calls the previous one `calls` times.
@@ -250,15 +249,15 @@ TEST(SpirvJudge, CountsFunctionsWhereTheyAreCalled) {
     // main() adds one number, its own variable.
     EXPECT_EQ(fault(1), "");
     EXPECT_EQ(
-        fault(2), "is too large: numbers in its variables: 4097, with the body of each function "
-                  "where it is called; at most 4096 may be");
+        fault(2), "is too large: numbers in its variables: 4097, counting the body of each "
+                  "function at each call; at most 4096 are permitted");
     EXPECT_THAT(fault(18), HasSubstr("numbers in its variables: 268435457"));
     EXPECT_THAT(
         faultOf(Module{.body = "%x = OpFunctionCall %void %f18", .functions = chain(18, 2, "")}),
-        HasSubstr("numbers that it works out"));
+        HasSubstr("numbers that it computes"));
     EXPECT_THAT(
         faultOf(Module{.body = "%x = OpFunctionCall %void %f63", .functions = chain(63, 2, "")}),
-        HasSubstr("numbers that it works out"));
+        HasSubstr("numbers that it computes"));
 }
 
 TEST(SpirvJudge, BoundsDepth) {
@@ -273,14 +272,14 @@ TEST(SpirvJudge, BoundsDepth) {
         return text + ends;
     };
     EXPECT_EQ(faultOf(Module{.body = blocks(32)}), "");
-    EXPECT_THAT(faultOf(Module{.body = blocks(33)}), HasSubstr("blocks within each other: 33"));
+    EXPECT_THAT(faultOf(Module{.body = blocks(33)}), HasSubstr("nested blocks: 33"));
     // Blocks around a call and blocks in the called function add up.
     EXPECT_THAT(
         faultOf(Module{
             .body = "OpSelectionMerge %end None\nOpBranchConditional %yes %in %end\n%in = OpLabel\n"
                     "%x = OpFunctionCall %void %f0\nOpBranch %end\n%end = OpLabel",
             .functions = chain(0, 0, blocks(32))}),
-        HasSubstr("blocks within each other: 33"));
+        HasSubstr("nested blocks: 33"));
     EXPECT_THAT(
         faultOf(Module{.body = "%x = OpFunctionCall %void %f70", .functions = chain(70, 1, "")}),
         HasSubstr("more than 64 deep"));
@@ -301,7 +300,7 @@ TEST(SpirvJudge, BoundsTheModule) {
 
 TEST(SpirvJudge, RefusesWhatIsCutOff) {
     const std::vector<std::uint32_t> words = assembled({});
-    EXPECT_EQ(faultOf(std::vector<std::uint32_t>{}), "is no SPIR-V");
+    EXPECT_EQ(faultOf(std::vector<std::uint32_t>{}), "is not valid SPIR-V");
     EXPECT_EQ(
         faultOf(std::vector<std::uint32_t>(words.begin(), words.begin() + 5)),
         "has no entry point");
@@ -311,7 +310,7 @@ TEST(SpirvJudge, RefusesWhatIsCutOff) {
             EXPECT_THAT(
                 faultOf(std::vector<std::uint32_t>(
                     words.begin(), words.begin() + static_cast<std::ptrdiff_t>(cut))),
-                testing::EndsWith("is no SPIR-V"));
+                testing::EndsWith("is not valid SPIR-V"));
 }
 
 }  // namespace

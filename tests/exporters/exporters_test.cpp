@@ -58,7 +58,7 @@ TEST(Exporters, TakeEveryMemberOfAReportAsOptionalThatTheSchemaDoes) {
 TEST(Exporters, RefuseWhatIsNoReport) {
     EXPECT_EQ(
         errorText([] { exported("gbnch"); }),
-        "unknown format (did you mean \"gbench\"?); known: csv, markdown, gbench, bmf, "
+        "unknown format (did you mean 'gbench'?); known: csv, markdown, gbench, bmf, "
         "customSmallerIsBetter, perfetto");
     scene::Json report = writtenReport();
     report["schema"] = "hairbench-report/2.0.0";
@@ -67,7 +67,7 @@ TEST(Exporters, RefuseWhatIsNoReport) {
         "/schema: hairbench-report/2.0.0 is not hairbench-report/1.6.0");
     EXPECT_THAT(
         errorText([] { exportReport(scene::Json::array(), "csv"); }),
-        testing::StartsWith("no report: "));
+        testing::StartsWith("the report can't be converted: "));
     for (const char* member : {"cases", "scene", "environment"}) {
         report = writtenReport();
         report.erase(member);

@@ -59,7 +59,7 @@ TEST(Perfetto, RefusesWhatIsNoTimeOfAFrame) {
         report.cases[0].metrics[0].samples[1] = time;
         EXPECT_EQ(
             errorText([&] { exportReport(reportJson(report), "perfetto"); }),
-            "frame.time: has a sample that is no time of a frame");
+            "frame.time: has a sample that is not the time of a frame");
     }
 }
 

@@ -303,7 +303,7 @@ def check_allowed(runner, program, place):
         crafts.put(document, pointer, "../private/planted" + ending)
         path = here.write("scene.json", crafts.json.dumps(document))
         outcome = runner.run([program, "validate", path])
-        if outcome.status != 2 or b"lies outside of" not in outcome.errors or outcome.opened:
+        if outcome.status != 2 or b"is outside" not in outcome.errors or outcome.opened:
             missed.append(f"{pointer}: {outcome.errors.decode()} {outcome.opened}")
     return missed
 
@@ -404,7 +404,7 @@ class Tally:
     def add(self, outcome, number):
         self.count += 1
         self.refused += outcome.status == 2
-        self.outside += outcome.status == 2 and b"lies outside of" in outcome.errors
+        self.outside += outcome.status == 2 and b"is outside" in outcome.errors
         if outcome.seconds > self.seconds:
             self.seconds, self.slowest = outcome.seconds, number
         self.megabytes = max(self.megabytes, outcome.megabytes)

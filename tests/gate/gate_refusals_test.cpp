@@ -106,7 +106,7 @@ TEST(GateRefusals, NameWhatIsWrongWithTheOptions) {
         HasSubstr("put '--set' into the command itself"));
     EXPECT_EQ(hairbench(a + " --b x --metrics '('").status, 2);
     EXPECT_THAT(
-        builds.gate("--metrics nothing").output, HasSubstr("'nothing' is in no metric's name"));
+        builds.gate("--metrics nothing").output, HasSubstr("'nothing' matches no metric's name"));
     EXPECT_THAT(hairbench(a + " --b nonsense").output, HasSubstr("not found"));
 }
 

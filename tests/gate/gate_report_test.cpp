@@ -140,7 +140,7 @@ TEST(GateReport, TurnsRatesRoundInEveryDifference) {
     const auto calibration = time["calibration"].get<std::vector<double>>();
     const auto differences = time["differences"].get<std::vector<double>>();
     ASSERT_EQ(calibration.size(), 12u);
-    ASSERT_GE(differences.size(), 12u);
+    ASSERT_GE(differences.size(), 8u);
     // Pairs come in both orders: A B, B A ...
     for (std::size_t i = 0; i < calibration.size(); ++i)
         EXPECT_NEAR(calibration[i], i % 2 == 0 ? 0.01 : -0.01, 1e-12);

@@ -252,10 +252,10 @@ TEST(CompareStrands, IsTheSameWithAnyNumberOfThreads) {
 TEST(CompareStrands, RefusesWhatCannotBeCompared) {
     const StrandSet good = strandsOf({upright(0, 0.1f)});
     EXPECT_THAT(
-        errorText([&] { compared({}, good); }), HasSubstr("the first groom: it has no strand"));
+        errorText([&] { compared({}, good); }), HasSubstr("the first groom: has no strand"));
     EXPECT_THAT(
         errorText([&] { compared(good, strandsOf({{{1, 1, 1}, {1, 1, 1}}})); }),
-        HasSubstr("the second groom: it has no strand"));
+        HasSubstr("the second groom: has no strand"));
     for (const float odd :
          {std::numeric_limits<float>::quiet_NaN(), std::numeric_limits<float>::infinity()}) {
         EXPECT_THAT(

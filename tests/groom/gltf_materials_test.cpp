@@ -126,7 +126,7 @@ TEST_F(GltfMaterials, FindPicturesBesideTheFile) {
 TEST_F(GltfMaterials, FindPicturesInBuffers) {
     EXPECT_EQ(
         error({.material = kPainted, .images = R"([{"name":"skin","bufferView":0}])"}),
-        "a.gltf: material 0: baseColorTexture: image 0 'skin': not a PNG, JPEG, TGA or BMP");
+        "a.gltf: material 0: baseColorTexture: image 0 'skin': is not a PNG, JPEG, TGA or BMP");
     EXPECT_EQ(
         error({.material = kPainted, .images = R"([{"bufferView":1}])"}),
         "a.gltf: material 0: baseColorTexture: image 0: the file names buffer view 1, it has 1");

@@ -283,7 +283,7 @@ TEST(ImportMesh, SaysWhatIsMissing) {
 TEST(ImportMesh, ListsTheFormatsItKnows) {
     const TemporaryFolder folder;
     const std::string error = errorText([&] { importMesh(folder.write("head.xyz", "")); });
-    EXPECT_THAT(error, HasSubstr("unknown mesh format '.xyz'; known are .glb, .gltf, .obj"));
+    EXPECT_THAT(error, HasSubstr("unknown mesh format '.xyz'; known: .glb, .gltf, .obj"));
     for (const MeshImporter& importer : meshImporters()) {
         for (const std::string_view extension : importer.extensions) {
             EXPECT_THAT(error, HasSubstr(std::string(extension)));
@@ -378,7 +378,7 @@ TEST(ImportAssimp, GivesNodesOfNodesNoMoreMemoryThanAFileOfTheirSize) {
                      "<scene><instance_visual_scene url=\"#s\"/></scene></COLLADA>");
     EXPECT_EQ(
         errorText([&] { importMesh(path); }),
-        path.string() + ": needs more memory than a file of its size is given");
+        path.string() + ": needs more memory than a file of its size may use");
 }
 #endif
 
@@ -408,8 +408,8 @@ TEST(ImportAssimp, OpensFilesOfItsFoldersAlone) {
     // Without a check, the mesh's own folder is the limit.
     for (const NamedFileCheck& limited : {check, NamedFileCheck()})
         for (const char* name : {"../private.mtl", "link.mtl"})
-            EXPECT_THAT(errorOf(name, limited), HasSubstr("lies outside of")) << name;
-    EXPECT_THAT(errorOf("pipe.mtl", {}), HasSubstr("pipe.mtl: not a file"));
+            EXPECT_THAT(errorOf(name, limited), HasSubstr("is outside")) << name;
+    EXPECT_THAT(errorOf("pipe.mtl", {}), HasSubstr("pipe.mtl: is not a file"));
 }
 
 // If a face names the vertex after the last, assimp makes a triangle with the memory behind the
@@ -436,7 +436,7 @@ TEST(ImportAssimp, RefusesCornersOfAPlyThatAreNoVertices) {
         "end_header\n0 0 0\n0 0 1\n1 0 0\n3 0 1 nan\n");
     EXPECT_EQ(
         errorText([&] { importMesh(path_of_floats); }),
-        path_of_floats.string() + ": line 13: a face's corners are no integers");
+        path_of_floats.string() + ": line 13: a face's corners are not integers");
     const auto bytes = [&](char corner) {
         std::string file =
             "ply\nformat binary_little_endian 1.0\nelement vertex 4\nproperty float x\n"

@@ -60,7 +60,8 @@ TEST(Manual, IsShownByMan) {
     if (!hasTool("man")) GTEST_SKIP() << "no man";
     const Outcome shown = runInShell(
         "'" HAIRBENCH_PROGRAM "' man groom info | MANWIDTH=100 man -P cat -l - 2>&1 | col -b");
-    EXPECT_THAT(shown.output, HasSubstr("hairbench-groom-info - says what is in a file of hair"));
+    EXPECT_THAT(
+        shown.output, HasSubstr("hairbench-groom-info - shows what a file of hair contains"));
     EXPECT_THAT(shown.output, HasSubstr("--points-per-strand UINT"));
     EXPECT_THAT(shown.output, HasSubstr("hairbench groom info mine.hair --mesh head.glb"));
     EXPECT_THAT(shown.output, HasSubstr("hairbench-groom(1)"));
@@ -69,7 +70,7 @@ TEST(Manual, IsShownByMan) {
 TEST(Manual, SaysWhichCommandThereIsNot) {
     const Outcome outcome = hairbench("man groom inform");
     EXPECT_EQ(outcome.status, 2);
-    EXPECT_EQ(outcome.output, "hairbench: hairbench groom has no command inform\n");
+    EXPECT_EQ(outcome.output, "hairbench: hairbench groom has no command 'inform'\n");
 }
 
 }  // namespace

@@ -161,14 +161,14 @@ TEST(ClockHold, SaysWhatToDoWhereItCannot) {
     const auto source = [&] { return std::make_unique<MadeUpSource>(clocks); };
     EXPECT_EQ(
         refusal(hair::Clocks::locked, source(), "discrete"),
-        "/run/clocks locked: the driver lets this user lock no clocks; as administrator: lock "
+        "/run/clocks locked: the driver does not let this user lock clocks; as administrator: lock "
         "1410, and then without /run/clocks");
     EXPECT_EQ(
         refusal(hair::Clocks::free, source(), "discrete"),
-        "/run/clocks free: an administrator holds the clocks of Card 7");
+        "/run/clocks free: an administrator has locked the clocks of Card 7");
     EXPECT_EQ(
         refusal(hair::Clocks::free, nullptr, "discrete"),
-        "/run/clocks free: nothing tells the clocks of Card 7");
+        "/run/clocks free: the clocks of Card 7 are not known");
     EXPECT_THAT(refusal(hair::Clocks::locked, source(), "cpu"), testing::HasSubstr("cpupower"));
     EXPECT_EQ(refusal(hair::Clocks::as_found, source(), "cpu"), "");
 }

@@ -116,7 +116,7 @@ TEST_F(BusyPassesTest, KnowWhichPassesThereAre) {
     EXPECT_EQ(unknown.work().done().steps, 0u);
     EXPECT_EQ(
         errorText([&] { unknown.checkThatItRan(); }),
-        "/run/busy_pass: there is no pass 'strand'; there are wind, strands");
+        "/run/busy_pass: unknown pass 'strand'; known: wind, strands");
 }
 
 }  // namespace

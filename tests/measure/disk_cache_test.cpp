@@ -152,7 +152,7 @@ TEST_F(DiskCacheTest, TakesNothingOfAnotherKey) {
     fs::rename(kept.fileOf("one"), kept.fileOf("other"));
     EXPECT_EQ(kept.load("other"), std::nullopt);
     ASSERT_THAT(faults_, SizeIs(1));
-    EXPECT_THAT(faults_.front(), HasSubstr("of something else; it is ignored"));
+    EXPECT_THAT(faults_.front(), HasSubstr("belongs to other data; it is ignored"));
 }
 
 TEST_F(DiskCacheTest, WhatWasUsedLongestAgoGoesFirst) {

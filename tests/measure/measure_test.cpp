@@ -252,7 +252,7 @@ TEST_F(MeasureTest, SlowsDownNoPassThatIsNotThere) {
     settings.run.busy_pass = "shadow";
     EXPECT_EQ(
         errorText([&] { measured(settings); }),
-        "/run/busy_pass: there is no pass 'shadow'; there are wind, simulate, scene, strands");
+        "/run/busy_pass: unknown pass 'shadow'; known: wind, simulate, scene, strands");
 }
 
 // On a software device, the processor's cost of a frame is the frame's cost.

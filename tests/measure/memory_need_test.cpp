@@ -203,7 +203,8 @@ TEST(MemorySize, IsReadInEitherPowers) {
     EXPECT_EQ(parseMemorySize("64KiB"), 65536u);
     for (const char* wrong : {"", "G", "-1G", "0", "nan", "inf", "2X", "2GX", "1e99", "9999999T"})
         EXPECT_THAT(
-            errorText([&] { parseMemorySize(wrong); }), HasSubstr("is no size, as 500M and 2G are"))
+            errorText([&] { parseMemorySize(wrong); }),
+            HasSubstr("is not a size, as in 500M or 2G"))
             << wrong;
 }
 

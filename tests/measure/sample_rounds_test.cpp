@@ -1,6 +1,7 @@
 #include "benchmarks/measure/sampling.h"
 
 #include <array>
+#include <cmath>
 #include <functional>
 #include <optional>
 #include <string>
@@ -9,6 +10,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "benchmarks/report/statistics.h"
 #include "tests/decide/noise.h"
 
 namespace benchmarks::measure {
@@ -130,6 +132,41 @@ TEST(SamplingRule, NamesTheTimeOfTheMode) {
     EXPECT_EQ(rule(engine::Timing::wall_clock).mode, "wall_clock");
     EXPECT_EQ(rule(engine::Timing::isolated).precision, 0.25);
     EXPECT_EQ(rule(engine::Timing::isolated).max_time, 7.0);
+}
+
+// The share of series with an interval that does not cover the median, 10 ms, after the stopping
+// rule. Frames have 1 % of noise; `correlation` is that of neighbours.
+double misleading(double correlation, int frames, double max_time) {
+    constexpr int kSeries = 300;
+    Noise noise(7);
+    const double fresh = std::sqrt(1.0 - correlation * correlation);
+    int missed = 0;
+    for (int series = 0; series < kSeries; ++series) {
+        double value = noise.normal();
+        Machine machine{
+            .time =
+                [&](int, int) {
+                    value = correlation * value + fresh * noise.normal();
+                    return 10.0 * (1.0 + 0.01 * value);
+                },
+            .frames = frames};
+        const std::vector<double> times =
+            walls(machine.sample({.precision = 0.01, .max_time = max_time}));
+        const report::MedianInterval interval =
+            report::medianInterval(times, 0.05, report::effectiveSamples(times));
+        missed += interval.lower > 10.0 || interval.upper < 10.0;
+    }
+    return static_cast<double>(missed) / kSeries;
+}
+
+// Intervals of 95 % that are worth the name miss at most 7 %, whatever the dependence and the time.
+// Without caution, 18 % of them miss at a correlation of 0.9 and half at 0.98.
+TEST(SampleRounds, GiveIntervalsThatCoverTheMedian) {
+    for (const double correlation : {0.0, 0.8, 0.9, 0.98})
+        for (const int frames : {5, 60})
+            for (const double max_time : {0.3, 60.0})
+                EXPECT_LE(misleading(correlation, frames, max_time), 0.07)
+                    << correlation << ", rounds of " << frames << ", " << max_time << " s";
 }
 
 // Noise of 1 %: the median is known to 1 % long before 60 s, and all samples are kept.

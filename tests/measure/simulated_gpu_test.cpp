@@ -124,7 +124,7 @@ TEST(SimulatedGpu, ACaseThatIsThrottledThroughoutFailsAndKeepsItsSamples) {
     gpu.pause(10.0);
     const report::CaseResult result = measuredOn(gpu);
     EXPECT_EQ(result.status, report::Status::failed);
-    EXPECT_THAT(result.reason, HasSubstr("overlapped: heat or power held the device back in all"));
+    EXPECT_THAT(result.reason, HasSubstr("overlapped: heat or power throttled the device in all"));
     EXPECT_GT(medianIn(result, "frame.device.time"), gpu.truth());
     EXPECT_THAT(result.conditions.throttle_reasons, Contains("hardware thermal slowdown"));
 }

@@ -17,6 +17,7 @@
 #include <glm/vec3.hpp>
 #include <glm/vec4.hpp>
 
+#include "engine/float_pictures.h"
 #include "hair/rendering/fiber.h"
 #include "hair/shading_settings.h"
 
@@ -180,8 +181,20 @@ hair::rendering::Fiber readFiber(const Element& bsdf) {
     shading.cuticle_tilt = static_cast<float>(-bsdf.number("scale_tilt"));
     shading.refractive_index = static_cast<float>(bsdf.number("int_ior"));
     hair::rendering::Fiber fiber = hair::rendering::makeFiber(shading);
-    fiber.absorption = bsdf.number("scale") * vectorOf(bsdf.value("sigma_a"));
+    if (bsdf.find("sigma_a")->tag == "rgb")
+        fiber.absorption = bsdf.number("scale") * vectorOf(bsdf.value("sigma_a"));
     return fiber;
+}
+
+// The picture of writeMitsubaAbsorption(), if there is one.
+std::vector<glm::dvec3> readAbsorptions(const Element& bsdf, const std::filesystem::path& folder) {
+    std::vector<glm::dvec3> absorptions;
+    const Element& sigma = *bsdf.find("sigma_a");
+    if (sigma.tag != "texture") return absorptions;
+    const std::vector<float> rgb = engine::readFloatImage(folder / sigma.value("filename")).rgb;
+    for (std::size_t i = 0; i < rgb.size(); i += 3)
+        absorptions.emplace_back(rgb[i], rgb[i + 1], rgb[i + 2]);
+    return absorptions;
 }
 
 MattMesh readMesh(const Element& shape, const std::filesystem::path& folder) {
@@ -203,6 +216,7 @@ void readShape(const Element& shape, const std::filesystem::path& folder, Traced
     if (shape.is("shape", "bsplinecurve")) {
         scene.curves = readCurves(folder / shape.value("filename"));
         scene.fiber = readFiber(shape.child("bsdf"));
+        scene.absorptions = readAbsorptions(shape.child("bsdf"), folder);
     } else if (shape.is("shape", "sphere")) {
         scene.spheres.push_back(
             {vectorOf(shape.value("center")), shape.number("radius"),

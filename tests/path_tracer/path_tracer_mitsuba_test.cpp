@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <functional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <glm/geometric.hpp>
@@ -19,6 +20,7 @@
 #include "hair/groom/groom.h"
 #include "hair/random.h"
 #include "hair/reference/path_tracer.h"
+#include "hair/rendering/render_assets.h"
 #include "hair/settings.h"
 #include "tests/cli/reference_python.h"
 #include "tests/path_tracer/mitsuba_folder.h"
@@ -38,6 +40,7 @@ struct Drawn {
     Settings settings;
     groom::StrandSet strands;
     std::vector<groom::Mesh> meshes;
+    std::vector<float> powers;  // of the points' colours; empty: one colour
 };
 
 void addStrand(Drawn& drawn, const std::vector<glm::vec3>& points, float root, float tip) {
@@ -88,6 +91,19 @@ Drawn bundle(const glm::vec3& light) {
     return drawn;
 }
 
+// Returns the same from the front, where each fibre has its own colour, lighter at the top.
+Drawn coloredBundle() {
+    Drawn drawn = bundle({3, 2, 9});
+    const groom::StrandSet straight = std::exchange(drawn.strands, {});
+    for (std::uint32_t i = 0; i < straight.strandCount(); ++i) {
+        const glm::vec3 root = straight.points[straight.first(i)];
+        const float power = 0.3f + 1.4f * numberOf(i, 5);
+        addStrand(drawn, {root, root + glm::vec3(0, 4, 0), root + glm::vec3(0, 8, 0)}, 0.1f, 0.1f);
+        drawn.powers.insert(drawn.powers.end(), {power, 0.6f * power, 0.2f * power});
+    }
+    return drawn;
+}
+
 // Returns fair, curved, tapered hair on a matt floor, with a point light.
 Drawn tuft(const glm::vec3& light) {
     Drawn drawn = withCamera({0.8f, 0.65f, 0.45f}, 9, 26);
@@ -124,6 +140,12 @@ void writeFolder(const Drawn& drawn, const std::filesystem::path& folder) {
     engine::writeFileAtomically(folder / "hair.txt", [&](std::ostream& out) {
         benchmarks::reference::writeMitsubaCurves(out, drawn.strands);
     });
+    if (!drawn.powers.empty()) {
+        parts.absorption_file = "absorption.exr";
+        benchmarks::reference::writeMitsubaAbsorption(
+            folder / parts.absorption_file, drawn.strands, drawn.powers,
+            rendering::absorption(drawn.settings.shading));
+    }
     for (const groom::Mesh& mesh : drawn.meshes) {
         parts.meshes.push_back({.file = "mesh.ply", .color = mesh.materials[0].base_color});
         engine::writeFileAtomically(folder / "mesh.ply", [&](std::ostream& out) {
@@ -147,6 +169,7 @@ struct Published {
     std::uint32_t samples;  // of our path tracer, per pixel
     glm::dvec3 mean;
     glm::dvec3 error;
+    double known = 0;  // relative difference of the two tracers beside their errors
 };
 
 constexpr double kMitsubaSamples = 1024;
@@ -165,6 +188,12 @@ const Published kPublished[]{
      320,
      {0.482835, 0.184205, 0.041641},
      {0.002527, 0.001127, 0.000405}},
+    {"colored_bundle",
+     coloredBundle,
+     320,
+     {0.273709, 0.195557, 0.129753},
+     {0.001562, 0.001182, 0.000822},
+     0.023},
     {"tuft_front",
      [] { return tuft({4, 5, 9}); },
      320,
@@ -193,15 +222,18 @@ private:
     std::filesystem::path path_;
 };
 
-// Expects means to be equal within three standard errors of their difference.
+// Expects means to be equal within three standard errors of their difference. Ours is known to be
+// up to 2.3 % darker from the front (scenes/references/README.md, Two path tracers), which shows in
+// fair fibres.
 void expectNear(
-    const TracedPicture& ours, const glm::dvec3& mean, const glm::dvec3& error, double most) {
+    const TracedPicture& ours, const glm::dvec3& mean, const glm::dvec3& error, double most,
+    double known = 0) {
     const glm::dvec3 our_mean = ours.mean();
     const glm::dvec3 our_error = ours.standardError();
     for (int c = 0; c < 3; ++c) {
         const double both = std::hypot(our_error[c], error[c]);
         EXPECT_LT(both / mean[c], most) << "too few samples to tell, channel " << c;
-        EXPECT_NEAR(our_mean[c] / mean[c], 1, 3 * both / mean[c])
+        EXPECT_NEAR(our_mean[c] / mean[c], 1, 3 * both / mean[c] + known)
             << "channel " << c << ": " << our_mean[c] << " +- " << our_error[c] << ", Mitsuba "
             << mean[c] << " +- " << error[c];
     }
@@ -215,7 +247,8 @@ TEST_P(PathTracerAgainstMitsuba, HasItsMeanLight) {
     const TracedFolder read = readMitsubaFolder(folder.path());
     const PathTracer tracer(read.scene);
     expectNear(
-        tracer.trace(read.camera, published.samples, 1), published.mean, published.error, 0.02);
+        tracer.trace(read.camera, published.samples, 1), published.mean, published.error, 0.02,
+        published.known);
 }
 
 INSTANTIATE_TEST_SUITE_P(

@@ -21,7 +21,7 @@ SMOKE = str(REPOSITORY / "scenes" / "smoke.json")
 # One case of 64 x 36 px. The time is up after both builds have warmed up, which already shows any
 # difference of pictures and counts.
 TINY = ("--axis /render/msaa=1 --set /render/width=64 --set /render/height=36 --max-time 0"
-        " --max-minutes 0.001")
+        " --max-minutes 0.001 --fail-on regressed")
 
 CMAKE = """#!/bin/sh
 echo "cmake $*" >>"$STAND_IN_LOG"

@@ -32,7 +32,7 @@ class Arguments(unittest.TestCase):
             ["--axis", "/strands/density=16,32", "--axis", "/groom/guides=pow2:6:12",
              "--axis", "/strands/backend=lines,mesh",
              "--set", "/simulation/wind/enabled=false", "--set", "/simulation/solver=rod"])
-        with self.assertRaisesRegex(TypeError, "axes: /strands/density: 16 is no list"):
+        with self.assertRaisesRegex(TypeError, "axes: /strands/density: 16 is not a list"):
             scene_arguments({"/strands/density": 16}, None)
 
 
@@ -57,7 +57,7 @@ class Program(InFolder):
         self.stand_in("exit 0\n")
         self.assertEqual(hairbench.program(), (self.folder / "stand_in").resolve())
         with mock.patch.dict(os.environ, {"HAIRBENCH_PROGRAM": str(self.folder / "absent")}):
-            with self.assertRaisesRegex(FileNotFoundError, "absent is no program"):
+            with self.assertRaisesRegex(FileNotFoundError, "absent is not a program"):
                 hairbench.program()
 
     def test_is_sought_on_the_path(self):

@@ -91,7 +91,7 @@ class MadeReport(unittest.TestCase):
 
     def test_refuses_what_is_no_report(self):
         for document, reason in (
-                ("{", "made.json: no JSON: "),
+                ("{", "made.json: is not JSON: "),
                 ({"schema": "hairbench-gate/1.1.0"}, "/schema: 'hairbench-gate/1.1.0' is not "),
                 ({"schema": "hairbench-report/2.0.0"}, "/schema: 'hairbench-report/2.0.0' is not "),
                 ([], "/schema: '' is not ")):

@@ -336,7 +336,7 @@ TEST_F(ExtendedPipelines, TheChildSaysWhatIsWrong) {
         "the description of a pipeline is cut off");
     EXPECT_EQ(
         errorText([&] { engine::runTool({program, device().info().name}); }),
-        "two arguments: a device and a file");
+        "expected two arguments: a device and a file");
 }
 
 // ---- Forces on guides ---------------------------------------------------------------------------

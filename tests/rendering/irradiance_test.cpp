@@ -6,6 +6,7 @@
 #include <cmath>
 #include <functional>
 #include <numbers>
+#include <utility>
 #include <vector>
 
 #include <glm/geometric.hpp>
@@ -113,24 +114,136 @@ TEST(EnvironmentLights, HaveAllLightOfThePicture) {
     }
 }
 
-// Twelve directions are the corners of an icosahedron, with equal parts of an even light, except
-// for the texels at the parts' edges: 250 of a part's 2,700. Half of these are on either side, up
-// to the square root of their number.
+// Twelve parts of an even light are those of an icosahedron's corners, except for the cells at
+// their edges, 70 of a part's 680.
 TEST(EnvironmentLights, OfEvenLightAreEqualAndWiderThanTheirPart) {
     const auto lights =
         environmentLights(environmentOf([](auto) { return 0.7; }), {.tone_map = ToneMap::srgb}, 12);
     double squares[3]{};
     for (const LightSettings& light : lights) {
-        EXPECT_NEAR(irradianceOf(light), 0.7 * 4 * std::numbers::pi / 12, 0.7 * 0.02);
+        EXPECT_NEAR(irradianceOf(light), 0.7 * 4 * std::numbers::pi / 12, 0.7 * 0.1);
         EXPECT_EQ(light.type, LightType::directional);
-        // A cap of a twelfth of the sphere has 1 - cos r = 1/6; of twice its area, nearly.
+        // A cap of a twelfth of the sphere has 1 - cos r = 1/6; of twice its area, nearly. A
+        // pentagon is 2 % wider, and the cells at its edge make it rougher.
         const double radius = std::numbers::sqrt2 * std::acos(5.0 / 6);
-        EXPECT_NEAR(light.angular_radius, radius * 180 / std::numbers::pi, 1e-4);
+        EXPECT_NEAR(light.angular_radius, radius * 180 / std::numbers::pi, 2.5);
         for (int axis = 0; axis < 3; ++axis)
             squares[axis] += light.direction[axis] * light.direction[axis];
     }
     // A spherical design: means of squares are 1/3.
-    for (const double sum : squares) EXPECT_NEAR(sum, 4, 1e-5);
+    for (const double sum : squares) EXPECT_NEAR(sum, 4, 0.2);
+}
+
+// A dark room with two soft boxes, 28 by 28 and 14 by 44 degrees.
+double softBoxes(const glm::dvec3& d) {
+    struct Box {
+        glm::dvec3 middle;
+        double width;
+        double height;
+    };
+    for (const Box& box : {Box{{0.8, 0.3, 0.5}, 0.25, 0.25}, Box{{-0.9, 0.2, 0.2}, 0.12, 0.4}}) {
+        const glm::dvec3 middle = glm::normalize(box.middle);
+        const glm::dvec3 x = glm::normalize(glm::cross(glm::dvec3(0, 1, 0), middle));
+        const double depth = glm::dot(d, middle);
+        if (depth > 0 && std::abs(glm::dot(d, x)) < box.width * depth &&
+            std::abs(glm::dot(d, glm::cross(middle, x))) < box.height * depth)
+            return 10;
+    }
+    return 0.02;
+}
+
+// Irradiance of a surface from a disc of uniform radiance, for an irradiance of 1 where it comes
+// straight from all of it: a sum over its points.
+double discIrradiance(const LightSettings& light, const glm::dvec3& normal) {
+    constexpr int kSide = 48;
+    const glm::dvec3 middle = -glm::normalize(glm::dvec3(light.direction));
+    const glm::dvec3 other = std::abs(middle.x) < 0.5 ? glm::dvec3(1, 0, 0) : glm::dvec3(0, 1, 0);
+    const glm::dvec3 x = glm::normalize(glm::cross(middle, other));
+    const double depth = 1 - std::cos(double{light.angular_radius} * std::numbers::pi / 180);
+    double sum = 0;
+    for (int i = 0; i < kSide * kSide; ++i) {
+        const double cosine = 1 - depth * (i / kSide + 0.5) / kSide;
+        const double angle = 2 * std::numbers::pi * (i % kSide + 0.5) / kSide;
+        const glm::dvec3 across = std::cos(angle) * x + std::sin(angle) * glm::cross(middle, x);
+        const glm::dvec3 d = cosine * middle + std::sqrt(1 - cosine * cosine) * across;
+        sum += std::max(glm::dot(d, normal), 0.0);
+    }
+    return sum / (kSide * kSide);
+}
+
+// Each light has its part's sum of light and mean direction, so the means of l = 0 and l = 1 of the
+// irradiance over all normals are exact. A cosine lobe has 1/4 of the light in l = 0 and 5/16 P2 in
+// l = 2. There a part and its disc differ from their middle by 3 (1 - R) at most, R being the mean
+// cosine; so over the mean irradiance the error is at most 4 * 5/16 * 6 (1 - R) = 7.5 (1 - R), if
+// all parts add up. R is 0.987 in the mean here, so 10 %. Signs differ, and 3 % are held.
+TEST(EnvironmentLights, GiveSurfacesTheEnvironmentsIrradiance) {
+    const engine::FloatPixels picture = environmentOf(softBoxes);
+    const auto lights = environmentLights(picture, {.tone_map = ToneMap::srgb}, 12);
+    double total = 0;
+    glm::dvec3 moment(0);
+    for (const LightSettings& light : lights) {
+        const glm::dvec3 middle = -glm::dvec3(light.direction);
+        total += irradianceOf(light);
+        moment += irradianceOf(light) * discIrradiance(light, middle) * middle;
+    }
+    double all = 0;
+    glm::dvec3 all_moments(0);
+    std::vector<std::pair<glm::dvec3, double>> texels;
+    for (std::uint32_t row = 0; row < picture.height; ++row) {
+        const double top = std::numbers::pi * row / picture.height;
+        const double bottom = std::numbers::pi * (row + 1) / picture.height;
+        const double angle =
+            2 * std::numbers::pi / picture.width * (std::cos(top) - std::cos(bottom));
+        for (std::uint32_t column = 0; column < picture.width; ++column) {
+            const glm::dvec3 d =
+                directionOf((column + 0.5) / picture.width, (row + 0.5) / picture.height);
+            const double light = angle * double{picture.rgb[3 * (row * picture.width + column)]};
+            texels.emplace_back(d, light);
+            all += light;
+            all_moments += light * d;
+        }
+    }
+    EXPECT_NEAR(total, all, 1e-4 * all);  // colours of single precision
+    // The disc's mean cosine, by a sum over 48 x 48 of its points.
+    EXPECT_LT(glm::length(moment - all_moments), 1e-3 * all);
+    for (const glm::dvec3& normal : someDirections()) {
+        double irradiance = 0;
+        for (const LightSettings& light : lights)
+            irradiance += irradianceOf(light) * discIrradiance(light, normal);
+        double expected = 0;
+        for (const auto& [d, light] : texels)
+            expected += light * std::max(glm::dot(d, normal), 0.0);
+        EXPECT_NEAR(irradiance, expected, 0.03 * all / 4);
+    }
+}
+
+// Two soft boxes look like two soft boxes: what they send comes from within them. 0.23 and 0.17 sr
+// times 10 are 0.94 of all light, and discs of all other light are wide.
+TEST(EnvironmentLights, KeepSoftBoxesApart) {
+    const auto lights =
+        environmentLights(environmentOf(softBoxes), {.tone_map = ToneMap::srgb}, 12);
+    double all = 0;
+    double within = 0;
+    for (const LightSettings& light : lights) {
+        all += irradianceOf(light);
+        if (softBoxes(-glm::dvec3(light.direction)) < 1) continue;
+        within += irradianceOf(light);
+        EXPECT_LT(light.angular_radius, 15);
+    }
+    EXPECT_GT(within, 0.9 * all);
+}
+
+// A sun in a black sky needs one light, and two need two, however many may be there.
+TEST(EnvironmentLights, AreFewWhereFewCarryTheLight) {
+    const auto suns = [](int count) {
+        return environmentOf([=](const glm::dvec3& d) {
+            const double second = count > 1 ? d.x : -1;
+            return std::max(d.y, second) > std::cos(2 * std::numbers::pi / 180) ? 100.0 : 0.0;
+        });
+    };
+    EXPECT_EQ(environmentLights(suns(1), {.tone_map = ToneMap::srgb}, 12).size(), 1u);
+    EXPECT_EQ(environmentLights(suns(2), {.tone_map = ToneMap::srgb}, 12).size(), 2u);
+    EXPECT_EQ(environmentLights(environmentOf([](auto) { return 0.0; }), {}, 12).size(), 0u);
 }
 
 TEST(EnvironmentLights, ComeFromWhereThePictureIsBright) {

@@ -86,7 +86,7 @@ TEST(MeshBackend, RefusesDevicesThatHaveLessThanAllShould) {
     limits.maxMeshOutputVertices = 128;
     EXPECT_EQ(
         errorText([&] { meshSizes(deviceWith(limits)); }),
-        "/strands/backend: mesh: mesh workgroups of the device have 128 vertices, not 256");
+        "/strands/backend: mesh: mesh work groups of the device have 128 vertices; 256 are needed");
     limits = leastLimits();
     limits.maxMeshSharedMemorySize = 1000;
     EXPECT_NE(

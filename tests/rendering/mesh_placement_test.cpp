@@ -71,7 +71,7 @@ TEST(MeshAssets, NeedFiles) {
     const std::string scene = HAIRBENCH_SCENES_DIR "/rest.json";
     EXPECT_EQ(
         errorText([&] { benchmarks::scene::checkAssets(settings, scene); }),
-        scene + ": /render/meshes/1/file: is empty");
+        scene + ": /render/meshes/1/file: is empty; expected the name of a mesh file");
     settings.render.meshes[1].file = "nowhere.glb";
     EXPECT_EQ(
         errorText([&] { benchmarks::scene::checkAssets(settings, scene); }),

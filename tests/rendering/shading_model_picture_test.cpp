@@ -1,10 +1,14 @@
 // Models in pictures of one strand as wide as the picture, upright before the eye.
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
+#include <vector>
 
+#include <glm/exponential.hpp>
 #include <gtest/gtest.h>
 
+#include "hair/rendering/render_assets.h"
 #include "tests/gpu_fixture.h"
 #include "tests/rendering/linear_picture.h"
 
@@ -109,6 +113,44 @@ TEST_F(ShadingModelPictures, FibresMirrorTheLightOnItsSide) {
             EXPECT_NEAR(
                 brightestPlace(settings), std::sin(azimuth * std::numbers::pi / 360.0), 0.06)
                 << azimuth;
+        }
+    }
+}
+
+// Black fibres show only their surface's reflection. It is light that has not been in the fibre, so
+// the strand's own colour does not change it. Less than exp(-40) of other light comes through.
+TEST_F(ShadingModelPictures, OwnColorsLeaveTheSurfacesReflection) {
+    for (const ShadingModel model : {ShadingModel::marschner, ShadingModel::dual_scattering}) {
+        Settings settings = wideStrand(model, 60.0);
+        settings.shading.color_from = ColorSource::melanin;
+        settings.shading.eumelanin = 100.0f;
+        const std::vector<double> one_color = across(settings);
+        settings.shading.strand_variation = 0.2f;
+        settings.shading.tip_lightening = 0.2f;
+        const std::vector<double> own = across(settings);
+        for (std::size_t x = 0; x < own.size(); ++x)
+            EXPECT_NEAR(own[x], one_color[x], 1e-3 * one_color[x]) << x;  // a step of half floats
+    }
+}
+
+// In its middle, a strand with tips lighter by 1/2 has the power 3/4. It looks as hair of the
+// colour c^(3/4) does: by equation (9) of Chiang et al. 2016, hair of 9/16 of the absorption. The
+// picture shows 1/300 of the strand's length, in which the power changes by 1/600 and the light
+// that comes through, with an absorption of 2.7 at the most here, by 1 %.
+TEST_F(ShadingModelPictures, OwnColorsAreThoseOfHairWithTheirAbsorption) {
+    const glm::vec3 color(0.5f, 0.16f, 0.07f);
+    for (const ShadingModel model : {ShadingModel::marschner, ShadingModel::dual_scattering}) {
+        for (const double azimuth : {20.0, 150.0}) {
+            Settings settings = wideStrand(model, azimuth);
+            settings.shading.color = color;
+            settings.shading.tip_lightening = 0.5f;
+            const std::vector<double> own = across(settings);
+            settings.shading.tip_lightening = 0.0f;
+            settings.shading.color = toDisplay(glm::pow(toLinear(color), glm::dvec3(0.75)));
+            const std::vector<double> expected = across(settings);
+            for (std::size_t x = 0; x < own.size(); ++x)
+                EXPECT_NEAR(own[x], expected[x], 0.01 * expected[x] + 1e-4)
+                    << static_cast<int>(model) << ' ' << azimuth << ' ' << x;
         }
     }
 }

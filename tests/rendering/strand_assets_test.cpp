@@ -39,9 +39,8 @@ TEST(StrandAssets, RefuseMoreTurnsThanOffsetsHold) {
     hair::Settings settings = grown();
     settings.strands.curl = {.radius = 0.001f, .frequency = 9000.0f, .frequency_variation = 0.0f};
     EXPECT_EQ(
-        errorOf(settings),
-        "s.json: /strands/curl/frequency: makes 1350 turns on a strand, more than the 1024 that "
-        "offsets can have");
+        errorOf(settings), "s.json: /strands/curl/frequency: makes 1350 turns on a strand; offsets "
+                           "can have at most 1024");
 }
 
 TEST(StrandAssets, NameAMissingFileOfOffsets) {

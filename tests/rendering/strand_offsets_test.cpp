@@ -166,12 +166,11 @@ TEST(StrandOffsets, RefuseMoreThanATableHolds) {
                 {.curl = {.radius = 0.001f, .frequency = 1000.0f, .frequency_variation = 0.0f}},
                 2.0);
         }),
-        "/strands/curl/frequency: makes 2000 turns on a strand, more than the 1024 that offsets "
-        "can have");
+        "/strands/curl/frequency: makes 2000 turns on a strand; offsets can have at most 1024");
     EXPECT_EQ(
         errorText([] { make({.variation = {.amplitude = 0.001f, .frequency = 10000.0f}}, 0.5); }),
-        "/strands/variation/frequency: makes 5000 changes of direction on a strand, more than the "
-        "2048 that offsets can have");
+        "/strands/variation/frequency: makes 5000 changes of direction on a strand; offsets can "
+        "have at most 2048");
 }
 
 }  // namespace

@@ -56,6 +56,23 @@ TEST(Estimate, BoundsTimesThatAreSumsOfTheParts) {
     EXPECT_EQ(mostTimesLonger(tried, {}), 5000.0);  // a missing part counts as one
 }
 
+// A smaller case is of the same kind, so that it tells something of the larger one.
+TEST(Estimate, KeepsBackEndsShadingModelsAndSolversApart) {
+    hair::Settings settings;
+    settings.groom.guides = 100'000;
+    const CaseKind kind = kindOf(settings);
+    EXPECT_EQ(kindOf(smaller(settings)), kind);
+    hair::Settings other = settings;
+    other.strands.backend = hair::Backend::software;
+    EXPECT_NE(kindOf(other), kind);
+    other = settings;
+    other.shading.model = hair::ShadingModel::dual_scattering;
+    EXPECT_NE(kindOf(other), kind);
+    other = settings;
+    other.simulation.solver = hair::Solver::rod;
+    EXPECT_NE(kindOf(other), kind);
+}
+
 TEST(Estimate, MakesLargeCasesSmall) {
     hair::Settings large;
     large.groom.guides = 100'000;

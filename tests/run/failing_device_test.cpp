@@ -265,7 +265,7 @@ TEST_F(FailingDevice, FailsACaseWhoseTimeIsOver) {
     }
     ASSERT_EQ(failedCases(played->report), 2u);
     for (const scene::Json& one : played->report["cases"])
-        EXPECT_EQ(one["reason"], "not done after 0.5 s (/run/case_timeout)");
+        EXPECT_EQ(one["reason"], "not finished after 0.5 s (/run/case_timeout)");
     EXPECT_FALSE(played->finished.interrupted);
 }
 

@@ -197,7 +197,7 @@ INSTANTIATE_TEST_SUITE_P(
             "growing",
             {"render", scene("portraits/layers.json"), "--set", "/groom/grow/strands=400000", "-o",
              "OUT.png"},
-            "looks for places of roots|spreads roots",
+            "places roots|spreads roots",
             SIGTERM},
         LongStep{
             "baking",
@@ -212,7 +212,7 @@ INSTANTIATE_TEST_SUITE_P(
             "planning",
             {"run", scene("portraits/layers.json"), "--set", "/groom/grow/strands=400000", "-o",
              "OUT.json"},
-            "looks for places of roots|spreads roots",
+            "places roots|spreads roots",
             SIGINT},
         LongStep{
             "validating",
@@ -241,7 +241,7 @@ INSTANTIATE_TEST_SUITE_P(
         LongStep{
             "comparing",
             {"groom", "compare", "STRANDS", "STRANDS", "--spacing", "0.05"},
-            "looks for strands in the second groom, [0-9]+ of",
+            "finds strands in the second groom, [0-9]+ of",
             SIGTERM}),
     [](const auto& each) { return each.param.name; });
 

@@ -116,7 +116,7 @@ TEST_F(JournalFile, SeesEveryFlippedBit) {
 
 TEST_F(JournalFile, IsNotTakenForOne) {
     folder_.write("a/b/r.json.journal", "dear diary\n");
-    EXPECT_EQ(error(), "a/b/r.json.journal: is no journal of hairbench run");
+    EXPECT_EQ(error(), "a/b/r.json.journal: is not a journal of 'hairbench run'");
     EXPECT_EQ(textOf(path_), "dear diary\n");
 }
 
@@ -178,7 +178,7 @@ TEST_F(JournalFile, FindsEachLineAgain) {
     std::filesystem::resize_file(path_, places[3].begin);
     EXPECT_EQ(
         folder_.relative(errorText([&] { journal.at(places[3]); })),
-        "a/b/r.json.journal: was changed while the run was under way");
+        "a/b/r.json.journal: was changed during the run");
 }
 
 TEST_F(JournalFile, SaysWhyItCannotBeOpened) {

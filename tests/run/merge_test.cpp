@@ -168,7 +168,7 @@ TEST_F(Merge, RefusesACaseThatIsThereTwice) {
     report::Report again = part({1, 2}, report::Shard{2, 2});
     again.cases[0].image_hash = "1111111111111111";
     write("b.json", again);
-    EXPECT_EQ(error(), "b.json: s/1 is in a.json too");
+    EXPECT_EQ(error(), "b.json: s/1 is also in a.json");
     const scene::Json forced = merge(true);
     EXPECT_THAT(indices(forced), ElementsAre(0, 1, 2));
     EXPECT_EQ(forced["cases"][1]["image_hash"], "00000000000000ff");  // from the first report

@@ -70,10 +70,10 @@ TEST_F(Resume, RefusesAnotherSweep) {
     const std::string journal = textOf(journalFile(out_));
     const Outcome other = run(out_, {"--resume", "-a", "/strands/density=1,2,3,4,5,7"});
     EXPECT_EQ(other.status, 2);
-    EXPECT_THAT(other.output, HasSubstr("r.json.journal: can't go on: its cases are others\n"));
+    EXPECT_THAT(other.output, HasSubstr("r.json.journal: can't be resumed: its cases differ\n"));
     const Outcome frames = run(out_, {"--resume", "--frames", "3"});
     EXPECT_EQ(frames.status, 2);
-    EXPECT_THAT(frames.output, HasSubstr("can't go on: hash of the scene: "));
+    EXPECT_THAT(frames.output, HasSubstr("can't be resumed: hash of the scene: "));
     const Outcome anew = run(out_);
     EXPECT_EQ(anew.status, 2);
     EXPECT_THAT(anew.output, HasSubstr("of a run that was not finished: --resume goes on with it"));

@@ -23,9 +23,10 @@ TEST(Shard, IsTwoNumbers) {
     EXPECT_EQ(shard.count, 8u);
     for (const char* wrong :
          {"", "2", "/", "2/", "/8", "2/8/", "-1/8", "a/8", "2 /8", "2/99999999999"})
-        EXPECT_THAT(errorText([&] { parseShard(wrong); }), testing::HasSubstr("is not as 2/8"));
+        EXPECT_THAT(
+            errorText([&] { parseShard(wrong); }), testing::HasSubstr("is not I/N, as in 2/8"));
     for (const char* wrong : {"0/8", "9/8", "0/0"})
-        EXPECT_THAT(errorText([&] { parseShard(wrong); }), testing::HasSubstr("between 1 and"));
+        EXPECT_THAT(errorText([&] { parseShard(wrong); }), testing::HasSubstr("from 1 to"));
 }
 
 // Computed by another program with the Mersenne Twister of the C++ standard.

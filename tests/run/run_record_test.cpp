@@ -176,7 +176,7 @@ TEST_F(Record, LeavesOutWhatIsNoCaseOfTheRun) {
         }
         EXPECT_THAT(
             printedText(Printed::to_stderr, [&] { EXPECT_EQ(open(true).done(), 2u) << line; }),
-            HasSubstr("a line is no case of this run, or there twice: left out"))
+            HasSubstr("a line is not a case of this run, or repeats one: left out"))
             << line;
     }
 }
@@ -220,7 +220,7 @@ TEST_F(Record, SaysInWhatTheJournalIsOfAnotherRun) {
     const report::ReportHeader header = header_;
     const RunPlan plan = plan_;
     const auto expect = [&](const char* difference) {
-        EXPECT_EQ(error(true), std::string("r.json.journal: can't go on: ") + difference);
+        EXPECT_EQ(error(true), std::string("r.json.journal: can't be resumed: ") + difference);
         header_ = header;
         plan_ = plan;
         filter_.clear();
@@ -243,13 +243,13 @@ TEST_F(Record, SaysInWhatTheJournalIsOfAnotherRun) {
     header_.environment.validation = true;
     expect("validation layer: false is not true");
     header_.shard = {.index = 1, .count = 2};
-    expect("it is of another --shard");
+    expect("its --shard differs");
     header_.shard.reset();
-    expect("it is of another --shard");
+    expect("its --shard differs");
     filter_ = "s";
-    expect("it is of another --filter");
+    expect("its --filter differs");
     plan_.cases_hash = "8899aabbccddeeff";
-    expect("its cases are others");
+    expect("its cases differ");
 }
 
 TEST_F(Record, ReplacesTheJournalOfAnotherRun) {
@@ -266,13 +266,13 @@ TEST_F(Record, ReplacesTheJournalOfAnotherRun) {
 
 TEST_F(Record, IsNotMisledByOtherFiles) {
     folder_.write("r.json.journal", "{\"some\": \"json\"}\n");
-    EXPECT_THAT(error(true), HasSubstr("r.json.journal: is no journal of hairbench run"));
-    EXPECT_THAT(error(false), HasSubstr("r.json.journal: is no journal of hairbench run"));
+    EXPECT_THAT(error(true), HasSubstr("r.json.journal: is not a journal of 'hairbench run'"));
+    EXPECT_THAT(error(false), HasSubstr("r.json.journal: is not a journal of 'hairbench run'"));
 }
 
 TEST_F(Record, HasNoJournalBesideWhatIsNoFile) {
     out_ = "/dev/null";
-    EXPECT_EQ(error(true), "--resume: /dev/null is no file");
+    EXPECT_EQ(error(true), "--resume: /dev/null is not a file");
     RunRecord record = open(false);
     EXPECT_FALSE(record.hasJournal());
     run(record, 4);

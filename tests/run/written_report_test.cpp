@@ -98,7 +98,7 @@ TEST_F(WrittenReport, GoesIntoAFileThatIsOpen) {
         "' -o /dev/stdout; } 2>&1 >'" + out.string() + "'");
     EXPECT_EQ(outcome.status, 0);
     EXPECT_THAT(
-        outcome.output, testing::HasSubstr("/dev/stdout is no file: this run has no journal"));
+        outcome.output, testing::HasSubstr("/dev/stdout is not a file: this run has no journal"));
     EXPECT_THAT(textOf(out), testing::StartsWith("before\n{\n  \"schema\""));
     EXPECT_FALSE(std::filesystem::exists("/dev/stdout.journal"));
     EXPECT_FALSE(std::filesystem::exists("/dev/stdout.pictures"));

@@ -35,8 +35,9 @@ void main() {
     PictureParameters picture = PictureReference(push.picture).parameters;
     StrandProbe probe = Probes(push.probes).at[index];
     StrandFragment fragment =
-        StrandFragment(vec3(0.0), probe.tangent, probe.to_eye, probe.across, 0.5, 1e-4, 1e-4);
+        StrandFragment(vec3(0.0), probe.tangent, probe.to_eye, probe.across, 0.5, 1e-4, 1e-4,
+                       1.0);
     probe.normal = cylinderNormal(fragment);
-    probe.color = shadeStrand(picture, fragment, picture.hair_color);
+    probe.color = shadeStrand(picture, fragment, vec3(1.0));
     Probes(push.probes).at[index] = probe;
 }

@@ -54,9 +54,10 @@ TEST(BodyMesh, SaysHowManyEdgesAreOpen) {
     const groom::BodyMesh body = groom::bodyMesh(openSphere());
     EXPECT_THAT(
         groom::bodyWarning(body),
-        testing::MatchesRegex("the surface is not closed: edges with one triangle: 24, the first "
-                              "from .*[)][.] Inside is where its winding number is 1/2 or more: "
-                              "openings are capped"));
+        testing::MatchesRegex(
+            "the surface is not closed: edges with one triangle: 24, the first "
+            "from .*[)][.] A point is inside if its winding number is 1/2 or more: "
+            "openings are capped"));
     EXPECT_EQ(innerCount(std::get<OpenMesh>(body)), 0);
 }
 
@@ -80,8 +81,7 @@ TEST(BodyMesh, CountsARepeatedShellOnce) {
     const OpenMesh twice = openOf(mesh);
     EXPECT_EQ(twice.triangles, once.triangles);
     EXPECT_THAT(
-        twice.reason,
-        HasSubstr("triangles that are there before: " + std::to_string(once.triangles.size())));
+        twice.reason, HasSubstr("repeated triangles: " + std::to_string(once.triangles.size())));
 }
 
 // The spheres have radii 1 and 0.6, and their centres are 1 apart. A triangle inside the other
@@ -91,7 +91,7 @@ TEST(BodyMesh, FindsWhatIsInsideOfPartsThatCross) {
     groom::Mesh mesh = makeSphere({0, 0, 0}, 1.0, 4);
     append(mesh, makeSphere(other, 0.6, 4));
     const OpenMesh open = openOf(mesh);
-    EXPECT_THAT(open.reason, HasSubstr("triangles that go through others: "));
+    EXPECT_THAT(open.reason, HasSubstr("triangles that intersect others: "));
     EXPECT_THAT(open.reason, Not(HasSubstr("edges")));
     constexpr double kEdge = 1.2 * 1.107 / 16;
     const std::size_t first = open.triangles.size() / 2;  // of the second sphere
@@ -125,12 +125,12 @@ TEST(BodyMesh, RefusesAPlaneWithItsFigure) {
     addTriangle(plane, {0, 0, 0}, {1, 1, 0}, {0, 1, 0});
     EXPECT_THAT(
         refusal(plane),
-        testing::MatchesRegex("the surface encloses nothing: its winding number is nowhere more "
-                              "than 0[.](49.*|5), and inside is where it is 1/2 or more; close "
-                              "more of the mesh, or use capsules"));
+        testing::MatchesRegex(
+            "the surface encloses nothing: its winding number is at most 0[.](49.*|5), and a point "
+            "is inside if it is 1/2 or more; close more of the mesh, or use capsules"));
     groom::Mesh both = openSphere();
     append(both, insideOut(openSphere()));
-    EXPECT_THAT(refusal(both), HasSubstr("encloses nothing: its winding number is nowhere more"));
+    EXPECT_THAT(refusal(both), HasSubstr("encloses nothing: its winding number is at most"));
     EXPECT_THAT(refusal({}), HasSubstr("encloses nothing: it has no triangle with an area"));
 }
 
@@ -141,17 +141,16 @@ TEST(BodyMesh, RefusesTrianglesThatFaceInward) {
             refusal(turned),
             testing::MatchesRegex(
                 "the surface faces inward: " + std::to_string(mesh.triangles.size()) +
-                " triangles that hang together, the first at .*; make all normals point "
-                "outward .*"));
+                " connected triangles, the first at .*; make all normals point outward .*"));
     }
     groom::Mesh parts = makeBox({0, 0, 0}, {2, 2, 2});
     append(parts, insideOut(openSphere({4, 0, 0})));
     EXPECT_THAT(
         refusal(parts),
-        HasSubstr(std::to_string(openSphere().triangles.size()) + " triangles that hang"));
+        HasSubstr(std::to_string(openSphere().triangles.size()) + " connected triangles"));
     groom::Mesh closed = makeBox({0, 0, 0}, {2, 2, 2});
     append(closed, insideOut(makeSphere({4, 0, 0}, 1.0, 1)));  // the volume is above 0
-    EXPECT_THAT(refusal(closed), HasSubstr("faces inward: 80 triangles"));
+    EXPECT_THAT(refusal(closed), HasSubstr("faces inward: 80 connected triangles"));
 }
 
 TEST(BodyMesh, RefusesTrianglesThatFaceOppositeWays) {

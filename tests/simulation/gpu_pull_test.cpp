@@ -320,7 +320,7 @@ TEST_F(GpuPull, RefusesWhatTheGroomDoesNotHave) {
     } catch (const engine::Error& error) {
         EXPECT_EQ(
             std::string(error.what()),
-            "/simulation/pulls/1/guide: 3 is none of the groom's 3 guides");
+            "/simulation/pulls/1/guide: 3 is too large: the groom has 3 guides");
     }
 }
 

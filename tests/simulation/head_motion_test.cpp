@@ -228,10 +228,10 @@ TEST(HeadMotion, RefusesTimesThatDoNotAscend) {
     };
     EXPECT_EQ(made({0, 1, 2}), "no error");
     EXPECT_EQ(
-        made({0, 1, 1}), "/simulation/motion/keyframes/2/time: is not after the keyframe before");
+        made({0, 1, 1}), "/simulation/motion/keyframes/2/time: is not after the previous keyframe");
     EXPECT_EQ(
         made({1, 0.5f, 2}),
-        "/simulation/motion/keyframes/1/time: is not after the keyframe before");
+        "/simulation/motion/keyframes/1/time: is not after the previous keyframe");
 }
 
 }  // namespace

@@ -215,7 +215,7 @@ TEST_F(OpenFieldTest, RefusesWhatNoPointOfTheGridIsIn) {
     EXPECT_THAT(
         errorText([&] { DistanceField(device(), dish, 8, 0.1f); }),
         testing::AllOf(
-            testing::HasSubstr("no point of the grid is inside of the surface: its winding number"),
+            testing::HasSubstr("no point of the grid is inside the surface: the winding number"),
             testing::HasSubstr("raise /resolution")));
 }
 

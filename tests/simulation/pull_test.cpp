@@ -78,13 +78,13 @@ std::string refusal(const PullSettings& pull) {
 TEST(CheckPulls, NamesWhatIsNotThere) {
     EXPECT_EQ(refusal({.guide = 6, .vertex = 4}), "");
     EXPECT_EQ(
-        refusal({.guide = 7}), "/simulation/pulls/1/guide: 7 is none of the groom's 7 guides");
+        refusal({.guide = 7}), "/simulation/pulls/1/guide: 7 is too large: the groom has 7 guides");
     EXPECT_EQ(
         refusal({.vertex = 5}),
-        "/simulation/pulls/1/vertex: 5 is none of the groom's 5 vertices of a guide");
+        "/simulation/pulls/1/vertex: 5 is too large: the groom has 5 vertices per guide");
     EXPECT_EQ(
         refusal({.path = {{.time = 1.0f}, {.time = 2.0f}, {.time = 2.0f}}}),
-        "/simulation/pulls/1/path/2/time: is not after the key before");
+        "/simulation/pulls/1/path/2/time: is not after the previous key");
 }
 
 // A free vertex follows a hand that moves at constant speed.

@@ -165,14 +165,15 @@ TEST(MeshAnimation, NamesWhatThereIs) {
     EXPECT_THAT(animationNames(path), ElementsAre("play", "still"));
     EXPECT_THAT(
         errorText([&] { MeshAnimation(path, "walk"); }),
-        HasSubstr("has no animation 'walk'; its animations are 'play', 'still'"));
+        HasSubstr("has no animation 'walk'; known: 'play', 'still'"));
 }
 
 TEST(MeshAnimation, RefusesWhatCannotBeRight) {
     {
         Moved moved;
         moved.animate("translation", {1.0f, 0.5f}, moved.file.vectors({{}, {}}), "LINEAR");
-        EXPECT_THAT(moved.error(), HasSubstr("the time of keyframe 1 is not after the one before"));
+        EXPECT_THAT(
+            moved.error(), HasSubstr("the time of keyframe 1 is not after the previous one"));
     }
     {
         Moved moved;
@@ -187,7 +188,7 @@ TEST(MeshAnimation, RefusesWhatCannotBeRight) {
     {
         Moved moved;
         moved.animate("rotation", {0.0f}, moved.file.rotations({{0, 0, 0, 0}}), "LINEAR");
-        EXPECT_THAT(moved.error(), HasSubstr("is no unit quaternion"));
+        EXPECT_THAT(moved.error(), HasSubstr("is not a unit quaternion"));
     }
     {
         Moved moved;
@@ -218,8 +219,7 @@ TEST(MeshAnimation, RefusesWrongSkins) {
     EXPECT_THAT(
         skinError({0, 0, 0, 0}, {0.5f, 0.4f, 0, 0}), HasSubstr("of vertex 0 add up to 0.9"));
     EXPECT_THAT(
-        skinError({1, 0, 0, 0}, {1, 0, 0, 0}),
-        HasSubstr("names a joint that is none of the skin's 1"));
+        skinError({1, 0, 0, 0}, {1, 0, 0, 0}), HasSubstr("names a joint outside the skin's 1"));
     EXPECT_THAT(skinError({0, 0, 0, 0}, {2, -1, 0, 0}), HasSubstr("has a negative weight"));
 }
 

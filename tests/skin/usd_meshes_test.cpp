@@ -90,7 +90,7 @@ TEST_F(UsdMeshes, ItsOneClipIsNamedPoints) {
     EXPECT_THAT(animationNames(file("surface")), IsEmpty());
     EXPECT_THAT(
         errorText([&] { MeshAnimation(file("cache"), "walk"); }),
-        HasSubstr("cache.usda: has no animation 'walk'; of USD all that moves is 'points'"));
+        HasSubstr("cache.usda: has no animation 'walk'; the only one of a USD file is 'points'"));
     EXPECT_THAT(
         errorText([&] { MeshAnimation(file("surface"), "points"); }),
         HasSubstr("surface.usda: nothing in it moves"));

@@ -159,13 +159,15 @@ TEST_F(CaseArguments, KnowAxesOfGroupsAndOfListElements) {
 TEST_F(CaseArguments, AreRefusedWhereTheyWouldSaySomethingElse) {
     const scene::Scene tied = load(R"({"sweep": {"zip": [{"/groom/guides": [10, 86],
                                                    "/strands/tessellation": [8, 4]}]}})");
-    EXPECT_THAT(error(tied, tied.settings), HasSubstr("s.json: the sweep ties /groom/guides to"));
+    EXPECT_THAT(
+        error(tied, tied.settings),
+        HasSubstr("s.json: the sweep changes /groom/guides together with"));
     const scene::Scene excluding = load(R"({"sweep": {
         "/strands/density": [16, 64], "exclude": [{"/strands/density": [64]}]}})");
     EXPECT_EQ(error(excluding, excluding.settings), "s.json: /sweep/exclude: leaves no case");
     hair::Settings impossible;
     impossible.camera.target = impossible.camera.position;
-    EXPECT_THAT(error(load("{}"), impossible), HasSubstr("/camera/target: is where"));
+    EXPECT_THAT(error(load("{}"), impossible), HasSubstr("/camera/target: equals"));
 }
 
 }  // namespace

@@ -68,7 +68,7 @@ TEST(OpenScene, SaysWhatIsNone) {
     const TemporaryFolder folder;
     EXPECT_THAT(
         errorText([] { openScene(kScenes + "/full.json"); }),
-        HasSubstr("full.json: /suite: this is a suite of scenes"));
+        HasSubstr("full.json: /suite: is a suite of scenes"));
     folder.write("cut.png", "\x89PNG\r\n\x1a\n");
     EXPECT_EQ(
         folder.relative(errorText([&] { openScene(folder.file("cut.png")); })),
@@ -215,7 +215,7 @@ TEST_F(DroppedOn, AMeshIsOneMore) {
     full.render.meshes.resize(16);
     EXPECT_THAT(
         errorText([&] { withDropped(full, folder_.path(), folder_.file("a.obj")); }),
-        HasSubstr("a.obj: there are 16 meshes already"));
+        HasSubstr("a.obj: the scene has 16 meshes already"));
 }
 
 TEST_F(DroppedOn, AnEnvironmentIsInPlaceOfTheOneThatWasThere) {
@@ -228,7 +228,8 @@ TEST_F(DroppedOn, WhatCannotBeUsedSaysWhy) {
         return folder_.relative(errorText([&] { dropped(file); }));
     };
     EXPECT_EQ(
-        error(folder_.write("a.txt", "x")), "a.txt: is no groom, mesh or environment (.exr, .hdr)");
+        error(folder_.write("a.txt", "x")),
+        "a.txt: is not a groom, mesh or environment (.exr, .hdr)");
     EXPECT_EQ(error(folder_.file("gone.hair")), "gone.hair: no such file");
     EXPECT_THAT(error(folder_.write("a.hair", "HAIR")), HasSubstr("a.hair: byte "));
     EXPECT_THAT(error(folder_.write("a.exr", "x")), HasSubstr("a.exr: "));

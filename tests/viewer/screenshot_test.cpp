@@ -108,7 +108,7 @@ TEST_F(Screenshot, IsRefusedWhereABitIsWrong) {
 }
 
 TEST_F(Screenshot, SaysWhatIsWrong) {
-    EXPECT_EQ(errorOf("{}"), "b.png: byte 0: is no PNG");
+    EXPECT_EQ(errorOf("{}"), "b.png: byte 0: is not a PNG");
     EXPECT_EQ(
         errorOf(pngWith("").substr(0, 40)), "b.png: byte 33: the file ends before its last chunk");
     std::string damaged = pngWith(kText);

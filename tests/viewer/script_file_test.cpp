@@ -51,7 +51,7 @@ TEST_F(ScriptFile, MayHaveEveryVerb) {
 TEST_F(ScriptFile, NamesTheVerbsItCouldHave) {
     EXPECT_EQ(
         problemOfStep(R"({"clik": "Play"})"),
-        "script.json: /steps/1: unknown verb (did you mean \"click\"?); known: wait, frames, play, "
+        "script.json: /steps/1: unknown verb (did you mean 'click'?); known: wait, frames, play, "
         "seek, set, perform, drop, resize, move, click, drag, scroll, key, type, screenshot, "
         "picture, save, state, live, expect");
 }
@@ -59,38 +59,39 @@ TEST_F(ScriptFile, NamesTheVerbsItCouldHave) {
 TEST_F(ScriptFile, NamesTheMembersItCouldHave) {
     EXPECT_EQ(
         problemOfStep(R"({"click": {"itme": "Play"}})"),
-        "script.json: /steps/1/click: unknown key (did you mean \"item\"?); known: item, window, "
+        "script.json: /steps/1/click: unknown key (did you mean 'item'?); known: item, window, "
         "at, button, double, keys");
     EXPECT_EQ(
         problemOf(R"({"step": []})"),
-        "script.json: /step: unknown key (did you mean \"steps\"?); known: description, out, "
+        "script.json: /step: unknown key (did you mean 'steps'?); known: description, out, "
         "steps");
 }
 
 TEST_F(ScriptFile, SaysWhereAValueIsWrong) {
     const std::pair<const char*, const char*> rows[] = {
-        {R"({"wait": -1})", "/wait: must be a whole number from 0, not -1"},
-        {R"({"wait": 1.5})", "/wait: must be a whole number from 0, not 1.5"},
-        {R"({"play": 1})", "/play: must be true or false, not 1"},
-        {R"({"resize": [800]})", "/resize: must be two numbers, [x, y], not an array of 1"},
-        {R"({"set": {}})", "/set: must be an object of settings, as in {\"/strands/density\": 16}"},
+        {R"({"wait": -1})", "/wait: expected a whole number from 0, found -1"},
+        {R"({"wait": 1.5})", "/wait: expected a whole number from 0, found 1.5"},
+        {R"({"play": 1})", "/play: expected true or false, found 1"},
+        {R"({"resize": [800]})", "/resize: expected two numbers, [x, y], found an array of 1"},
+        {R"({"set": {}})",
+         "/set: expected an object of settings, as in {\"/strands/density\": 16}"},
         {R"({"click": {}})",
-         "/click/at: is missing: without an item it is a point of the window, px"},
-        {R"({"drag": {"item": "Picture"}})", "/drag: needs either \"to\" or \"by\""},
+         "/click/at: is missing; without an item it must be a point of the window, px"},
+        {R"({"drag": {"item": "Picture"}})", "/drag: needs either 'to' or 'by'"},
         {R"({"click": {"item": "a", "button": "lft"}})",
-         "/click/button: unknown button (did you mean \"left\"?); known: left, right, middle"},
-        {R"({"perform": "Head"})", "/perform: several menus have a \"Head\"; write <menu>/Head"},
+         "/click/button: unknown button (did you mean 'left'?); known: left, right, middle"},
+        {R"({"perform": "Head"})", "/perform: several menus have a 'Head'; write <menu>/Head"},
         {R"({"expect": {}})", "/expect: expects nothing"},
-        {R"({"expect": {"no_problem": false}})", "/expect/no_problem: must be true"},
-        {R"({"expect": {"message": "("}})", "/expect/message: is no regular expression"},
+        {R"({"expect": {"no_problem": false}})", "/expect/no_problem: expected true"},
+        {R"({"expect": {"message": "("}})", "/expect/message: is not a regular expression"},
     };
     for (const auto& [step, reason] : rows)
         EXPECT_EQ(problemOfStep(step), "script.json: /steps/1" + std::string(reason)) << step;
     EXPECT_EQ(
         problemOfStep(R"({"wait": 1, "play": true})"),
-        "script.json: /steps/1: a step is an object with one verb, as in {\"wait\": 2}");
-    EXPECT_EQ(problemOf("{}"), "script.json: /: \"steps\" is missing");
-    EXPECT_EQ(problemOf(R"({"steps": 3})"), "script.json: /steps: must be an array");
+        "script.json: /steps/1: expected an object with one verb, as in {\"wait\": 2}");
+    EXPECT_EQ(problemOf("{}"), "script.json: /: 'steps' is missing");
+    EXPECT_EQ(problemOf(R"({"steps": 3})"), "script.json: /steps: expected an array");
 }
 
 TEST_F(ScriptFile, KnowsKeys) {
@@ -100,7 +101,7 @@ TEST_F(ScriptFile, KnowsKeys) {
         EXPECT_EQ(problemOfStep("{\"key\": \"" + std::string(key) + "\"}"), "no error") << key;
     EXPECT_EQ(
         problemOfStep(R"({"key": "ctrl+spcae"})").substr(0, 69),
-        "script.json: /steps/1/key: unknown key (did you mean \"space\"?); known");
+        "script.json: /steps/1/key: unknown key (did you mean 'space'?); known");
 }
 
 }  // namespace

@@ -135,7 +135,7 @@ TEST(TimingsFigures, SayHowFarPassesAreTheFrame) {
     const report::CaseResult bad = frameMetrics(history, "discrete");
     EXPECT_THAT(
         bad.trust.warnings,
-        Contains(HasSubstr("0.500 of its wall clock less what a submission takes")));
+        Contains(HasSubstr("0.500 of its wall clock minus the time of a submission")));
 }
 
 TEST(TimingsFigures, OfNothingAreNone) {

@@ -42,7 +42,7 @@ TEST(UiItems, KnowWhereWidgetsAre) {
     });
     EXPECT_EQ(
         errorText([&] { itemNamed(items, {"Save", ""}); }),
-        "there are several: item \"Save\", in Panel and in Panel/list");
+        "there are several: item 'Save', in Panel and in Panel/list");
     expectSame(itemNamed(items, {"Save", "Panel/list"}).rect, child_button);
     const auto first = std::ranges::find(items.items(), "Save", &engine::UiItem::label);
     ASSERT_NE(first, items.items().end());
@@ -95,10 +95,10 @@ TEST(UiItems, AreThoseOfTheLastPictureAlone) {
     EXPECT_TRUE(findItem(items, {"after", ""}));
     EXPECT_EQ(
         errorText([&] { itemNamed(items, {"aftre", "Panel"}); }),
-        "no item \"aftre\" in Panel is seen (did you mean \"after\"?); known: after");
+        "no item 'aftre' in Panel is seen (did you mean 'after'?); known: after");
     EXPECT_EQ(
         errorText([&] { itemNamed(items, {"", "Pane"}); }),
-        "no window \"Pane\" is seen (did you mean \"Panel\"?); known: Panel");
+        "no window 'Pane' is seen (did you mean 'Panel'?); known: Panel");
 }
 
 TEST(UiItems, CostNothingOnceNobodyAsks) {

@@ -25,14 +25,14 @@ TEST_F(ViewFailure, OfAStepSaysWhichAndWhy) {
 TEST_F(ViewFailure, OfReadingAScriptIsAMistakeOfTheUsers) {
     expectFailure(
         2, R"({"wait": "long"})",
-        "hairbench: script.json: /steps/0/wait: must be a whole number from 0, not the string "
+        "hairbench: script.json: /steps/0/wait: expected a whole number from 0, found the string "
         "\"long\"");
 }
 
 TEST_F(ViewFailure, IsAWindowThatClosesBeforeTheScriptEnds) {
     expectFailure(
         3, R"({"perform": "Quit"}, {"expect": {"frame": 0}})",
-        "script.json: /steps/1: the window was closed before");
+        "script.json: /steps/1: the window was closed before this step");
 }
 
 // Needs no display, because it tests the error without one.

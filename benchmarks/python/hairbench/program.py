@@ -44,7 +44,7 @@ def program() -> Path:
     wanted = os.environ.get(PROGRAM_VARIABLE)
     if wanted:
         if not os.access(wanted, os.X_OK):
-            raise FileNotFoundError(f"{PROGRAM_VARIABLE}: {wanted} is no program")
+            raise FileNotFoundError(f"{PROGRAM_VARIABLE}: {wanted} is not a program")
         return Path(wanted).resolve()
     installed = PACKAGE / "bin" / "hairbench"
     if installed.exists():
@@ -99,7 +99,7 @@ def scene_arguments(
     for pointer, values in (axes or {}).items():
         if not isinstance(values, str):
             if not isinstance(values, Sequence):
-                raise TypeError(f"axes: {pointer}: {values!r} is no list of values")
+                raise TypeError(f"axes: {pointer}: {values!r} is not a list of values")
             values = ",".join(json_text(value) for value in values)
         arguments += ["--axis", f"{pointer}={values}"]
     for pointer, value in (sets or {}).items():

@@ -65,7 +65,7 @@ def read_report(path: str | os.PathLike[str]) -> pandas.DataFrame:
     try:
         report = json.loads(Path(path).read_text(encoding="utf-8"))
     except ValueError as error:
-        raise ValueError(f"{path}: no JSON: {error}") from None
+        raise ValueError(f"{path}: is not JSON: {error}") from None
     schema = report.get("schema", "") if isinstance(report, dict) else ""
     if not isinstance(schema, str) or not schema.startswith(SCHEMA):
         raise ValueError(f"{path}: /schema: {schema!r} is not {SCHEMA}*, a report of hairbench run")

@@ -85,8 +85,8 @@ function drawBackends() {
     });
     const partial = lines.filter((line) => line.law && line.points.length < line.whole).length;
     byId("backends-note").textContent = [
-        "Lines: time = factor \u00d7 strands^exponent by least squares of the logarithms, of each " +
-            "back end over all its cases that differ in the number of strands alone.",
+        "Lines: time = factor \u00d7 strands^exponent by least squares of the logarithms, for each " +
+            "back end over all its cases that differ only in the number of strands.",
         partial ? `${counted(partial, "line has", "lines have")} cases that the filter hides.` : "",
         "Bars: the interval of the median. Open markers: cases with warnings."]
         .filter(Boolean).join(" ");

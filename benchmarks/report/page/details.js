@@ -234,7 +234,7 @@ function fillThumbnails() {
     byId("thumbnails-note").textContent = [
         shown.length > kMostCards
             ? `${kMostCards} of ${shown.length} pictures; the filter chooses.` : "",
-        missing ? `${counted(missing, "picture file is", "picture files are")} not there any more.`
+        missing ? `${counted(missing, "picture file is", "picture files are")} missing.`
             : ""].filter(Boolean).join(" ");
 }
 
@@ -250,7 +250,7 @@ function buildPictures() {
     if (!found.length) {
         const missing = rows.filter((row) => row.picture_missing);
         showOnly(section, heading("Pictures"), note(missing.length
-            ? `None of the ${counted(missing.length, "picture file")} is there any more, the ` +
+            ? `All ${counted(missing.length, "picture file")} are missing, the ` +
                 `first: ${missing[0].picture_missing}`
             : "The cases have no pictures."));
         return;

@@ -52,7 +52,7 @@ const kDeviceColumns = [
     {title: "back ends", hint: "that drew strands", text: backendsOf},
     {title: "build", text: (report) => report.environment?.build?.commit ?? ""},
     {title: "measured", text: (report) => report.environment?.started?.slice(0, 10) ?? ""},
-    {title: "to know", wide: true, text: deviceNote},
+    {title: "notes", wide: true, text: deviceNote},
 ];
 
 function drawDevices() {
@@ -95,7 +95,7 @@ function buildDevices() {
         element("table", {id: "devices-table"})),
         figure("devices-plot",
             "Times of frames over those of each scene's first report; the table has the figures."),
-        note("Medians of frame.time of cases of equal settings. Other builds may draw other hair: " +
+        note("Medians of frame.time of cases of equal settings. Other builds may draw different hair: " +
             "Comparison says where pictures and states differ. The filter chooses the reports."));
     const update = () => {
         fillTable(byId("devices-table"), kDeviceColumns, filteredReports());

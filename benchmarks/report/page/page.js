@@ -327,7 +327,7 @@ function legendStyle(div, title) {
 // Stands in for Plotly where the browser cannot unpack it.
 function drawNothing(div) {
     div.textContent = "This browser cannot draw the figures: it lacks DecompressionStream, which"
-        + " Chrome has since 80, Firefox since 113 and Safari since 16.4. The tables are complete.";
+        + " Chrome 80, Firefox 113 and Safari 16.4 and later have. The tables are complete.";
     div.on = () => {};
 }
 
@@ -470,7 +470,7 @@ function reportCard(report) {
         report.interrupted
             ? note("The run was stopped: these are the cases that were done.") : "",
         report.environment?.validation
-            ? note("The validation layer was on: these times are of no use.") : "");
+            ? note("The validation layer was on: these times can't be used.") : "");
 }
 
 // Groups the cases of equal sentences.
@@ -500,7 +500,7 @@ function buildSummary() {
         .map((row) => [`${row.status}: ${row.reason ?? "no reason was given"}`, row]);
     showOnly(byId("findings"),
         page.left_out.length ? element("div", {},
-            note("Left out, for they are no reports of hairbench run:"),
+            note("Left out, because they are not reports of 'hairbench run':"),
             element("ul", {}, page.left_out.map(({file, reason}) =>
                 element("li", {}, `${file}: ${reason}`)))) : "",
         findings(`\u26a0 ${counted(warnings.length, "warning")}`, warnings),

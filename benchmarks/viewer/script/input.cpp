@@ -57,7 +57,7 @@ bool isCalled(const engine::UiItem& item, const ItemName& name) {
 
 [[noreturn]] void refuse(const std::string& pointer, const char* wanted, const scene::Json& value) {
     throw engine::Error(
-        pointer, std::string("must be ") + wanted + ", not " + scene::described(value));
+        pointer, std::string("expected ") + wanted + ", found " + scene::described(value));
 }
 
 }  // namespace
@@ -155,8 +155,8 @@ int keyChord(const std::string& text, const std::string& pointer) {
 // ---- Names of widgets ---------------------------------------------------------------------------
 
 std::string described(const ItemName& name) {
-    if (name.item.empty()) return "window \"" + name.window + '"';
-    return "item \"" + name.item + '"' + (name.window.empty() ? "" : " in " + name.window);
+    if (name.item.empty()) return "window '" + name.window + '\'';
+    return "item '" + name.item + '\'' + (name.window.empty() ? "" : " in " + name.window);
 }
 
 std::optional<engine::UiItem> findItem(const engine::UiItems& items, const ItemName& name) {
@@ -211,7 +211,7 @@ bool Members::has(const char* name) const { return object_.contains(name); }
 const scene::Json& Members::at(const char* name) const {
     if (!has(name))
         throw engine::Error(
-            pointer_.empty() ? "/" : pointer_, '"' + std::string(name) + "\" is missing");
+            pointer_.empty() ? "/" : pointer_, '\'' + std::string(name) + "' is missing");
     return object_.at(name);
 }
 
@@ -316,7 +316,8 @@ Place placeOf(const Members& members, const char* at) {
     const auto point = members.pair(at);
     if (!place.item && !point)
         throw engine::Error(
-            members.pointerOf(at), "is missing: without an item it is a point of the window, px");
+            members.pointerOf(at),
+            "is missing; without an item it must be a point of the window, px");
     if (point) place.at = *point;
     return place;
 }
@@ -324,7 +325,7 @@ Place placeOf(const Members& members, const char* at) {
 std::array<float, 2> pixelsOf(const Driver& driver, const Place& place) {
     if (!place.item) return place.at;
     const engine::UiItem item = itemNamed(driver.items, *place.item);
-    if (!item.enabled) throw engine::Error(described(*place.item) + " is grayed out");
+    if (!item.enabled) throw engine::Error(described(*place.item) + " is greyed out");
     return {
         item.rect.left + place.at[0] * item.rect.width(),
         item.rect.top + place.at[1] * item.rect.height()};

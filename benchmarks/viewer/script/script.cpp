@@ -20,7 +20,7 @@ constexpr int kFirstPictures = 3;
 
 Act readStep(const scene::Json& step, const std::string& pointer, const ScriptFolders& folders) {
     if (!step.is_object() || step.size() != 1)
-        throw engine::Error(pointer, "a step is an object with one verb, as in {\"wait\": 2}");
+        throw engine::Error(pointer, "expected an object with one verb, as in {\"wait\": 2}");
     const auto only = step.begin();
     const Verb& verb = verbNamed(only.key(), pointer);
     return verb.read(only.value(), pointer + '/' + only.key(), folders);
@@ -44,7 +44,7 @@ Script::Script(const std::filesystem::path& path) : parts_(std::make_unique<Part
         ScriptFolders folders{.script = path.parent_path(), .out = {}};
         if (const auto out = members.text("out")) folders.out = *out;
         const scene::Json& steps = members.at("steps");
-        if (!steps.is_array()) throw engine::Error("/steps", "must be an array");
+        if (!steps.is_array()) throw engine::Error("/steps", "expected an array");
         for (std::size_t i = 0; i < steps.size(); ++i)
             parts_->steps.push_back(readStep(steps[i], "/steps/" + std::to_string(i), folders));
     } catch (const engine::Error& error) {
@@ -78,7 +78,7 @@ void Script::finish() const {
     if (parts_->next < parts_->steps.size())
         throw ScriptFailure(
             parts_->path + ": /steps/" + std::to_string(parts_->next),
-            "the window was closed before");
+            "the window was closed before this step");
 }
 
 }  // namespace benchmarks::viewer

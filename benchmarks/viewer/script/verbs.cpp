@@ -39,7 +39,7 @@ struct Expectation {
 [[noreturn]] void fail(const std::string& text) { throw engine::Error(text); }
 
 void checkTrue(const scene::Json& value, const std::string& pointer) {
-    if (!flagOf(value, pointer)) throw engine::Error(pointer, "must be true");
+    if (!flagOf(value, pointer)) throw engine::Error(pointer, "expected true");
 }
 
 Check readHash(const scene::Json& value, const std::string& pointer, const ScriptFolders&) {
@@ -88,7 +88,7 @@ Check readFrame(const scene::Json& value, const std::string& pointer, const Scri
 
 Check readSetting(const scene::Json& value, const std::string& pointer, const ScriptFolders&) {
     if (!value.is_object())
-        throw engine::Error(pointer, "must be an object, as in {\"/strands/density\": 16}");
+        throw engine::Error(pointer, "expected an object, as in {\"/strands/density\": 16}");
     return [=](const Driver&, const Side& side) {
         scene::Json document = scene::writeSettings(side.shown().settings);
         for (const auto& [field, wanted] : value.items()) {
@@ -109,7 +109,7 @@ scene::Pattern patternOf(const scene::Json& value, const std::string& pointer) {
     try {
         return scene::Pattern(textOf(value, pointer));
     } catch (const engine::Error&) {
-        throw engine::Error(pointer, "is no regular expression");
+        throw engine::Error(pointer, "is not a regular expression");
     }
 }
 
@@ -153,7 +153,7 @@ Check readItem(const scene::Json& value, const std::string& pointer, const Scrip
     const Members members(
         object, pointer, {"item", "window", "seen", "enabled", "checked", "open"});
     const auto name = itemOf(members);
-    if (!name) throw engine::Error(pointer, "needs an \"item\" or a \"window\"");
+    if (!name) throw engine::Error(pointer, "needs an 'item' or a 'window'");
     const auto seen = members.flag("seen"), enabled = members.flag("enabled"),
                checked = members.flag("checked"), open = members.flag("open");
     return [=](const Driver& driver, const Side&) {
@@ -417,8 +417,7 @@ Act readDrag(const scene::Json& value, const std::string& pointer, const ScriptF
     const bool holds = members.flag("holds").value_or(false);
     const Place from = placeOf(members, "from");
     const auto to = members.pair("to"), by = members.pair("by");
-    if (to.has_value() == by.has_value())
-        throw engine::Error(pointer, "needs either \"to\" or \"by\"");
+    if (to.has_value() == by.has_value()) throw engine::Error(pointer, "needs either 'to' or 'by'");
     const int button = buttonOf(members), keys = keysOf(members);
     return [=](Driver& driver) {
         const std::array<float, 2> begin = pixelsOf(driver, from);
@@ -514,13 +513,13 @@ Action actionNamed(const std::string& name, const std::string& pointer) {
     if (found.size() == 1) return found.front();
     if (found.empty())
         throw engine::Error(pointer, scene::unknownName("unknown action", name, known));
-    throw engine::Error(pointer, "several menus have a \"" + name + "\"; write <menu>/" + name);
+    throw engine::Error(pointer, "several menus have a '" + name + "'; write <menu>/" + name);
 }
 
 Act readSet(const scene::Json& value, const std::string& pointer, const ScriptFolders&) {
     if (!value.is_object() || value.empty())
         throw engine::Error(
-            pointer, "must be an object of settings, as in {\"/strands/density\": 16}");
+            pointer, "expected an object of settings, as in {\"/strands/density\": 16}");
     std::size_t side = 0;
     std::vector<std::pair<std::string, scene::Json>> fields;
     for (const auto& [field, wanted] : value.items()) {
@@ -562,7 +561,7 @@ Act readDrop(const scene::Json& value, const std::string& pointer, const ScriptF
 
 Act readResize(const scene::Json& value, const std::string& pointer, const ScriptFolders&) {
     const auto [width, height] = pairOf(value, pointer);
-    if (width < 1.0f || height < 1.0f) throw engine::Error(pointer, "must be 1 or more");
+    if (width < 1.0f || height < 1.0f) throw engine::Error(pointer, "expected 1 or more");
     return [=](Driver& driver) {
         driver.viewer.resize(static_cast<std::uint32_t>(width), static_cast<std::uint32_t>(height));
         driver.until(

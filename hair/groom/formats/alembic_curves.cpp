@@ -84,15 +84,15 @@ void AlembicTopology::readKnots(
         const auto order = static_cast<std::uint32_t>(all[i]);
         if (size < order)
             knots.fail(
-                curve + " has " + std::to_string(size) + " vertices, which are none of order " +
+                curve + " has " + std::to_string(size) + " vertices, too few for order " +
                 std::to_string(order));
         if (knots_.size() - first < std::uint64_t{size} + order)
             knots.fail(curve + " has too few knots, expected as many as vertices and its order");
         const auto own = std::span(knots_).subspan(first, std::size_t{size} + order);
-        if (!std::ranges::is_sorted(own)) knots.fail(curve + " has knots that go back");
+        if (!std::ranges::is_sorted(own)) knots.fail(curve + " has knots that decrease");
         std::uint32_t segments = 0;
         for (std::size_t k = order - 1; k < size; ++k) segments += own[k] < own[k + 1] ? 1 : 0;
-        if (segments == 0) knots.fail(curve + " has knots that are all one");
+        if (segments == 0) knots.fail(curve + " has knots that are all equal");
         nurbs_.push_back({first, order, segments});
         first += own.size();
     }
@@ -144,7 +144,7 @@ void AlembicTopology::draw(std::span<const glm::vec3> vertices, const AlembicPar
         if (!is_curve)
             sizes.fail(
                 "curve " + std::to_string(i) + " has " + std::to_string(size) +
-                " vertices, which are no cubic " + std::string(basis_->name) + " curve");
+                " vertices, which do not make a cubic " + std::string(basis_->name) + " curve");
         const std::uint32_t segments = segmentsOf(i);
         pieces_ = std::max(pieces_, (size - 1 + segments - 1) / segments);
     }

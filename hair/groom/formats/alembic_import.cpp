@@ -297,7 +297,7 @@ private:
     void share(std::uint64_t bytes, const AlembicParameter& parameter) {
         shared_ += bytes;
         if (shared_ / kMostShared > values_.bytes().size())
-            parameter.fail("objects share what the file has more than 16 times over");
+            parameter.fail("objects share the file's data more than 16 times over");
     }
 
     void readPoints(
@@ -349,7 +349,7 @@ private:
 
     static float floatOf(double value, const AlembicParameter& parameter) {
         const auto rounded = static_cast<float>(value);
-        if (!std::isfinite(rounded)) parameter.fail("a value is over what floats hold");
+        if (!std::isfinite(rounded)) parameter.fail("a value exceeds a float's range");
         return rounded;
     }
 
@@ -438,7 +438,8 @@ private:
             const double factor = place.space.isIdentity() ? 1.0 : place.space.widthFactor();
             const auto inherited = static_cast<float>(*place.width * factor);
             if (!std::isfinite(inherited))
-                failIn(0, geometry.path, "the width of the transforms above is over a float's");
+                failIn(
+                    0, geometry.path, "the width of the transforms above exceeds a float's range");
             curves.widths.everywhere = inherited;
         }
         if (const auto color = values_.parameterOf(parameters, "groom_color"))
@@ -505,7 +506,7 @@ private:
         names.require(AlembicType::text, 1);
         share(names.elements.count, names);
         const std::vector<char> bytes = values_.stored<char>(names);
-        if (bytes.back() != '\0') names.fail("a text without its end");
+        if (bytes.back() != '\0') names.fail("a text has no end");
         std::vector<std::int32_t> numbers;
         for (auto at = bytes.begin(); at != bytes.end();) {
             const auto end = std::find(at, bytes.end(), '\0');
@@ -528,9 +529,9 @@ private:
         const AlembicCompound& own, std::uint32_t first_strand, std::uint32_t strands) {
         if (const auto unit = values_.parameterOf(own, "hairbench:metersPerUnit")) {
             const double metres = values_.doublesOf(*unit, 1).front();
-            if (!(metres > 0.0)) unit->fail("a unit of no length");
+            if (!(metres > 0.0)) unit->fail("the unit has no length");
             if (set_.metres_per_unit.value_or(metres) != metres)
-                unit->fail("another unit than that of the objects before");
+                unit->fail("the unit differs from that of earlier objects");
             set_.metres_per_unit = metres;
         }
         if (const auto triangles = values_.parameterOf(own, "hairbench:rootTriangles")) {
@@ -539,7 +540,8 @@ private:
             share(triangles->count() * sizeof(Triangle), *triangles);
             for (Triangle triangle : triangles->arranged(values_.stored<Triangle>(*triangles))) {
                 for (std::uint32_t& strand : triangle) {
-                    if (strand >= strands) triangles->fail("a triangle of no strand");
+                    if (strand >= strands)
+                        triangles->fail("a triangle names a strand that is not there");
                     strand += first_strand;
                 }
                 set_.root_triangles.push_back(triangle);

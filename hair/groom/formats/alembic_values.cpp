@@ -18,7 +18,7 @@ compoundFrom(const std::vector<AlembicProperty>& properties, const std::string& 
     AlembicCompound compound{.path = path, .properties = {}};
     for (const AlembicProperty& property : properties)
         if (!compound.properties.emplace(property.name, property).second)
-            failIn(property.header, path, inQuotes(property.name) + " is there twice");
+            failIn(property.header, path, inQuotes(property.name) + " appears twice");
     return compound;
 }
 
@@ -106,7 +106,7 @@ std::vector<std::int32_t> AlembicValues::integersOf(const AlembicParameter& para
         const std::int64_t value = integerAt(byte, parameter);
         if (value < std::numeric_limits<std::int32_t>::min() ||
             value > std::numeric_limits<std::int32_t>::max())
-            failIn(byte, parameter.path, std::to_string(value) + " is no int32");
+            failIn(byte, parameter.path, std::to_string(value) + " is not an int32");
         values.push_back(static_cast<std::int32_t>(value));
     }
     return parameter.arranged(std::move(values));

@@ -38,7 +38,7 @@ public:
         if (bytes_ <= most_) return;
         throw engine::Error(
             std::string(what) + " unfold to more than " + std::to_string(most_ >> 20) +
-            " MiB, which is " + std::to_string(kTimes) + " times the file's size and " +
+            " MiB, the limit of " + std::to_string(kTimes) + " times the file's size plus " +
             std::to_string(kAnyway >> 20) + " MiB");
     }
 

@@ -69,7 +69,7 @@ public:
         skipBlank();
         XmlElement root = takeElement(0);
         skipBlank();
-        if (!rest_.empty()) fail("the scene has ended");
+        if (!rest_.empty()) fail("text after the end of the scene");
         return root;
     }
 
@@ -117,7 +117,8 @@ private:
 
     std::string_view takeName() {
         const std::string_view name = take(std::min(rest_.find_first_of(kNameEnd), rest_.size()));
-        if (name.empty()) fail(rest_.empty() ? "truncated: a name is expected" : "no name");
+        if (name.empty())
+            fail(rest_.empty() ? "truncated: a name is expected" : "a name is expected");
         return name;
     }
 
@@ -134,7 +135,7 @@ private:
     }
 
     XmlElement takeElement(int depth) {
-        if (depth > kMostNested) fail("more than 64 elements within another");
+        if (depth > kMostNested) fail("elements are nested more than 64 deep");
         const std::size_t before = rest_.size();
         expect("<");
         XmlElement element;
@@ -200,7 +201,7 @@ public:
             words(element, [](float number) { return !std::isinf(number); });
         if (numbers.size() % 4 != 0)
             failAtLine(
-                element.line, inQuotes(element.name) + " has no whole number of x y z radius");
+                element.line, inQuotes(element.name) + " is not made of groups of x y z radius");
         vectors.resize(numbers.size() / 4);
         if (!numbers.empty())
             std::memcpy(vectors.data(), numbers.data(), numbers.size() * sizeof(float));
@@ -223,7 +224,7 @@ public:
         eachWord(element, [&](std::string_view word, std::size_t line) {
             const auto number = integerFrom(word);
             if (!number || *number < 0 || *number > std::numeric_limits<std::uint32_t>::max())
-                failAtLine(line, inQuotes(word) + " is no index");
+                failAtLine(line, inQuotes(word) + " is not an index");
             numbers.push_back(static_cast<std::uint32_t>(*number));
         });
         return numbers;
@@ -250,7 +251,7 @@ private:
         eachWord(element, [&](std::string_view word, std::size_t line) {
             const auto number = floatFrom(word);
             if (!number || !allowed(*number))
-                failAtLine(line, inQuotes(word) + " is no finite number");
+                failAtLine(line, inQuotes(word) + " is not a finite number");
             numbers.push_back(*number);
         });
         return numbers;
@@ -260,7 +261,9 @@ private:
         const std::string_view text = element.attribute(attribute);
         const auto number = integerFrom(text);
         if (!number || *number < 0)
-            failAtLine(element.line, inQuotes(attribute) + " is " + inQuotes(text) + ", no number");
+            failAtLine(
+                element.line,
+                inQuotes(attribute) + " is " + inQuotes(text) + ", which is not a number");
         return static_cast<std::uint64_t>(*number);
     }
 
@@ -271,8 +274,8 @@ private:
         const auto bytes = std::as_bytes(std::span(fileBeside(element)));
         if (start > bytes.size() || size > (bytes.size() - start) / sizeof(Value) / each)
             failAtLine(
-                element.line, "truncated: the file of bytes beside the scene has " +
-                                  std::to_string(bytes.size()) + " of them");
+                element.line, "truncated: the file beside the scene has only " +
+                                  std::to_string(bytes.size()) + " bytes");
         unfolding_.add(size * each * sizeof(Value), "arrays in the file of bytes");
         return arrayAt<Value>(bytes, start, size * each);
     }
@@ -389,9 +392,9 @@ private:
     void follow(const XmlElement& ref, const AffineSpace& space) {
         const auto named = named_.find(ref.attribute("id"));
         if (named == named_.end())
-            failAtLine(ref.line, "nothing before has the id " + inQuotes(ref.attribute("id")));
+            failAtLine(ref.line, "no earlier element has the id " + inQuotes(ref.attribute("id")));
         if (++references_ > kMostReferences)
-            failAtLine(ref.line, "more than 64 references within another: one to itself?");
+            failAtLine(ref.line, "references are nested more than 64 deep: one to itself?");
         const std::vector<const XmlElement*> nodes = named->second;
         for (const XmlElement* const node : nodes) {
             repeated(*node, node->size);
@@ -623,7 +626,7 @@ private:
         const auto rounded_width = static_cast<float>(width);
         for (const float number : {rounded.x, rounded.y, rounded.z, rounded_width})
             if (!std::isfinite(number))
-                failAtLine(element.line, "a point or width is over what floats hold");
+                failAtLine(element.line, "a point or width exceeds a float's range");
         set_.points.push_back(rounded);
         set_.widths.values.push_back(rounded_width);
     }

@@ -374,7 +374,7 @@ readMember(std::span<const std::byte> bytes, const ZipDirectory& directory, std:
     const auto contents = bytes.subspan(local + kLocalSize, local_name);
     if (valueAt<std::uint16_t>(bytes, local + 8) != member.method ||
         !std::ranges::equal(contents, std::as_bytes(std::span(member.name))))
-        failAt(local, "this is not what the directory has for " + inQuotes(member.name));
+        failAt(local, "this differs from the directory for " + inQuotes(member.name));
     member.contents = bytes.subspan(member.start, packed_size);
     at += record;
     return member;
@@ -391,10 +391,11 @@ std::vector<ZipMember> readMembers(std::span<const std::byte> bytes) {
         packed += kLocalSize + members.back().contents.size();
         if (packed > directory.start)
             failAt(
-                record + 42, inQuotes(members.back().name) + " shares its bytes with others: all "
-                                                             "members have more than there are");
+                record + 42,
+                inQuotes(members.back().name) +
+                    " shares its bytes with others: all members together exceed the archive");
     }
-    if (at != directory.end) failAt(at, "more in the directory than it says");
+    if (at != directory.end) failAt(at, "the directory has more records than it says");
     return members;
 }
 
@@ -419,7 +420,7 @@ InflatedBytes inflatedOf(const ZipMember& member) {
     // Two bits, a length and a distance, stand for at most 258 bytes, so a byte stands for at most
     // 1032.
     if (member.size / 1032 > member.contents.size() + 1)
-        failAt(member.start, "more bytes are expected than the compressed ones can stand for");
+        failAt(member.start, "the compressed bytes are too few for the expected size");
     InflatedBytes inflated{
         std::make_unique_for_overwrite<std::byte[]>(member.size),
         static_cast<std::size_t>(member.size)};
@@ -509,7 +510,7 @@ void readGroups(const NpyArray& array, NpzSource source) {
             number > std::numeric_limits<std::int32_t>::max())
             failAt(
                 array.start + i * rowOf(array.type).size,
-                "group " + std::to_string(i) + " is no int32");
+                "group " + std::to_string(i) + " is not an int32");
         source.set.groups.push_back(static_cast<std::int32_t>(number));
     }
 }
@@ -747,7 +748,7 @@ StrandSet importNpz(const StrandFile& file) {
     for (const ZipMember& member : members) {
         if (&member == &positions) continue;
         if (memberNamed(members, keyOf(member)) != &member)
-            failAt(member.start, inQuotes(member.name) + " is there twice");
+            failAt(member.start, inQuotes(member.name) + " appears twice");
         const auto row = std::ranges::find(kNpzRows, keyOf(member), &NpzRow::name);
         if (row == kNpzRows.end()) {
             skipped.append(skipped.empty() ? "" : ", ").append(inQuotes(keyOf(member)));

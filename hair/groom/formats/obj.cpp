@@ -121,7 +121,7 @@ private:
         std::size_t count = 0;
         for (std::string_view word = takeWord(rest); !word.empty(); word = takeWord(rest)) {
             const auto number = floatFrom(word);
-            if (!number) fail(inQuotes(word) + " is no number");
+            if (!number) fail(inQuotes(word) + " is not a number");
             if (!std::isfinite(*number)) fail(inQuotes(word) + " is not a finite float");
             if (count < numbers.size()) numbers[count] = *number;
             ++count;
@@ -144,7 +144,7 @@ private:
         const std::size_t slash = word.find('/');
         if (slash != std::string_view::npos) has_other_indices_ = true;
         const auto number = integerFrom(word.substr(0, slash));
-        if (!number) fail(inQuotes(word) + " is no vertex's index");
+        if (!number) fail(inQuotes(word) + " is not the index of a vertex");
         const auto vertices = static_cast<std::int64_t>(set_.points.size());
         const std::int64_t index = *number > 0 ? *number - 1 : *number + vertices;
         if (*number == 0 || index < 0 || index >= static_cast<std::int64_t>(kMaximumVertices)) {
@@ -181,7 +181,8 @@ private:
     void completeColors() {
         if (colored_ == 0 || colored_ == set_.points.size()) return;
         set_.warnings.push_back(
-            std::to_string(set_.points.size() - colored_) + " vertices have no colour: white");
+            std::to_string(set_.points.size() - colored_) +
+            " vertices have no colour and become white");
         set_.colors.values.resize(set_.points.size(), kWhite);
     }
 
@@ -228,7 +229,7 @@ std::string joinContinued(std::string_view line, TextLines& lines) {
 std::vector<std::string> exportObj(const StrandSet& strands, std::ostream& out) {
     std::vector<std::string> warnings = leftOut(strands, {Part::colors, Part::comment});
     if (greatestSize(strands) < 2) {
-        throw engine::Error("no strand has two points, which a line is between");
+        throw engine::Error("no strand has two points, as a line needs");
     }
     Text text(out);
     text.add(commentLines(strands.comment, "# "));

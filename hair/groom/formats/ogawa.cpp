@@ -171,7 +171,7 @@ AlembicArchive::Group AlembicArchive::openGroup(std::uint64_t byte, const std::s
                 std::to_string(bytes_.size()));
     const auto count = valueAt<std::uint64_t>(bytes_, byte);
     const std::uint64_t start = byte + kWord;
-    if (count == 0) failIn(byte, path, "a group of nothing");
+    if (count == 0) failIn(byte, path, "a group is empty");
     if (count > (bytes_.size() - start) / kWord)
         failIn(byte, path, "truncated: a group of " + std::to_string(count) + " is expected");
     claim(byte, {start + count * kWord, true}, path);
@@ -220,9 +220,8 @@ AlembicArchive::AlembicArchive(std::span<const std::byte> bytes) : bytes_(bytes)
     if (!head.starts_with(kMagic.substr(0, std::min(kMagic.size(), head.size()))))
         failAt(0, "an Alembic archive begins with \"Ogawa\"");
     if (head.size() < kFileHeader) failAt(bytes.size(), "truncated: the header alone is 16 bytes");
-    if (head[5] != '\xff')
-        failAt(5, "whoever wrote the archive did not finish it: export it once more");
-    if (head[6] != 0 || head[7] != 1) failAt(6, "another version of Ogawa than 1");
+    if (head[5] != '\xff') failAt(5, "the archive was not finished: export it once more");
+    if (head[6] != 0 || head[7] != 1) failAt(6, "the version of Ogawa is not 1");
     claims_.emplace(0, Claim{kFileHeader, true});
 
     const auto root_byte = valueAt<std::uint64_t>(bytes, kWord);
@@ -384,7 +383,7 @@ AlembicArchive::firstOf(const AlembicProperty& property, const std::string& path
     if (size % element != 0)
         failIn(
             data.start, path,
-            std::to_string(size) + " bytes, which are no elements of " + std::to_string(element));
+            std::to_string(size) + " bytes, which is not a multiple of " + std::to_string(element));
     const AlembicElements elements{data.start + key, size / element};
     if (!is_array && !is_text && elements.count != 1)
         failIn(data.start, path, "a scalar of " + std::to_string(elements.count));

@@ -123,7 +123,7 @@ PlyElement readElement(std::string_view rest) {
     const std::string_view text = takeWord(rest);
     const auto count = integerFrom(text);
     if (name.empty() || !count || *count < 0) {
-        throw engine::Error(inQuotes(text) + " is no count: expected 'element NAME COUNT'");
+        throw engine::Error(inQuotes(text) + " is not a count: expected 'element NAME COUNT'");
     }
     return {std::string(name), static_cast<std::uint64_t>(*count), {}};
 }
@@ -134,7 +134,7 @@ PlyProperty readProperty(std::string_view rest) {
     if (type == "list") {
         property.count_type = typeNamed(takeWord(rest));
         if (!isInteger(*property.count_type)) {
-            throw engine::Error("a list's length has to be of an integer type");
+            throw engine::Error("a list's length must be of an integer type");
         }
         type = takeWord(rest);
     }
@@ -149,7 +149,7 @@ void checkElements(const std::vector<PlyElement>& elements) {
         const std::string name = "element " + inQuotes(element.name);
         if (element.properties.empty()) throw engine::Error(name + " has no properties");
         if (std::ranges::count(elements, element.name, &PlyElement::name) > 1) {
-            throw engine::Error(name + " is there twice");
+            throw engine::Error(name + " appears twice");
         }
     }
 }
@@ -339,7 +339,7 @@ double PlyText::take(PlyType type) {
     if (value) return *value;
     if (word.empty()) throw engine::Error(place(line_), "the line ends, more numbers are expected");
     throw engine::Error(
-        place(line_), inQuotes(word) + " is no " + (isInteger(type) ? "integer" : "number"));
+        place(line_), inQuotes(word) + " is not " + (isInteger(type) ? "an integer" : "a number"));
 }
 
 void PlyText::endElement() {
@@ -579,9 +579,8 @@ bool isEdge(const PlyElement& element) {
     throw engine::Error(
         "line " + std::to_string(header.lines),
         "the file has no strands: expected an element 'edge' with integers vertex1 and vertex2, or "
-        "one 'strand', 'polyline' or 'line' with a list vertex_indices; where the points of a "
-        "strand "
-        "follow one another, say how many (--points-per-strand, /groom/points_per_strand)");
+        "one 'strand', 'polyline' or 'line' with a list vertex_indices; if the points of a strand "
+        "follow one another, give their number (--points-per-strand, /groom/points_per_strand)");
 }
 
 // Returns the element that lists the vertices of strands; null where strands are runs of
@@ -642,7 +641,7 @@ private:
         if (vertex_count_ > 0 && vertex_count_ % points_per_strand_ == 0) return;
         throw engine::Error(
             "line " + std::to_string(header_.lines),
-            std::to_string(vertex_count_) + " vertices are no whole number of strands of " +
+            std::to_string(vertex_count_) + " vertices do not divide into strands of " +
                 std::to_string(points_per_strand_) + " points");
     }
 
@@ -755,7 +754,7 @@ void checkCorners(Source& source, const PlyProperty& list, std::uint64_t vertice
         throw engine::Error(Source::place(source.position()), reason);
     };
     if (size == 0) refuse("a face has no corners");
-    if (!isInteger(list.type)) refuse("a face's corners are no integers");
+    if (!isInteger(list.type)) refuse("a face's corners are not integers");
     for (std::size_t i = 0; i < size; ++i) {
         const double index = source.take(list.type);
         if (is_strip && index == -1.0) continue;  // another strip begins

@@ -159,7 +159,7 @@ std::vector<Edge> edgesOf(const StrandSet& strands, std::vector<std::string>& wa
         if (end - first == 1) ++single;
         first = end;
     }
-    if (edges.empty()) throw engine::Error("no strand has two points, which a line is between");
+    if (edges.empty()) throw engine::Error("no strand has two points, as a line needs");
     if (single > 0) {
         warnings.push_back(
             std::to_string(single) +

@@ -24,7 +24,7 @@ constexpr Row kRows[] = {
      [](const StrandSet& s) { return !s.root_uvs.empty(); }},
     {Part::groups, "the groups that strands belong to are left out",
      [](const StrandSet& s) { return !s.groups.empty(); }},
-    {Part::guides, "which strands are guides is left out",
+    {Part::guides, "the marks of guides are left out",
      [](const StrandSet& s) { return !s.guides.empty(); }},
     {Part::root_triangles, "the root triangles are left out",
      [](const StrandSet& s) { return !s.root_triangles.empty(); }},

@@ -228,7 +228,7 @@ void checkPlaces(std::vector<Array> arrays, std::uint64_t header_size, std::uint
         if (array.start < end) {
             failAt(
                 array.header_offset,
-                at + " lie on the " + before + ", which end at byte " + std::to_string(end));
+                at + " overlap the " + before + ", which end at byte " + std::to_string(end));
         }
         before = array.name;
         end = array.start + array.size;
@@ -292,10 +292,10 @@ void warnOfFollowers(std::int64_t followers, bool both_ends_fixed, StrandSet& st
             "the " + count +
             " followers that TressFX makes round each strand are left out: hairbench groom convert "
             "--followers " +
-            count + " makes such");
+            count + " makes them");
     }
     if (both_ends_fixed)
-        strands.warnings.emplace_back("that both ends of strands are fixed is left out");
+        strands.warnings.emplace_back("the fixing of both ends of strands is left out");
 }
 
 void readColors(const TfxHeader& header, std::span<const std::byte> bytes, StrandSet& strands) {
@@ -351,14 +351,14 @@ private:
         const std::string_view word = takeWord(line_);
         const auto count = integerFrom(word);
         if (!count || *count < least || *count > std::numeric_limits<std::uint32_t>::max())
-            fail(inQuotes(word) + " is no " + std::string(name));
+            fail(inQuotes(word) + " is not a " + std::string(name));
         return *count;
     }
 
     float takeFloat() {
         const std::string_view word = takeWord(line_);
         const auto number = floatFrom(word);
-        if (!number || !std::isfinite(*number)) fail(inQuotes(word) + " is no finite number");
+        if (!number || !std::isfinite(*number)) fail(inQuotes(word) + " is not a finite number");
         return *number;
     }
 
@@ -368,7 +368,7 @@ private:
             if (takeFloat() == identity) continue;
             fail(
                 "a " + std::string(keyword) +
-                ", which is not read: have the points at their places, without a transform");
+                ", which is not read: export the points without a transform");
         }
     }
 
@@ -393,7 +393,7 @@ private:
             } else if (keyword == "maxRadiusAroundGuideHair") {
                 takeFloat();
             } else if (keyword == "numStrands") {
-                strands_ = takeCount("number of strands, 1 at least", 1);
+                strands_ = takeCount("number of strands of at least 1", 1);
             } else {
                 fail("unknown keyword " + inQuotes(keyword) + " before 'numStrands'");
             }
@@ -425,7 +425,7 @@ private:
         if (takeCount("number of a strand", 0) != number)
             fail("strand " + std::to_string(number) + " is expected here");
         expectWord("numVerts");
-        const std::int64_t vertices = takeCount("number of vertices, 1 at least", 1);
+        const std::int64_t vertices = takeCount("number of vertices of at least 1", 1);
         if (vertices > most_vertices_)
             fail("more vertices than maxNumVerticesInStrand, " + std::to_string(most_vertices_));
         if (const auto word = takeWord(line_); !word.empty()) {

@@ -23,7 +23,7 @@ class CubicCurves:
     def __init__(self, basis, wrap, sizes):
         """`sizes`: control vertices of each curve. Raises ValueError for invalid curves."""
         if basis not in BASES:
-            raise ValueError(f"the basis '{basis}' is not known: {', '.join(BASES)}")
+            raise ValueError(f"unknown basis '{basis}'; known: {', '.join(BASES)}")
         self.basis = BASES[basis]
         self.step = 3 if basis == "bezier" else 1
         # A pinned Bézier curve ends at its vertices anyway; others get a vertex at both ends.
@@ -33,7 +33,7 @@ class CubicCurves:
         wrong = np.flatnonzero((padded < 4) | ((padded - 4) % self.step != 0))
         if wrong.size:
             raise ValueError(
-                f"curve {wrong[0]} has {self.sizes[wrong[0]]} vertices, which are no {wrap} {basis}"
+                f"curve {wrong[0]} has {self.sizes[wrong[0]]} vertices, which do not make a {wrap} {basis} curve"
             )
         self.segments = (padded - 4) // self.step + 1
         self.first_control = self._per_segment(starts(padded), self.step)

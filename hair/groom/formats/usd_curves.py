@@ -20,7 +20,7 @@ try:
 
     from usd_prim import Prim, Refused
 except ImportError as error:
-    sys.exit(f"{error}: this Python lacks what requirements.txt names")
+    sys.exit(f"{error}: this Python lacks a package of requirements.txt")
 
 
 # A stage may have as many prims, plus one for each 64 bytes of its files: 40,000 prims take 2 s, and
@@ -32,7 +32,7 @@ MOST_COMPOSED = 256  # variants and prims that one prim refers to, and they in t
 MOST_SUBLAYERS = 256  # of a layer and its sublayers together, each as often as it is named
 MOST_UNFOLDED = 32 << 20  # bytes of points and triangles, plus 16 times the size of its files
 
-OUT_OF_MEMORY = "needs more memory than a file of its size is given"
+OUT_OF_MEMORY = "needs more memory than a file of its size may use"
 
 # The prims that a spec composes to, their nesting, and the number of parts of a prim.
 Weight = collections.namedtuple("Weight", "prims depth composed")
@@ -70,13 +70,12 @@ class Layers:
         real = os.path.realpath(file)
         if self.below and not any(real.startswith(folder) for folder in self.below):
             raise Refused(
-                f"{file}: lies outside of the scene's folder: where that is meant, "
-                "--allow-outside opens it"
+                f"{file}: is outside the scene's folder; --allow-outside permits it"
             )
         if not os.path.exists(real):
             return  # USD reports it
         if not os.path.isfile(real):
-            raise Refused(f"{file}: not a file")
+            raise Refused(f"{file}: is not a file")
         self.size += os.path.getsize(real)
 
     @staticmethod
@@ -126,8 +125,8 @@ class Layers:
             raise Refused("prims and references are nested too deep") from None
         if count > MOST_PRIMS + self.size // 64:
             raise Refused(
-                f"with all that its references stand for, it has {count:.3g} prims, more than {MOST_PRIMS} "
-                "and one for each 64 bytes"
+                f"its references make {count:.3g} prims, more than {MOST_PRIMS} plus one for "
+                "each 64 bytes"
             )
 
     def _weigh(self, layer, path):
@@ -187,8 +186,8 @@ class Unfolded:
         self.bytes += sum(array.nbytes for array in arrays)
         if self.bytes > self.most:
             raise Refused(
-                f"its instances unfold to more than {self.most >> 20} MiB, which is 16 times its "
-                f"files' size and {MOST_UNFOLDED >> 20} MiB"
+                f"its instances unfold to more than {self.most >> 20} MiB, the limit of 16 times its "
+                f"files' size plus {MOST_UNFOLDED >> 20} MiB"
             )
 
 
@@ -218,7 +217,7 @@ def metres_per_unit_of(stage):
     except Tf.ErrorException:  # no double
         unit = stage.GetMetadata(UsdGeom.Tokens.metersPerUnit)
     if isinstance(unit, bool) or not isinstance(unit, (int, float)):
-        raise Refused(f"metersPerUnit is no number: {unit!r}")
+        raise Refused(f"metersPerUnit is not a number: {unit!r}")
     # Restores the decimal that was meant by a float: 0.01, not 0.009999999776.
     return float(str(np.float32(unit)))
 

@@ -212,7 +212,7 @@ auto readStage(
     try {
         return parse(std::span<const std::byte>(bytes));
     } catch (const engine::Error& error) {
-        throw engine::Error("what " + tool + " wrote", error.what());
+        throw engine::Error("the output of " + tool, error.what());
     }
 }
 
@@ -253,8 +253,7 @@ StrandSet readUsdStream(std::span<const std::byte> bytes) {
 }
 
 StrandSet importUsd(const StrandFile& file) {
-    if (file.path.empty())
-        throw engine::Error("USD can be read from a file alone, not from memory");
+    if (file.path.empty()) throw engine::Error("USD can be read only from a file, not from memory");
     return readStage("usd_curves.py", Samples::none, file.path, file.check, readUsdStream);
 }
 

@@ -21,7 +21,7 @@ try:
     from usd_curves import words_of
     from usd_prim import Refused
 except ImportError as error:
-    sys.exit(f"{error}: this Python lacks what requirements.txt names")
+    sys.exit(f"{error}: this Python lacks a package of requirements.txt")
 
 MOST = 1 << 31  # bytes of positions over time
 
@@ -196,7 +196,7 @@ class Reader:
             positions = positions[:, [0, 2, 1]] * [1, 1, -1]
         positions = positions * self.unit
         if (np.abs(positions) > np.finfo(np.float32).max).any():
-            raise Refused("in world space a point is over what floats hold")
+            raise Refused("in world space a point exceeds a float's range")
         return positions.astype("<f4")
 
     def write_mesh(self, stream):
@@ -239,10 +239,10 @@ class Reader:
         codes = sorted(set().union(*(mesh.times() for mesh in self.meshes)))
         vertices = sum(len(mesh.points) for mesh in self.meshes)
         if 12 * vertices * len(codes) > MOST:
-            raise Refused(f"{vertices} vertices at {len(codes)} times are over 2 GiB")
+            raise Refused(f"{vertices} vertices at {len(codes)} times exceed 2 GiB")
         per_second = self.stage.GetTimeCodesPerSecond()
         if not (np.isfinite(codes).all() and np.isfinite(per_second) and per_second > 0):
-            raise Refused("its times are no numbers")
+            raise Refused("its times are not finite numbers")
         array(stream, (np.array(codes) - (codes[0] if codes else 0)) / per_second)
         count(stream, vertices * len(codes))
         for code in codes:

@@ -81,7 +81,7 @@ class Prim:
         if kind == "linear":
             return LinearCurves(sizes)
         if kind != "cubic":
-            self.refuse(f"the type '{kind}' is not known: linear, cubic")
+            self.refuse(f"unknown type '{kind}'; known: linear, cubic")
         try:
             return CubicCurves(self._value(self.curves.GetBasisAttr()), wrap, sizes)
         except ValueError as error:
@@ -106,7 +106,7 @@ class Prim:
         if (world != np.eye(4)).any():
             points = points.astype(np.float64) @ world[:3, :3] + world[3, :3]
         if (np.abs(points) > np.finfo(np.float32).max).any():
-            self.refuse("in world space a point is over what floats hold")
+            self.refuse("in world space a point exceeds a float's range")
         return points
 
     def _per_point(self, name, components):
@@ -179,7 +179,7 @@ class Prim:
             self.refuse(f"primvars:{name}: {values.size} numbers, {count} are needed")
         values = values.astype(np.int64)
         if (np.abs(values) > np.iinfo(np.int32).max).any():
-            self.refuse(f"primvars:{name}: a number is no int")
+            self.refuse(f"primvars:{name}: a number is not an int32")
         return np.broadcast_to(values.astype(np.int32), (self.sizes.size,))
 
     def _guides(self):

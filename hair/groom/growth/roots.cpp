@@ -27,7 +27,7 @@ RootSamples takeSamples(
     RootSamples samples;
     samples.numbers.reserve(count);
     samples.positions.reserve(count);
-    engine::Step step("looks for places of roots");
+    engine::Step step("places roots");
     for (std::uint32_t i = 0; i < tries && samples.numbers.size() < count; ++i) {
         step.advance();
         const SurfacePoint sample = rootSample(scalp, seed, i);

@@ -449,7 +449,7 @@ std::vector<glm::vec3> rootNormals(const Groom& guides, const Mesh& mesh) {
     const NearestSurface surface(mesh.positions, mesh.triangles);
     std::vector<glm::vec3> normals;
     normals.reserve(guides.strand_count);
-    engine::Step step("looks for what is under roots", guides.strand_count);
+    engine::Step step("finds the surface under roots", guides.strand_count);
     for (std::uint32_t i = 0; i < guides.strand_count; ++i) {
         step.advance();
         const MeshPoint at = surface(glm::dvec3(guides.strand(i)[0]));

@@ -65,7 +65,7 @@ const tinygltf::Animation& clipOf(const tinygltf::Model& model, const std::strin
     std::string known;
     for (const std::string& name : names)
         known.append(known.empty() ? "'" : ", '").append(name + '\'');
-    throw engine::Error("has no animation '" + clip + "'; its animations are " + known);
+    throw engine::Error("has no animation '" + clip + "'; known: " + known);
 }
 
 // Returns the numbers of an accessor. Throws engine::Error unless all are finite.
@@ -141,7 +141,7 @@ private:
             for (const int child : model_.nodes[number].children)
                 waiting.push_back(static_cast<std::size_t>(child));
         }
-        if (waiting.size() != count) throw engine::Error("its nodes are no trees");
+        if (waiting.size() != count) throw engine::Error("its nodes do not form trees");
     }
 
     void addNode(int number, int parent) {
@@ -236,7 +236,8 @@ private:
                     throw engine::Error(
                         "joints or their weights are not VEC4, one for each vertex");
         }
-        if (joints.empty()) throw engine::Error("is of a node with a skin, and has no JOINTS_0");
+        if (joints.empty())
+            throw engine::Error("belongs to a node with a skin, but has no JOINTS_0");
         part.influences = 4 * joints.size();
         part.influence_list.reserve(count * part.influences);
         for (std::size_t vertex = 0; vertex < count; ++vertex) {
@@ -249,7 +250,7 @@ private:
                     if (!(joint >= 0.0 && joint < static_cast<double>(part.joints.size())))
                         throw engine::Error(
                             "vertex " + std::to_string(vertex) +
-                            " names a joint that is none of the skin's " +
+                            " names a joint outside the skin's " +
                             std::to_string(part.joints.size()));
                     if (weight < 0.0)
                         throw engine::Error(
@@ -300,13 +301,13 @@ private:
     std::vector<double> readTimes(int accessor) const {
         const GltfNumbers numbers = finiteNumbers(model_, accessor, GltfIntegers::normalized);
         if (numbers.components != 1 || numbers.values.empty())
-            throw engine::Error("its times are not SCALAR, at least one");
+            throw engine::Error("its times are not at least one SCALAR");
         for (std::size_t i = 0; i < numbers.values.size(); ++i) {
             const double before = i > 0 ? numbers.values[i - 1] : -1.0;
             if (numbers.values[i] < 0.0 || numbers.values[i] <= before)
                 throw engine::Error(
                     "the time of keyframe " + std::to_string(i) +
-                    (i > 0 ? " is not after the one before" : " is negative"));
+                    (i > 0 ? " is not after the previous one" : " is negative"));
         }
         return numbers.values;
     }
@@ -334,7 +335,7 @@ private:
                 std::to_string(expected));
         for (const MeshAnimation::Channel& other : to_.channels_)
             if (other.node == channel.node && other.property == channel.property)
-                throw engine::Error("animates what another channel does");
+                throw engine::Error("animates the same property as another channel");
         checkRotations(channel);
         to_.duration_ = std::max(to_.duration_, channel.times.back());
         to_.channels_.push_back(std::move(channel));
@@ -347,7 +348,8 @@ private:
             const double* value = channel.values.data() + 4 * (is_cubic ? 3 * key + 1 : key);
             if (!(glm::length(glm::dquat(value[3], value[0], value[1], value[2])) > 0.5))
                 throw engine::Error(
-                    "the rotation of keyframe " + std::to_string(key) + " is no unit quaternion");
+                    "the rotation of keyframe " + std::to_string(key) +
+                    " is not a unit quaternion");
         }
     }
 
@@ -377,7 +379,7 @@ MeshAnimation::MeshAnimation(
         if (isUsd(path)) {
             if (clip != kUsdClip)
                 throw engine::Error(
-                    "has no animation '" + clip + "'; of USD all that moves is '" + kUsdClip +
+                    "has no animation '" + clip + "'; the only one of a USD file is '" + kUsdClip +
                     '\'');
             samples_ = readUsdSamples(path, check);
             if (samples_.times.empty()) throw engine::Error("nothing in it moves");
@@ -388,8 +390,8 @@ MeshAnimation::MeshAnimation(
         if (!isGltf(path))
             throw engine::Error(
                 "animations of '" + path.extension().string() +
-                "' files are not read, those of glTF and USD are: convert it, with its skin or "
-                "with its frames as morph targets");
+                "' files are not read: convert it to glTF or USD, with its skin or with its frames "
+                "as morph targets");
         const tinygltf::Model model = loadAnimated(path, check);
         const tinygltf::Animation& animation = clipOf(model, clip);
         try {

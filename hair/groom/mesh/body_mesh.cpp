@@ -257,15 +257,16 @@ constexpr const char* kTurnOutward =
     const auto [a, b, c] = pointsOfFace(mesh.positions, mesh.triangles[patch.front()]);
     const glm::dvec3 at = (a + b + c) / 3.0;
     std::ostringstream reason;
-    reason << patch.size() << " triangles that hang together, the first at (" << at.x << ", "
-           << at.y << ", " << at.z << ")" << kTurnOutward;
+    reason << patch.size() << " connected triangles, the first at (" << at.x << ", " << at.y << ", "
+           << at.z << ")" << kTurnOutward;
     throw engine::Error("the surface faces inward", reason.str());
 }
 
 [[noreturn]] void throwNothingInside(double greatest) {
     std::ostringstream reason;
-    reason << "its winding number is nowhere more than " << greatest
-           << ", and inside is where it is 1/2 or more; close more of the mesh, or use capsules";
+    reason
+        << "its winding number is at most " << greatest
+        << ", and a point is inside if it is 1/2 or more; close more of the mesh, or use capsules";
     throw engine::Error("the surface encloses nothing", reason.str());
 }
 
@@ -277,9 +278,9 @@ faultsOf(const MeshEdges& edges, std::size_t crossed, std::size_t inner, std::si
         if (count > 0)
             text += (text.empty() ? "" : "; ") + std::string(what) + ": " + std::to_string(count);
     };
-    add("triangles that go through others", crossed);
+    add("triangles that intersect others", crossed);
     add("triangles with the inside on both sides", inner);
-    add("triangles that are there before", repeated);
+    add("repeated triangles", repeated);
     return text;
 }
 
@@ -353,7 +354,7 @@ std::string bodyWarning(const BodyMesh& mesh) {
     const auto* const open = std::get_if<OpenMesh>(&mesh);
     if (!open) return {};
     return "the surface is not closed: " + open->reason +
-           ". Inside is where its winding number is 1/2 or more: openings are capped";
+           ". A point is inside if its winding number is 1/2 or more: openings are capped";
 }
 
 }  // namespace hair::groom

@@ -191,7 +191,14 @@ constexpr std::array<std::string_view, 2> kMotionSections{"skins", "animations"}
 std::string firstLine(std::string_view text) {
     constexpr std::size_t kLongest = 200;
     const std::string_view line = text.substr(0, std::min(text.find('\n'), kLongest));
-    return line.empty() ? "not a glTF file" : std::string(line);
+    return line.empty() ? "is not a glTF file" : std::string(line);
+}
+
+// "[json.exception.out_of_range.406] reason" -> "reason"
+std::string reasonIn(std::string_view text) {
+    if (const std::size_t end = text.find("] "); text.starts_with("[json") && end != text.npos)
+        text.remove_prefix(end + 2);
+    return firstLine(text);
 }
 
 // Takes the data of the first buffer out of the JSON, for a binary chunk as in .glb files: tinygltf
@@ -311,9 +318,9 @@ Rewritten rewritten(std::string_view file, GltfImages images, GltfMotion motion)
         const std::string message = firstLine(error.what());
         fail(
             offset + std::max<std::size_t>(error.byte, 1) - 1,
-            "not JSON" + message.substr(message.find(": ")));
+            "is not JSON" + message.substr(message.find(": ")));
     } catch (const json::exception& error) {  // such as a number that no double holds
-        fail(offset, firstLine(error.what()));
+        fail(offset, "can't be read as JSON: " + reasonIn(error.what()));
     }
 }
 
@@ -400,7 +407,7 @@ tinygltf::Model loadGltf(
     } catch (const engine::Error&) {
         throw;
     } catch (const std::exception& exception) {
-        throw engine::Error(firstLine(exception.what()));
+        throw engine::Error("can't be read as glTF: " + reasonIn(exception.what()));
     }
     checkExtensions(model);
     model.images = std::move(other.images);

@@ -102,8 +102,7 @@ const MeshImporter& importerFor(const std::filesystem::path& path) {
             known.append(known.empty() ? "" : ", ").append(name);
         }
     }
-    throw engine::Error(
-        path.string(), "unknown mesh format '" + extension + "'; known are " + known);
+    throw engine::Error(path.string(), "unknown mesh format '" + extension + "'; known: " + known);
 }
 
 bool isFinite(const glm::vec3& v) {

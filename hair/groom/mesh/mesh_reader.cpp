@@ -186,10 +186,9 @@ private:
                    folder.end();
         };
         const char* reason = nullptr;
-        if (!std::filesystem::is_regular_file(place, error)) reason = ": not a file";
+        if (!std::filesystem::is_regular_file(place, error)) reason = ": is not a file";
         if (!folders_.empty() && std::ranges::none_of(folders_, holds))
-            reason = ": lies outside of the scene's folder: where that is meant, --allow-outside "
-                     "opens it";
+            reason = ": is outside the scene's folder; --allow-outside permits it";
         if (reason && refused_.empty()) refused_ = file.string() + reason;
         return !reason;
     }
@@ -233,7 +232,7 @@ void checkSizes(const aiScene& scene, std::uintmax_t file_size) {
             throw engine::Error(
                 std::to_string(scene.mNumMeshes) + " meshes at " + std::to_string(count) +
                 " nodes unfold to more than " + std::to_string(most >> 20) +
-                " MiB, which is 16 times the file's size and 32 MiB");
+                " MiB, the limit of 16 times the file's size plus 32 MiB");
         nodes.insert(nodes.end(), node.mChildren, node.mChildren + node.mNumChildren);
     }
 }
@@ -244,7 +243,7 @@ void checkSizes(const aiScene& scene, std::uintmax_t file_size) {
 [[noreturn]] void fail(const Assimp::Importer& importer) {
     const std::string reason = importer.GetErrorString();
     if (reason.find("bad_alloc") != std::string::npos) throw std::bad_alloc();
-    throw engine::Error(reason);
+    throw engine::Error("assimp can't read it: " + reason);
 }
 
 ReadMesh
@@ -285,7 +284,7 @@ int main(int argc, char** argv) {
         std::cout.flush();
         return std::cout ? 0 : 1;
     } catch (const std::bad_alloc&) {
-        std::cerr << "needs more memory than a file of its size is given\n";
+        std::cerr << "needs more memory than a file of its size may use\n";
     } catch (const std::exception& error) {
         std::cerr << error.what() << '\n';
     }

@@ -339,7 +339,7 @@ std::vector<std::uint32_t> clumpCentres(const Groom& groom, double spacing, std:
         return std::pair(hash(seed, strand, purpose::clump_centre), strand);
     });
     Centres centres(groom, spacing);
-    engine::Step step("looks for clumps", 2 * std::uint64_t{groom.strand_count});
+    engine::Step step("finds clumps", 2 * std::uint64_t{groom.strand_count});
     for (const std::uint32_t strand : order) {
         step.advance();
         if (!centres.nearest(strand)) centres.add(strand);

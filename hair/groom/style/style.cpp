@@ -26,7 +26,7 @@ Groom style(Groom groom, const StyleSettings& settings, std::uint32_t seed, cons
     groom = frizz(std::move(groom), settings.frizz, seed);
     groom = flyaways(std::move(groom), settings.flyaways, seed);
     if (settings.clearance > 0.0f && !mesh)
-        throw engine::Error("/groom/style/clearance: there is no mesh that the strands grow on");
+        throw engine::Error("/groom/style/clearance: is above 0, but the strands grow on no mesh");
     const auto clear = [&] {
         if (settings.clearance > 0.0f)
             groom = keepClear(std::move(groom), *mesh, settings.clearance);

@@ -2,7 +2,6 @@
 #include "shading/strand_shading.glsl"
 #include "strands/software/seen.glsl"
 
-#include "strands/own_color.glsl"
 #include "strands/software/place.glsl"
 #include "strands/software/samples.glsl"
 #include "strands/merged_fragment.glsl"
@@ -57,8 +56,8 @@ void main() {
             uint merged;
             StrandFragment fragment =
                 seenPoint(picture, seen.x, vec2(pixel) + samplePlace(i), merged);
-            vec3 hair_color = picture.hair_color * ownColor(picture, merged, fragment.along);
-            vec3 color = shadeStrand(picture, fragment, hair_color);
+            fragment.power = ownPower(picture, merged, fragment.along);
+            vec3 color = shadeStrand(picture, fragment, vec3(1.0));
             if (kLinearLight == 1u)
                 storePair(push.colors, index,
                           uvec2(packHalf2x16(color.rg), packHalf2x16(vec2(color.b, 1.0))));

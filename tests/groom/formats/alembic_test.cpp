@@ -107,7 +107,7 @@ TEST(Alembic, NumbersGroupsByTheirNamesWhereNothingElseDoes) {
         {twoCurvesWith({named(std::string("a\0b\0", 4)), madeIntegers("groom_group_id", {8, 9})})});
     EXPECT_THAT(numbered.groups, ElementsAre(8, 9));
     EXPECT_THAT(numbered.warnings, ElementsAre("'groom_group_name': left out"));
-    EXPECT_THAT(madeError({twoCurvesWith({named("top")})}), HasSubstr("without its end"));
+    EXPECT_THAT(madeError({twoCurvesWith({named("top")})}), HasSubstr("has no end"));
     EXPECT_THAT(
         madeError({twoCurvesWith({named(std::string("a\0b\0c\0", 6))})}),
         HasSubstr("one is expected, or one for each curve"));
@@ -389,9 +389,9 @@ TEST(AlembicNurbs, WithOtherKnotsAreRefused) {
         error({0, 0, 0, 0, 1, 1, 1}, "\4"),
         AllOf(HasSubstr("/a/.geom/.knots"), HasSubstr("curve 0 has too few knots")));
     EXPECT_THAT(error({0, 0, 0, 0, 1, 1, 1, 1, 1}, "\4"), HasSubstr("9 knots, the curves have 8"));
-    EXPECT_THAT(error({0, 0, 0, 1, 0, 1, 1, 1}, "\4"), HasSubstr("knots that go back"));
-    EXPECT_THAT(error({1, 1, 1, 1, 1, 1, 1, 1}, "\4"), HasSubstr("knots that are all one"));
-    EXPECT_THAT(error({0, 0, 0, 0, 0, 1, 1, 1, 1}, "\5"), HasSubstr("none of order 5"));
+    EXPECT_THAT(error({0, 0, 0, 1, 0, 1, 1, 1}, "\4"), HasSubstr("knots that decrease"));
+    EXPECT_THAT(error({1, 1, 1, 1, 1, 1, 1, 1}, "\4"), HasSubstr("knots that are all equal"));
+    EXPECT_THAT(error({0, 0, 0, 0, 0, 1, 1, 1, 1}, "\5"), HasSubstr("too few for order 5"));
     EXPECT_THAT(error({0, 0, 0, 0, 1}, "\1"), HasSubstr("has the order 1"));
     EXPECT_THAT(error({0, 0, 0, 0, 1, 1, 1, 1}, "\4\4"), HasSubstr("2 orders of 1 curves"));
 }
@@ -412,7 +412,7 @@ TEST(AlembicCubic, OthersAreRefusedWithWhatToDo) {
     EXPECT_THAT(error(0, 0, 4), HasSubstr("Hermite"));
     EXPECT_THAT(error(0, 0, 5), HasSubstr("power"));
     EXPECT_THAT(error(0, 0, 9), HasSubstr("the basis 9"));
-    EXPECT_THAT(error(0, 0, 1), HasSubstr("curve 0 has 5 vertices, which are no cubic B"));
+    EXPECT_THAT(error(0, 0, 1), HasSubstr("curve 0 has 5 vertices, which do not make a cubic B"));
     EXPECT_THAT(error(0, 0, 2, {madeFloats("w", 1, {1, 2, 1, 1, 1})}), HasSubstr("rational"));
     EXPECT_EQ(error(0, 0, 2, {madeFloats("w", 1, {1, 1, 1, 1, 1})}), "no error");
 }
@@ -434,14 +434,14 @@ TEST(Alembic, RefusesValuesThatDoNotFit) {
     EXPECT_THAT(with({madeFloats("width", 3, {1, 2, 3})}), HasSubstr("expected 1 \xc3\x97 float"));
     EXPECT_THAT(with({madeFloats("width", 1, {1, -2})}), HasSubstr("width 1 is negative"));
     EXPECT_THAT(with({madeIntegers("width", {1})}), HasSubstr("int32"));
-    EXPECT_THAT(with({madeKind(1, 0, 0)}), HasSubstr("'curveBasisAndType' is there twice"));
+    EXPECT_THAT(with({madeKind(1, 0, 0)}), HasSubstr("'curveBasisAndType' appears twice"));
     EXPECT_THAT(
         parameter(madeIntegers("groom_group_id", {1, 2, 3, 4, 5})),
         HasSubstr("one for each curve"));
     EXPECT_THAT(parameter(madeFloats("groom_guide", 1, {1})), HasSubstr("expected integers"));
     EXPECT_THAT(
         parameter({.name = "groom_guide", .type = kUint32, .samples = {Bytes().u32(~0u).str()}}),
-        HasSubstr("4294967295 is no int32"));
+        HasSubstr("4294967295 is not an int32"));
     EXPECT_THAT(
         parameter(madeFloats("groom_root_uv", 2, {0, 0, 0, 0, 0, 0})),
         HasSubstr("one is expected for each curve"));
@@ -484,14 +484,14 @@ TEST(Alembic, RefusesTransformsThatAreNone) {
         error("\x10", {1, std::numeric_limits<double>::infinity(), 0}),
         HasSubstr("/t/.xform/.vals: number 1 is not finite"));
     EXPECT_THAT(
-        error(std::string("\0", 1), {1e39, 1e39, 1e39}), HasSubstr("over what floats hold"));
+        error(std::string("\0", 1), {1e39, 1e39, 1e39}), HasSubstr("exceeds a float's range"));
 }
 
 // ---- Archives -----------------------------------------------------------------------------------
 
 TEST(Ogawa, RefusesOtherHeaders) {
     const std::string whole = madeArchive({madeCurves("a", twoCurves())});
-    EXPECT_THAT(readError(importAlembic, patched(whole, 5, '\0')), HasSubstr("did not finish it"));
+    EXPECT_THAT(readError(importAlembic, patched(whole, 5, '\0')), HasSubstr("was not finished"));
     EXPECT_THAT(readError(importAlembic, patched(whole, 7, '\2')), HasSubstr("version"));
     EXPECT_THAT(
         readError(importAlembic, patched(whole, 8, std::uint64_t{0})), HasSubstr("no root group"));
@@ -549,7 +549,7 @@ TEST(Ogawa, RefusesCountsThatTheFileDoesNotBearOut) {
     half.samples[0].pop_back();
     EXPECT_THAT(
         madeError({madeCurves("a", {half, madeIntegers("nVertices", {2, 3})})}),
-        HasSubstr("which are no elements of 12"));
+        HasSubstr("which is not a multiple of 12"));
     MadeProperty scalar = madeFloats("P", 3, kFivePoints);
     scalar.kind = 1;
     EXPECT_THAT(

@@ -171,7 +171,7 @@ TEST(EmbreeXml, FollowsReferences) {
     EXPECT_THAT(readXml(own).ends, ElementsAre(3, 5, 8, 10));
     EXPECT_THAT(
         errorOfXml(replaced(text, "<ref id=\"hair\"", "<ref id=\"fur\"")),
-        StartsWith("line 14: nothing before has the id 'fur'"));
+        StartsWith("line 14: no earlier element has the id 'fur'"));
     EXPECT_EQ(
         errorOfXml(replaced(text, "<ref id=\"hair\"/>", "")), "line 3: the scene has no curves");
 }
@@ -251,7 +251,7 @@ TEST(EmbreeXml, ReadsNumbersBetweenComments) {
         readXml(replaced(kLinear, "<positions>", "<positions><!-- 1 2 3 4 -->\n<!-- <a> -->")));
     EXPECT_EQ(
         errorOfXml(replaced(kLinear, "0 1 0 0.25", "<!-- two\n -->0 x 0 0.25")),
-        "line 8: 'x' is no finite number");
+        "line 8: 'x' is not a finite number");
 }
 
 TEST(EmbreeXml, ReadsArraysOfTheFileBesideIt) {
@@ -280,19 +280,20 @@ TEST(EmbreeXml, NamesTheLineOfWhatIsWrong) {
     const auto error = [](const std::string& from, const std::string& to) {
         return errorOfXml(replaced(kLinear, from, to));
     };
-    EXPECT_EQ(error("4 1 0", "4 one 0"), "line 10: 'one' is no finite number");
-    EXPECT_EQ(error("4 1 0", "4 inf 0"), "line 10: 'inf' is no finite number");
-    EXPECT_THAT(error("4 1 0", "4 1"), StartsWith("line 5: 'positions' has no whole number"));
+    EXPECT_EQ(error("4 1 0", "4 one 0"), "line 10: 'one' is not a finite number");
+    EXPECT_EQ(error("4 1 0", "4 inf 0"), "line 10: 'inf' is not a finite number");
+    EXPECT_THAT(error("4 1 0", "4 1"), StartsWith("line 5: 'positions' is not made of groups"));
     EXPECT_THAT(error("0 1 0 0.25", "0 1 0 -1"), StartsWith("line 5: radius 1 is negative"));
     EXPECT_EQ(error("0 1 3", "0 1 4"), "line 12: a segment of vertices 4 to 5, there are 5");
-    EXPECT_EQ(error("0 1 3", "0 1 -3"), "line 12: '-3' is no index");
+    EXPECT_EQ(error("0 1 3", "0 1 -3"), "line 12: '-3' is not an index");
     EXPECT_EQ(error("0 1 3", ""), "line 3: the scene has no curves");
     EXPECT_THAT(error("\"linear\"", "\"nurbs\""), StartsWith("line 4: curves of basis 'nurbs'"));
     EXPECT_EQ(
         error("\"linear\"", "\"hermite\""), "line 4: curves of basis 'hermite' without tangents");
     EXPECT_THAT(error("</Curves>", "</Kurves>"), StartsWith("line 13: the end of 'Curves'"));
     EXPECT_THAT(errorOfXml("<BGFscene></BGFscene>"), StartsWith("line 1: 'BGFscene'"));
-    EXPECT_THAT(errorOfXml(kLinear + "<scene/>"), StartsWith("line 15: the scene has ended"));
+    EXPECT_THAT(
+        errorOfXml(kLinear + "<scene/>"), StartsWith("line 15: text after the end of the scene"));
     std::string nested;
     for (int i = 0; i < 100; ++i) nested += "<Group>";
     EXPECT_THAT(errorOfXml(nested), HasSubstr("more than 64"));

@@ -185,9 +185,9 @@ TEST(ImportGltfStrands, RefusesWrongAttributes) {
 
 TEST(ImportGltfStrands, NamesTheByteOfWhatIsNoGltf) {
     const auto errorOf = [](const std::string& text) { return readError(importGltfStrands, text); };
-    EXPECT_THAT(errorOf(""), StartsWith("byte 0: not JSON"));
+    EXPECT_THAT(errorOf(""), StartsWith("byte 0: is not JSON"));
     EXPECT_THAT(errorOf("{\"asset\":1e999}"), HasSubstr("number overflow"));
-    EXPECT_THAT(errorOf("{\"asset\":}"), StartsWith("byte 9: not JSON"));
+    EXPECT_THAT(errorOf("{\"asset\":}"), StartsWith("byte 9: is not JSON"));
     std::string bytes = glb({});
     bytes[4] = 1;
     EXPECT_THAT(errorOf(bytes), StartsWith("byte 4: version 1 of glTF"));
@@ -195,7 +195,7 @@ TEST(ImportGltfStrands, NamesTheByteOfWhatIsNoGltf) {
     EXPECT_THAT(errorOf(bytes), StartsWith("byte 8: the header says"));
     bytes = glb({});
     bytes[20] = '[';
-    EXPECT_THAT(errorOf(bytes), StartsWith("byte 28: not JSON"));
+    EXPECT_THAT(errorOf(bytes), StartsWith("byte 28: is not JSON"));
     bytes = glb({});
     bytes[15] = '\x7f';
     EXPECT_THAT(errorOf(bytes), StartsWith("byte 12: truncated: the chunk has"));

@@ -49,7 +49,7 @@ TEST(ImportObj, ReadsColours) {
     EXPECT_THAT(
         strands.colors.values,
         ElementsAre(glm::vec3(1, 0.5f, 0.25f), glm::vec3(0, 0, 1), glm::vec3(1)));
-    EXPECT_THAT(strands.warnings, ElementsAre("1 vertices have no colour: white"));
+    EXPECT_THAT(strands.warnings, ElementsAre("1 vertices have no colour and become white"));
 }
 
 TEST(ImportObj, LeavesOutWhatIsNoStrand) {
@@ -74,13 +74,14 @@ TEST(ImportObj, NamesTheLineOfWhatIsWrong) {
     EXPECT_THAT(errorOfObj(kVertices), StartsWith("line 5: the file has no strands"));
     EXPECT_THAT(errorOfObj("v 0 0\n"), StartsWith("line 1: a vertex of 2 numbers, expected x y z"));
     EXPECT_THAT(errorOfObj("v 0 0 0 0 0\n"), StartsWith("line 1: a vertex of 5 numbers"));
-    EXPECT_THAT(errorOfObj("v 0 0 zero\n"), StartsWith("line 1: 'zero' is no number"));
-    EXPECT_THAT(errorOfObj("v 0 0 +-1\n"), StartsWith("line 1: '+-1' is no number"));
+    EXPECT_THAT(errorOfObj("v 0 0 zero\n"), StartsWith("line 1: 'zero' is not a number"));
+    EXPECT_THAT(errorOfObj("v 0 0 +-1\n"), StartsWith("line 1: '+-1' is not a number"));
     EXPECT_THAT(errorOfObj("#\nv 0 0 nan\n"), StartsWith("line 2: 'nan' is not a finite float"));
     EXPECT_THAT(errorOfObj("v 0 -inf 0\n"), StartsWith("line 1: '-inf' is not a finite float"));
     EXPECT_THAT(errorOfObj("v 0 1e39 0\n"), StartsWith("line 1: '1e39' is not a finite float"));
     EXPECT_THAT(errorOfObj(kVertices + "l 1\n"), StartsWith("line 6: a line of 1 vertices"));
-    EXPECT_THAT(errorOfObj(kVertices + "l 1 x\n"), StartsWith("line 6: 'x' is no vertex's index"));
+    EXPECT_THAT(
+        errorOfObj(kVertices + "l 1 x\n"), StartsWith("line 6: 'x' is not the index of a vertex"));
     EXPECT_THAT(errorOfObj(kVertices + "l 0 1\n"), StartsWith("line 6: vertex 0 is named"));
     EXPECT_THAT(
         errorOfObj(kVertices + "l -6 1\n"), StartsWith("line 6: vertex -6 is named, there are 5"));
@@ -93,7 +94,7 @@ TEST(ImportObj, NamesTheLineOfWhatIsWrong) {
     EXPECT_THAT(
         errorOfObj(kVertices + "l 1 99999999999999999999\n"),
         StartsWith("line 6: '99999999999999999999'"));
-    EXPECT_THAT(errorOfObj("v 0 0 \\\n\\\nx\n"), StartsWith("line 1: 'x' is no number"));
+    EXPECT_THAT(errorOfObj("v 0 0 \\\n\\\nx\n"), StartsWith("line 1: 'x' is not a number"));
 }
 
 TEST(ExportObj, ReadsBackBitEqual) {

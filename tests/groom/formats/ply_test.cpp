@@ -142,8 +142,8 @@ TEST(ImportPly, RefusesWrongHeaders) {
     EXPECT_THAT(
         errorOfPly(ascii("property float x\n", "")), StartsWith("line 3: a property before"));
     EXPECT_THAT(
-        errorOfPly(ascii("element vertex -1\n", "")), StartsWith("line 3: '-1' is no count"));
-    EXPECT_THAT(errorOfPly(ascii("element vertex\n", "")), StartsWith("line 3: '' is no count"));
+        errorOfPly(ascii("element vertex -1\n", "")), StartsWith("line 3: '-1' is not a count"));
+    EXPECT_THAT(errorOfPly(ascii("element vertex\n", "")), StartsWith("line 3: '' is not a count"));
     EXPECT_THAT(
         errorOfPly(ascii("element vertex 1\n", "")), StartsWith("line 4: element 'vertex' has"));
     EXPECT_THAT(
@@ -154,7 +154,7 @@ TEST(ImportPly, RefusesWrongHeaders) {
         StartsWith("line 4: a list's length"));
     EXPECT_THAT(
         errorOfPly(ascii(vertexElement() + vertexElement(), "")),
-        HasSubstr("'vertex' is there twice"));
+        HasSubstr("'vertex' appears twice"));
 }
 
 // The reader allocates nothing for counts that the file can't hold: these would take 48 GB and
@@ -167,7 +167,7 @@ TEST(ImportPly, RefusesCountsThatTheFileCantHold) {
         EXPECT_THAT(errorOfPly(begin + "4000000000" + rest), HasSubstr("truncated: 4000000000 of"));
         EXPECT_THAT(
             errorOfPly(begin + "9000000000000000000" + rest), HasSubstr("at most 2^32 - 1"));
-        EXPECT_THAT(errorOfPly(begin + "99999999999999999999" + rest), HasSubstr("is no count"));
+        EXPECT_THAT(errorOfPly(begin + "99999999999999999999" + rest), HasSubstr("is not a count"));
     }
     std::string list = binary(false);
     list.replace(list.size() - 8, 4, std::string(4, '\xff'));
@@ -198,7 +198,7 @@ TEST(ImportPly, RefusesWrongValues) {
         StartsWith("line 18: '5' is one value more"));
     EXPECT_THAT(
         errorOfPly(ascii(edges, kVertexRows + "0 1\n1 2.5\n3 4\n")),
-        StartsWith("line 17: '2.5' is no integer"));
+        StartsWith("line 17: '2.5' is not an integer"));
     EXPECT_THAT(
         errorOfPly(ascii(edges, kVertexRows + "0 1\n1 2\n3 4\nmore\n")),
         StartsWith("line 19: 'more' after the last element"));
@@ -276,8 +276,7 @@ TEST(ImportPly, MakesStrandsOfSoManyPointsEach) {
     EXPECT_EQ(strand.points[4], glm::vec3(4, 1, 0));
     EXPECT_THAT(readPlyOf(1, points_alone).ends, ElementsAre(1, 2, 3, 4, 5));
     EXPECT_EQ(
-        errorOfPlyOf(2, points_alone),
-        "line 7: 5 vertices are no whole number of strands of 2 points");
+        errorOfPlyOf(2, points_alone), "line 7: 5 vertices do not divide into strands of 2 points");
     EXPECT_THAT(
         errorOfPly(points_alone),
         AllOf(StartsWith("line 7: the file has no strands"), HasSubstr("--points-per-strand")));
@@ -287,7 +286,7 @@ TEST(ImportPly, MakesStrandsOfSoManyPointsEach) {
                    "element vertex 0\nproperty float x\nproperty float y\n"
                    "property float z\n",
                    "")),
-        HasSubstr("no whole number"));
+        HasSubstr("do not divide into strands"));
 }
 
 // The file's own strands come first; a mesh beside the points gives no strands.

@@ -66,7 +66,7 @@ TEST(ImportStrands, NamesTheFileOnce) {
     std::filesystem::create_directory(folder.file("folder.hair"));
     EXPECT_EQ(
         fileError(folder.file("folder.hair")),
-        folder.file("folder.hair").string() + ": not a file");
+        folder.file("folder.hair").string() + ": is not a file");
     EXPECT_THAT(fileError(folder.write("empty.hair", "")), HasSubstr("byte 0: truncated"));
 }
 
@@ -76,9 +76,8 @@ TEST(ImportStrands, ListsWhatItKnows) {
     EXPECT_EQ(
         fileError(path),
         path.string() +
-            ": unknown format of strands \".xyz\"; known are .hair, .tfx, .hgl, "
-            ".ply, .obj, .gltf, .glb, .usd, .usda, .usdc, .usdz, .data, .npy, .npz, .xml, .bin, "
-            ".abc");
+            ": unknown format of strands '.xyz'; known: .hair, .tfx, .hgl, .ply, .obj, .gltf, "
+            ".glb, .usd, .usda, .usdc, .usdz, .data, .npy, .npz, .xml, .bin, .abc");
 }
 
 // The settings know no formats, so their help has a list of its own.
@@ -138,8 +137,8 @@ TEST(ExportStrands, WritesWholeFilesOrNone) {
 TEST(ExportStrands, ListsWhatItKnows) {
     EXPECT_EQ(
         errorText([] { exportStrands(kTwoStrands, "a.usdc"); }),
-        "a.usdc: strands can't be written as \".usdc\"; known are .hair, .hgl, .tfx, .obj, .ply, "
-        ".gltf, .glb, .usda, .data, .npy, .npz, .abc");
+        "a.usdc: strands can't be written as '.usdc'; known: .hair, .hgl, .tfx, .obj, .ply, .gltf, "
+        ".glb, .usda, .data, .npy, .npz, .abc");
 }
 
 TEST(ExportStrands, ReturnsTheWarnings) {

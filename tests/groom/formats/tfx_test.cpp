@@ -142,10 +142,10 @@ TEST(ImportTfx, RefusesArraysThatDoNotFit) {
     }
     EXPECT_EQ(
         errorOfTfx(patched(bytes, 16, kPositions + 16)),
-        "byte 16: strand UVs at byte 176 lie on the positions, which end at byte 352");
+        "byte 16: strand UVs at byte 176 overlap the positions, which end at byte 352");
     EXPECT_EQ(
         errorOfTfx(patched(bytes, 16, kPositions)),
-        "byte 16: strand UVs at byte 160 lie on the positions, which end at byte 352");
+        "byte 16: strand UVs at byte 160 overlap the positions, which end at byte 352");
     EXPECT_EQ(
         errorOfTfx(patched(bytes, 28, kTfxColors + 2)),
         "byte 28: vertex colours at byte 486: not a multiple of 4");
@@ -313,16 +313,16 @@ TEST(ImportTfx2, NamesTheLineOfWhatIsWrong) {
     EXPECT_THAT(error("rotation 0", "rotation 90"), StartsWith("line 3: a rotation"));
     EXPECT_THAT(error("bothEnds", "someEnds"), StartsWith("line 5: unknown keyword"));
     EXPECT_THAT(error("16", "2"), StartsWith("line 11: more vertices than"));
-    EXPECT_THAT(error("numStrands 2", "numStrands 0"), StartsWith("line 9: '0' is no number"));
+    EXPECT_THAT(error("numStrands 2", "numStrands 0"), StartsWith("line 9: '0' is not a number"));
     EXPECT_THAT(
         error("numStrands 2", "numStrands 4000000000"),
         "line 9: truncated: 4000000000 strands are expected");
     EXPECT_EQ(error("strand 1 ", "strand 2 "), "line 15: strand 1 is expected here");
-    EXPECT_THAT(error("numVerts 3", "numVerts 4"), StartsWith("line 15: 'strand' is no finite"));
+    EXPECT_THAT(error("numVerts 3", "numVerts 4"), StartsWith("line 15: 'strand' is not a finite"));
     EXPECT_THAT(error("numVerts 3", "numVerts 2"), StartsWith("line 14: '0', expected 'strand'"));
     EXPECT_THAT(error(" texcoord 0.5 0.25", ""), StartsWith("line 15: all strands"));
-    EXPECT_THAT(error("5e-1", "nan"), "line 14: 'nan' is no finite number");
-    EXPECT_THAT(error("0 1 0\n", "0 1\n"), StartsWith("line 13: '' is no finite number"));
+    EXPECT_THAT(error("5e-1", "nan"), "line 14: 'nan' is not a finite number");
+    EXPECT_THAT(error("0 1 0\n", "0 1\n"), StartsWith("line 13: '' is not a finite number"));
     EXPECT_THAT(error("0 1 0\n", "0 1 0 0\n"), "line 13: '0' is one value too many");
     EXPECT_THAT(error("4 1 0\n", "4 1 0\nmore"), "line 18: 'more' after the last strand");
 }

@@ -125,12 +125,13 @@ TEST_F(UsdImportTest, RefusesNamingThePrim) {
         {"no_points.usda", "/wig/hair: points: 0 x 3 numbers, 4 x 3 are needed"},
         {"nan.usda", "/wig/hair: points: value 2 is not finite"},
         {"infinite.usda", "/wig/hair: points: value 3 is not finite"},
-        {"overflow.usda", "/wig/hair: in world space a point is over what floats hold"},
-        {"no_bezier.usda", "/wig/hair: curve 0 has 5 vertices, which are no nonperiodic bezier"},
+        {"overflow.usda", "/wig/hair: in world space a point exceeds a float's range"},
+        {"no_bezier.usda",
+         "/wig/hair: curve 0 has 5 vertices, which do not make a nonperiodic bezier curve"},
         {"short_bspline.usda",
-         "/wig/hair: curve 1 has 3 vertices, which are no nonperiodic bspline"},
-        {"basis.usda", "/wig/hair: the basis 'hermite' is not known: bezier, bspline, catmullRom"},
-        {"kind.usda", "/wig/hair: the type 'quintic' is not known: linear, cubic"},
+         "/wig/hair: curve 1 has 3 vertices, which do not make a nonperiodic bspline curve"},
+        {"basis.usda", "/wig/hair: unknown basis 'hermite'; known: bezier, bspline, catmullRom"},
+        {"kind.usda", "/wig/hair: unknown type 'quintic'; known: linear, cubic"},
         {"few_widths.usda", "/wig/hair: widths (vertex): 2 x 1 numbers, 4 x 1 are needed"},
         {"two_constants.usda", "/wig/hair: widths (constant): 2 x 1 numbers, 1 x 1 are needed"},
         {"negative_width.usda", "/wig/hair: a width is negative: -3.0"},
@@ -180,24 +181,22 @@ TEST_F(UsdImportTest, OpensFilesOfItsFoldersAlone) {
     };
     EXPECT_EQ(errorOf(reference("./own.usda")), "no error");
     for (const char* outside : {"../private.usda", "./link.usda"})
-        EXPECT_THAT(errorOf(reference(outside)), HasSubstr("lies outside of the scene's folder"));
+        EXPECT_THAT(errorOf(reference(outside)), HasSubstr("is outside the scene's folder"));
     EXPECT_THAT(
         errorOf("def \"a\" (payload = @../private.usda@) {}\n"),
-        HasSubstr("lies outside of the scene's folder"));
+        HasSubstr("is outside the scene's folder"));
     EXPECT_THAT(
-        errorOf("(subLayers = [@../private.usda@])\n"),
-        HasSubstr("lies outside of the scene's folder"));
-    EXPECT_THAT(errorOf(reference("./pipe.usda")), HasSubstr("pipe.usda: not a file"));
+        errorOf("(subLayers = [@../private.usda@])\n"), HasSubstr("is outside the scene's folder"));
+    EXPECT_THAT(errorOf(reference("./pipe.usda")), HasSubstr("pipe.usda: is not a file"));
     // Without a check, the file's own folder is the limit.
     errorOf(reference("../private.usda"));
     EXPECT_THAT(
-        errorText([&] { importStrands(files.file("scene/a.usda")); }),
-        HasSubstr("lies outside of"));
+        errorText([&] { importStrands(files.file("scene/a.usda")); }), HasSubstr("is outside"));
     // The arguments of a format are no part of the file's name.
     EXPECT_EQ(errorOf(reference("./own.usda:SDF_FORMAT_ARGS:a=b")), "no error");
     EXPECT_THAT(
         errorOf(reference("./link.usda:SDF_FORMAT_ARGS:a=b")),
-        HasSubstr("lies outside of the scene's folder"));
+        HasSubstr("is outside the scene's folder"));
     EXPECT_THAT(
         errorOf("(expressionVariables = { string A = \"li\" }\nsubLayers = "
                 "[@`\"./${A}nk.usda\"`@])\n"),
@@ -232,10 +231,10 @@ TEST_F(UsdImportTest, OpensClipsOfItsFoldersAlone) {
     };
     EXPECT_THAT(
         errorOf("asset[] assetPaths = [@../private.usda@]"),
-        twice("lies outside of the scene's folder"));
+        twice("is outside the scene's folder"));
     EXPECT_THAT(
         errorOf("asset manifestAssetPath = @../private.usda@"),
-        twice("lies outside of the scene's folder"));
+        twice("is outside the scene's folder"));
     EXPECT_THAT(errorOf("string templateAssetPath = \"p.#.usda\""), twice("by a template"));
     EXPECT_THAT(errorOf("string[] assetPaths = [\"x\"]"), twice("its value clips are no assets"));
 }
@@ -253,7 +252,7 @@ TEST_F(UsdImportTest, HoldsReferencesAgainstTheFile) {
     }
     EXPECT_THAT(
         errorText([&] { importStrands(files.write("nested.usda", nested)); }),
-        HasSubstr("its references stand for"));
+        HasSubstr("its references make"));
     std::string large = "#usda 1.0\n" + basisCurves("l", 100000);
     for (int i = 0; i < 1000; ++i)
         large += "def \"c" + std::to_string(i) + "\" (references = </l>) {}\n";
@@ -315,7 +314,7 @@ TEST_F(UsdImportTest, RefusesDeepNestsAndManyVariants) {
 
 TEST(UsdImport, SaysWhatItNeeds) {
     EXPECT_EQ(
-        errorText([] { importUsd({}); }), "USD can be read from a file alone, not from memory");
+        errorText([] { importUsd({}); }), "USD can be read only from a file, not from memory");
     const char* before = std::getenv("HAIRBENCH_PYTHON");
     const std::string saved = before ? before : "";
     setenv("HAIRBENCH_PYTHON", "/no/such/python", 1);
