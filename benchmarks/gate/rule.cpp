@@ -46,7 +46,7 @@ bool Gate::isStage(std::size_t pairs) const {
 Gate::Step Gate::next() const {
     const bool a_first = pairs_ % 2 == 0;
     if (waiting_) return a_first ? Step::run_b : Step::run_a;
-    if (isStage(pairs_) || (decided_at_ > 0 && pairs_ == decided_at_)) {
+    if (decided_at_ > 0 && pairs_ == decided_at_) {
         if (pairs_ == *std::rbegin(report::kStages)) return Step::decided;
         bool open = false;
         bool regressed = false;
@@ -131,10 +131,9 @@ void Gate::passVerdicts() {
 }
 
 std::size_t Gate::nextDecision() const {
-    for (const std::size_t stage : report::kStages) {
-        if (!isStage(stage)) continue;
-        if (pairs_ < stage || (pairs_ == stage && next() == Step::decided)) return stage;
-    }
+    if (next() == Step::decided) return pairs_;
+    for (const std::size_t stage : report::kStages)
+        if (isStage(stage) && pairs_ < stage) return stage;
     return *std::rbegin(report::kStages);
 }
 

@@ -216,17 +216,20 @@ void GateSession::addCycles(const std::vector<CommonMetric>& common) {
 }
 
 bool GateSession::block(const Side& side, Phase phase, std::size_t pair) {
-    const std::chrono::duration<double, std::ratio<60>> passed =
-        std::chrono::steady_clock::now() - start_;
-    if (max_minutes_ > 0.0 && passed.count() >= max_minutes_) throw OutOfTime();
     progress_->begin(
         pieceName(phase == Phase::calibration ? "calibration," : "gate,", pair, side.name));
     const auto seed = static_cast<std::uint32_t>(seed_ + pair);
     const BlockReport& first = side.name == 'A' ? *run_.first_a : *run_.first_b;
-    BlockReport report = runner_.run(side, seed);
+    const auto run = [&] {
+        const std::chrono::duration<double, std::ratio<60>> passed =
+            std::chrono::steady_clock::now() - start_;
+        if (max_minutes_ > 0.0 && passed.count() >= max_minutes_) throw OutOfTime();
+        return runner_.run(side, seed);
+    };
+    BlockReport report = run();
     for (int again = 0; again < kMostRepeats && isLost(first, report); ++again) {
         ++run_.repeated_blocks;
-        report = runner_.run(side, seed);
+        report = run();
     }
     run_.mismatches = mismatches(first, report);
     if (!run_.mismatches.empty()) run_.unstable = side.name;

@@ -13,6 +13,7 @@
 #include "engine/error.h"
 #include "engine/program_files.h"
 #include "hair/fields.h"
+#include "hair/groom/named_files.h"
 #include "hair/settings.h"
 
 namespace benchmarks::scene {
@@ -22,19 +23,8 @@ namespace fs = std::filesystem;
 
 // ---- Folders ------------------------------------------------------------------------------------
 
-// Resolves links as far as the path exists.
-fs::path placeOf(const fs::path& path) {
-    std::error_code error;
-    const fs::path absolute = fs::absolute(path, error);
-    const fs::path place = fs::weakly_canonical(absolute, error);
-    return error ? absolute.lexically_normal() : place;  // circular links: such a file cannot be
-                                                         // opened
-}
-
-bool isBelow(const fs::path& file, const fs::path& folder) {
-    return std::mismatch(folder.begin(), folder.end(), file.begin(), file.end()).first ==
-           folder.end();
-}
+using hair::groom::isBelow;
+using hair::groom::placeOf;
 
 // Ignores the mark in folders that anyone may write to, like /tmp.
 bool isMarked(const fs::path& folder) {

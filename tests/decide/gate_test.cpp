@@ -60,6 +60,7 @@ TEST(Gate, EndsAt8WhenAChangeIsLargeInEveryPair) {
     EXPECT_EQ(slower.comparisons()[0].verdict, Verdict::regressed);
     EXPECT_EQ(slower.comparisons()[0].pairs, 8u);
     EXPECT_EQ(slower.decidedAt(), 8u);
+    EXPECT_EQ(slower.nextDecision(), 8u);  // at the end, the last number of pairs
     gate::Gate faster(kOneMetric);
     EXPECT_EQ(play(faster, [](std::size_t) { return 1.0 / 1.21; }), 16u);
     EXPECT_EQ(faster.comparisons()[0].verdict, Verdict::improved);
