@@ -272,11 +272,7 @@ Device::Device(const DeviceOptions& options)
     VkCommandPool handle{};
     check(vkCreateCommandPool(get(), &pool, nullptr, &handle), "create a command pool");
     pool_ = {get(), handle};
-    const VkFenceCreateInfo fence{
-        .sType = VK_STRUCTURE_TYPE_FENCE_CREATE_INFO, .pNext = nullptr, .flags = 0};
-    VkFence fence_handle{};
-    check(vkCreateFence(get(), &fence, nullptr, &fence_handle), "create a fence");
-    fence_ = {get(), fence_handle};
+    fence_ = Fence(get());
 }
 
 Device::~Device() {
@@ -391,13 +387,12 @@ void Device::submitOnce(const std::function<void(VkCommandBuffer)>& record) cons
     submit.sType = VK_STRUCTURE_TYPE_SUBMIT_INFO_2;
     submit.commandBufferInfoCount = 1;
     submit.pCommandBufferInfos = &submitted;
-    const VkFence fence = fence_.get();
+    const VkFence fence = fence_.ready();
     check(vkQueueSubmit2(queue_, 1, &submit, fence), "submit");
     await("wait for the device", [&](std::uint64_t nanoseconds) {
         return vkWaitForFences(get(), 1, &fence, VK_TRUE, nanoseconds);
     });
     if (hazards_) hazards_->finish(hazards_->submissions());
-    check(vkResetFences(get(), 1, &fence), "reset a fence");
 }
 
 std::chrono::steady_clock::time_point Device::beginWait(const char* what) const {

@@ -227,7 +227,7 @@ private:
     std::unique_ptr<PipelineCache> cache_;
     std::unique_ptr<PipelineStore> pipelines_;
     Handle<VkCommandPool, &vkDestroyCommandPool> pool_;
-    Handle<VkFence, &vkDestroyFence> fence_;
+    Fence fence_;
 };
 
 }  // namespace engine

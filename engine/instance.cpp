@@ -416,6 +416,20 @@ GivenUp& givenUp() {
 
 }  // namespace
 
+Fence::Fence(VkDevice device) : device_(device) {
+    const VkFenceCreateInfo create{
+        .sType = VK_STRUCTURE_TYPE_FENCE_CREATE_INFO, .pNext = nullptr, .flags = 0};
+    VkFence fence{};
+    check(vkCreateFence(device, &create, nullptr, &fence), "create a fence");
+    fence_ = {device, fence};
+}
+
+VkFence Fence::ready() const {
+    const VkFence fence = get();
+    if (fence) check(vkResetFences(device_, 1, &fence), "reset a fence");
+    return fence;
+}
+
 bool isGivenUp(VkDevice device) {
     if (!givenUp().any) return false;
     const std::lock_guard lock(givenUp().mutex);

@@ -76,6 +76,23 @@ private:
     Object object_{};
 };
 
+// A fence that submissions use in turn.
+class Fence {
+public:
+    Fence() = default;
+    explicit Fence(VkDevice device);
+
+    // Null for a default-constructed object.
+    VkFence get() const { return fence_.get(); }
+    // Returns the fence, unsignalled, for the next submission. A fence that is reset after its wait
+    // would stay signalled if the reset failed, and the next wait would end at once.
+    VkFence ready() const;
+
+private:
+    VkDevice device_{};
+    Handle<VkFence, &vkDestroyFence> fence_;
+};
+
 enum class Validation {
     off,
     on,  // the Khronos layer with synchronisation validation; an Error if it is not installed

@@ -99,14 +99,6 @@ Handle<VkSemaphore, &vkDestroySemaphore> makeSemaphore(VkDevice device) {
     return {device, semaphore};
 }
 
-Handle<VkFence, &vkDestroyFence> makeFence(VkDevice device) {
-    const VkFenceCreateInfo create{
-        .sType = VK_STRUCTURE_TYPE_FENCE_CREATE_INFO, .pNext = nullptr, .flags = 0};
-    VkFence fence{};
-    check(vkCreateFence(device, &create, nullptr, &fence), "create a fence");
-    return {device, fence};
-}
-
 VkSemaphoreSubmitInfo semaphoreInfo(VkSemaphore semaphore, VkPipelineStageFlags2 stages) {
     VkSemaphoreSubmitInfo info{};
     info.sType = VK_STRUCTURE_TYPE_SEMAPHORE_SUBMIT_INFO;
@@ -188,7 +180,7 @@ Swapchain::Swapchain(
         Slot& slot = slots_.emplace_back();
         slot.image = image;
         slot.drawn = makeSemaphore(device.get());
-        if (device.has(Feature::present_fences)) slot.shown = makeFence(device.get());
+        if (device.has(Feature::present_fences)) slot.shown = Fence(device.get());
     }
 }
 
@@ -210,7 +202,6 @@ std::optional<std::uint32_t> Swapchain::acquire(VkSemaphore acquired) {
             device_.await("wait for a picture to be shown", [&](std::uint64_t nanoseconds) {
                 return vkWaitForFences(device_.get(), 1, &shown, VK_TRUE, nanoseconds);
             });
-            check(vkResetFences(device_.get(), 1, &shown), "reset a fence");
         }
     }
     return index;
@@ -264,7 +255,7 @@ void Swapchain::copy(Commands& commands, const Image& picture, std::uint32_t ind
 bool Swapchain::present(std::uint32_t index) {
     const VkSwapchainKHR swapchain = swapchain_.get();
     const VkSemaphore drawn = slots_[index].drawn.get();
-    const VkFence shown = slots_[index].shown.get();
+    const VkFence shown = slots_[index].shown.ready();
     VkSwapchainPresentFenceInfoEXT fences{};
     fences.sType = VK_STRUCTURE_TYPE_SWAPCHAIN_PRESENT_FENCE_INFO_EXT;
     fences.swapchainCount = 1;
@@ -312,7 +303,7 @@ Presenter::Presenter(const Device& device, const Window& window, PresentMode mod
         .level = VK_COMMAND_BUFFER_LEVEL_PRIMARY,
         .commandBufferCount = 1};
     check(vkAllocateCommandBuffers(device.get(), &allocate, &buffer_), "allocate a command buffer");
-    done_ = makeFence(device.get());
+    done_ = Fence(device.get());
     acquired_ = makeSemaphore(device.get());
     timestamps_.emplace(device, 2);
 }
@@ -360,7 +351,6 @@ void Presenter::wait() {
         return vkWaitForFences(device_.get(), 1, &done, VK_TRUE, nanoseconds);
     });
     if (device_.hazards()) device_.hazards()->finish(submission_);
-    check(vkResetFences(device_.get(), 1, &done), "reset a fence");
     milliseconds_ = timestamps_->read().back();
 }
 
@@ -495,7 +485,7 @@ void Presenter::submit(std::uint32_t index) {
     info.pCommandBufferInfos = &buffer;
     info.signalSemaphoreInfoCount = 1;
     info.pSignalSemaphoreInfos = &drawn;
-    check(vkQueueSubmit2(device_.queue(), 1, &info, done_.get()), "submit the window's picture");
+    check(vkQueueSubmit2(device_.queue(), 1, &info, done_.ready()), "submit the window's picture");
     pending_ = true;
     ++frames_;
 }

@@ -66,7 +66,7 @@ private:
     struct Slot {
         VkImage image{};
         Handle<VkSemaphore, &vkDestroySemaphore> drawn;
-        Handle<VkFence, &vkDestroyFence> shown;  // null without Feature::present_fences
+        Fence shown;  // null without Feature::present_fences
         bool is_presented = false;  // since its last acquisition
     };
 
@@ -148,7 +148,7 @@ private:
     Handle<VkCommandPool, &vkDestroyCommandPool> pool_;
     VkCommandBuffer buffer_{};
     DescriptorSets sets_;
-    Handle<VkFence, &vkDestroyFence> done_;
+    Fence done_;
     Handle<VkSemaphore, &vkDestroySemaphore> acquired_;
     struct OldSwapchain {
         std::unique_ptr<Swapchain> swapchain;

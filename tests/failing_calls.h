@@ -44,6 +44,14 @@ struct Made<kPlace, VkResult(VKAPI_PTR*)(Arguments...)> {
     static VKAPI_ATTR VkResult VKAPI_CALL call(Arguments... arguments) {
         const std::size_t index = calls++;
         if (name == plan.call && index >= plan.after && index - plan.after < plan.times) {
+            // A lost device executes nothing: this one first finishes what it was given.
+            if (plan.result == VK_ERROR_DEVICE_LOST && name.starts_with("vkWait")) {
+                const VkResult result = real(arguments...);
+                if (result != VK_SUCCESS) {
+                    calls = index;
+                    return result;
+                }
+            }
             ++failures;
             return plan.result;
         }

@@ -3,8 +3,10 @@
 #include <cstdlib>
 #include <map>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include <gmock/gmock.h>
@@ -16,6 +18,8 @@
 #include "benchmarks/measure/hair_cache.h"
 #include "benchmarks/report/report.h"
 #include "benchmarks/run/run.h"
+#include "engine/buffer_image.h"
+#include "engine/transfer.h"
 #include "tests/failing_calls.h"
 #include "tests/required.h"
 #include "tests/temporary_folder.h"
@@ -207,6 +211,48 @@ TEST_F(FailingDevice, FailsOneCaseAndPlaysTheOther) {
                 EXPECT_EQ(played.left, whole->left);
             }
     }
+}
+
+// Submits, and counts the submissions whose fence is signalled before they begin.
+PFN_vkQueueSubmit2 real_submit = nullptr;
+VkDevice submitting_device{};
+int signalled_before = 0;
+
+VKAPI_ATTR VkResult VKAPI_CALL submitAndLookAtTheFence(
+    VkQueue queue, std::uint32_t count, const VkSubmitInfo2* submissions, VkFence fence) {
+    if (fence && vkGetFenceStatus(submitting_device, fence) == VK_SUCCESS) ++signalled_before;
+    return real_submit(queue, count, submissions, fence);
+}
+
+// A wait for a fence that is still signalled ends at once, and what the device still uses is freed.
+TEST_F(FailingDevice, WaitsAfterAFenceWasNotReset) {
+    std::optional<engine::Device> device;
+    try {
+        device.emplace(engine::DeviceOptions{});
+    } catch (const engine::NoDevice& error) {
+        return skipWithout(Need::device, error.what());
+    }
+    const std::vector<std::uint32_t> values{3, 1, 4, 1, 5};
+    const auto there_and_back = [&] {
+        const engine::Buffer buffer =
+            engine::makeBuffer(*device, std::span<const std::uint32_t>(values), "values");
+        return engine::downloadAs<std::uint32_t>(*device, buffer);
+    };
+    EXPECT_EQ(there_and_back(), values);
+    const failing::Call reset = failing::call<&vkResetFences>("vkResetFences", {kNoMemory});
+    reset.install();
+    submitting_device = device->get();
+    signalled_before = 0;
+    real_submit = std::exchange(vkQueueSubmit2, &submitAndLookAtTheFence);
+    failing::failures = 0;
+    failing::plan = {.call = "vkResetFences", .result = kNoMemory, .after = 0, .times = 1};
+    EXPECT_THROW(there_and_back(), engine::Error);
+    EXPECT_EQ(there_and_back(), values);
+    failing::plan = {};
+    vkQueueSubmit2 = real_submit;
+    EXPECT_EQ(failing::failures, 1u);
+    EXPECT_GE(*reset.calls, 3u);
+    EXPECT_EQ(signalled_before, 0);
 }
 
 TEST_F(FailingDevice, GivesUpADeviceThatNeverAnswers) {
