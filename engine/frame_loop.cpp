@@ -26,6 +26,7 @@ void addTime(std::vector<PassTime>& passes, const PassTime& time) {
     if (found != passes.end()) {
         found->milliseconds += time.milliseconds;
         found->use = found->use + time.use;
+        ++found->parts;
     } else {
         passes.push_back(time);
     }
@@ -312,6 +313,7 @@ FrameLoop::FrameLoop(const Device& device, Timing timing, const Overlap& overlap
     }
     if (async) beside_ = makeTimeline(device.get());
     records_.reserve(kRecordsAtFirst);
+    ends_.reserve(kRecordsAtFirst);
 }
 
 FrameLoop::~FrameLoop() {
@@ -337,6 +339,7 @@ void FrameLoop::frame(FunctionRef<void(Passes&)> record) {
     if (!records_.empty()) records_.back().interval = millisecondsBetween(start_, start);
     start_ = start;
     FrameRecord& result = records_.emplace_back();
+    ends_.emplace_back();
 
     if (timing_ == Timing::wall_clock) {
         SubmittedPasses<Slot> passes(device_, slot, timeline_.get(), submitted_, result);
@@ -413,10 +416,21 @@ std::vector<FrameRecord> FrameLoop::finish() {
     return takeRecords();
 }
 
+// Sets the gaps of the oldest records, which are complete and leave.
+void FrameLoop::setGaps(std::span<FrameRecord> records) {
+    for (std::size_t i = 0; i < records.size(); ++i) {
+        if (last_ends_ && ends_[i]) records[i].gap = millisecondsBetween(*last_ends_, *ends_[i]);
+        last_ends_ = ends_[i];
+    }
+    ends_.erase(ends_.begin(), ends_.begin() + static_cast<std::ptrdiff_t>(records.size()));
+}
+
 // Takes all records, and reserves as many for the next batch.
 std::vector<FrameRecord> FrameLoop::takeRecords() {
+    setGaps(records_);
     std::vector<FrameRecord> next;
     next.reserve(std::max(records_.size(), kRecordsAtFirst));
+    ends_.reserve(next.capacity());
     return std::exchange(records_, std::move(next));
 }
 
@@ -424,6 +438,7 @@ std::vector<FrameRecord> FrameLoop::completed() {
     std::size_t count = records_.empty() ? 0 : records_.size() - 1;
     for (const auto& slot : slots_)
         if (slot->record) count = std::min(count, *slot->record);
+    setGaps(std::span(records_).first(count));
     const auto end = records_.begin() + static_cast<std::ptrdiff_t>(count);
     std::vector<FrameRecord> complete(
         std::make_move_iterator(records_.begin()), std::make_move_iterator(end));
@@ -439,7 +454,6 @@ void FrameLoop::collect(Slot& slot) {
     waitFor(device_, timeline_.get(), slot.value);
     if (device_.hazards()) device_.hazards()->finish(slot.submission);
     FrameRecord& record = records_[*slot.record];
-    slot.record.reset();
     if (slot.timestamps) {
         const std::span<const double> times = slot.timestamps->read();
         for (const Slot::Span& span : slot.spans) {
@@ -447,8 +461,12 @@ void FrameLoop::collect(Slot& slot) {
                 record.passes,
                 {span.name, times[span.last_stamp] - times[span.first_stamp], ProcessUse{}});
         }
-        if (!times.empty()) record.device = times.back();
+        if (!times.empty()) {
+            record.device = times.back();
+            ends_[*slot.record] = slot.timestamps->ends();
+        }
     }
+    slot.record.reset();
     for (Slot::Query& query : slot.queries) {
         record.statistics.push_back({query.name, query.statistics.read()});
     }

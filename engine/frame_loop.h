@@ -79,6 +79,7 @@ struct PassTime {
     std::string name;
     double milliseconds = 0.0;
     ProcessUse use;  // CPU use of the whole process while the pass ran (wall_clock)
+    std::uint32_t parts = 1;  // passes of this name, summed; each is timed by itself
 };
 
 struct PassStatistics {
@@ -100,6 +101,9 @@ struct FrameRecord {
     // GPU: from the first to the last timestamp (overlapped, isolated). Absent if the device's
     // queue has no timestamps; then `passes` is empty too, except in wall_clock.
     std::optional<double> device;
+    // GPU: from the last timestamp of the previous frame to the first of this one: the queue had no
+    // work. Negative if this frame began earlier. Absent as `device`, and for a loop's first frame.
+    std::optional<double> gap{};
     // Passes of the same name are summed. Empty in overlapped frames with Stamps::frame.
     std::vector<PassTime> passes;
     std::vector<PassStatistics> statistics;
@@ -157,6 +161,7 @@ private:
     struct OwnBuffer;
     struct Slot;
     void collect(Slot& slot);
+    void setGaps(std::span<FrameRecord> records);
     void endBeside(Commands& beside, std::uint64_t drawn);
     std::vector<FrameRecord> takeRecords();
 
@@ -174,6 +179,8 @@ private:
     std::vector<std::unique_ptr<Slot>> slots_;
     std::uint64_t frames_ = 0;
     std::vector<FrameRecord> records_;  // of frames not returned yet
+    std::vector<std::optional<Timestamps::Ends>> ends_;  // [record]
+    std::optional<Timestamps::Ends> last_ends_;  // of the last frame returned
     std::chrono::steady_clock::time_point start_{};  // of the newest frame
 };
 

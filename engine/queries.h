@@ -92,6 +92,16 @@ public:
 
     std::uint32_t count() const { return count_; }
 
+    // The first and the last timestamp of a read().
+    struct Ends {
+        std::uint64_t first;  // ticks
+        std::uint64_t last;
+        double period;  // ms per tick
+        std::uint64_t mask;  // of the bits that count
+    };
+    // Needs a read() of at least one timestamp.
+    Ends ends() const { return {stamps_.front().ticks, stamps_[count_ - 1].ticks, period_, mask_}; }
+
 private:
     struct Stamp {
         std::uint64_t ticks;
@@ -115,6 +125,15 @@ std::optional<double> timestampRate(const Device& device);
 // Returns `now - before` of a counter that wraps at `mask` + 1 (a power of two).
 constexpr std::uint64_t ticksBetween(std::uint64_t before, std::uint64_t now, std::uint64_t mask) {
     return (now - before) & mask;
+}
+
+// Returns ms from the last timestamp of `before` to the first of `after`. Negative if that is
+// earlier: less than half of the counter's range apart, they are told apart.
+constexpr double
+millisecondsBetween(const Timestamps::Ends& before, const Timestamps::Ends& after) {
+    const std::uint64_t ticks = ticksBetween(before.last, after.first, after.mask);
+    if (ticks <= after.mask / 2) return static_cast<double>(ticks) * after.period;
+    return -static_cast<double>(ticksBetween(after.first, before.last, after.mask)) * after.period;
 }
 
 // Returns the mask of the low `bits` bits, for timestampValidBits.

@@ -42,8 +42,10 @@ runTool(const std::vector<std::string>& arguments, const ChildLimits& limits = {
 // Runs `work` in a fork of this process and returns its result. This is for work that may never
 // end, exhaust memory or crash. The fork has only the calling thread, so `work` must wait for no
 // other thread, and can open no file. It must not throw. If the child does not return, throws an
-// Error that says how it ended. An interrupt, or the end of a TimeLimit, ends the child and throws
-// as checkInterrupted() does.
+// Error
+// that says how it ended. An interrupt, or the end of a TimeLimit, ends the child and throws
+// as
+// checkInterrupted() does.
 std::string runApart(const std::function<std::string()>& work, const ChildLimits& limits);
 
 // Runs a program as the function above does, except for interrupts. Passes each line of its stdout

@@ -18,6 +18,16 @@ regressed. A gate that is stopped prints the last verdicts. Exit status: 0 nothi
 is slower, 11 inconclusive (--fail-on inconclusive, or out of time before the first verdicts), 12 pictures
 or states differ, 130 interrupted before the first verdict.)";
 
+void failOn(const std::string& what, run::RunOptions& options) {
+    using report::Trusted;
+    if (what == "inconclusive")
+        options.verdict.fail_on_inconclusive = true;
+    else if (what == "doubtful")
+        options.fail_on = Trusted::doubtful;
+    else if (!options.fail_on)
+        options.fail_on = Trusted::untrusted;
+}
+
 void addRunOptions(CLI::App& command, run::RunOptions& options) {
     addSceneOptions(command, options.scene);
     addSamplingOptions(command, options.scene);
@@ -76,6 +86,18 @@ void addRunOptions(CLI::App& command, run::RunOptions& options) {
             "compare with the report that --save-baseline kept under this name")
         ->type_name("NAME");
     addVerdictOptions(command, options.verdict);
+    command
+        .add_option_function<std::vector<std::string>>(
+            "--fail-on",
+            [&options](const std::vector<std::string>& all) {
+                for (const std::string& each : all) failOn(each, options);
+            },
+            "doubtful, untrusted: exit with 15 where a case's times are no better than that; "
+            "inconclusive: with 11 where nothing is slower than the baseline but not all is known")
+        ->take_all()
+        ->expected(1)
+        ->allow_extra_args(false)
+        ->check(CLI::IsMember({"doubtful", "untrusted", "inconclusive"}));
 }
 
 void addGateOptions(CLI::App& command, gate::GateOptions& options) {
@@ -113,6 +135,7 @@ void addGateOptions(CLI::App& command, gate::GateOptions& options) {
             "none (default 0)")
         ->check(CLI::Range(0, 256));
     addVerdictOptions(command, options.verdict);
+    addFailOnInconclusive(command, options.verdict);
     command
         .add_option(
             "--smallest-share", options.verdict.smallest_share,
@@ -245,6 +268,7 @@ void addCompareOptions(CLI::App& command, report::CompareOptions& options) {
     command.add_flag("--all", options.all, "also list metrics that stayed the same");
     command.add_flag("--json", options.json, "print JSON");
     addVerdictOptions(command, options.verdict);
+    addFailOnInconclusive(command, options.verdict);
 }
 
 }  // namespace

@@ -138,6 +138,9 @@ void addVerdictOptions(CLI::App& command, report::VerdictOptions& options) {
             "judge the metrics whose name matches (default: the times of frames and passes; on a "
             "software device, their CPU time)")
         ->type_name("REGEX");
+}
+
+void addFailOnInconclusive(CLI::App& command, report::VerdictOptions& options) {
     command
         .add_option_function<std::string>(
             "--fail-on",

@@ -90,6 +90,7 @@ void addOutsideOption(CLI::App& command, scene::Outside& outside);
 void addSceneOptions(CLI::App& command, scene::SceneOptions& options);
 void addSamplingOptions(CLI::App& command, scene::SceneOptions& options);
 void addVerdictOptions(CLI::App& command, report::VerdictOptions& options);
+void addFailOnInconclusive(CLI::App& command, report::VerdictOptions& options);
 
 // ---- Commands by topic --------------------------------------------------------------------------
 

@@ -5,6 +5,7 @@
 #include "benchmarks/commands/commands.h"
 #include "benchmarks/report/change.h"
 #include "benchmarks/report/report.h"
+#include "benchmarks/report/verdict.h"
 #include "benchmarks/run/merge_reports.h"
 #include "engine/files.h"
 #include "engine/shown_text.h"
@@ -20,7 +21,12 @@ int mergeReports(const MergeOptions& options) {
     for (const std::string& note : notes)
         std::cerr << "hairbench: " << engine::shownText(note) << '\n';
     std::cout << engine::shownText(options.out.string()) << ": " << report.at("cases").size()
-              << " cases of " << options.reports.size() << " reports\n";
+              << " cases of " << options.reports.size() << " reports";
+    const report::Verdicts verdicts = report::verdictsOf(report);
+    if (const std::string counts = verdicts.counts(); !counts.empty()) std::cout << ": " << counts;
+    std::cout << '\n';
+    if (const std::string summary = verdicts.summary(); !summary.empty())
+        std::cerr << "hairbench: " << engine::shownText(summary) << '\n';
     // Missing cases give the exit status of an interrupted run.
     return report.at("interrupted").get<bool>() ? report::kInterrupted : report::kOk;
 }

@@ -5,6 +5,7 @@
 #include "benchmarks/commands/commands.h"
 #include "benchmarks/report/change.h"
 #include "benchmarks/report/page.h"
+#include "benchmarks/report/verdict.h"
 #include "engine/files.h"
 #include "engine/shown_text.h"
 
@@ -27,6 +28,13 @@ int writeReportPage(const ReportPageOptions& options) {
                   << (missing == 1 ? " picture of a case is missing\n"
                                    : " pictures of cases are missing\n");
     std::cout << "page: " << engine::shownText(options.out.string()) << '\n';
+    const scene::Json& reports = data.at("reports");
+    for (const scene::Json& each : reports)
+        if (const std::string summary = report::verdictsOf(each).summary(); !summary.empty()) {
+            const std::string file = each.at("file").get<std::string>() + ": ";
+            std::cerr << "hairbench: "
+                      << engine::shownText((reports.size() > 1 ? file : "") + summary) << '\n';
+        }
     return report::kOk;
 }
 

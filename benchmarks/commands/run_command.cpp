@@ -20,6 +20,12 @@ void printReport(const run::FinishedRun& finished, const std::filesystem::path& 
     std::cout << finished.summary << "report: " << engine::shownText(out.string()) << '\n';
 }
 
+// The last line, if a case is not trusted.
+void tellTrust(const report::Verdicts& verdicts) {
+    if (const std::string summary = verdicts.summary(); !summary.empty())
+        std::cerr << "hairbench: " << engine::shownText(summary) << '\n';
+}
+
 int conclude(
     const run::RunOptions& options, const run::FinishedRun& finished,
     const std::filesystem::path& out) {
@@ -30,6 +36,12 @@ int conclude(
             {.a = {}, .b = out, .baseline = options.baseline, .verdict = options.verdict});
     // Saved after the comparison, because it may replace the baseline that was compared with.
     if (!options.save_baseline.empty()) report::saveBaseline(options.save_baseline, out);
+    tellTrust(finished.verdicts);
+    // A comparison of times that are not trusted says nothing.
+    const bool is_of_times =
+        status == report::kOk || status == report::kRegressed || status == report::kInconclusive;
+    if (is_of_times && options.fail_on && finished.verdicts.worst() >= *options.fail_on)
+        return report::kNotTrusted;
     return status;
 }
 
@@ -73,6 +85,7 @@ int runScene(const run::RunOptions& options) {
         printReport(finished, out);
         std::cerr << why << " after " << finished.done << " of " << plan.cases.size()
                   << " cases; --resume goes on\n";
+        tellTrust(finished.verdicts);
     };
     const auto print_interrupted = [&](const run::FinishedRun& finished) {
         print_short("interrupted", finished);

@@ -2,25 +2,18 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 
-#include "benchmarks/measure/machine_watch.h"
-#include "benchmarks/measure/trust.h"
 #include "benchmarks/report/change.h"
 #include "benchmarks/report/statistics.h"
 #include "benchmarks/report/text.h"
 
 namespace benchmarks::doctor {
+namespace {
+
+using report::shareText;
+using report::Trusted;
 
 // ---- Texts --------------------------------------------------------------------------------------
-
-std::string shareText(double share) {
-    char text[32];
-    std::snprintf(text, sizeof text, "%.1f %%", share * 100.0);
-    return text;
-}
-
-namespace {
 
 std::string joined(const std::vector<std::string>& parts, std::string_view between) {
     std::string text;
@@ -32,12 +25,6 @@ std::string joined(const std::vector<std::string>& parts, std::string_view betwe
 }
 
 // ---- The machine --------------------------------------------------------------------------------
-
-// Shares of all processors' time from which other load disturbs, and from which it dominates.
-constexpr double kLittleLoad = 0.05;
-constexpr double kMuchLoad = 0.25;
-constexpr double kLittleSteal = 0.01;
-constexpr double kMuchSteal = 0.1;
 
 bool isSoftware(const Facts& facts) { return facts.device.type == "cpu"; }
 
@@ -67,12 +54,6 @@ std::string clockText(const ClockFacts& clocks) {
     return text;
 }
 
-// On a software device, this load disturbs the frames; on others, it disturbs only their recording.
-Health disturbance(const Facts& facts, double share, double little, double much) {
-    if (share <= little) return Health::ok;
-    return share > much && isSoftware(facts) ? Health::bad : Health::warn;
-}
-
 Judgement judgeClocks(const Facts& facts) {
     if (isSoftware(facts)) return {Health::ok, "those of the processor: see there"};
     if (!facts.clocks)
@@ -81,12 +62,13 @@ Judgement judgeClocks(const Facts& facts) {
             "watch the clocks by other means: throttling would go unnoticed"};
     const ClockFacts& clocks = *facts.clocks;
     const std::string seen = clockText(clocks);
-    if (measure::isThrottled(clocks.conditions, 0.0, 0.0))
+    const Trusted level = report::judgeClock(clocks.conditions);
+    if (level == Trusted::untrusted)
         return {
             Health::bad, seen,
             "the device is throttled: let it cool down, raise its power limit, end other programs "
             "that use it"};
-    if (!clocks.conditions.throttle_reasons.empty())
+    if (level == Trusted::doubtful)
         return {
             Health::warn, seen,
             "lock the clocks at a rate that the device sustains (NVIDIA: nvidia-smi "
@@ -124,7 +106,7 @@ Judgement judgeProcessor(const Facts& facts) {
 Judgement judgeOthers(const Facts& facts) {
     if (!facts.load.others) return {Health::unknown, "no /proc/stat"};
     const std::string seen = shareText(*facts.load.others) + " of all processors' time";
-    const Health health = disturbance(facts, *facts.load.others, kLittleLoad, kMuchLoad);
+    const Health health = healthOf(report::judgeOtherLoad(*facts.load.others, isSoftware(facts)));
     if (health == Health::ok) return {health, seen};
     return {health, seen, "end other programs, or measure when the machine is idle"};
 }
@@ -132,7 +114,7 @@ Judgement judgeOthers(const Facts& facts) {
 Judgement judgeSteal(const Facts& facts) {
     if (!facts.load.steal) return {Health::unknown, "no /proc/stat"};
     const std::string seen = shareText(*facts.load.steal) + " of all processors' time";
-    const Health health = disturbance(facts, *facts.load.steal, kLittleSteal, kMuchSteal);
+    const Health health = healthOf(report::judgeSteal(*facts.load.steal, isSoftware(facts)));
     if (health == Health::ok) return {health, seen};
     return {health, seen, "the hypervisor gives time to other guests: use a machine of your own"};
 }
@@ -164,8 +146,7 @@ Judgement judgeBuild(const Facts& facts) {
     if (!build.flags.empty()) seen += " (" + build.flags + ")";
     if (facts.build.assertions) seen += ", assertions on";
     if (build.dirty == true) seen += ", not as committed";
-    if (facts.build.assertions || contains(build.flags, "-fsanitize") ||
-        !build.type.starts_with("Rel"))
+    if (facts.build.assertions || report::judgeBuild(build) == Trusted::untrusted)
         return {Health::bad, seen, "measure with the release preset"};
     if (build.dirty == true)
         return {Health::warn, seen, "commit before you keep results: nobody can build this again"};
@@ -236,9 +217,8 @@ Judgement judgePassSum(const Facts& facts) {
     // On a fast device, a submission takes longer than a frame.
     if (!isSoftware(facts) && sum.over_device)
         seen += ", " + shareText(*sum.over_device) + " of the device's own time";
-    const bool whole = isSoftware(facts)
-                           ? std::abs(*sum.over_wall - 1.0) <= measure::kTrustTolerance
-                           : !sum.incomplete;
+    const bool whole = isSoftware(facts) ? report::judgePassSum(*sum.over_wall) == Trusted::trusted
+                                         : !sum.incomplete;
     if (whole) return {Health::ok, seen};
     return {
         Health::bad, seen,
@@ -307,6 +287,18 @@ constexpr DoctorCheck kChecks[] = {
 };
 
 }  // namespace
+
+Health healthOf(Trusted level) {
+    switch (level) {
+    case Trusted::trusted:
+        return Health::ok;
+    case Trusted::doubtful:
+        return Health::warn;
+    case Trusted::untrusted:
+        break;
+    }
+    return Health::bad;
+}
 
 const char* healthName(Health health) {
     switch (health) {

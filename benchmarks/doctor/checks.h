@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "benchmarks/doctor/facts.h"
+#include "benchmarks/report/verdict.h"
 
 // Judges facts about the machine: whether timings can be trusted, and what to do if not.
 namespace benchmarks::doctor {
@@ -16,6 +17,9 @@ enum class Health {
     warn,     // timings can be used with care
     bad,      // timings can't be trusted
 };
+
+// The health that a level of trust means: ok, warn or bad.
+Health healthOf(report::Trusted level);
 
 // "ok", "unknown", "warn", "bad".
 const char* healthName(Health health);
@@ -44,8 +48,5 @@ std::span<const DoctorCheck> doctorChecks();
 
 // The findings of all checks for the facts.
 std::vector<Finding> judgeAll(const Facts& facts);
-
-// "12.3 %" for a share of 0.123.
-std::string shareText(double share);
 
 }  // namespace benchmarks::doctor

@@ -88,7 +88,9 @@ std::string tableOf(const std::vector<report::Column>& columns, std::size_t rows
     return text;
 }
 
-std::string shareCell(double share) { return std::isfinite(share) ? shareText(share) : "-"; }
+std::string shareCell(double share) {
+    return std::isfinite(share) ? report::shareText(share) : "-";
+}
 
 std::string findingsTable(const std::vector<Finding>& findings) {
     std::vector<report::Column> columns{{"check", false}, {"verdict", false}, {"seen", false}};

@@ -2,10 +2,10 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <cstddef>
+#include <map>
 #include <optional>
-#include <string_view>
+#include <string>
 #include <utility>
 
 #include <nlohmann/json.hpp>
@@ -13,6 +13,7 @@
 #include "benchmarks/report/report.h"
 #include "benchmarks/report/schema_errors.h"
 #include "benchmarks/report/text.h"
+#include "benchmarks/report/verdict.h"
 #include "benchmarks/scene/json.h"
 #include "engine/error.h"
 #include "engine/files.h"
@@ -37,90 +38,58 @@ std::optional<std::string> kindOf(const Json& report) {
     return std::nullopt;
 }
 
-// ---- A report's facts for the doctor ------------------------------------------------------------
-
-// The checks that a report has facts for. A report has no governors and no power supply, and does
-// not tell whether a repeated case is the same.
-constexpr std::array kAsked{"build",  "layers",     "pass sum", "pass times",
-                            "clocks", "other load", "steal"};
-
-std::optional<double> numberIn(const Json& report, const char* pointer) {
-    const Json::json_pointer place(pointer);
-    if (!report.contains(place) || !report.at(place).is_number()) return std::nullopt;
-    return report.at(place).get<double>();
-}
-
-Facts factsOfBuild(const Json& report) {
-    Facts facts;
-    facts.device.name = scene::textAt(report, "/environment/device/name");
-    facts.device.type = scene::textAt(report, "/environment/device/type");
-    facts.build.build.type = scene::textAt(report, "/environment/build/type");
-    facts.build.build.flags = scene::textAt(report, "/environment/build/flags");
-    facts.build.build.dirty = scene::textAt(report, "/environment/build/dirty") == "true";
-    facts.layers.validation = scene::textAt(report, "/environment/validation") == "true";
-    return facts;
-}
-
-// Since 1.3 there is a verdict on timestamps; before, there was only a sentence.
-bool areStampsWrong(const Json& result) {
-    if (scene::textAt(result, "/trust/timestamps") == "wrong") return true;
-    const Json::json_pointer warnings("/trust/warnings");
-    return result.contains(warnings) &&
-           std::ranges::any_of(result.at(warnings), [](const Json& each) {
-               return each.is_string() &&
-                      each.get_ref<const std::string&>().starts_with("timestamps are not trusted");
-           });
-}
-
-void addCaseFacts(Facts& facts, const Json& result) {
-    facts.timestamps.valid_bits = 1;  // the checks only test whether there are any
-    measure::PassSum& sum = facts.passes.sum;
-    sum.over_wall = numberIn(result, "/trust/pass_sum_over_wall");
-    sum.over_device = numberIn(result, "/trust/pass_sum_over_device");
-    sum.incomplete = sum.over_device && std::abs(*sum.over_device - 1.0) > measure::kTrustTolerance;
-    if (areStampsWrong(result)) facts.passes.faults = {"timestamps differ from the CPU's clock"};
-    facts.load.steal = numberIn(result, "/conditions/steal");
-    facts.load.others = numberIn(result, "/conditions/other_load");
-    if (const auto clock = numberIn(result, "/conditions/clock_mhz")) {
-        ClockFacts& clocks = facts.clocks.emplace();
-        clocks.held = true;  // unknown, and irrelevant to the report's times
-        clocks.highest_mhz = clock;
-        clocks.lowest_mhz = numberIn(result, "/conditions/lowest_clock_mhz");
-        clocks.conditions.clock_mhz = clock;
-        clocks.conditions.temperature = numberIn(result, "/conditions/temperature");
-        for (const Json& each : result.at("conditions").value("throttle_reasons", Json::array()))
-            clocks.conditions.throttle_reasons.push_back(each.get<std::string>());
-    }
-}
-
 // ---- Judging ------------------------------------------------------------------------------------
 
-// The worst judgement of one check over all facts, if it is at least a warning.
-std::optional<Finding> worstOf(const DoctorCheck& check, const std::vector<Facts>& all) {
-    std::optional<Finding> worst;
-    std::size_t count = 0;
-    for (const Facts& facts : all) {
-        const Judgement judgement = check.judge(facts);
-        if (judgement.health < Health::warn) continue;
-        if (worst && judgement.health == worst->health) ++count;
-        if (worst && judgement.health <= worst->health) continue;
-        worst = {check.name, judgement.health, judgement.seen, judgement.advice};
-        count = 1;
-    }
-    if (worst && all.size() > 1)
-        worst->seen +=
-            " (in " + std::to_string(count) + " of " + report::countText(all.size(), "case") + ')';
-    return worst;
-}
+// In the order of the doctor's rows.
+constexpr std::array kDoubtOrder{"build",  "layers",     "pass sum", "pass times", "repeatability",
+                                 "clocks", "other load", "steal",    "drift",      "noise"};
 
-std::vector<Finding> judge(const std::vector<Facts>& all) {
-    std::vector<Finding> findings;
-    for (const DoctorCheck& check : doctorChecks()) {
-        if (std::ranges::find(kAsked, std::string_view(check.name)) == kAsked.end()) continue;
-        if (std::optional<Finding> worst = worstOf(check, all))
-            findings.push_back(std::move(*worst));
+// Finds the worst doubt of each check over all cases of a report that ran.
+class WorstDoubts {
+public:
+    void add(std::vector<report::Doubt> doubts) {
+        ++cases_;
+        for (report::Doubt& doubt : doubts) {
+            Worst& worst = worst_[doubt.check];
+            if (worst.cases > 0 && doubt.level < worst.doubt.level) continue;
+            if (doubt.level > worst.doubt.level) worst.cases = 0;
+            if (worst.cases++ == 0 || doubt.size > worst.doubt.size) worst.doubt = std::move(doubt);
+        }
     }
-    return findings;
+
+    std::vector<Finding> findings() const {
+        std::vector<Finding> findings;
+        for (const char* check : kDoubtOrder) {
+            const auto found = worst_.find(check);
+            if (found == worst_.end()) continue;
+            const auto& [cases, doubt] = found->second;
+            std::string seen = doubt.text;
+            if (cases_ > 1)
+                seen += " (in " + std::to_string(cases) + " of " +
+                        report::countText(cases_, "case") + ')';
+            findings.push_back(
+                {.check = check, .health = healthOf(doubt.level), .seen = std::move(seen)});
+        }
+        return findings;
+    }
+
+private:
+    struct Worst {
+        std::size_t cases = 0;  // with a doubt of this level
+        report::Doubt doubt;
+    };
+    std::map<std::string, Worst> worst_;
+    std::size_t cases_ = 0;
+};
+
+// A build that nobody can make again says nothing against its times.
+void addDirty(const Json& report, std::vector<Finding>& findings) {
+    const bool known_bad = !findings.empty() && findings.front().check == kDoubtOrder.front();
+    if (known_bad || scene::textAt(report, "/environment/build/dirty") != "true") return;
+    findings.insert(
+        findings.begin(), {.check = kDoubtOrder.front(),
+                           .health = Health::warn,
+                           .seen = "not as committed: nobody can build this again"});
 }
 
 const Finding* findBad(const ReportExamination& examination) {
@@ -142,17 +111,23 @@ ReportExamination examineReport(const std::filesystem::path& file) {
             engine::readFile(engine::programFile("results/" + *kind + ".schema.json")), text),
         .mark = scene::textAt(report, "/untrusted")};
     if (!examination.schema_errors.empty()) return examination;  // nothing else is reliable
-    std::vector<Facts> all;
+    if (!report.contains("environment")) return examination;
+    if (*kind == kRun) report = report::readReport(file);  // with the samples stored beside it
+    const Json& environment = report.at("environment");
+    WorstDoubts worst;
+    bool any_ran = false;
     if (*kind == kRun) {
-        report = report::readReport(file);  // with the samples stored beside it
         examination.cases = report.at("cases").size();
-        for (const Json& result : report.at("cases"))
-            if (result.value("status", "") == "ok")
-                addCaseFacts(all.emplace_back(factsOfBuild(report)), result);
+        for (const Json& each : report.at("cases"))
+            if (auto verdict = report::judgeCase(environment, each)) {
+                worst.add(std::move(verdict->doubts));
+                any_ran = true;
+            }
+        examination.verdicts = report::verdictsOf(report).counts();
     }
-    if (all.empty()) all.push_back(factsOfBuild(report));
-    if (report.contains(Json::json_pointer("/environment/build")))
-        examination.findings = judge(all);
+    if (!any_ran) worst.add(report::judgeEnvironment(environment));
+    examination.findings = worst.findings();
+    addDirty(report, examination.findings);
     return examination;
 }
 
@@ -177,6 +152,7 @@ std::string examinationText(const ReportExamination& examination) {
     text +=
         examination.cases > 0 ? report::countText(examination.cases, "case") : examination.schema;
     if (!examination.device.empty()) text += " on " + examination.device;
+    if (!examination.verdicts.empty()) text += ": " + examination.verdicts;
     if (!examination.mark.empty()) text += "; marked as not to be trusted: " + examination.mark;
     for (const Finding& each : examination.findings)
         if (each.health == Health::warn) text += "; " + each.check + ": " + each.seen;

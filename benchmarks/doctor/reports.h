@@ -16,8 +16,10 @@ struct ReportExamination {
     std::string device;  // may be empty
     std::size_t cases = 0;  // 0: this kind of report has none
     std::vector<std::string> schema_errors;  // "/cases/0/status: ..."
-    // The worst judgement of each check that is `warn` or `bad`, for the facts in the report: its
-    // build, its layers and, over all cases that ran, passes, timestamps, clocks and other load.
+    // "5 trusted, 11 doubtful": verdicts on its cases (report/verdict.h); may be empty.
+    std::string verdicts{};
+    // The worst doubt of each check over all cases that ran, and a build that differs from its
+    // commit.
     std::vector<Finding> findings;
     std::string mark;  // why its times are not to be trusted; empty: it is not marked
 };

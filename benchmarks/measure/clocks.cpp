@@ -9,6 +9,8 @@
 
 #include <dlfcn.h>
 
+#include "benchmarks/report/verdict.h"
+
 namespace benchmarks::measure {
 namespace {
 
@@ -97,7 +99,7 @@ std::vector<std::string> readThrottling(const std::filesystem::path& path) {
     std::uint64_t status = 0;
     std::memcpy(&status, table + kStatus, sizeof status);
     std::vector<std::string> reasons;
-    if (status & 0xffffull) reasons.emplace_back(kPowerCap);
+    if (status & 0xffffull) reasons.emplace_back(report::kPowerCap);
     if (status & 0xffff0000ull) reasons.emplace_back("current limit");
     if (status & 0xffffff00000000ull) reasons.emplace_back("thermal limit");
     return reasons;
@@ -216,7 +218,7 @@ struct Reason {
 constexpr unsigned long long kIdle = 0x1;
 constexpr unsigned long long kHeld = 0x2;  // the applications clocks setting
 constexpr Reason kReasons[] = {
-    {0x4, kPowerCap},
+    {0x4, report::kPowerCap},
     {0x8, "hardware slowdown"},
     {0x10, "sync boost"},
     {0x20, "software thermal slowdown"},

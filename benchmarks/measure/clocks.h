@@ -28,9 +28,6 @@ struct ClockReading {
     std::vector<std::string> throttle_reasons;  // reasons why the clocks are lower than possible
 };
 
-// The throttle reason of a board that draws its maximum power.
-inline constexpr const char* kPowerCap = "power cap";
-
 // A driver interface that reads clocks and locks them.
 class ClockSource {
 public:

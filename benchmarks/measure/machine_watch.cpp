@@ -163,24 +163,6 @@ loadBetween(const ProcessorTicks& before, const ProcessorTicks& after, double ow
 
 // ---- Conditions of a round ----------------------------------------------------------------------
 
-bool isHeatOrPower(std::string_view reason) {
-    return std::ranges::any_of(
-        std::initializer_list<std::string_view>{"power", "thermal", "hardware slowdown", "current"},
-        [&](std::string_view word) { return reason.find(word) != std::string_view::npos; });
-}
-
-bool isFullyLoaded(const report::Conditions& round) { return round.load.value_or(0.0) >= 0.9; }
-
-bool isThrottled(const report::Conditions& round, double held, double held_before) {
-    for (const std::string& reason : round.throttle_reasons)
-        if (isHeatOrPower(reason) &&
-            (reason != kPowerCap || !round.clock_mhz || *round.clock_mhz < kCappedShare * held))
-            return true;
-    if (!round.lowest_clock_mhz) return false;
-    return *round.lowest_clock_mhz < kHeldShare * held ||
-           (isFullyLoaded(round) && *round.lowest_clock_mhz < kThrottledShare * held_before);
-}
-
 namespace {
 
 std::optional<double> lowestClock(const std::vector<report::Conditions>& rounds) {

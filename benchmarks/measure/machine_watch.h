@@ -7,7 +7,6 @@
 #include <memory>
 #include <mutex>
 #include <optional>
-#include <string_view>
 #include <thread>
 #include <vector>
 
@@ -59,30 +58,6 @@ std::vector<ClockReading> readingsAtWork(const std::vector<ClockReading>& readin
 // Sets the medians over the readings taken at work, their lowest clock, and all their throttle
 // reasons without repetition.
 void addClocks(const std::vector<ClockReading>& readings, report::Conditions& conditions);
-
-// True if a driver's throttle reason is heat or power. Others, like a clock that somebody set, are
-// not throttling.
-bool isHeatOrPower(std::string_view reason);
-
-// True if the device reports that it almost always had work.
-bool isFullyLoaded(const report::Conditions& round);
-
-// The rounds of a mode give the device the same work. A clock below this share of the highest in
-// any round is throttled.
-inline constexpr double kHeldShare = 0.9;
-// Other cases may draw more power and reach another clock. A clock under full load below this share
-// of the highest in any case is throttled (nvbench's share).
-inline constexpr double kThrottledShare = 0.75;
-
-// A board at its power limit works as intended while its clock is steady. With this reason, a clock
-// below this share of the highest is throttled.
-inline constexpr double kCappedShare = 0.97;
-
-// True if heat or power lowered the device's clock in a round, by its driver's reasons or its
-// lowest clock under load. `held` is the highest clock of the mode's rounds, `held_before` that of
-// other cases of the run, MHz; 0: unknown. The board's base clock is not used, because locked
-// clocks may be below it.
-bool isThrottled(const report::Conditions& round, double held, double held_before);
 
 // Medians of all rounds' numbers, and all throttle reasons.
 report::Conditions medianConditions(const std::vector<report::Conditions>& rounds);

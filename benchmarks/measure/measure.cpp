@@ -141,12 +141,7 @@ std::vector<std::uint8_t> measureFrames(
     result.conditions = medianConditions(conditions);
     addIsolatedMetrics(isolated.frames, result);
     if (stage.isProcessor()) addFrameUse(isolated.frames, result);
-    // The time saved by overlap: the sum of the isolated passes less the overlapped frame.
-    if (!passNames(isolated.frames).empty()) {
-        const double sum = medianOf(isolated.frames, passSum);
-        const double frame = medianOf(overlapped.frames, [](auto& f) { return f.interval; });
-        result.metrics.push_back({report::ofFrame(report::Measured::overlap), {sum - frame}});
-    }
+    addOverlap(isolated.frames, overlapped.frames, result.trust.empty_pass, result);
     return std::move(overlapped.end.picture);
 }
 

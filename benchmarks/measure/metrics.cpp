@@ -13,6 +13,7 @@
 
 #include "benchmarks/report/statistics.h"
 #include "benchmarks/report/text.h"
+#include "benchmarks/report/verdict.h"
 
 namespace benchmarks::measure {
 
@@ -80,8 +81,8 @@ PassSum passSums(std::span<const engine::FrameRecord> isolated, const EmptySubmi
     for (const engine::FrameRecord& frame : isolated) walls.push_back(frame.wall);
     const double slack = 2.0 * empty.spread / report::quantile(walls, 0.5);
     result.incomplete =
-        (result.over_device && std::abs(*result.over_device - 1.0) > kTrustTolerance) ||
-        report::quantile(missing, 0.5) > kTrustTolerance + slack;
+        (result.over_device && std::abs(*result.over_device - 1.0) > report::kTrustTolerance) ||
+        report::quantile(missing, 0.5) > report::kTrustTolerance + slack;
     return result;
 }
 
@@ -237,7 +238,7 @@ void addPassSum(
     result.trust.pass_sum_over_work = sum.over_work;
     result.trust.empty_submission = empty.median;
     if (!sum.over_wall) return;
-    if (processor && std::abs(*sum.over_wall - 1.0) > kTrustTolerance) {
+    if (processor && std::abs(*sum.over_wall - 1.0) > report::kTrustTolerance) {
         result.trust.warnings.push_back(
             "the passes add up to " + report::shortNumber(*sum.over_wall) +
             " of the frame's wall clock");
@@ -251,6 +252,20 @@ void addPassSum(
                     " of its wall clock minus the time of a submission";
         result.trust.warnings.push_back(std::move(text));
     }
+}
+
+void addOverlap(
+    std::span<const engine::FrameRecord> isolated, std::span<const engine::FrameRecord> overlapped,
+    std::optional<double> empty_pass, report::CaseResult& result) {
+    if (!empty_pass || passNames(isolated).empty()) return;
+    std::vector<double> saved;
+    for (std::size_t i = 0; i < std::min(isolated.size(), overlapped.size()); ++i) {
+        double sum = 0.0;
+        for (const engine::PassTime& pass : isolated[i].passes)
+            sum += pass.milliseconds - pass.parts * *empty_pass;
+        saved.push_back(sum - overlapped[i].interval);
+    }
+    result.metrics.push_back({report::ofFrame(report::Measured::overlap), std::move(saved)});
 }
 
 void addFrameUse(std::span<const engine::FrameRecord> isolated, report::CaseResult& result) {
@@ -289,6 +304,12 @@ struct LowMetrics {
     report::Measured mean;
     report::Measured integral;
 };
+constexpr LowMetrics kDeviceLow1{
+    report::Measured::device_low_1_percentile, report::Measured::device_low_1_mean,
+    report::Measured::device_low_1_integral};
+constexpr LowMetrics kDeviceLow01{
+    report::Measured::device_low_0_1_percentile, report::Measured::device_low_0_1_mean,
+    report::Measured::device_low_0_1_integral};
 constexpr LowMetrics kLow1{
     report::Measured::low_1_percentile, report::Measured::low_1_mean,
     report::Measured::low_1_integral};
@@ -328,18 +349,21 @@ void addOverlappedMetrics(std::span<const engine::FrameRecord> frames, report::C
     };
     addTimes(report::ofFrame(report::Measured::time), [](auto& f) { return f.interval; });
     const bool stamped = std::ranges::all_of(frames, [](auto& f) { return f.device.has_value(); });
-    if (stamped)
+    if (stamped) {
+        // A host that wakes up late makes an interval long, but not the device's own time.
+        const std::vector<double> times = collect(frames, [](auto& f) { return *f.device; });
+        addLows(times, 0.01, kDeviceLow1, result);
+        addLows(times, 0.001, kDeviceLow01, result);
         addTimes(report::ofFrame(report::Measured::device_time), [](auto& f) { return *f.device; });
+    }
     addTimes(report::ofCpu(report::Measured::record_time), [](auto& f) { return f.record; });
     addTimes(report::ofCpu(report::Measured::submit_time), [](auto& f) { return f.submit; });
     addTimes(report::ofCpu(report::Measured::wait_time), [](auto& f) { return f.wait; });
     if (std::ranges::all_of(frames, [](auto& f) { return f.host.has_value(); }))
         addTimes(report::ofCpu(report::Measured::host_time), [](auto& f) { return *f.host; });
-    // If a frame's work began before the previous frame's was done, its device time exceeds its
-    // interval. The device then did not wait.
-    if (stamped)
+    if (std::ranges::all_of(frames, [](auto& f) { return f.gap.has_value(); }))
         addTimes(report::ofGpu(report::Measured::wait_time), [](auto& f) {
-            return std::max(f.interval - *f.device, 0.0);
+            return std::max(*f.gap, 0.0);
         });
 }
 

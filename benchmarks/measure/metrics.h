@@ -16,9 +16,6 @@ namespace benchmarks::measure {
 
 // ---- Passes of frames ---------------------------------------------------------------------------
 
-// How far timings may be off and still be believed, as a ratio.
-inline constexpr double kTrustTolerance = 0.1;
-
 // The names of all passes, in the order of their first appearance: not every frame runs every pass.
 std::vector<std::string> passNames(std::span<const engine::FrameRecord> frames);
 
@@ -46,8 +43,8 @@ struct PassSum {
     std::optional<double> over_wall;
     std::optional<double> over_device;  // over the device's own first-to-last stamp
     std::optional<double> over_work;  // over the wall clock less what a submission takes
-    // Whether the passes are not the whole of the frame: by more than kTrustTolerance of the
-    // device's time, or of the wall clock by more than that and what submissions vary by.
+    // Whether the passes are not the whole of the frame: by more than report::kTrustTolerance of
+    // the device's time, or of the wall clock by more than that and what submissions vary by.
     bool incomplete = false;
 };
 PassSum passSums(std::span<const engine::FrameRecord> isolated, const EmptySubmission& empty);
@@ -79,7 +76,7 @@ void addTransparency(const Case& test_case, report::CaseResult& result);
 // would be the slowest frame's rate.
 std::size_t fewestForLow(double fraction);
 
-// fps, fps.low_*, frame.time, frame.device.time, cpu.*.time, gpu.wait.time.
+// fps, fps.low_*, fps.device_low_*, frame.time, frame.device.time, cpu.*.time, gpu.wait.time.
 void addOverlappedMetrics(std::span<const engine::FrameRecord> frames, report::CaseResult& result);
 
 // frame.isolated.time.
@@ -102,6 +99,13 @@ void addCycles(
 void addPassSum(
     std::span<const engine::FrameRecord> isolated, const EmptySubmission& empty, bool processor,
     report::CaseResult& result);
+
+// frame.overlap: the time that a frame saves by overlap, for each isolated frame and the overlapped
+// frame of the same position. Each isolated pass contains `empty_pass` ms of barriers and
+// timestamps, which are not the frame's. Adds nothing without passes or without that time.
+void addOverlap(
+    std::span<const engine::FrameRecord> isolated, std::span<const engine::FrameRecord> overlapped,
+    std::optional<double> empty_pass, report::CaseResult& result);
 
 // CPU use of whole isolated frames: frame.cpu.time and, if instructions are counted,
 // frame.instructions.

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "benchmarks/report/statistics.h"
+#include "benchmarks/report/verdict.h"
 
 namespace benchmarks::measure {
 
@@ -111,13 +112,13 @@ public:
         conditions_.push_back(std::move(conditions));
         const std::size_t clean = cleanRounds().size();
         if (clean >= looked_at_ + std::max<std::size_t>(looked_at_ / kLookShare, 1)) look();
-        return isThrottled(conditions_.back(), held_, held_before_);
+        return report::isThrottled(conditions_.back(), held_, held_before_);
     }
 
     std::vector<std::size_t> cleanRounds() const {
         std::vector<std::size_t> clean;
         for (std::size_t i = 0; i < conditions_.size(); ++i)
-            if (!isThrottled(conditions_[i], held_, held_before_)) clean.push_back(i);
+            if (!report::isThrottled(conditions_[i], held_, held_before_)) clean.push_back(i);
         return clean;
     }
 
@@ -226,7 +227,7 @@ SampledRounds sampleRounds(const SamplingRule& rule, const SamplingTools& tools,
     }
     SampledRounds result = series.take();
     result.sampling.seconds = seconds;
-    if (held_mhz && isFullyLoaded(medianConditions(result.conditions)))
+    if (held_mhz && report::isFullyLoaded(medianConditions(result.conditions)))
         *held_mhz = std::max(*held_mhz, series.held());
     return result;
 }

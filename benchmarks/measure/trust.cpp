@@ -10,6 +10,7 @@
 
 #include "benchmarks/report/statistics.h"
 #include "benchmarks/report/text.h"
+#include "benchmarks/report/verdict.h"
 
 namespace benchmarks::measure {
 
@@ -30,8 +31,8 @@ std::vector<std::string> timestampFaults(
         // A busy machine only adds time, so the fastest frames are compared.
         const double stamped = std::ranges::min(stamped_times);
         const double clocked = std::ranges::min(clocked_times);
-        const bool too_long = stamped > clocked * (1.0 + kTrustTolerance) + slack;
-        const bool too_short = stamped < clocked * (1.0 - kTrustTolerance) - slack;
+        const bool too_long = stamped > clocked * (1.0 + report::kTrustTolerance) + slack;
+        const bool too_short = stamped < clocked * (1.0 - report::kTrustTolerance) - slack;
         if (too_long || too_short) {
             faults.push_back(
                 "pass." + pass + ": timestamps say " + report::shortNumber(stamped) +

@@ -23,8 +23,8 @@ inline constexpr double kFrameShare = 0.02;
 
 // Faults of a device's timestamps: compares isolated frames by timestamps with frames whose passes
 // were submitted and waited for one by one, using the fastest of each. A pass is named if it
-// differs by more than kTrustTolerance, kSubmissionCost and kFrameShare together. Empty: the
-// timestamps are right.
+// differs by more than report::kTrustTolerance, kSubmissionCost and kFrameShare together. Empty:
+// the timestamps are right.
 std::vector<std::string> timestampFaults(
     std::span<const engine::FrameRecord> isolated, std::span<const engine::FrameRecord> wall_clock);
 

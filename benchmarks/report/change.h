@@ -125,6 +125,8 @@ inline constexpr int kMismatch = 12;  // pictures or states differ
 inline constexpr int kNoBaseline = 13;  // the baseline is missing, of another device, or has
                                         // nothing in common
 inline constexpr int kNothingRan = 14;  // every case was skipped, failed or filtered out
+inline constexpr int kNotTrusted = 15;  // times are not to be trusted; only with --fail-on doubtful
+                                        // or untrusted
 inline constexpr int kNoDevice = 77;  // no suitable Vulkan device
 inline constexpr int kInterrupted = 130;  // Ctrl-C; finished cases are saved
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -13,6 +14,7 @@
 #include "benchmarks/report/metric.h"
 #include "benchmarks/report/report.h"
 #include "benchmarks/report/text.h"
+#include "benchmarks/report/verdict.h"
 #include "benchmarks/scene/axis.h"
 #include "benchmarks/scene/json.h"
 #include "engine/error.h"
@@ -26,7 +28,7 @@ namespace {
 // turns it into an engine::Error.
 
 struct Reading {
-    std::string case_name;
+    const scene::Json* result;  // the case, which must outlive this
     MetricReading metric;
     // The metric in the report, which must outlive this: statistics of the samples, in its unit.
     // Older reports lack some of them.
@@ -40,7 +42,7 @@ std::vector<Reading> readings(const scene::Json& report) {
         if (!result.contains("metrics")) continue;
         for (const auto& [name, metric] : result.at("metrics").items())
             found.push_back(
-                {.case_name = result.at("name"),
+                {.result = &result,
                  .metric = MetricReading::fromReport(name, metric),
                  .statistics = &metric});
     }
@@ -49,7 +51,7 @@ std::vector<Reading> readings(const scene::Json& report) {
 
 // "<case>/<metric>", unique in a report.
 std::string benchmarkName(const Reading& reading) {
-    return reading.case_name + '/' + reading.metric.name();
+    return reading.result->at("name").get<std::string>() + '/' + reading.metric.name();
 }
 
 // Returns the pointers of the axes of all cases, without duplicates.
@@ -59,6 +61,16 @@ std::vector<std::string> axisPointers(const scene::Json& report) {
         for (const auto& [pointer, value] : result.at("axes").items())
             if (std::ranges::find(pointers, pointer) == pointers.end()) pointers.push_back(pointer);
     return pointers;
+}
+
+// Returns the verdict on a case; nothing if it did not run.
+std::optional<CaseVerdict> verdictOn(const scene::Json& report, const scene::Json& result) {
+    return judgeCase(report.at("environment"), result);
+}
+
+std::size_t warningCount(const scene::Json& result) {
+    const scene::Json::json_pointer place("/trust/warnings");
+    return result.contains(place) ? result.at(place).size() : 0;
 }
 
 // Returns the member's text without quotes, or "" if it is absent.
@@ -82,17 +94,24 @@ struct Measure {
     double scale;
 };
 
+// All times are in ns. A time of which less is not always better is a measure of its own.
 Measure measureOf(const Metric& metric) {
-    if (metric.isTime()) return {"latency", 1e6};
+    if (metric.unit == "ms") return {metric.isTime() ? "latency" : metric.name(), 1e6};
+    if (metric.unit == "ns" && metric.better == Better::lower) return {"latency", 1.0};
     if (metric.unit == "1/s") return {"throughput", 1.0};
     if (metric.unit == "B") return {"bytes", 1.0};
     return {metric.name(), 1.0};
 }
 
 // Exports Bencher Metric Format: times as `latency` in ns, rates as `throughput`, memory as
-// `bytes`. The lower and upper values are the quartiles.
+// `bytes`. The lower and upper values are the quartiles. The format has no texts: the verdict on a
+// case is a benchmark `<case>/trust` with the measure `doubt`, 0 trusted, 1 doubtful, 2 untrusted.
 std::string bmf(const scene::Json& report) {
     scene::Json document = scene::Json::object();
+    for (const scene::Json& result : report.at("cases"))
+        if (const auto verdict = verdictOn(report, result))
+            document[result.at("name").get<std::string>() + "/trust"] = {
+                {"doubt", {{"value", static_cast<int>(verdict->level)}}}};
     for (const Reading& reading : readings(report)) {
         const Measure measure = measureOf(reading.metric);
         scene::Json value = {{"value", reading.metric.median * measure.scale}};
@@ -111,6 +130,7 @@ std::string bmf(const scene::Json& report) {
 constexpr const char* kMetricMembers[] = {"unit",   "mode",    "median",         "mad",
                                           "mean",   "minimum", "first_quartile", "third_quartile",
                                           "maximum"};
+constexpr const char* kIntervalMembers[] = {"lower", "upper", "confidence"};
 
 std::string field(const std::string& text) {
     if (text.find_first_of(",\"\r\n") == std::string::npos) return text;
@@ -147,8 +167,10 @@ std::string csv(const scene::Json& report) {
     const std::vector<std::string> pointers = axisPointers(report);
     std::vector<std::string> titles{"case"};
     for (const std::string& pointer : pointers) titles.push_back(textField(pointer));
-    titles.insert(titles.end(), {"status", "reason", "metric", "samples"});
+    titles.insert(
+        titles.end(), {"status", "reason", "warnings", "verdict", "reasons", "metric", "samples"});
     titles.insert(titles.end(), std::begin(kMetricMembers), std::end(kMetricMembers));
+    titles.insert(titles.end(), std::begin(kIntervalMembers), std::end(kIntervalMembers));
     std::string text = line(titles);
 
     const auto add = [&](const scene::Json& result, const std::string& name,
@@ -158,9 +180,15 @@ std::string csv(const scene::Json& report) {
             cells.push_back(memberField(result.at("axes"), pointer));
         cells.push_back(memberField(result, "status"));
         cells.push_back(memberField(result, "reason"));
+        const auto verdict = verdictOn(report, result);
+        cells.push_back(verdict ? std::to_string(warningCount(result)) : "");
+        cells.push_back(verdict ? trustedName(verdict->level) : "");
+        cells.push_back(verdict ? textField(reasonsText(*verdict)) : "");
         cells.push_back(textField(name));
         cells.push_back(name.empty() ? "" : std::to_string(metric.at("samples").size()));
         for (const char* member : kMetricMembers) cells.push_back(memberField(metric, member));
+        const scene::Json interval = metric.value("interval", scene::Json::object());
+        for (const char* member : kIntervalMembers) cells.push_back(memberField(interval, member));
         text += line(cells);
     };
     for (const scene::Json& result : report.at("cases")) {
@@ -174,7 +202,7 @@ std::string csv(const scene::Json& report) {
 // ---- github-action-benchmark --------------------------------------------------------------------
 
 // Exports customSmallerIsBetter of github-action-benchmark: times and memory, with the median
-// absolute deviation as the range.
+// absolute deviation as the range and the verdict on the case as extra text.
 std::string customSmallerIsBetter(const scene::Json& report) {
     scene::Json entries = scene::Json::array();
     for (const Reading& reading : readings(report)) {
@@ -184,6 +212,8 @@ std::string customSmallerIsBetter(const scene::Json& report) {
             {"name", benchmarkName(reading)}, {"unit", metric.unit}, {"value", metric.median}};
         if (reading.statistics->at("samples").size() > 1)
             entry["range"] = "± " + reading.statistics->at("mad").dump();
+        if (const auto verdict = verdictOn(report, *reading.result))
+            entry["extra"] = verdictText(*verdict);
         entries.push_back(std::move(entry));
     }
     return documentText(entries);
@@ -209,18 +239,41 @@ scene::Json context(const scene::Json& report) {
     context["json_schema_version"] = 1;
     take("device", "device", "name");
     take("driver", "device", "driver_version");
+    if (const std::string counts = verdictsOf(report).counts(); !counts.empty())
+        context["trust"] = counts;
     return context;
 }
 
+// Returns the CPU time of the same work, ms: of all threads for a frame or a pass of a software
+// device, otherwise of the host's thread for an overlapped frame. Returns nothing if it is unknown,
+// and for a metric that is a CPU time itself.
+std::optional<double> cpuTimeOf(const Reading& reading) {
+    const MetricId& id = reading.metric.id;
+    std::vector<MetricId> wanted;
+    if (id.of == MetricOf::pass && id.what == Measured::time)
+        wanted = {ofPass(id.part, Measured::cpu_time)};
+    if (id.of == MetricOf::frame &&
+        (id.what == Measured::time || id.what == Measured::isolated_time))
+        wanted = {ofFrame(Measured::cpu_time)};
+    if (id == ofFrame(Measured::time)) wanted.push_back(ofCpu(Measured::host_time));
+    const scene::Json& metrics = reading.result->at("metrics");
+    for (const MetricId& each : wanted)
+        if (const auto found = metrics.find(each.name()); found != metrics.end())
+            return found->at("median").get<double>();
+    return std::nullopt;
+}
+
 // Exports google-benchmark's JSON with times only, because its readers take aggregates and counters
-// for times. Each metric is its own benchmark, "<case>/<metric>". Its real time and CPU time are
-// both the median, because some readers use one and some the other.
+// for times. Each metric is its own benchmark, "<case>/<metric>", and the verdict on the case is
+// its label. Its real time is the median, and its CPU time that of the same work. Some readers use
+// only the CPU time, so where it is unknown it is the real time too.
 std::string gbench(const scene::Json& report) {
     scene::Json benchmarks = scene::Json::array();
     for (const Reading& reading : readings(report)) {
         if (!reading.metric.isTime()) continue;
         const std::string name = benchmarkName(reading);
         const double time = reading.metric.median * kMicrosecondsPerMillisecond;
+        const std::optional<double> cpu = cpuTimeOf(reading);
         benchmarks.push_back(
             {{"name", name},
              {"family_index", benchmarks.size()},
@@ -232,8 +285,10 @@ std::string gbench(const scene::Json& report) {
              {"threads", 1},
              {"iterations", reading.statistics->at("samples").size()},
              {"real_time", time},
-             {"cpu_time", time},
+             {"cpu_time", cpu ? *cpu * kMicrosecondsPerMillisecond : time},
              {"time_unit", "us"}});
+        if (const auto verdict = verdictOn(report, *reading.result))
+            benchmarks.back()["label"] = verdictText(*verdict);
     }
     return documentText({{"context", context(report)}, {"benchmarks", benchmarks}});
 }
@@ -276,7 +331,7 @@ std::vector<MetricId> columnMetrics(const scene::Json& report) {
 }
 
 std::string columnTitle(const MetricId& metric) {
-    if (metric == kRate) return "FPS";
+    if (metric == kRate) return "mean FPS";
     return (isPassTime(metric) ? metric.pass() : "frame") + " (ms)";
 }
 
@@ -291,10 +346,34 @@ std::string aboutTheRun(const scene::Json& report) {
           {"build", "commit"}})
         if (const std::string value = cellText(environment.at(group), member); !value.empty())
             text += ", " + escaped(value);
-    return text + "\n\n";
+    if (const std::string counts = verdictsOf(report).counts(); !counts.empty())
+        text += ". " + counts;
+    return text + ".\n\nTimes are medians; FPS is frames / all their time; ± is half the 95 % "
+                  "interval of the frame's median.\n\n";
 }
 
-// Exports a table in GitHub's Markdown with a row per case: axes, FPS, medians in ms, status.
+std::string statusText(const scene::Json& result) {
+    const std::string reason = cellText(result, "reason");
+    const std::size_t warnings = warningCount(result);
+    return cellText(result, "status") +
+           (warnings > 0 ? ", " + countText(warnings, "warning") : "") +
+           (reason.empty() ? "" : ": " + reason);
+}
+
+// Empty without a frame time.
+std::string frameSamplesText(const scene::Json& result) {
+    const scene::Json::json_pointer place("/metrics/frame.time/samples");
+    return result.contains(place) ? countText(result.at(place).size()) : std::string();
+}
+
+// Empty without an interval.
+std::string frameIntervalText(const scene::Json& result) {
+    const auto width = relativeHalfInterval(result);
+    return width ? shareText(*width) : std::string();
+}
+
+// Exports a table in GitHub's Markdown with a row per case: axes, FPS, medians in ms, the frame
+// time's interval and number of samples, verdict, status.
 std::string markdown(const scene::Json& report) {
     const std::vector<std::string> pointers = axisPointers(report);
     const std::vector<MetricId> metrics = columnMetrics(report);
@@ -302,10 +381,10 @@ std::string markdown(const scene::Json& report) {
     std::string rule = "|";
     for (const std::string& label : scene::axisLabels(pointers)) addCell(titles, escaped(label));
     for (const MetricId& metric : metrics) addCell(titles, escaped(columnTitle(metric)));
-    addCell(titles, "status");
+    for (const char* title : {"±", "samples", "trust", "status"}) addCell(titles, title);
     for (std::size_t i = 0; i < pointers.size(); ++i) rule += " --- |";
-    for (std::size_t i = 0; i < metrics.size(); ++i) rule += " ---: |";
-    std::string text = aboutTheRun(report) + titles + '\n' + rule + " --- |\n";
+    for (std::size_t i = 0; i < metrics.size() + 2; ++i) rule += " ---: |";
+    std::string text = aboutTheRun(report) + titles + '\n' + rule + " --- | --- |\n";
     for (const scene::Json& result : report.at("cases")) {
         std::string line = "|";
         for (const std::string& pointer : pointers)
@@ -316,8 +395,11 @@ std::string markdown(const scene::Json& report) {
             const MetricReading* const reading = findMetric(measured, metric);
             addCell(line, reading ? shortNumber(reading->median) : "");
         }
-        const std::string reason = cellText(result, "reason");
-        addCell(line, escaped(cellText(result, "status") + (reason.empty() ? "" : ": " + reason)));
+        addCell(line, frameIntervalText(result));
+        addCell(line, frameSamplesText(result));
+        const auto verdict = verdictOn(report, result);
+        addCell(line, verdict ? escaped(verdictText(*verdict)) : "");
+        addCell(line, escaped(statusText(result)));
         text += line + '\n';
     }
     return text;
@@ -349,6 +431,16 @@ public:
              {"pid", process},
              {"tid", track},
              {"args", {{"name", name}}}});
+    }
+
+    // Shows a text beside a process's name.
+    void label(int process, const std::string& text) {
+        events_.push_back(
+            {{"ph", "M"},
+             {"name", "process_labels"},
+             {"pid", process},
+             {"tid", 0},
+             {"args", {{"labels", text}}}});
     }
 
     void
@@ -433,12 +525,17 @@ void addCase(Trace& trace, int process, const scene::Json& result) {
 }
 
 // Exports Chrome's trace events, which Perfetto opens. Each case has its isolated frames one after
-// another with their passes, and its overlapped frames with the CPU's work for each.
+// another with their passes, its overlapped frames with the CPU's work for each, and the verdict as
+// a label.
 std::string perfetto(const scene::Json& report) {
     Trace trace;
     int process = 0;
     for (const scene::Json& result : report.at("cases"))
-        if (result.contains("metrics")) addCase(trace, ++process, result);
+        if (result.contains("metrics")) {
+            addCase(trace, ++process, result);
+            if (const auto verdict = verdictOn(report, result))
+                trace.label(process, verdictText(*verdict));
+        }
     return documentText(
         {{"traceEvents", trace.take()},
          {"displayTimeUnit", "ms"},

@@ -18,6 +18,7 @@
 #include "benchmarks/report/environment.h"
 #include "benchmarks/report/metric.h"
 #include "benchmarks/report/report.h"
+#include "benchmarks/report/verdict.h"
 #include "benchmarks/scene/json.h"
 #include "benchmarks/scene/pattern.h"
 #include "engine/error.h"
@@ -99,6 +100,20 @@ void addMetrics(const scene::Json& report, scene::Json& pass_times, scene::Json&
             if (isPassTime(id)) pass_times[name] = id.pass();
             if (id.of == MetricOf::image) image_metrics[name] = true;
         }
+    }
+}
+
+// Judges the cases that ran.
+void addVerdicts(scene::Json& report) {
+    const scene::Json environment = report.value("environment", scene::Json::object());
+    for (scene::Json& each : report.at("cases")) {
+        const auto verdict = judgeCase(environment, each);
+        if (!verdict) continue;
+        scene::Json members = verdictJson(*verdict);
+        each["verdict"] = {
+            {"level", std::move(members["verdict"])},
+            {"text", verdictText(*verdict)},
+            {"reasons", std::move(members["reasons"])}};
     }
 }
 
@@ -241,6 +256,7 @@ scene::Json pageData(std::span<const std::filesystem::path> files) {
             report["file"] = file.filename().string();
             addPictures(report, file, pictures);
             addMetrics(report, pass_times, image_metrics);
+            addVerdicts(report);
             if (const auto backends = compareBackends(report))
                 report["backends"] = backendsJson(*backends);
         } catch (const scene::Json::exception& error) {

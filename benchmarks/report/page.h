@@ -47,7 +47,8 @@ std::optional<std::string> pictureUri(const std::filesystem::path& file);
 //   title
 //   reports[]      each report as read, with `label` ("A", "B", ...) and `file`; a case with a
 //                  picture has `picture_id`, or `picture_missing` if the file is missing or lies
-//                  outside the folders *.pictures beside the report
+//                  outside the folders *.pictures beside the report. A case that ran has
+//                  `verdict` (judgeCase): `level`, `text` for a cell, and `reasons`
 //   pass_times     metric name of a pass's time -> the pass
 //   image_metrics  metric name of a picture's error -> true
 //   pictures       `picture_id` -> data URI; equal files once

@@ -19,7 +19,7 @@
 // optionals and numbers that are not finite are left out.
 namespace benchmarks::report {
 
-inline constexpr const char* kReportSchema = "hairbench-report/1.6.0";
+inline constexpr const char* kReportSchema = "hairbench-report/1.7.0";
 
 struct DeviceRecord {
     std::string name;

@@ -12,6 +12,7 @@
 #include "benchmarks/report/backends.h"
 #include "benchmarks/report/metric.h"
 #include "benchmarks/report/text.h"
+#include "benchmarks/report/verdict.h"
 #include "benchmarks/scene/axis.h"
 #include "engine/shown_text.h"
 
@@ -140,10 +141,18 @@ std::vector<Column> columns(const scene::Json& header, const EachCase& each_case
     };
     addMedian("fps", ofFrame(Measured::rate));
     addMedian("frame ms", ofFrame(Measured::time));
+    add("+-", Cells::numbers, [](const scene::Json& result) {
+        const auto width = relativeHalfInterval(result);
+        return width ? shareText(*width) : std::string("-");
+    });
     for (const MetricId& time : seen.passTimes()) addMedian(time.pass() + " ms", time);
     if (seen.hasFlip()) addMedian("FLIP", ofImage(Measured::flip));
     add("strands", Cells::numbers,
         [](const scene::Json& result) { return countCell(result, "strands"); });
+    add("trust", Cells::text, [&](const scene::Json& result) {
+        const auto verdict = judgeCase(member(header, "environment"), result);
+        return verdict ? verdictText(*verdict) : std::string("-");
+    });
     add("status", Cells::text, statusCell);
     each_case([&](const scene::Json& result) {
         for (std::size_t i = 0; i < all.size(); ++i) all[i].cells.push_back(cells[i](result));
@@ -165,7 +174,8 @@ std::string header(const scene::Json& report) {
         line += ", Vulkan " + api;
     if (const std::string path = text(member(report, "scene"), "path"); !path.empty())
         line += "; " + path;
-    return engine::shownText(line) + '\n';
+    return engine::shownText(line) +
+           "\nfps: frames / all their time; ms: medians; +-: half the 95 % interval of frame ms\n";
 }
 
 }  // namespace

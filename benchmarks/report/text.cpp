@@ -102,6 +102,12 @@ std::string lengthText(double metres) {
     return shortNumber(metres / unit.metres) + ' ' + std::string(unit.symbol);
 }
 
+std::string shareText(double share) {
+    char text[32];
+    std::snprintf(text, sizeof text, "%.1f %%", share * 100.0);
+    return text;
+}
+
 std::string sizeText(std::uint64_t bytes) {
     constexpr std::array<const char*, 4> kUnits{"bytes", "kB", "MB", "GB"};
     std::size_t unit = 0;

@@ -47,6 +47,9 @@ std::string lengthText(double metres);
 // "1.2 MB", in powers of 1000.
 std::string sizeText(std::uint64_t bytes);
 
+// "12.3 %" for a share of 0.123.
+std::string shareText(double share);
+
 // About three significant digits without an exponent: "1234", "123", "12.3", "1.23", "0.0123".
 std::string shortNumber(double number);
 

@@ -10,6 +10,7 @@
 #include <nlohmann/json.hpp>
 
 #include "benchmarks/report/report.h"
+#include "benchmarks/report/verdict.h"
 #include "benchmarks/run/record.h"
 #include "benchmarks/scene/json.h"
 #include "engine/error.h"
@@ -141,6 +142,7 @@ merged(std::vector<Part> parts, const MergeRules& rules, std::vector<std::string
                    part.report.value("order_seed", scene::Json()) != seed;
         }))
         header.erase("order_seed");
+    for (scene::Json& each : cases) report::putVerdict(header.at("environment"), each);
     return report::assembledReport(std::move(header), std::move(cases), interrupted);
 }
 

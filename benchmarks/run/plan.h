@@ -9,6 +9,7 @@
 
 #include "benchmarks/report/change.h"
 #include "benchmarks/report/report.h"
+#include "benchmarks/report/verdict.h"
 #include "benchmarks/scene/sweep.h"
 
 // The cases of a run and their order.
@@ -29,6 +30,7 @@ struct RunOptions {
     std::string save_baseline;  // name; empty: none
     std::string baseline;  // name of a baseline to compare with; empty: none
     report::VerdictOptions verdict;
+    std::optional<report::Trusted> fail_on;  // fail if a case is this or worse
     std::vector<std::string> command;  // for the report
 };
 

@@ -22,6 +22,7 @@
 #include "benchmarks/report/environment.h"
 #include "benchmarks/report/methods.h"
 #include "benchmarks/report/report.h"
+#include "benchmarks/report/verdict.h"
 #include "benchmarks/scene/json.h"
 #include "engine/error.h"
 #include "engine/files.h"
@@ -399,10 +400,10 @@ void RunRecord::keep(std::size_t index, const std::string& status, const Journal
 }
 
 void RunRecord::add(const report::CaseResult& result) {
+    scene::Json line = report::caseJson(result);
+    report::putVerdict(header_->at("environment"), line);
     try {
-        keep(
-            result.index.value(), report::statusName(result.status),
-            journal_->append(report::caseJson(result)));
+        keep(result.index.value(), report::statusName(result.status), journal_->append(line));
     } catch (const engine::WriteFailed& error) {
         if (!hasJournal()) throw;
         throw engine::WriteFailed(

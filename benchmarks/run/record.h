@@ -116,7 +116,7 @@ public:
     // False if `out` is not a file, so that no journal can lie beside it.
     bool hasJournal() const { return !scratch_; }
 
-    // Throws WriteFailed "<journal>: <reason>; <kept cases>".
+    // Records the case with its verdict. Throws WriteFailed "<journal>: <reason>; <kept cases>".
     void add(const report::CaseResult& result);
 
     // The report without its cases.

@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "benchmarks/measure/progress.h"
+#include "benchmarks/measure/quiet_wait.h"
 #include "benchmarks/report/environment.h"
 #include "benchmarks/report/report.h"
 #include "benchmarks/report/table.h"
@@ -41,6 +42,16 @@ struct Ended {
     std::string no_device;  // why no device is left
 };
 
+// Others' work on the processors lengthens all frames of a software device. Of another device, it
+// only disturbs what the host does, and one wait before the run has to do.
+void waitForOthers(
+    const engine::Device& device, const hair::RunSettings& run, bool is_first,
+    measure::QuietWait& quiet, measure::Progress& progress) {
+    if (!is_first && device.info().type != "cpu") return;
+    progress.clear();
+    quiet.wait(double{run.max_time});
+}
+
 Ended playCases(
     RunDevice& device, const RunPlan& plan, RunRecord& record,
     const std::filesystem::path& pictures_of, measure::HairCache& cache) {
@@ -55,10 +66,18 @@ Ended playCases(
         .progress = [&](const measure::SamplingState& state) { progress.update(state); },
         .known = &known};
     CaseComparisons comparisons;
+    measure::QuietWait quiet(measure::otherLoad, [](double share) {
+        std::cerr << "other programs use " << report::shareText(share)
+                  << " of the processors: waiting for them, at most "
+                  << report::plainNumber(measure::kMostQuietWaits) << " s in all\n";
+    });
+    const std::size_t first = record.done();
     Ended ended;
     try {
         for (const auto& [place, order] : record.remaining()) {
             const PlannedCase& each = plan.cases[place];
+            waitForOthers(
+                device.get(), each.spec.settings.run, record.done() == first, quiet, progress);
             progress.begin(each.spec.name);
             PlayedCase played = runCase(
                 device.get(), each, hooks, pictures_of, comparisons, cache, plan.max_memory);
@@ -85,6 +104,7 @@ FinishedRun finishedRun(const RunRecord& record) {
         .done = record.done(),
         .measured = record.measured()};
     record.eachCase([&](const scene::Json& each) {
+        finished.verdicts.add(record.header().at("environment"), each);
         for (const scene::Json& warning :
              each.value("/trust/warnings"_json_pointer, scene::Json::array()))
             finished.summary +=
@@ -147,6 +167,7 @@ FinishedRun playRun(
         if (const auto measured = measuredInComplete(plan, header, out))
             return {
                 .summary = {},
+                .verdicts = report::verdictsOf(report::readReport(out)),
                 .done = plan.cases.size(),
                 .measured = *measured,
                 .was_complete = true};

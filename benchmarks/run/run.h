@@ -7,6 +7,7 @@
 #include <string>
 #include <utility>
 
+#include "benchmarks/report/verdict.h"
 #include "benchmarks/run/plan.h"
 #include "engine/device.h"
 
@@ -43,6 +44,7 @@ private:
 struct FinishedRun {
     // For a terminal: the table of cases, then their warnings; empty if was_complete.
     std::string summary;
+    report::Verdicts verdicts;  // on the measured cases
     std::size_t done = 0;  // cases
     std::size_t measured = 0;  // cases neither skipped nor failed
     bool interrupted = false;  // by the user: cases are missing

@@ -24,12 +24,15 @@ TEST(Table, ShowsVaryingAxesMediansAndStatus) {
     EXPECT_EQ(
         report::table(report::reportJson(sampleReport())),
         "Soft (cpu), llvmpipe 22.3.6, Vulkan 1.3.230; scenes/thesis.json\n"
-        "     backend  fps  frame ms  wind ms  strands ms  strands  status\n"
-        "tessellation  333      3.00   0.0125        2.50     8704  ok, 1 warning\n"
-        "        mesh    -         -        -           -        -  skipped: the device has "
-        "no "
-        "VK_EXT_mesh_shader, which...\n"
-        "       lines    -         -        -           -        -  failed: device lost\n");
+        "fps: frames / all their time; ms: medians; +-: half the 95 % interval of frame ms\n"
+        "     backend  fps  frame ms  +-  wind ms  strands ms  strands  trust                      "
+        "              status\n"
+        "tessellation  333      3.00   -   0.0125        2.50     8704  untrusted (other load 50 "
+        "%, steal 25 %)  ok, 1 warning\n"
+        "        mesh    -         -   -        -           -        -  -                          "
+        "              skipped: the device has no VK_EXT_mesh_shader, which...\n"
+        "       lines    -         -   -        -           -        -  -                          "
+        "              failed: device lost\n");
 }
 
 // Visits cases one by one.
@@ -44,6 +47,17 @@ TEST(Table, IsTheSameOfCasesThatNobodyHolds) {
         report::table(report::reportJson(whole)));
 }
 
+// As nvbench has it: half the interval over the median, in percent.
+TEST(Table, ShowsTheIntervalOfTheFrameTime) {
+    scene::Json report = report::reportJson(sampleReport());
+    report["cases"][0]["metrics"]["frame.time"]["interval"] = {
+        {"lower", 2.7}, {"upper", 3.15}, {"confidence", 0.95}};  // of a median of 3
+    const std::string table = report::table(report);
+    EXPECT_NE(table.find("frame ms     +-"), std::string::npos) << table;
+    EXPECT_NE(table.find("    3.00  7.5 %"), std::string::npos) << table;
+}
+
+// Others' load is never worse than doubtful on a device that is not known to be a software one.
 TEST(Table, NamesTheCaseWhereNothingVaries) {
     report::Report report = sampleReport();
     report.cases.resize(1);
@@ -53,8 +67,11 @@ TEST(Table, NamesTheCaseWhereNothingVaries) {
     EXPECT_EQ(
         report::table(report::reportJson(report)),
         "unknown device\n"
-        "case                                    fps  frame ms  strands  status\n"
-        "thesis/density:64/backend:tessellation    -         -     8704  ok, 1 warning\n");
+        "fps: frames / all their time; ms: medians; +-: half the 95 % interval of frame ms\n"
+        "case                                    fps  frame ms  +-  strands  trust                 "
+        "                                              status\n"
+        "thesis/density:64/backend:tessellation    -         -   -     8704  doubtful (clock "
+        "limited, other load 50 %, steal 25 %, no interval)  ok, 1 warning\n");
 }
 
 TEST(Table, SaysWhatDrewAnAutomaticCase) {
@@ -64,11 +81,15 @@ TEST(Table, SaysWhatDrewAnAutomaticCase) {
     EXPECT_EQ(
         report::table(report::reportJson(report)),
         "Soft (cpu), llvmpipe 22.3.6, Vulkan 1.3.230; scenes/thesis.json\n"
-        "  backend  drawn by  fps  frame ms  wind ms  strands ms  strands  status\n"
-        "automatic  software  333      3.00   0.0125        2.50     8704  ok, 1 warning\n"
-        "     mesh  -           -         -        -           -        -  skipped: the device has "
-        "no VK_EXT_mesh_shader, which...\n"
-        "    lines  -           -         -        -           -        -  failed: device lost\n");
+        "fps: frames / all their time; ms: medians; +-: half the 95 % interval of frame ms\n"
+        "  backend  drawn by  fps  frame ms  +-  wind ms  strands ms  strands  trust               "
+        "                     status\n"
+        "automatic  software  333      3.00   -   0.0125        2.50     8704  untrusted (other "
+        "load 50 %, steal 25 %)  ok, 1 warning\n"
+        "     mesh  -           -         -   -        -           -        -  -                   "
+        "                     skipped: the device has no VK_EXT_mesh_shader, which...\n"
+        "    lines  -           -         -   -        -           -        -  -                   "
+        "                     failed: device lost\n");
 }
 
 TEST(Table, HasAColumnForEachPassAlone) {
@@ -93,8 +114,11 @@ TEST(Table, ShowsHowFarPicturesAreFromTheReference) {
     EXPECT_EQ(
         report::table(report::reportJson(report)),
         "unknown device\n"
-        "case                                    fps  frame ms   FLIP  strands  status\n"
-        "thesis/density:64/backend:tessellation    -         -  0.123     8704  ok, 1 warning\n");
+        "fps: frames / all their time; ms: medians; +-: half the 95 % interval of frame ms\n"
+        "case                                    fps  frame ms  +-   FLIP  strands  trust          "
+        "                                                     status\n"
+        "thesis/density:64/backend:tessellation    -         -   -  0.123     8704  doubtful "
+        "(clock limited, other load 50 %, steal 25 %, no interval)  ok, 1 warning\n");
 }
 
 // Axes of one scene in a suite are absent in another.
@@ -110,7 +134,9 @@ TEST(Table, NamesTheCasesOfASuite) {
 TEST(Table, OfNoCasesIsItsHeader) {
     EXPECT_EQ(
         report::table(scene::Json::object()),
-        "unknown device\ncase  fps  frame ms  strands  status\n");
+        "unknown device\n"
+        "fps: frames / all their time; ms: medians; +-: half the 95 % interval of frame ms\n"
+        "case  fps  frame ms  +-  strands  trust  status\n");
 }
 
 }  // namespace

@@ -175,6 +175,39 @@ TEST_F(FrameLoopTest, GivesTheFramesSinceTheLastTime) {
     EXPECT_EQ(loop.finish().size(), 3u);
 }
 
+// The queue runs isolated frames one after another, so none begins before the last one ended.
+TEST_F(FrameLoopTest, TellsHowLongTheQueueHadNoWork) {
+    if (!play(Timing::isolated, 1)[0].device) GTEST_SKIP() << "no timestamps";
+    for (const Timing timing : {Timing::overlapped, Timing::isolated}) {
+        const std::vector<FrameRecord> frames = play(timing, 4);
+        ASSERT_EQ(frames.size(), 4u);
+        EXPECT_FALSE(frames[0].gap.has_value());
+        for (std::size_t i = 1; i < frames.size(); ++i) {
+            ASSERT_TRUE(frames[i].gap.has_value());
+            if (timing == Timing::isolated) {
+                EXPECT_GE(*frames[i].gap, 0.0);
+                // Both stamps are taken between the host's start of one frame and its end of the
+                // other.
+                EXPECT_LE(*frames[i].gap, frames[i - 1].interval + frames[i].interval);
+            }
+        }
+    }
+    for (const FrameRecord& frame : play(Timing::wall_clock, 2))
+        EXPECT_FALSE(frame.gap.has_value());
+}
+
+// Batches of one loop are one series of frames.
+TEST_F(FrameLoopTest, TellsTheGapBetweenTwoBatches) {
+    if (!play(Timing::isolated, 1)[0].device) GTEST_SKIP() << "no timestamps";
+    FrameLoop loop(device(), Timing::isolated);
+    for (const bool is_first : {true, false}) {
+        loop.frame([&](Passes& passes) { record(passes); });
+        const std::vector<FrameRecord> frames = loop.finish();
+        ASSERT_EQ(frames.size(), 1u);
+        EXPECT_EQ(frames[0].gap.has_value(), !is_first);
+    }
+}
+
 TEST_F(FrameLoopTest, CountsNothingForAGraphicsPassThatDrawsNothing) {
     if (!device().hasPipelineStatistics()) GTEST_SKIP() << "no pipeline statistics";
     const Target target(device(), {.width = 8, .height = 8, .msaa = 1, .ssaa = 1});

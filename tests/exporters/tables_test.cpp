@@ -18,24 +18,35 @@ std::vector<std::string> lines(const std::string& text) {
 }
 
 TEST(Csv, HasARowForEachMetric) {
+    const std::string start =
+        "thesis/density:64/backend:tessellation,64,tessellation,ok,,1,untrusted,other load: 50.0 % "
+        "of all processors' time was used by others; steal: 25.0 % of all processors' time was "
+        "given to others by the hypervisor; clocks: the device's clock was held back: power cap; "
+        "noise: too few frames for an interval of the frame time,";
     EXPECT_THAT(
         lines(exported("csv")),
         ElementsAre(
-            "case,/strands/density,/strands/backend,status,reason,metric,samples,unit,mode,median,"
-            "mad,mean,minimum,first_quartile,third_quartile,maximum",
-            "thesis/density:64/backend:tessellation,64,tessellation,ok,,frame.time,3,ms,overlapped,"
-            "3.0,1.0,3.0,2.0,2.5,3.5,4.0",
-            "thesis/density:64/backend:tessellation,64,tessellation,ok,,fps,1,1/s,overlapped,"
-            "333.25,0.0,333.25,333.25,333.25,333.25,333.25",
-            "thesis/density:64/backend:tessellation,64,tessellation,ok,,pass.wind.time,1,ms,"
-            "isolated,0.0125,0.0,0.0125,0.0125,0.0125,0.0125,0.0125",
-            "thesis/density:64/backend:tessellation,64,tessellation,ok,,pass.strands.time,1,ms,"
-            "isolated,2.5,0.0,2.5,2.5,2.5,2.5,2.5",
-            "thesis/density:64/backend:tessellation,64,tessellation,ok,,memory.device,1,B,,"
-            "1048576.0,0.0,1048576.0,1048576.0,1048576.0,1048576.0,1048576.0",
+            "case,/strands/density,/strands/backend,status,reason,warnings,verdict,reasons,metric,"
+            "samples,unit,mode,median,mad,mean,minimum,first_quartile,third_quartile,maximum,lower,"
+            "upper,confidence",
+            start + "frame.time,3,ms,overlapped,3.0,1.0,3.0,2.0,2.5,3.5,4.0,,,",
+            start + "fps,1,1/s,overlapped,333.25,0.0,333.25,333.25,333.25,333.25,333.25,,,",
+            start + "pass.wind.time,1,ms,isolated,0.0125,0.0,0.0125,0.0125,0.0125,0.0125,0.0125,,,",
+            start + "pass.strands.time,1,ms,isolated,2.5,0.0,2.5,2.5,2.5,2.5,2.5,,,",
+            start + "memory.device,1,B,,1048576.0,0.0,1048576.0,1048576.0,1048576.0,1048576.0,"
+                    "1048576.0,,,",
             "thesis/density:64/backend:mesh,64,mesh,skipped,\"the device has no "
-            "VK_EXT_mesh_shader, which the back end needs\",,,,,,,,,,,",
-            "thesis/density:64/backend:lines,64,lines,failed,device lost,,,,,,,,,,,"));
+            "VK_EXT_mesh_shader, which the back end needs\",,,,,,,,,,,,,,,,,",
+            "thesis/density:64/backend:lines,64,lines,failed,device lost,,,,,,,,,,,,,,,,,"));
+}
+
+TEST(Csv, HasTheBoundsOfAnInterval) {
+    scene::Json report = reportJson(sampleReport());
+    report["cases"][0]["metrics"]["frame.time"]["interval"] = {
+        {"lower", 2.5}, {"upper", 3.25}, {"confidence", 0.96875}};
+    EXPECT_THAT(exportReport(report, "csv"), HasSubstr(",4.0,2.5,3.25,0.96875\n"));
+    // (3.25 - 2.5) / 2 of a median of 3
+    EXPECT_THAT(exportReport(report, "markdown"), HasSubstr("| 2.50 | 12.5 % | 3 |"));
 }
 
 TEST(Csv, QuotesWhatWouldBreakARow) {
@@ -73,13 +84,19 @@ TEST(Markdown, HasARowForEachCase) {
     EXPECT_THAT(
         lines(exported("markdown")),
         ElementsAre(
-            "**scenes/thesis.json**, Soft, llvmpipe, 22.3.6, Some CPU, abc", "",
-            "| density | backend | frame (ms) | FPS | wind (ms) | strands (ms) | status |",
-            "| --- | --- | ---: | ---: | ---: | ---: | --- |",
-            "| 64 | tessellation | 3.00 | 333 | 0.0125 | 2.50 | ok |",
-            "| 64 | mesh |  |  |  |  | skipped: the device has no VK\\_EXT\\_mesh\\_shader, which "
-            "the back end needs |",
-            "| 64 | lines |  |  |  |  | failed: device lost |"));
+            "**scenes/thesis.json**, Soft, llvmpipe, 22.3.6, Some CPU, abc. 1 untrusted.", "",
+            "Times are medians; FPS is frames / all their time; ± is half the 95 % interval of the "
+            "frame's median.",
+            "",
+            "| density | backend | frame (ms) | mean FPS | wind (ms) | strands (ms) | ± | samples "
+            "| "
+            "trust | status |",
+            "| --- | --- | ---: | ---: | ---: | ---: | ---: | ---: | --- | --- |",
+            "| 64 | tessellation | 3.00 | 333 | 0.0125 | 2.50 |  | 3 | untrusted (other load 50 %, "
+            "steal 25 %) | ok, 1 warning |",
+            "| 64 | mesh |  |  |  |  |  |  |  | skipped: the device has no "
+            "VK\\_EXT\\_mesh\\_shader, which the back end needs |",
+            "| 64 | lines |  |  |  |  |  |  |  | failed: device lost |"));
 }
 
 TEST(Markdown, HasOneColumnForAPass) {

@@ -69,11 +69,13 @@ TEST(Perfetto, NamesCasesAndTracks) {
     for (const scene::Json& event : trace["traceEvents"])
         if (event["ph"] == "M")
             names.push_back(
-                event["name"].get<std::string>() + ": " + event["args"]["name"].get<std::string>());
+                event["name"].get<std::string>() + ": " +
+                event["args"].begin().value().get<std::string>());
     EXPECT_THAT(
         names, ElementsAre(
                    "process_name: thesis/density:64/backend:tessellation",
-                   "thread_name: isolated passes", "thread_name: CPU of overlapped frames"));
+                   "thread_name: isolated passes", "thread_name: CPU of overlapped frames",
+                   "process_labels: untrusted (other load 50 %, steal 25 %)"));
 }
 
 // A viewer shows slices of a track as a stack. It loses a slice that ends after its parent.

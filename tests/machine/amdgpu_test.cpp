@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include "benchmarks/report/verdict.h"
 #include "tests/temporary_folder.h"
 
 namespace benchmarks::measure {
@@ -79,8 +80,8 @@ TEST_F(AmdgpuTest, NamesWhatHoldsTheClockBack) {
     };
     using Reasons = std::vector<std::string>;
     EXPECT_EQ(reasons(-1), Reasons());
-    EXPECT_EQ(reasons(0), Reasons{kPowerCap});
-    EXPECT_EQ(reasons(15), Reasons{kPowerCap});
+    EXPECT_EQ(reasons(0), Reasons{report::kPowerCap});
+    EXPECT_EQ(reasons(15), Reasons{report::kPowerCap});
     EXPECT_EQ(reasons(16), Reasons{"current limit"});
     EXPECT_EQ(reasons(31), Reasons{"current limit"});
     EXPECT_EQ(reasons(32), Reasons{"thermal limit"});

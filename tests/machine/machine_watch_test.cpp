@@ -5,6 +5,7 @@
 #include <gmock/gmock.h>
 
 #include "benchmarks/measure/clocks.h"
+#include "benchmarks/report/verdict.h"
 #include "tests/gpu_fixture.h"
 #include "tests/temporary_folder.h"
 
@@ -37,21 +38,21 @@ TEST(IsThrottled, BelowNineTenthsOfTheClockThatOtherRoundsHeld) {
     const auto at = [](double clock) {
         return report::Conditions{.clock_mhz = clock, .lowest_clock_mhz = clock};
     };
-    EXPECT_TRUE(isThrottled(at(1799), 2000, 0));
-    EXPECT_FALSE(isThrottled(at(1800), 2000, 0));
-    EXPECT_FALSE(isThrottled(at(100), 0, 0));
-    EXPECT_FALSE(isThrottled({.base_clock_mhz = 2000}, 2000, 2000));
+    EXPECT_TRUE(report::isThrottled(at(1799), 2000, 0));
+    EXPECT_FALSE(report::isThrottled(at(1800), 2000, 0));
+    EXPECT_FALSE(report::isThrottled(at(100), 0, 0));
+    EXPECT_FALSE(report::isThrottled({.base_clock_mhz = 2000}, 2000, 2000));
 }
 
 // A locked clock may be half the base clock.
 TEST(IsThrottled, WhateverTheBaseClockIs) {
-    EXPECT_FALSE(isThrottled(
+    EXPECT_FALSE(report::isThrottled(
         {.clock_mhz = 1000, .lowest_clock_mhz = 1000, .base_clock_mhz = 2000, .load = 1.0}, 1000,
         1000));
 }
 
 TEST(IsThrottled, ByOneReadingUnderLoad) {
-    EXPECT_TRUE(isThrottled({.clock_mhz = 2000, .lowest_clock_mhz = 1500}, 2000, 0));
+    EXPECT_TRUE(report::isThrottled({.clock_mhz = 2000, .lowest_clock_mhz = 1500}, 2000, 0));
 }
 
 TEST(PciAddress, IsWrittenAsTheSystemDoes) {
@@ -107,7 +108,7 @@ TEST_F(MachineWatchTest, KnowsNoClockOfASoftwareDevice) {
     const report::Conditions conditions = watch.take();
     EXPECT_EQ(conditions.clock_mhz, std::nullopt);
     EXPECT_EQ(conditions.base_clock_mhz, std::nullopt);
-    EXPECT_FALSE(isThrottled(conditions, 0, 0));
+    EXPECT_FALSE(report::isThrottled(conditions, 0, 0));
 }
 
 // Whether clocks can be locked, and whether they are.

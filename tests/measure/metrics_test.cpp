@@ -64,7 +64,9 @@ TEST(MissedCount, IsLessOnGpusAndAnyDifferenceOnProcessors) {
 TEST(Metrics, OfOverlappedFramesSayWhoWaitsForWhom) {
     std::vector<engine::FrameRecord> frames = framesOf(2);
     frames[0].device = 8.0;
-    frames[1].device = 13.0;  // it began while the previous frame was at work
+    frames[1].device = 13.0;
+    frames[0].gap = 2.0;
+    frames[1].gap = -1.0;  // it began while the previous frame was at work
     for (engine::FrameRecord& frame : frames) {
         frame.record = 2.0;
         frame.submit = 1.0;
@@ -100,6 +102,38 @@ TEST(Metrics, HaveLowsOfThreeKinds) {
         EXPECT_EQ(metricOf(result, name).unit, "1/s");
     }
     EXPECT_THAT(names(result), testing::Not(testing::Contains(testing::HasSubstr("low_0_1"))));
+}
+
+// The device's own lows do not know of a host that wakes up late.
+TEST(Metrics, HaveLowsOfTheDeviceToo) {
+    std::vector<engine::FrameRecord> frames = framesOf(100);
+    for (engine::FrameRecord& frame : frames) frame.device = 5.0;
+    frames[10].interval = frames[60].interval = 40.0;
+    report::CaseResult result;
+    addOverlappedMetrics(frames, result);
+    for (const char* kind : {"percentile", "mean", "integral"}) {
+        EXPECT_THAT(metricOf(result, std::string("fps.low_1.") + kind).samples, ElementsAre(25.0));
+        EXPECT_THAT(
+            metricOf(result, std::string("fps.device_low_1.") + kind).samples, ElementsAre(200.0));
+    }
+}
+
+// Passes of 3 ms and of 5 ms in two parts have three empty passes of 0.1 ms in them.
+TEST(Metrics, OverlapIsWithoutEmptyPasses) {
+    std::vector<engine::FrameRecord> isolated(3);
+    for (engine::FrameRecord& frame : isolated)
+        frame.passes = {{"a", 3.0, {}}, {.name = "b", .milliseconds = 5.0, .use = {}, .parts = 2}};
+    std::vector<engine::FrameRecord> overlapped = framesOf(2);
+    overlapped[1].interval = 7.0;
+    report::CaseResult result;
+    addOverlap(isolated, overlapped, 0.1, result);
+    EXPECT_THAT(
+        metricOf(result, "frame.overlap").samples,
+        ElementsAre(testing::DoubleNear(-2.3, 1e-12), testing::DoubleNear(0.7, 1e-12)));
+    report::CaseResult without;
+    addOverlap(isolated, overlapped, {}, without);
+    addOverlap(framesOf(2), overlapped, 0.1, without);
+    EXPECT_THAT(without.metrics, testing::IsEmpty());
 }
 
 // If the share is less than one frame, a low would just be the slowest frame.

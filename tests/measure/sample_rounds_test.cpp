@@ -11,6 +11,7 @@
 #include <gtest/gtest.h>
 
 #include "benchmarks/report/statistics.h"
+#include "benchmarks/report/verdict.h"
 #include "tests/decide/noise.h"
 
 namespace benchmarks::measure {
@@ -270,7 +271,7 @@ TEST(SampleRounds, CountsRoundsAtThePowerLimitWhileTheClockHolds) {
     Machine machine{
         .time = [](int, int) { return 10.0; },
         .clock = [](int round) { return round % 3 == 0 ? 960.0 : 980.0 + round % 2 * 20.0; },
-        .reasons = [](int) { return std::vector<std::string>{kPowerCap}; }};
+        .reasons = [](int) { return std::vector<std::string>{report::kPowerCap}; }};
     const SampledRounds sampled = machine.sample({.precision = 0.0, .max_time = 3.0});
     EXPECT_EQ(
         sampled.sampling.throttled_rounds, static_cast<std::uint32_t>((machine.rounds + 2) / 3));

@@ -31,6 +31,7 @@ struct GpuModel {
     // Cost of a play's frame relative to the first, frames counted from 0.
     std::function<double(std::uint32_t frame)> profile = [](std::uint32_t) { return 1.0; };
     double overlap = 0.0;  // share of the passes' time that overlap saves
+    double empty_pass = 0.0;  // s, that barriers and timestamps add to an isolated pass
 
     double slow = 210e6, fast = 1980e6;  // Hz
     double rise = 0.3;  // s of load from slow to fast
@@ -102,7 +103,7 @@ public:
     }
 
     std::optional<double> emptyPass() override {
-        return model_.valid_bits == 0 ? std::nullopt : std::optional(1e-3);
+        return model_.valid_bits == 0 ? std::nullopt : std::optional(model_.empty_pass * 1e3);
     }
 
     void beginWatch() override {
@@ -259,10 +260,13 @@ private:
             for (const GpuModel::Pass& pass : gpu_.model_.passes) {
                 const double from = time;
                 time = gpu_.work(cyclesOf(pass) * share, time);
+                if (timing_ == engine::Timing::isolated) time += gpu_.model_.empty_pass;
                 times.push_back(between(from, time));
             }
             if (gpu_.model_.valid_bits == 0) return time;
             record.device = between(first, time);
+            if (last_) record.gap = between(*last_, first);
+            last_ = time;
             if (gpu_.model_.stamps_shifted) std::ranges::rotate(times, times.end() - 1);
             for (std::size_t i = 0; i < times.size(); ++i)
                 record.passes.push_back({gpu_.model_.passes[i].name, times[i], {}});
@@ -288,6 +292,7 @@ private:
         bool empty_;
         std::uint32_t frame_ = 0;
         double start_ = 0.0;
+        std::optional<double> last_;  // s, the end of the previous frame
         std::vector<engine::FrameRecord> records_;
         std::deque<double> in_flight_;  // their end times
     };

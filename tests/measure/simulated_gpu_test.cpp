@@ -227,6 +227,23 @@ TEST(SimulatedGpu, OverlapIsFound) {
     EXPECT_NEAR(medianIn(measuredOn(gpu), "frame.overlap"), 0.5, 0.02);
 }
 
+// Barriers and timestamps of isolated passes are no part of a frame, as on an H200 with 0.0086 ms.
+TEST(SimulatedGpu, EmptyPassesAreNotSavedByOverlap) {
+    GpuModel model;
+    model.empty_pass = 8.6e-6;
+    SimulatedGpu gpu(model, 9);
+    const report::CaseResult result = measuredOn(gpu);
+    EXPECT_NEAR(medianIn(result, "frame.overlap"), 0.0, 0.01 * gpu.truth());
+}
+
+// A frame of 0.2 ms is submitted while the previous one is at work, so the device never waits. The
+// host's wake-ups make the intervals longer and shorter than the device's times.
+TEST(SimulatedGpu, AHostThatWakesUpLateIsNoWaitOfTheDevice) {
+    SimulatedGpu gpu(GpuModel{}, 9);
+    const report::CaseResult result = measuredOn(gpu);
+    EXPECT_LT(medianIn(result, "gpu.wait.time"), 1e-5);
+}
+
 // ---- Gates of processes on the simulated GPU ----------------------------------------------------
 
 // Medians of one process: frame.time, frame.cycles, pass.strands.time, pass.strands.cycles.

@@ -39,7 +39,8 @@ def made_report():
             {"name": "made/msaa:1", "axes": {"/render/msaa": 1, "/lights/0/color": [1, 0.5, 0]},
              "status": "ok", "counts": {"strands": 40}, "statistics": {},
              "backend": {"name": "lines", "reason": "the scene names it"},
-             "trust": {"warnings": ["one", "two"]},
+             "trust": {"warnings": ["one", "two"], "verdict": "untrusted",
+                       "reasons": ["other load: 73.0 %", "drift: isolated"]},
              "metrics": {
                  "pass.strands.time": metric,
                  "memory.device": {
@@ -63,7 +64,8 @@ class MadeReport(unittest.TestCase):
         strands = frame[frame["metric"] == "pass.strands.time"].iloc[0]
         expected = {
             "case": "made/msaa:1", "/render/msaa": 1, "/lights/0/color": (1, 0.5, 0),
-            "status": "ok", "backend": "lines", "warnings": 2, "counts.strands": 40, "unit": "ms",
+            "status": "ok", "backend": "lines", "warnings": 2, "verdict": "untrusted",
+            "reasons": "other load: 73.0 %; drift: isolated", "counts.strands": 40, "unit": "ms",
             "hint": "lower", "mode": "isolated", "median": 3.0, "lower": 2.5, "upper": 3.5,
             "confidence": 0.75, "samples": 3, "mad": 0.5}
         self.assertEqual({name: strands[name] for name in expected}, expected)

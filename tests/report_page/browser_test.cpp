@@ -86,6 +86,35 @@ TEST_F(PageInBrowser, SortsByNumberAndByText) {
     EXPECT_EQ(said.at("sorted"), 1);
 }
 
+// kWarning of the case 16, 1 is one for which it is not to be trusted.
+TEST_F(PageInBrowser, SaysHowFarCasesCanBeTrusted) {
+    const Json said = one(R"(
+        const titles = [...document.querySelectorAll("#cases-table thead button")];
+        const at = (title) => titles.findIndex((each) => each.textContent.trim() === title);
+        say("head", [...document.querySelectorAll("#reports .badge")].map((each) => each.textContent));
+        say("trust", column("cases-table", at("trust")));
+        say("reasons", column("cases-table", at("reasons, warnings"))[2]);
+        say("findings", [...document.querySelectorAll("#findings summary")].map(
+            (each) => each.textContent));
+        say("open", figure("scaling-plot").flatMap((each) => each.marker.symbol).filter(
+            (symbol) => symbol.endsWith("-open")).length);
+        say("rate", titles[at("fps")].title);
+        document.querySelector('.chip[data-filter="trust"][data-value="untrusted"]').click();
+        await settle();
+        say("left", column("cases-table", 0).length);
+    )");
+    EXPECT_EQ(said.at("head"), Json({"5 ok: 4 trusted, 1 untrusted", "1 skipped"}));
+    EXPECT_EQ(
+        said.at("trust"), Json({"trusted", "trusted", "untrusted", "trusted", "trusted", ""}));
+    EXPECT_THAT(
+        said.at("reasons").get<std::string>(),
+        HasSubstr("pass times: timestamps differ from the CPU's clock"));
+    EXPECT_EQ(said.at("findings")[0], "\u26a0 1 case is not trusted: 1 untrusted");
+    EXPECT_EQ(said.at("open"), 1);
+    EXPECT_THAT(said.at("rate").get<std::string>(), HasSubstr("mean rate"));
+    EXPECT_EQ(said.at("left"), 5);
+}
+
 TEST_F(PageInBrowser, FiltersTablesAndPlots) {
     const Json said = one(R"(
         const look = () => [column("cases-table", 0).length,

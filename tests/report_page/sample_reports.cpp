@@ -55,6 +55,7 @@ CaseResult measuredCase(const Known& known, double slower) {
 Report emptyReport(const std::string& scene_name) {
     Report report;
     report.environment.device = {"Sample device", "discrete", "sample", "1.0", "1.3.0", 1.0};
+    report.environment.build.type = "Release";
     report.environment.command = {"hairbench", "run", "scenes/" + scene_name + ".json"};
     report.scene = {
         "scenes/" + scene_name + ".json", "0123456789abcdef",

@@ -14,6 +14,7 @@
 #include <nlohmann/json.hpp>
 
 #include "benchmarks/report/report.h"
+#include "benchmarks/report/verdict.h"
 #include "tests/benchmarks/sample_report.h"
 #include "tests/error_text.h"
 #include "tests/printed_text.h"
@@ -300,7 +301,9 @@ TEST_F(Record, WritesWhatIsWrittenOfCasesInMemory) {
     }
     const std::string written = textOf(out_);
     const std::string samples = textOf(folder_.file("r.samples.jsonl"));
-    report::writeReport(report::reportJson(report), out_);
+    scene::Json in_memory = report::reportJson(report);
+    for (scene::Json& each : in_memory["cases"]) report::putVerdict(in_memory["environment"], each);
+    report::writeReport(in_memory, out_);
     EXPECT_EQ(written, textOf(out_));
     EXPECT_EQ(samples, textOf(folder_.file("r.samples.jsonl")));
     EXPECT_EQ(written, [&] {

@@ -34,6 +34,8 @@ def case_columns(case: dict[str, Any]) -> dict[str, Any]:
         "reason": case.get("reason"),
         "backend": case.get("backend", {}).get("name"),
         "warnings": len(case.get("trust", {}).get("warnings", [])),
+        "verdict": case.get("trust", {}).get("verdict"),
+        "reasons": "; ".join(case.get("trust", {}).get("reasons", [])),
     }
     return columns | {f"counts.{name}": count for name, count in case.get("counts", {}).items()}
 
@@ -53,7 +55,8 @@ def read_report(path: str | os.PathLike[str]) -> pandas.DataFrame:
     """Returns a row per metric of each case, and one without metrics for a skipped or failed case.
 
     Columns: `case`, the value on each axis under its JSON pointer, `status`, `reason`, `backend`,
-    `warnings` (their number), `counts.strands` and other counts; `metric`, `unit`, `hint` (whether
+    `warnings` (their number), `verdict` (trusted, doubtful or untrusted; missing from older reports)
+    and its `reasons`, `counts.strands` and other counts; `metric`, `unit`, `hint` (whether
     lower or higher is better), `mode`, `median`, the bounds `lower` and `upper` of its interval,
     `confidence`, and the metric's other figures under their names. Unknown values are missing.
     `frame.attrs` has `path`, `schema`, `scene`, `environment` and `interrupted`.
@@ -81,8 +84,9 @@ def read_report(path: str | os.PathLike[str]) -> pandas.DataFrame:
     counts = dict.fromkeys(
         name for row in rows for name in row if name.startswith("counts."))
     columns = [
-        "case", *axes, "status", "reason", "backend", "warnings", *counts, "metric", "unit", "hint",
-        "mode", "median", "lower", "upper", "confidence", "samples", *OTHER_FIGURES]
+        "case", *axes, "status", "reason", "backend", "warnings", "verdict", "reasons", *counts,
+        "metric", "unit", "hint", "mode", "median", "lower", "upper", "confidence", "samples",
+        *OTHER_FIGURES]
     frame = pandas.DataFrame(rows, columns=columns)
     for name in columns[columns.index("median"):]:
         frame[name] = pandas.to_numeric(frame[name])

@@ -39,7 +39,7 @@ function backendHover(line, point) {
         point.lower === undefined ? ""
             : plain(`${number(point.lower)} to ${quantity(point.upper, "ms")}`),
         plain(`${number(point.strands)} strands`), plain(caseLabel(point.row)),
-        ...point.row.warnings.map((text) => plain(`\u26a0 ${shortened(text, 70)}`))]
+        ...cautions(point.row).map((text) => plain(`\u26a0 ${shortened(text, 70)}`))]
         .filter(Boolean).join("<br>");
 }
 
@@ -58,7 +58,7 @@ function backendTraces(line, dashes) {
         error_y: {type: "data", symmetric: false, thickness: 1.3, width: 4, color: hue,
             array: bound("upper", 1), arrayminus: bound("lower", -1)},
         marker: {color: hue, size: 8, symbol: line.points.map((point) =>
-            seriesSymbol(index) + (point.row.warnings.length ? "-open" : ""))},
+            seriesSymbol(index) + (cautions(point.row).length ? "-open" : ""))},
         line: style,
         text: line.points.map((point) => backendHover(line, point)), hoverinfo: "text",
         customdata: line.points.map((point) => point.row.id),
@@ -88,7 +88,7 @@ function drawBackends() {
         "Lines: time = factor \u00d7 strands^exponent by least squares of the logarithms, for each " +
             "back end over all its cases that differ only in the number of strands.",
         partial ? `${counted(partial, "line has", "lines have")} cases that the filter hides.` : "",
-        "Bars: the interval of the median. Open markers: cases with warnings."]
+        "Bars: the interval of the median. Open markers: cases with warnings, or not trusted."]
         .filter(Boolean).join(" ");
     fillTable(byId("backends-slopes"), kSlopeColumns, lines.filter((line) => line.law));
 }

@@ -334,7 +334,7 @@ function numberCell(row) {
 }
 
 function noteText(row) {
-    return [row.reason, ...row.warnings.map((text) => `\u26a0 ${text}`)].filter(Boolean).join("; ");
+    return [row.reason, ...cautions(row).map((text) => `\u26a0 ${text}`)].filter(Boolean).join("; ");
 }
 
 function caseColumns() {
@@ -345,8 +345,12 @@ function caseColumns() {
         ...(axes.length ? axes.map(axisColumn) : [{title: "case", text: (row) => row.name}]),
         {title: "status", text: (row) => row.status,
             cell: (row) => element("span", {class: `badge ${row.status}`}, row.status)},
-        ...(known("fps") ? [metricColumn("fps", "fps")].map(
-            (column) => ({...column, title: "fps"})) : []),
+        {title: "trust", hint: "verdict on the case's times; the last column has the reasons",
+            text: (row) => row.verdict?.level ?? "",
+            cell: (row) => row.verdict ? element("span", {class: `badge ${row.verdict.level}`,
+                title: row.verdict.text}, row.verdict.level) : ""},
+        ...(known("fps") ? [{...metricColumn("fps", "fps"), title: "fps",
+            hint: "frames / all their time: the mean rate, not 1 / the median"}] : []),
         ...(known("frame.time") ? [metricColumn("frame.time", "frame")] : []),
         ...(hasIntervals ? [{title: "\u00b1", numeric: true,
             hint: "half the interval of frame.time's median / median", value: precision,
@@ -354,14 +358,15 @@ function caseColumns() {
         ...passMetrics.map((name) => metricColumn(name, passName(name))),
         ...(known("memory.device") ? [metricColumn("memory.device", "memory")] : []),
         ...imageMetrics.map((name) => metricColumn(name, name.slice("image.".length))),
-        {title: "reason, warnings", wide: true, text: noteText},
+        {title: "reasons, warnings", wide: true, text: noteText},
     ];
 }
 
 function buildCases() {
     const columns = caseColumns();
     showOnly(byId("cases"), heading("Cases"),
-        note("Medians. Click a heading to sort, a number in the first column to see the samples."),
+        note("Medians, except fps: frames over all their time. Click a heading to sort, a number " +
+            "in the first column to see the samples."),
         element("div", {class: "scroll tall", tabindex: "0", role: "region",
             "aria-label": "Table of cases"}, element("table", {id: "cases-table"})));
     const update = () => fillTable(byId("cases-table"), columns, filteredRows());

@@ -91,13 +91,13 @@ function drawScaling() {
         ...facetAxes(div, facets), showlegend: traces.length > 1,
         legend: legendStyle(div, axisOf.get(scaling.color)?.label),
     });
-    const warned = scalingRows().some((row) => row.warnings.length);
+    const warned = scalingRows().some((row) => cautions(row).length);
     const bars = {interval: "Bars: the interval of the median, 95 % or what the samples allow.",
         quartiles: "Bars: first to third quartile of the samples.", none: ""}[scaling.spread];
     byId("scaling-note").textContent = [
         `${counted(lines.length, "line")}, ${counted(scalingRows().length, "case")}.`, bars,
         hasIntervals ? "" : "The report has no intervals of medians.",
-        warned ? "Open markers: cases with warnings." : ""].filter(Boolean).join(" ");
+        warned ? "Open markers: cases with warnings, or not trusted." : ""].filter(Boolean).join(" ");
 }
 
 // ---- Scaling: lines and axes --------------------------------------------------------------------
@@ -114,7 +114,7 @@ function hoverText(row, name) {
         quantity(range[1], metric.unit)));
     lines.push(...axes.map((axis) =>
         plain(`${axis.label}: ${valueText(row.values[axis.pointer])}`)));
-    lines.push(...row.warnings.map((text) => plain(`\u26a0 ${shortened(text, 70)}`)));
+    lines.push(...cautions(row).map((text) => plain(`\u26a0 ${shortened(text, 70)}`)));
     return lines.join("<br>");
 }
 
@@ -165,7 +165,7 @@ function scalingTrace(line, facets, seen) {
         marker: {
             color: seriesColor(index), size: 8,
             symbol: sorted.map((row) =>
-                seriesSymbol(index) + (row.warnings.length ? "-open" : "")),
+                seriesSymbol(index) + (cautions(row).length ? "-open" : "")),
         },
         text: sorted.map((row) => hoverText(row, scaling.metric)), hoverinfo: "text",
         customdata: sorted.map((row) => row.id),

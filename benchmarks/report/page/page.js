@@ -157,6 +157,7 @@ const rows = page.reports.flatMap((report, index) => report.cases.map((each, pla
     id: `${index}:${each.name}`,
     metrics: each.metrics ?? {},
     warnings: each.trust?.warnings ?? [],
+    reasons: each.verdict?.reasons ?? [],  // why it is not trusted
     facets: {scene: sceneName(report), device: deviceName(report),
         backend: drawnBy(report, each)},
     values: severalReports ? allValues(report, each) : each.axes,
@@ -224,6 +225,9 @@ const imageMetrics = metricNames.filter((name) => Object.hasOwn(page.image_metri
 const timeMetrics = metricNames.filter((name) => metricUnits.get(name) === "ms");
 
 function passName(metric) { return page.pass_times[metric]; }
+
+// Returns what a reader has to know before believing the case.
+function cautions(row) { return [...row.reasons, ...row.warnings]; }
 
 function median(row, metric) { return row.metrics[metric]?.median; }
 
@@ -416,11 +420,29 @@ function statusCounts(cases) {
         status, cases.filter((each) => each.status === status).length]);
 }
 
+const kTrustLevels = ["trusted", "doubtful", "untrusted"];
+
+// "5 trusted, 11 doubtful"
+function trustCounts(cases) {
+    return kTrustLevels
+        .map((level) => [level, cases.filter((each) => each.verdict?.level === level).length])
+        .filter(([, count]) => count > 0).map(([level, count]) => `${count} ${level}`).join(", ");
+}
+
+// Returns the badge class of the worst verdict among the cases.
+function worstTrust(cases) {
+    return [...kTrustLevels].reverse().find(
+        (level) => cases.some((each) => each.verdict?.level === level)) ?? "ok";
+}
+
 function statusBadges(cases) {
     return element("span", {class: "badges"}, statusCounts(cases)
         .filter(([status, count]) => count > 0 || status === "ok")
-        .map(([status, count]) =>
-            element("span", {class: `badge ${status}`}, `${count} ${status}`)));
+        .map(([status, count]) => {
+            const trust = status === "ok" ? trustCounts(cases) : "";
+            return element("span", {class: `badge ${trust ? worstTrust(cases) : status}`},
+                `${count} ${status}${trust ? `: ${trust}` : ""}`);
+        }));
 }
 
 function deviceText(device) {
@@ -498,11 +520,16 @@ function buildSummary() {
     const warnings = rows.flatMap((row) => row.warnings.map((text) => [text, row]));
     const left = rows.filter((row) => row.status !== "ok")
         .map((row) => [`${row.status}: ${row.reason ?? "no reason was given"}`, row]);
+    const doubts = rows.filter((row) => row.verdict && row.verdict.level !== "trusted");
+    // By check, because sentences differ in their figures; the table of cases has them.
+    const reasons = doubts.flatMap((row) => row.reasons.map((text) => [text.split(":")[0], row]));
     showOnly(byId("findings"),
         page.left_out.length ? element("div", {},
             note("Left out, because they are not reports of 'hairbench run':"),
             element("ul", {}, page.left_out.map(({file, reason}) =>
                 element("li", {}, `${file}: ${reason}`)))) : "",
+        findings(`\u26a0 ${counted(doubts.length, "case is", "cases are")} not trusted: ` +
+            trustCounts(doubts), reasons),
         findings(`\u26a0 ${counted(warnings.length, "warning")}`, warnings),
         findings(`${counted(left.length, "case")} without figures`, left));
 }
@@ -516,7 +543,7 @@ const filterListeners = [];
 function onFilterChange(listener) { filterListeners.push(listener); }
 
 function rowText(row) {
-    return [row.name, row.status, row.reason, ...row.warnings].filter(Boolean).join("\n");
+    return [row.name, row.status, row.reason, row.verdict?.level, ...cautions(row)].filter(Boolean).join("\n");
 }
 
 // Matches a regular expression, or a plain text if it is not one. Ignores case.
@@ -535,6 +562,7 @@ const kFacets = [["scene", "scene"], ["device", "device"], ["backend", "back end
 
 function filterValue(row, key) {
     if (key === "status") return row.status;
+    if (key === "trust") return valueText(row.verdict?.level);
     return valueText(key in row.facets ? row.facets[key] : row.values[key]);
 }
 
@@ -587,6 +615,9 @@ function buildFilter() {
         ...facets.map(([key, label, texts]) => chipsOf(key, label, texts)),
         ...axes.map((axis) => chipsOf(axis.pointer, axis.label, axis.values.map(valueText)))];
     if (statuses.length > 1) groups.push(chipsOf("status", "status", statuses));
+    const levels = [...kTrustLevels, valueText(undefined)].filter(
+        (level) => rows.some((row) => filterValue(row, "trust") === level));
+    if (levels.length > 1) groups.push(chipsOf("trust", "trust", levels));
     const reset = element("button", {type: "button", id: "filter-reset", onclick: () => {
         box.value = filter.text = "";
         for (const hidden of filter.hidden.values()) hidden.clear();
