@@ -42,8 +42,9 @@ struct Ended {
     std::string no_device;  // why no device is left
 };
 
-// Others' work on the processors lengthens all frames of a software device. Of another device, it
-// only disturbs what the host does, and one wait before the run has to do.
+// The work of other programs lengthens all frames of a software device, so the run waits before
+// each case. On another device it disturbs only the host's part, so the run waits once, before it
+// begins.
 void waitForOthers(
     const engine::Device& device, const hair::RunSettings& run, bool is_first,
     measure::QuietWait& quiet, measure::Progress& progress) {

@@ -179,7 +179,7 @@ TEST(CaseVerdict, IsOfCasesThatRan) {
     EXPECT_FALSE(judgeCase(report.at("environment"), report.at("cases")[2]).has_value());
 }
 
-// What another build thought of the case does not count.
+// A verdict that another build wrote does not count.
 TEST(CaseVerdict, IsThatOfTheseRules) {
     scene::Json report = judgedReport(others(0.73));
     report["cases"][0]["trust"]["verdict"] = "trusted";

@@ -139,7 +139,7 @@ TEST_P(VerdictOfACase, IsThatOfTheDoctor) {
     EXPECT_EQ(examination.findings[0].health, doctor::healthOf(GetParam().level));
 }
 
-// What the doctor sees of the same machine.
+// The doctor judges the same machine.
 TEST_P(VerdictOfACase, IsThatOfTheDoctorsRow) {
     const Report report = [] {
         Report changed = quietReport();

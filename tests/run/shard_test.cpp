@@ -28,7 +28,7 @@ protected:
 TEST_F(Sharded, MergeToWhatOneRunGives) {
     const Outcome outcome = merge(shards({1, 2, 3}));
     EXPECT_EQ(outcome.status, 0) << outcome.output;
-    EXPECT_THAT(outcome.output, HasSubstr("merged.json: 8 cases of 3 reports\n"));
+    EXPECT_THAT(outcome.output, HasSubstr("merged.json: 8 cases of 3 reports"));
     const scene::Json report = report::readReport(merged_);
     scene::Json expected = whole();
     scene::Json found = lasting(report);

@@ -1,4 +1,4 @@
-// What `run` says of cases that are not to be trusted.
+// Tests the line that `run` ends with when cases are not trusted.
 #include <functional>
 #include <string>
 
