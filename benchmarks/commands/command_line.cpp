@@ -113,8 +113,10 @@ CommandHelp helpOf(Declared& declared, CLI::App& app, std::vector<std::string> w
     return help;
 }
 
-// CLI11 takes the arguments in reverse, without the program's name.
-std::vector<std::string> reversedArguments(const std::vector<std::string>& words) {
+// Returns the arguments as CLI11 takes them: in reverse and without the program's name. `gate -a`
+// becomes `gate --axis`: newer versions of CLI11 treat -a and --a as one name.
+std::vector<std::string> parsedArguments(std::vector<std::string> words) {
+    if (words.size() > 1 && words[1] == "gate") std::ranges::replace(words, "-a", "--axis");
     return {words.rbegin(), words.rend() - std::ptrdiff_t{!words.empty()}};
 }
 
@@ -128,7 +130,7 @@ CommandHelp programHelp() {
 std::string whyNotParsed(const std::vector<std::string>& words) {
     Declared declared(words);
     try {
-        declared.app.parse(reversedArguments(words));
+        declared.app.parse(parsedArguments(words));
     } catch (const CLI::ParseError& error) {
         return error.what();
     }
@@ -141,7 +143,7 @@ int runCommandLine(int argc, char** argv) {
     const std::vector<std::string> arguments(argv, argv + argc);
     Declared declared(arguments);
     try {
-        declared.app.parse(argc, argv);
+        declared.app.parse(parsedArguments(arguments));
     } catch (const CLI::ParseError& error) {
         return declared.app.exit(error) == 0 ? report::kOk : report::kUsageError;
     }

@@ -109,8 +109,8 @@ void addGateOptions(CLI::App& command, gate::GateOptions& options) {
         ->type_name("CMD_OR_BUILD");
     addScene(command, "--scene", options.scene.scene, "scene file, or the name of a shipped scene")
         ->type_name("SCENE");
-    // No -a beside --a, because newer versions of CLI11 treat them as the same name.
-    addRepeated(command, "--axis", options.scene.axes, "replaces or adds an axis of the sweep")
+    addRepeated(
+        command, "--axis", options.scene.axes, "replaces or adds an axis of the sweep (also -a)")
         ->type_name("POINTER=V1,V2");
     addRepeated(command, "--set", options.scene.sets, "sets a field of every case of A and B")
         ->type_name("POINTER=VALUE");

@@ -129,7 +129,8 @@ void addSamplingOptions(CLI::App& command, scene::SceneOptions& options) {
 void addVerdictOptions(CLI::App& command, report::VerdictOptions& options) {
     command
         .add_option(
-            "--threshold", options.threshold, "largest change that counts as none (default 2%)")
+            "--threshold,--margin", options.threshold,
+            "largest change that counts as none (default 2%)")
         ->transform(CLI::Validator(asShare, "SHARE"))
         ->check(CLI::Range(0.0, 10.0));
     command

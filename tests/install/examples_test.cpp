@@ -52,6 +52,11 @@ TEST(Examples, WouldBeRefusedWithAnOptionThatThereIsNot) {
     EXPECT_THAT(whyNotParsed({"hairbench", "run", "smoke", "--no-such"}), HasSubstr("--no-such"));
     EXPECT_THAT(whyNotParsed({"hairbench", "render", "smoke"}), HasSubstr("--out"));
     EXPECT_THAT(whyNotParsed({"hairbench"}), Not(IsEmpty()));
+    EXPECT_EQ(
+        whyNotParsed(
+            {"hairbench", "gate", "--a", "old", "--b", "new", "--scene", "smoke", "-a",
+             "/render/msaa=1,4", "--margin", "3%"}),
+        "");
 }
 
 // Completions and the manual are made from the entries that --help lists.
