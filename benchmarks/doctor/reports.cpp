@@ -116,6 +116,7 @@ ReportExamination examineReport(const std::filesystem::path& file) {
     const Json& environment = report.at("environment");
     WorstDoubts worst;
     bool any_ran = false;
+    examination.corrections = scene::textAt(report, "/corrections");
     if (*kind == kRun) {
         examination.cases = report.at("cases").size();
         for (const Json& each : report.at("cases"))
@@ -156,6 +157,7 @@ std::string examinationText(const ReportExamination& examination) {
     if (!examination.mark.empty()) text += "; marked as not to be trusted: " + examination.mark;
     for (const Finding& each : examination.findings)
         if (each.health == Health::warn) text += "; " + each.check + ": " + each.seen;
+    if (!examination.corrections.empty()) text += "; corrected: " + examination.corrections;
     return text;
 }
 

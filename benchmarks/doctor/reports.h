@@ -21,6 +21,8 @@ struct ReportExamination {
     // The worst doubt of each check over all cases that ran, and a build that differs from its
     // commit.
     std::vector<Finding> findings;
+    // Figures that were computed again because the report is of an earlier version; may be empty.
+    std::string corrections{};
     std::string mark;  // why its times are not to be trusted; empty: it is not marked
 };
 

@@ -1,6 +1,8 @@
 #include "benchmarks/report/report.h"
 
+#include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <exception>
 #include <functional>
 #include <map>
@@ -459,6 +461,72 @@ void checkCounts(const scene::Json& report) {
     }
 }
 
+// ---- Corrections of older reports ---------------------------------------------------------------
+
+constexpr int kFirstCorrect = 7;  // hairbench-report/1.7.0
+
+// "hairbench-report/1.6.0" -> 6.
+int minorVersion(const std::string& schema) {
+    const std::size_t dot = schema.find('.');
+    return dot == std::string::npos ? 0 : std::atoi(schema.c_str() + dot + 1);
+}
+
+// Returns the sum of the isolated passes' medians, each less one empty pass, ms. (Reports do not
+// tell how often a pass ran in a frame.) Nothing if a pass was not isolated, or if an empty pass's
+// time is unknown.
+std::optional<double> netPassSum(const scene::Json& result, const scene::Json& metrics) {
+    const auto trust = result.find("trust");
+    if (trust == result.end() || !trust->contains("empty_pass")) return std::nullopt;
+    const double empty = trust->at("empty_pass");
+    std::optional<double> sum;
+    for (const auto& [name, metric] : metrics.items()) {
+        if (!name.starts_with("pass.") || !name.ends_with(".time") || name.ends_with(".cpu.time"))
+            continue;
+        if (metric.value("mode", "") != modeName(Mode::isolated)) return std::nullopt;
+        sum = sum.value_or(0.0) + metric.at("median").get<double>() - empty;
+    }
+    return sum;
+}
+
+// Replaces the metric by a single value; removes it if there is none.
+void correct(scene::Json& metrics, const MetricId& id, const std::optional<double>& value) {
+    const std::string name = id.name();
+    if (!metrics.contains(name)) return;
+    if (value)
+        metrics[name] = toJson(Metric(id, {*value}));
+    else
+        metrics.erase(name);
+}
+
+// Before 1.7.0, frame.overlap contained an empty pass for each isolated pass, and gpu.wait.time was
+// the positive part of each frame's interval minus its device time, so that jitter raised it. Its
+// mean is that of the gaps between frames. Both follow from other metrics, but not their intervals.
+void correctOlder(scene::Json& report) {
+    if (minorVersion(report.at("schema")) >= kFirstCorrect || !report.contains("cases")) return;
+    bool any = false;
+    for (scene::Json& result : report["cases"]) {
+        const auto metrics = result.find("metrics");
+        if (metrics == result.end() || !metrics->contains("frame.time")) continue;
+        any = any || metrics->contains("frame.overlap") || metrics->contains("gpu.wait.time");
+        const scene::Json& frame = metrics->at("frame.time");
+        std::optional<double> overlap = netPassSum(result, *metrics);
+        if (overlap) *overlap -= frame.at("median").get<double>();
+        std::optional<double> wait;
+        if (metrics->contains("frame.device.time"))
+            wait = std::max(
+                frame.at("mean").get<double>() -
+                    metrics->at("frame.device.time").at("mean").get<double>(),
+                0.0);
+        correct(*metrics, ofFrame(Measured::overlap), overlap);
+        correct(*metrics, ofGpu(Measured::wait_time), wait);
+    }
+    if (any)
+        report["corrections"] =
+            "frame.overlap and gpu.wait.time follow hairbench-report/1.7.0, from medians and "
+            "means, "
+            "without intervals; fps.low_* still include the wake-ups of the host";
+}
+
 }  // namespace
 
 scene::Json readReport(const std::filesystem::path& path) {
@@ -481,6 +549,11 @@ scene::Json readReport(const std::filesystem::path& path) {
     }
     try {
         moveSamplesIn(report, path);  // its errors name the file at fault
+    } catch (const scene::Json::exception& error) {
+        throw damaged(scene::jsonReason(error));
+    }
+    try {
+        correctOlder(report);
     } catch (const scene::Json::exception& error) {
         throw damaged(scene::jsonReason(error));
     }

@@ -24,6 +24,50 @@ const std::filesystem::path kReportSchemaFile =
 
 scene::Json written() { return scene::Json::parse(writtenText(sampleReport())); }
 
+// Writes a case with two isolated passes as an earlier version of the program did.
+scene::Json readAs(const char* schema, const scene::Json& trust) {
+    scene::Json report = written();
+    report["schema"] = schema;
+    scene::Json& result = report["cases"][0];
+    const auto metric = [](const char* mode, double median, double mean) {
+        return scene::Json{
+            {"unit", "ms"}, {"mode", mode}, {"median", median}, {"mean", mean}, {"samples", {1}}};
+    };
+    result["metrics"] = {
+        {"frame.time", metric("overlapped", 0.45, 0.47)},
+        {"frame.device.time", metric("overlapped", 0.44, 0.452)},
+        {"gpu.wait.time", metric("overlapped", 0.01, 0.048)},
+        {"pass.wind.time", metric("isolated", 0.2, 0.2)},
+        {"pass.strands.time", metric("isolated", 0.3, 0.3)},
+        {"pass.strands.cpu.time", metric("isolated", 7.0, 7.0)},
+        {"frame.overlap", metric("", 0.05, 0.05)}};
+    result["trust"] = trust;
+    const TemporaryFolder folder;
+    return report::readReport(folder.write("report.json", report.dump()));
+}
+
+TEST(Report, CorrectsOverlapAndWaitOfOlderOnes) {
+    const scene::Json report = readAs("hairbench-report/1.6.0", {{"empty_pass", 0.01}});
+    const scene::Json& metrics = report["cases"][0]["metrics"];
+    // (0.2 - 0.01) + (0.3 - 0.01) - 0.45
+    EXPECT_NEAR(metrics["frame.overlap"]["median"], 0.03, 1e-12);
+    EXPECT_FALSE(metrics["frame.overlap"].contains("interval"));
+    EXPECT_NEAR(metrics["gpu.wait.time"]["median"], 0.47 - 0.452, 1e-12);
+    EXPECT_THAT(report["corrections"].get<std::string>(), HasSubstr("fps.low_* still"));
+}
+
+TEST(Report, LeavesOutWhatItCantCorrect) {
+    const scene::Json report = readAs("hairbench-report/1.5.0", scene::Json::object());
+    EXPECT_FALSE(report["cases"][0]["metrics"].contains("frame.overlap"));
+    EXPECT_TRUE(report["cases"][0]["metrics"].contains("gpu.wait.time"));
+}
+
+TEST(Report, CorrectsNothingOfTheNewest) {
+    const scene::Json report = readAs(report::kReportSchema, {{"empty_pass", 0.01}});
+    EXPECT_EQ(report["cases"][0]["metrics"]["frame.overlap"]["median"], 0.05);
+    EXPECT_FALSE(report.contains("corrections"));
+}
+
 TEST(Report, KeepsTheContractsNames) {
     const scene::Json report = written();
     EXPECT_EQ(report["schema"], "hairbench-report/1.7.0");

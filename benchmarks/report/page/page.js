@@ -489,6 +489,7 @@ function reportCard(report) {
             ["Warnings", warned ? `${counted(warned, "case")} with warnings` : "none"],
         ]),
         report.untrusted ? note(`\u26a0 Not to be trusted: ${report.untrusted}`) : "",
+        report.corrections ? note(`Corrected: ${report.corrections}.`) : "",
         report.interrupted
             ? note("The run was stopped: these are the cases that were done.") : "",
         report.environment?.validation
