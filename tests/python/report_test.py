@@ -1,16 +1,21 @@
-"""Compares read_report() with a report made by hand, a measured one's JSON and the tables of README and docs."""
+"""Compares read_report() with a report made by hand, a measured one's JSON and docs' tables."""
 
 import json
 import math
 import re
+import shutil
+import subprocess
 import tempfile
 import unittest
 from pathlib import Path
 
 from support import REPOSITORY, hairbench
 
-MEASURED = REPOSITORY / "results" / "thesis-llvmpipe-ff656b85a1cb.json"
-MEASURED_ON_A_GPU = REPOSITORY / "results" / "thesis-h200-bbe05d81e193.json"
+# The reports that the README links.
+MEASURED_ON_A_GPU, MEASURED = (
+    REPOSITORY / name for name in
+    re.findall(r"\((results/thesis-(?:h200|llvmpipe)-\w+\.json)\)",
+               (REPOSITORY / "README.md").read_text()))
 
 
 def table(page, beginning):
@@ -176,6 +181,40 @@ class MeasuredReport(unittest.TestCase):
                 self.assert_printed(row[f"fps, {words}"], case["fps"], row)
                 self.assert_printed(row[f"frame ms, {words}"], case["frame.time"], row)
                 self.assert_printed(row[f"strands ms, {words}"], strands, row)
+
+
+class Figures(unittest.TestCase):
+    PAGES = ("README.md", "docs/performance.md", "docs/paper.md")
+
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.root = Path(folder.name)
+        for name in (*self.PAGES, "scripts/figures",
+                     *(f"results/{each.name}" for each in (MEASURED, MEASURED_ON_A_GPU))):
+            (self.root / name).parent.mkdir(exist_ok=True)
+            shutil.copy(REPOSITORY / name, self.root / name)
+
+    def figures(self, *options):
+        return subprocess.run(
+            [self.root / "scripts" / "figures", *options], capture_output=True, text=True,
+            check=False)
+
+    def test_of_the_pages_are_those_of_the_reports(self):
+        done = self.figures("--check")
+        self.assertEqual((done.returncode, done.stdout, done.stderr), (0, "", ""))
+
+    def test_are_found_if_they_differ_and_written(self):
+        readme = self.root / "README.md"
+        before = readme.read_text()
+        row = next(each for each in before.splitlines() if each.startswith("| software |"))
+        number = row.split(" | ")[2]
+        readme.write_text(before.replace(row, row.replace(number, "0.123")))
+        done = self.figures("--check")
+        self.assertEqual(done.returncode, 1)
+        self.assertIn("README.md", done.stdout)
+        self.assertEqual(self.figures().returncode, 0)
+        self.assertEqual(readme.read_text(), before)
 
 
 if __name__ == "__main__":
