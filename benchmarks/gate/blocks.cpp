@@ -22,6 +22,7 @@
 
 #include "benchmarks/report/change.h"
 #include "benchmarks/report/report.h"
+#include "benchmarks/report/verdict.h"
 #include "benchmarks/scene/json.h"
 #include "engine/error.h"
 #include "engine/files.h"
@@ -40,6 +41,9 @@ BlockCase readCase(const scene::Json& result) {
     BlockCase read{.outcome = report::caseOutcome(result), .metrics = {}};
     if (read.outcome.status != "ok") return read;
     read.metrics = report::readMetrics(result);
+    const scene::Json reasons =
+        result.value("/conditions/throttle_reasons"_json_pointer, scene::Json());
+    read.capped = std::ranges::find(reasons, report::kPowerCap) != reasons.end();
     return read;
 }
 

@@ -18,6 +18,7 @@ namespace benchmarks::gate {
 struct BlockCase {
     report::CaseOutcome outcome;
     std::vector<report::MetricReading> metrics;  // none if the case did not run
+    bool capped = false;  // the board's power cap lowered its clock
 };
 
 // The part of a process's report that a gate uses.

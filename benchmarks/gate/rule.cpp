@@ -35,7 +35,8 @@ report::Verdict verdictOnLarge(std::span<const double> differences, double decis
 
 Gate::Gate(std::vector<GateMetric> metrics, const report::VerdictRule& rule, bool all)
     : metrics_(std::move(metrics)), rule_(rule), differences_(metrics_.size()),
-      comparable_(metrics_.size(), 1), all_(all) {
+      comparable_(metrics_.size(), 1), a_capped_(metrics_.size(), 1), b_capped_(metrics_.size(), 1),
+      all_(all) {
     assert(std::ranges::count(report::kStages, rule_.first_pairs) == 1);
 }
 
@@ -67,11 +68,14 @@ Gate::Step Gate::next() const {
     return a_first ? Step::run_a : Step::run_b;
 }
 
-void Gate::add(std::vector<double> medians) {
+void Gate::add(std::vector<double> medians, const std::vector<char>& capped) {
     const Step step = next();
     assert(step != Step::decided);
     if (medians.size() != metrics_.size())
         throw engine::Error("gate", "a process measured other metrics than the others");
+    assert(capped.empty() || capped.size() == metrics_.size());
+    std::vector<char>& always = step == Step::run_a ? a_capped_ : b_capped_;
+    for (std::size_t i = 0; i < always.size(); ++i) always[i] &= !capped.empty() && capped[i];
     if (!waiting_) {
         waiting_ = std::move(medians);
         return;
@@ -99,6 +103,7 @@ void Gate::addPair(const std::vector<double>& a, const std::vector<double>& b) {
 bool Gate::isClockChange(std::size_t metric) const {
     if (decided_.empty() || !metrics_[metric].cycles) return false;
     const report::Verdict time = decided_[metric].verdict;
+    if (time == report::Verdict::regressed ? b_capped_[metric] : a_capped_[metric]) return false;
     return (time == report::Verdict::regressed || time == report::Verdict::improved) &&
            decided_[*metrics_[metric].cycles].verdict == report::Verdict::same;
 }

@@ -36,15 +36,18 @@ public:
     Step next() const;
 
     // Adds a block of the build that next() requested: the median of each metric's samples, where
-    // larger is worse. Throws engine::Error if there are more or fewer medians than metrics.
-    void add(std::vector<double> medians);
+    // larger is worse, and whether the board's power cap lowered the clock while they were taken
+    // (empty: it did not). Throws engine::Error if there are more or fewer medians than metrics.
+    void add(std::vector<double> medians, const std::vector<char>& capped = {});
 
     std::size_t pairs() const { return pairs_; }
 
     // Number of pairs at the next decision; at the end, the last number of pairs.
     std::size_t nextDecision() const;
 
-    // True if the metric's time changed but its cycles did not.
+    // True if the metric's time changed but its cycles did not. False if the power cap lowered the
+    // clock in every block of the slower build: it needs more power for its cycles, so that it is
+    // slower on this board each time.
     bool isClockChange(std::size_t metric) const;
 
     // Number of pairs at the last verdicts; 0: none yet.
@@ -68,6 +71,8 @@ private:
     report::VerdictRule rule_;
     std::vector<std::vector<double>> differences_;  // [metric][pair], ln(B/A)
     std::vector<char> comparable_;  // [metric]
+    std::vector<char> a_capped_;  // [metric], in every block of A so far
+    std::vector<char> b_capped_;
     bool all_;
     std::vector<report::Comparison> decided_;  // [metric], of decided_at_; may be empty
     std::size_t decided_at_ = 0;

@@ -234,6 +234,11 @@ bool GateSession::block(const Side& side, Phase phase, std::size_t pair) {
     run_.mismatches = mismatches(first, report);
     if (!run_.mismatches.empty()) run_.unstable = side.name;
     run_.blocks.push_back({phase, side.name, pair, seed, mediansOf(run_.times, report)});
+    capped_.clear();
+    for (const GateTime& time : run_.times) {
+        const BlockCase* const block_case = findCase(report, time.case_name);
+        capped_.push_back(block_case && block_case->capped);
+    }
     return run_.mismatches.empty();
 }
 
@@ -262,7 +267,7 @@ bool GateSession::play() {
              step = gate.next()) {
             const Side& side = step == Gate::Step::run_a ? run_.a : run_.b;
             if (!block(side, Phase::gate, gate.pairs())) return false;
-            gate.add(costsOf(run_.times, run_.blocks.back().medians));
+            gate.add(costsOf(run_.times, run_.blocks.back().medians), capped_);
             judge(gate);
         }
     }

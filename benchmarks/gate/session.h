@@ -116,6 +116,7 @@ private:
     bool all_;
     double smallest_share_;
     std::string regex_;  // of the requested metrics; may be empty
+    std::vector<char> capped_;  // of the last block: whether the power cap lowered the clock [time]
     report::MetricChoice judged_;  // empty: times by the most informative clock
     BlockRunner runner_;
     std::uint32_t seed_;  // of the first pair; both blocks of a pair have the same order of cases

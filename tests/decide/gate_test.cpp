@@ -75,6 +75,26 @@ TEST(Gate, EndsAt8WhenAChangeIsLargeInEveryPair) {
     EXPECT_EQ(play(late, [](std::size_t) { return 1.5; }), 48u);
 }
 
+// 5 % slower at equal cycles. Only the slower build's power cap makes that more than a clock
+// change.
+TEST(Gate, BlamesABuildThatThePowerCapSlowsEachTime) {
+    const auto capped_in = [](Step side, std::size_t except) {
+        gate::Gate gate({{.cycles = 1}, {.decides = false}});
+        for (Step step = gate.next(); step != Step::decided; step = gate.next()) {
+            const double time = step == Step::run_b ? 10.5 + 0.001 * wobble(gate.pairs()) : 10.0;
+            const char capped = step == side && gate.pairs() != except;
+            gate.add({time, 100.0 + 0.001 * wobble(gate.pairs())}, {capped, capped});
+        }
+        EXPECT_EQ(gate.comparisons()[0].verdict, Verdict::regressed);
+        EXPECT_EQ(gate.comparisons()[1].verdict, Verdict::same);
+        return gate.isClockChange(0);
+    };
+    constexpr std::size_t kNever = 1000;
+    EXPECT_FALSE(capped_in(Step::run_b, kNever));
+    EXPECT_TRUE(capped_in(Step::run_b, 3));
+    EXPECT_TRUE(capped_in(Step::run_a, kNever));
+}
+
 TEST(Gate, MirrorsForAnImprovement) {
     gate::Gate gate(kOneMetric);
     EXPECT_EQ(play(gate, [](std::size_t i) { return 1.0 / (1.03 + 0.001 * wobble(i)); }), 24u);

@@ -1,5 +1,6 @@
 #include <gmock/gmock.h>
 
+#include "benchmarks/report/verdict.h"
 #include "tests/gate/fake_builds.h"
 
 // Tests the gate as a user runs it, with programs in place of builds.
@@ -142,6 +143,31 @@ TEST(GateCommand, RepeatsABlockThatIsLost) {
     EXPECT_EQ(twice.report()["repeated_blocks"], 2);
     EXPECT_EQ(twice.report()["verdict"], "same");
     EXPECT_EQ(gateOf(3).gate().status, 12);
+}
+
+// B takes 5 % longer for the same cycles.
+TEST(GateCommand, BlamesTheBuildThatItsPowerCapSlows) {
+    const auto gateOf = [](const std::vector<std::string>& reasons) {
+        return FakeBuilds([=, machine = FakeMachine(0.0)](char side, int n) {
+            scene::Json report = machine(side, n);
+            const double time = machine.frameTime(side, n);
+            scene::Json& each = report["cases"][0];
+            each = report::madeCase(
+                "made",
+                {{"frame.time", {side == 'B' ? 1.05 * time : time}, "ms", "lower", "overlapped"},
+                 {"frame.cycles", {1e6 * time}, "1", "lower", "overlapped"}});
+            each["conditions"] = {{"clock_mhz", side == 'B' ? 1714.0 : 1800.0}};
+            if (side == 'B') each["conditions"]["throttle_reasons"] = reasons;
+            return report;
+        });
+    };
+    const FakeBuilds capped = gateOf({report::kPowerCap});
+    const Outcome gate = capped.gate();
+    EXPECT_EQ(gate.status, 10) << gate.output;
+    EXPECT_EQ(capped.report()["verdict"], "regressed");
+    const FakeBuilds free = gateOf({});
+    EXPECT_EQ(free.gate().status, 0);
+    EXPECT_THAT(free.gate().output, HasSubstr("by the clock alone"));
 }
 
 TEST(GateCommand, GoesOnWhileItCannotTell) {
