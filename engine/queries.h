@@ -93,7 +93,7 @@ public:
     std::uint32_t count() const { return count_; }
 
 private:
-    struct Stamp {
+    struct Result {
         std::uint64_t ticks;
         std::uint64_t available;
     };
@@ -102,7 +102,7 @@ private:
     double period_;  // ms per tick
     std::uint64_t mask_;
     std::uint32_t count_ = 0;
-    std::vector<Stamp> stamps_;  // [capacity], like times_
+    std::vector<Result> results_;  // [capacity], like times_
     std::vector<double> times_;
     Handle<VkQueryPool, &vkDestroyQueryPool> pool_;
 };

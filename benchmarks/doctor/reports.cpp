@@ -62,7 +62,7 @@ Facts factsOfBuild(const Json& report) {
 }
 
 // Since 1.3 there is a verdict on timestamps; before, there was only a sentence.
-bool areStampsWrong(const Json& result) {
+bool areTimestampsWrong(const Json& result) {
     if (scene::textAt(result, "/trust/timestamps") == "wrong") return true;
     const Json::json_pointer warnings("/trust/warnings");
     return result.contains(warnings) &&
@@ -78,7 +78,8 @@ void addCaseFacts(Facts& facts, const Json& result) {
     sum.over_wall = numberIn(result, "/trust/pass_sum_over_wall");
     sum.over_device = numberIn(result, "/trust/pass_sum_over_device");
     sum.incomplete = sum.over_device && std::abs(*sum.over_device - 1.0) > measure::kTrustTolerance;
-    if (areStampsWrong(result)) facts.passes.faults = {"timestamps differ from the CPU's clock"};
+    if (areTimestampsWrong(result))
+        facts.passes.faults = {"timestamps differ from the CPU's clock"};
     facts.load.steal = numberIn(result, "/conditions/steal");
     facts.load.others = numberIn(result, "/conditions/other_load");
     if (const auto clock = numberIn(result, "/conditions/clock_mhz")) {

@@ -327,8 +327,9 @@ void addOverlappedMetrics(std::span<const engine::FrameRecord> frames, report::C
         result.metrics.push_back({std::move(id), collect(frames, get), report::Mode::overlapped});
     };
     addTimes(report::ofFrame(report::Measured::time), [](auto& f) { return f.interval; });
-    const bool stamped = std::ranges::all_of(frames, [](auto& f) { return f.device.has_value(); });
-    if (stamped)
+    const bool timestamped =
+        std::ranges::all_of(frames, [](auto& f) { return f.device.has_value(); });
+    if (timestamped)
         addTimes(report::ofFrame(report::Measured::device_time), [](auto& f) { return *f.device; });
     addTimes(report::ofCpu(report::Measured::record_time), [](auto& f) { return f.record; });
     addTimes(report::ofCpu(report::Measured::submit_time), [](auto& f) { return f.submit; });
@@ -337,7 +338,7 @@ void addOverlappedMetrics(std::span<const engine::FrameRecord> frames, report::C
         addTimes(report::ofCpu(report::Measured::host_time), [](auto& f) { return *f.host; });
     // If a frame's work began before the previous frame's was done, its device time exceeds its
     // interval. The device then did not wait.
-    if (stamped)
+    if (timestamped)
         addTimes(report::ofGpu(report::Measured::wait_time), [](auto& f) {
             return std::max(f.interval - *f.device, 0.0);
         });

@@ -160,7 +160,8 @@ std::unique_ptr<Player> DeviceStage::player(engine::Timing timing) {
 std::unique_ptr<Player> DeviceStage::player(engine::Timing timing, const PlantedWork& planted) {
     const engine::Overlap overlap{
         .frames = run_.frames_in_flight,
-        .stamps = run_.overlapped_stamps ? engine::Stamps::passes : engine::Stamps::frame,
+        .timestamps = run_.overlapped_stamps ? engine::TimestampPlacement::passes
+                                             : engine::TimestampPlacement::frame,
         .async = run_.async_compute};
     return std::make_unique<DevicePlayer>(
         device_, test_case_, hooks_, timing, overlap, planted, counted_);

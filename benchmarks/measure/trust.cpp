@@ -28,13 +28,13 @@ std::vector<std::string> timestampFaults(
         const std::vector<double> clocked_times = passTimes(wall_clock, pass);
         if (clocked_times.empty()) continue;
         // A busy machine only adds time, so the fastest frames are compared.
-        const double stamped = std::ranges::min(stamped_times);
+        const double timestamped = std::ranges::min(stamped_times);
         const double clocked = std::ranges::min(clocked_times);
-        const bool too_long = stamped > clocked * (1.0 + kTrustTolerance) + slack;
-        const bool too_short = stamped < clocked * (1.0 - kTrustTolerance) - slack;
+        const bool too_long = timestamped > clocked * (1.0 + kTrustTolerance) + slack;
+        const bool too_short = timestamped < clocked * (1.0 - kTrustTolerance) - slack;
         if (too_long || too_short) {
             faults.push_back(
-                "pass." + pass + ": timestamps say " + report::shortNumber(stamped) +
+                "pass." + pass + ": timestamps say " + report::shortNumber(timestamped) +
                 " ms, the CPU's clock " + report::shortNumber(clocked) + " ms");
         }
     }
@@ -60,17 +60,17 @@ constexpr double kRateTolerance = 0.01;
 }  // namespace
 
 std::vector<std::string> checkTimestamps(
-    const PlayedFrames& stamped, const PlayedFrames& clocked,
+    const PlayedFrames& timestamped, const PlayedFrames& clocked,
     const std::function<bool()>& is_time) {
     std::vector<engine::FrameRecord> stamped_frames;
     std::vector<engine::FrameRecord> clocked_frames;
     std::vector<std::string> faults;
     do {
         for (std::uint32_t i = 0; i < kPairs; ++i) {
-            stamped.play();
+            timestamped.play();
             clocked.play();
         }
-        std::ranges::move(stamped.finish(), std::back_inserter(stamped_frames));
+        std::ranges::move(timestamped.finish(), std::back_inserter(stamped_frames));
         std::ranges::move(clocked.finish(), std::back_inserter(clocked_frames));
         faults = timestampFaults(stamped_frames, clocked_frames);
     } while (!faults.empty() && stamped_frames.size() < kMostPairs && (!is_time || is_time()));
@@ -88,9 +88,9 @@ pairFaults(Stage& stage, const PlantedWork* planted, const std::function<bool()>
     const auto player = [&](engine::Timing timing) {
         return planted ? stage.player(timing, *planted) : stage.player(timing);
     };
-    const auto stamped = player(engine::Timing::isolated);
+    const auto timestamped = player(engine::Timing::isolated);
     const auto clocked = player(engine::Timing::wall_clock);
-    return checkTimestamps(playedBy(*stamped), playedBy(*clocked), is_time);
+    return checkTimestamps(playedBy(*timestamped), playedBy(*clocked), is_time);
 }
 
 double timeOf(std::span<const engine::FrameRecord> frames, const std::string& pass) {
