@@ -104,12 +104,12 @@ StopCounts StopView::count(hair::rendering::StageWatch& watch) {
     counts.statistics = countStatistics();
     counts.samples_passed = countSamples();
     if (stop_.stages.watched) {
-        watch.seeAll();
+        watch.countAll();
         engine::FrameLoop loop(device_, engine::Timing::wall_clock);
         draw(loop);
         loop.finish();
-        counts.seen = watch.seen().invocations;
-        watch.seeNone();
+        counts.seen = watch.counts().invocations;
+        watch.countNone();
     }
     return counts;
 }

@@ -9,13 +9,13 @@ layout(local_size_x = kSoftwareStrandGroup) in;
 
 const uint kWord = 32u;
 
-// Nearness of the farthest sample in the windows that begin at a tile: the small and the large one.
-#ifdef kWindowTexels
-layout(binding = kWindowTexels) uniform utextureBuffer window_texels;
+// Nearness of the farthest sample in the two levels of the depth pyramid at a tile.
+#ifdef kPyramidTexels
+layout(binding = kPyramidTexels) uniform utextureBuffer pyramid_texels;
 
-uvec2 fetchWindows(uvec2 tile) { return texelFetch(window_texels, int(tileIndex(tile))).xy; }
+uvec2 fetchPyramid(uvec2 tile) { return texelFetch(pyramid_texels, int(tileIndex(tile))).xy; }
 #else
-uvec2 fetchWindows(uvec2 tile) { return loadPair(push.windows, tileIndex(tile)); }
+uvec2 fetchPyramid(uvec2 tile) { return loadPair(push.pyramid, tileIndex(tile)); }
 #endif
 
 // Rounding margins, far above that of floats: the passes that draw a piece round differently from
@@ -29,7 +29,7 @@ struct PointBounds {
     vec2 low;  // px
     vec2 high;
     float depth;  // of the nearest point
-    float beyond;  // distance of the farthest point beyond the near plane, by beyondNear()
+    float beyond;  // distance of the farthest point beyond the near plane, by pastNearPlane()
     bool known;  // true if the whole sphere is in front of the eye, so that the other members are
                  // bounds
 };
@@ -65,7 +65,7 @@ PointBounds pointBounds(View view, uint index) {
     float least_w = clip.w - reach.w;
     PointBounds bounds;
     bounds.known = least_w > 1e-4 * clip.w;
-    bounds.beyond = beyondNear(clip) + reach.w + reach.z;
+    bounds.beyond = pastNearPlane(clip) + reach.w + reach.z;
     float scale = 1.0 / (clip.w * least_w);
     vec3 middle = clip.xyz * (least_w * scale);
     vec3 away = (reach.xyz * clip.w + abs(clip.xyz) * reach.w) * scale;
@@ -78,33 +78,34 @@ PointBounds pointBounds(View view, uint index) {
     return bounds;
 }
 
-// True if nothing of a piece is visible: it is outside the picture or behind its window.
-bool isHidden(View view, PointBounds from, PointBounds to) {
+// True if nothing of a piece is visible: it is outside the picture or, by the depth pyramid,
+// hidden.
+bool isCulled(View view, PointBounds from, PointBounds to) {
     if (max(from.beyond, to.beyond) <= 0.0) return true;
     if (!from.known || !to.known) return false;
     vec2 low = min(from.low, to.low);
     vec2 high = max(from.high, to.high);
     vec2 size = vec2(push.width, push.height);
     if (any(lessThan(high, vec2(0.0))) || any(greaterThanEqual(low, size))) return true;
-    if (push.part == kCoverFirst) return false;
+    if (push.part == kFirstPart) return false;
     uvec2 first = clamp(uvec2(max(low, vec2(0.0))) / kTile, view.low_tile, view.high_tile);
     uvec2 last = clamp(uvec2(min(high, size - 1.0)) / kTile, view.low_tile, view.high_tile);
     uint near = nearness(isNearer(from.depth, to.depth) ? from.depth : to.depth);
     uint tiles = max(last.x - first.x, last.y - first.y) + 1u;
-    uvec2 windows = fetchWindows(first);
-    return tiles <= kLargeWindow && (tiles <= kSmallWindow ? windows.x : windows.y) < near;
+    uvec2 pyramid = fetchPyramid(first);
+    return tiles <= kCoarseLevel && (tiles <= kFineLevel ? pyramid.x : pyramid.y) < near;
 }
 
 // Lists the pieces of a strand from `begin` on that have their bits set.
 void list(uint strand, uint begin, uint pieces, uint bits) {
     if (bits == 0u) return;
     uint place = push.list_begin +
-                 atomicAdd(Counts(push.counts).counts.seen[push.part], uint(bitCount(bits)));
+                 atomicAdd(Counts(push.counts).counts.visible[push.part], uint(bitCount(bits)));
     for (; bits != 0u; bits &= bits - 1u)
         PieceList(push.list).at[place++] = firstPoint(strand, begin + uint(findLSB(bits)), pieces);
 }
 
-void findPieces(View view, uint strand, uint pieces) {
+void cullPieces(View view, uint strand, uint pieces) {
     PointBounds from = pointBounds(view, firstPoint(strand, 0u, pieces));
     uint count = kSegments * pieces;
     for (uint begin = 0u; begin < count; begin += kWord) {
@@ -115,7 +116,7 @@ void findPieces(View view, uint strand, uint pieces) {
             if (kSplitJoints == 1u && i > 0u && i % pieces == 0u)
                 from = pointBounds(view, first);
             PointBounds to = pointBounds(view, first + 1u);
-            bits |= uint(!isHidden(view, from, to)) << (i - begin);
+            bits |= uint(!isCulled(view, from, to)) << (i - begin);
             from = to;
         }
         list(strand, begin, pieces, bits);
@@ -125,7 +126,7 @@ void findPieces(View view, uint strand, uint pieces) {
 void main() {
     uint group = gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x;
     uint block = group * gl_WorkGroupSize.x + gl_LocalInvocationID.x;
-    if (push.part == kCoverFirst) block *= kFirstStrands;
+    if (push.part == kFirstPart) block *= kFirstStrands;
     else block += block / (kFirstStrands - 1u) + 1u;
     uint begin = block * kBlock;
     uint end = min(begin + kBlock, push.strands);
@@ -133,6 +134,6 @@ void main() {
     View view = makeView();
     for (uint strand = begin; strand < end; ++strand) {
         uint pieces = piecesOf(StrandPieces(push.pieces).at[strand]);
-        if (pieces > 0u) findPieces(view, strand, pieces);
+        if (pieces > 0u) cullPieces(view, strand, pieces);
     }
 }

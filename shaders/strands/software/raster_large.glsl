@@ -1,5 +1,5 @@
 // Rasterises the listed large pieces. A work group shares the rows of a piece.
-#include "strands/software/cover.glsl"
+#include "strands/software/raster.glsl"
 
 layout(local_size_x = kSoftwareStrandGroup) in;
 
@@ -9,8 +9,8 @@ void main() {
     PictureParameters picture = PictureReference(push.picture).parameters;
     for (uint i = gl_WorkGroupID.x; i < count; i += gl_NumWorkGroups.x) {
         uint piece = PieceList(push.large).at[i];
-        Cover cover = makeCover(pieceOf(picture, piece).quad);
-        coverRows(picture, cover, cover.begin + int(gl_LocalInvocationID.x),
+        RasterQuad raster = setUpQuad(pieceOf(picture, piece).quad);
+        rasterizeRows(picture, raster, raster.begin + int(gl_LocalInvocationID.x),
                   int(gl_WorkGroupSize.x), piece);
     }
 }

@@ -3,7 +3,7 @@
 // texels.
 #extension GL_GOOGLE_include_directive : require
 #define kPointTexels 0
-#define kSampleTexels 1
-#include "strands/software/offer_packed.glsl"
+#define kVisibilityTexels 1
+#include "strands/software/depth_test_packed.glsl"
 
-#include "strands/software/cover_strands.glsl"
+#include "strands/software/raster_pieces.glsl"

@@ -3,4 +3,4 @@
 #extension GL_GOOGLE_include_directive : require
 #include "common/packed_vectors.glsl"
 
-#include "strands/software/show.glsl"
+#include "strands/software/blit.glsl"

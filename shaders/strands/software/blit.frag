@@ -1,6 +1,6 @@
 #version 460
-// Computes the depths of windows.
+// Outputs samples' colours and depths.
 #extension GL_GOOGLE_include_directive : require
 #include "common/vectors.glsl"
 
-#include "strands/software/windows.glsl"
+#include "strands/software/blit.glsl"

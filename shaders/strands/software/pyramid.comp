@@ -1,6 +1,6 @@
 #version 460
-// Lists the potentially visible pieces of strands.
+// Computes the depth pyramid.
 #extension GL_GOOGLE_include_directive : require
 #include "common/vectors.glsl"
 
-#include "strands/software/find.glsl"
+#include "strands/software/pyramid.glsl"

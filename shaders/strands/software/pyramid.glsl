@@ -1,5 +1,5 @@
-// Computes the nearness of the farthest sample of each window of tiles, for the small and the large
-// window that begin at each tile. One work group per row of windows.
+// Computes the two levels of the depth pyramid: the nearness of the farthest sample in a square of
+// tiles that begins at each tile. One work group per row of tiles.
 #include "strands/software/software.glsl"
 
 #ifdef kTileTexels
@@ -8,7 +8,7 @@ layout(binding = kTileTexels) uniform utextureBuffer tile_texels;
 
 uint fetchTile(uvec2 tile) { return texelFetch(tile_texels, int(tileIndex(tile))).x; }
 #else
-uint fetchTile(uvec2 tile) { return TileDepths(push.tiles).at[tileIndex(tile)]; }
+uint fetchTile(uvec2 tile) { return TileDepths(push.tile_depths).at[tileIndex(tile)]; }
 #endif
 
 
@@ -24,14 +24,14 @@ void main() {
     if (first.y < low.y || first.y >= high.y) return;
     for (first.x += gl_LocalInvocationID.x; first.x < high.x; first.x += gl_WorkGroupSize.x) {
         uvec2 far = uvec2(0u);
-        for (uint i = 0u; i < kLargeWindow * kLargeWindow; ++i) {
-            uvec2 from_first = uvec2(i % kLargeWindow, i / kLargeWindow);
+        for (uint i = 0u; i < kCoarseLevel * kCoarseLevel; ++i) {
+            uvec2 from_first = uvec2(i % kCoarseLevel, i / kCoarseLevel);
             uvec2 tile = first + from_first;
             // There is no hair outside the bounds.
             uint depth = all(lessThan(tile, high)) ? fetchTile(tile) : 0u;
             far.y = max(far.y, depth);
-            if (all(lessThan(from_first, uvec2(kSmallWindow)))) far.x = max(far.x, depth);
+            if (all(lessThan(from_first, uvec2(kFineLevel)))) far.x = max(far.x, depth);
         }
-        storePair(push.windows, tileIndex(first), far);
+        storePair(push.pyramid, tileIndex(first), far);
     }
 }

@@ -1,6 +1,6 @@
 // Rasterises the listed pieces of a part of the strands. Pieces with many samples are left to
 // cover_large.glsl.
-#include "strands/software/cover.glsl"
+#include "strands/software/raster.glsl"
 
 layout(local_size_x = kSoftwareStrandGroup) in;
 
@@ -15,7 +15,7 @@ bool isLarge(uint piece) {
 }
 
 void main() {
-    uint count = Counts(push.counts).counts.seen[push.part];
+    uint count = Counts(push.counts).counts.visible[push.part];
     uint group = gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x;
     uint place = group * gl_WorkGroupSize.x + gl_LocalInvocationID.x;
     if (place >= count) return;  // no barrier follows
@@ -24,10 +24,10 @@ void main() {
     for (; place < count; place += step) {
         uint piece = PieceList(push.list).at[push.list_begin + place];
         PieceQuad quad = pieceOf(picture, piece).quad;
-        if (!quad.seen) continue;
-        Cover cover = makeCover(quad);
-        float samples = float(cover.end - cover.begin) * (1.0 + cover.row_length);
-        if (samples <= float(kManySamples) || !isLarge(piece))
-            coverRows(picture, cover, cover.begin, 1, piece);
+        if (!quad.visible) continue;
+        RasterQuad raster = setUpQuad(quad);
+        float samples = float(raster.end - raster.begin) * (1.0 + raster.row_length);
+        if (samples <= float(kLargePieceSamples) || !isLarge(piece))
+            rasterizeRows(picture, raster, raster.begin, 1, piece);
     }
 }
