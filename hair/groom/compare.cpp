@@ -134,7 +134,7 @@ MeasuredStrands measureStrands(const StrandSet& set, double spacing, const char*
     // Neighbours in space follow each other, because they look at the same part of the other groom.
     MeasuredStrands measured{.set = set};
     measured.first_samples.push_back(0);
-    for (const std::uint32_t place : buildTriangleTree(middles, places, 1).order) {
+    for (const std::uint32_t place : buildTriangleBvh(middles, places, 1).order) {
         const double length = lengths[with_length[place]];
         measured.strands.push_back(with_length[place]);
         measured.lengths.push_back(length);
@@ -194,7 +194,7 @@ public:
         if (boxes.size() > std::numeric_limits<std::uint32_t>::max() / 2)
             throw engine::Error("grooms", "they have too many segments to compare");
         constexpr std::size_t kMostSegmentsInLeaf = 8;
-        tree_ = buildTriangleTree(ends, boxes, kMostSegmentsInLeaf);
+        tree_ = buildTriangleBvh(ends, boxes, kMostSegmentsInLeaf);
         segments_.reserve(boxes.size());
         for (const std::uint32_t i : tree_.order) segments_.push_back(owners[i]);
     }
@@ -207,7 +207,7 @@ public:
         std::size_t count = 0;
         waiting[count++] = 0;
         while (count > 0) {
-            const TriangleTree::Node& node = tree_.nodes[waiting[--count]];
+            const TriangleBvh::Node& node = tree_.nodes[waiting[--count]];
             if (squareDistanceOf(point, node) > square) continue;
             for (std::size_t i = 0; i < node.count; ++i) {
                 const Segment& segment = segments_[node.first + i];
@@ -240,7 +240,7 @@ public:
         while (count > 0) {
             const Waiting next = waiting[--count];
             if (next.square >= best.square) continue;
-            const TriangleTree::Node& node = tree_.nodes[next.node];
+            const TriangleBvh::Node& node = tree_.nodes[next.node];
             for (std::size_t i = 0; i < node.count; ++i) {
                 const Segment& segment = segments_[node.first + i];
                 const double square = squareDistanceOf(point, segment);
@@ -258,7 +258,7 @@ public:
 private:
     static constexpr std::size_t kMostWaiting = 64;  // every split halves, and counts have 32 bits
 
-    static double squareDistanceOf(const glm::dvec3& point, const TriangleTree::Node& box) {
+    static double squareDistanceOf(const glm::dvec3& point, const TriangleBvh::Node& box) {
         const glm::dvec3 off = point - glm::clamp(point, glm::dvec3(box.low), glm::dvec3(box.high));
         return glm::dot(off, off);
     }
@@ -272,7 +272,7 @@ private:
         return glm::dot(off, off);
     }
 
-    TriangleTree tree_;
+    TriangleBvh tree_;
     std::vector<Segment> segments_;  // in the order of the leaves
 };
 

@@ -160,7 +160,7 @@ void project(uint j) {
 // Solves the energy's system. If a strand has several chunks, they walk one after the other. They
 // pass on their state through all the shared arrays.
 void bendUpChunk(vec2 stiffness, float free_mass, vec3 root_moved) {
-    BendBelow below = nothingBelow();
+    BendBelow below = noBody();
     if (kChunks > 1 && chunk < kLastChunk) {
         uint next = lane + kStrandsPerGroup;
         vec4 a = rotations[0][next];
@@ -183,13 +183,13 @@ void bendUpChunk(vec2 stiffness, float free_mass, vec3 root_moved) {
             joints[j] = addJoint(below, edge(j), goal_edges[j], axes[j], stiffness);
     }
     if (kChunks == 1) return;
-    rotations[0][lane] = vec4(below.moving.diagonal, below.push.x);
-    rotations[1][lane] = vec4(below.moving.beside, below.push.y);
-    firsts[0][lane] = vec4(below.coupling[0], below.push.z);
-    firsts[1][lane] = vec4(below.coupling[1], below.couple.x);
-    lasts[0][lane] = vec4(below.coupling[2], below.couple.y);
-    lasts[1][lane] = vec4(below.turning.diagonal, below.couple.z);
-    tangents[lane] = vec4(below.turning.beside, below.force.x);
+    rotations[0][lane] = vec4(below.hessian_move.diagonal, below.push.x);
+    rotations[1][lane] = vec4(below.hessian_move.off_diagonal, below.push.y);
+    firsts[0][lane] = vec4(below.hessian_mixed[0], below.push.z);
+    firsts[1][lane] = vec4(below.hessian_mixed[1], below.couple.x);
+    lasts[0][lane] = vec4(below.hessian_mixed[2], below.couple.y);
+    lasts[1][lane] = vec4(below.hessian_turn.diagonal, below.couple.z);
+    tangents[lane] = vec4(below.hessian_turn.off_diagonal, below.force.x);
     contacts[lane] = below.force.y;
     forces[lane] = below.force.z;
 }
@@ -293,7 +293,7 @@ void walkUpChunks() {
 }
 
 // `met`: contacts with bodies; read if `planes`.
-void solveLengths(uint passes, bool planes, Met met[kVerticesPerChunk]) {
+void solveLengths(uint passes, bool planes, VertexContact met[kVerticesPerChunk]) {
     if (passes == 0) return;
     meetNeighbours();
     if (kChunks > 1) barrier();  // firsts[] is reused
@@ -349,9 +349,9 @@ void load(GuideParameters guides, GuideParameters from, ShapeParameters params, 
                 vec3 air = loadVector(push.air, first + j).xyz;
                 vec3 tangent = tangentAt(from, first, j);
                 vec3 velocity = (point.xyz - previous) / guides.step.sub;
-                float brake = brakeOf(push.drag, tangent, air - velocity, guides.step.sub);
-                addAir(loads[j], tangent, brake, air, velocity, guides.step.sub);
-                point.w /= 1.0 + brake;
+                float drag = dragFactor(push.drag, tangent, air - velocity, guides.step.sub);
+                addAir(loads[j], tangent, drag, air, velocity, guides.step.sub);
+                point.w /= 1.0 + drag;
             }
         }
 #else
@@ -360,11 +360,11 @@ void load(GuideParameters guides, GuideParameters from, ShapeParameters params, 
             vec3 air = loadVector(push.air, first + j).xyz;
             vec3 tangent = tangentAt(from, first, j);
             vec3 u = air - (point.xyz - previous) / guides.step.sub;
-            float brake = brakeOf(push.drag, tangent, u, guides.step.sub);
+            float drag = dragFactor(push.drag, tangent, u, guides.step.sub);
             moved = point.xyz +
-                    braked(moved - point.xyz, guides.step.sub * air, tangent, brake);
-            point.w /= 1.0 + brake;
-            stiffness = pullOn(stiffness, brake);
+                    withDrag(moved - point.xyz, guides.step.sub * air, tangent, drag);
+            point.w /= 1.0 + drag;
+            stiffness = pullOn(stiffness, drag);
         }
         if (point.w > 0.0) point.xyz = pullToRest(moved, rest, stiffness);
         if (j == 0 && chunk == 0) point.xyz = rest;
@@ -476,14 +476,15 @@ void main() {
         }
     }
 
-    Met met[kVerticesPerChunk];
+    VertexContact met[kVerticesPerChunk];
     if (kTridiagonal && lengths) solveLengths(params.length_iterations, false, met);
     if (present) storePositions(guides.positions, first);
     if (!kCollides) return;
 
     if (!present) end = first;
     float contact = 0.0;
-    [[unroll]] for (uint j = 0; j < kVerticesPerChunk; ++j) met[j] = Met(vec4(0.0), kTouchesNone);
+    [[unroll]] for (uint j = 0; j < kVerticesPerChunk; ++j)
+        met[j] = VertexContact(vec4(0.0), kTouchesNone);
     for (uint i = first; i < end; ++i)  // collisions are too long to unroll
         met[i - first] = collide(guides, push.frame, push.frame_before, i, contact);
     if (kChunks > 1) markBelow(guides, contact, first, end);
@@ -495,7 +496,7 @@ void main() {
     [[unroll]] for (uint j = 0; j < kVerticesPerChunk; ++j)
         if (present && vertexExists(j)) {
             points[j + 1].xyz = loadVector(guides.positions, first + j).xyz;
-            points[j + 1].w *= yieldAlong(met[j].held);
+            points[j + 1].w *= complianceAlong(met[j].held);
         }
     solveLengths(kContactPasses, true, met);
     if (present) storePositions(guides.positions, first);

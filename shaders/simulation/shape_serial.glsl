@@ -83,14 +83,14 @@ void main() {
                 vec3 tangent = tangentBetween(directionOf(before - above), below);
                 vec3 air = Vectors(push.air).at[root + v].xyz;
                 vec3 velocity = (before - previous_point) / guides.step.sub;
-                float brake = brakeOf(push.drag, tangent, air - velocity, guides.step.sub);
+                float drag = dragFactor(push.drag, tangent, air - velocity, guides.step.sub);
 #ifdef HAIRBENCH_SHAPE_ENERGY
-                addAir(loads[v], tangent, brake, air, velocity, guides.step.sub);
+                addAir(loads[v], tangent, drag, air, velocity, guides.step.sub);
 #endif
                 point.xyz =
-                    before + braked(point.xyz - before, guides.step.sub * air, tangent, brake);
-                inverse_mass /= 1.0 + brake;
-                stiffness = pullOn(stiffness, brake);
+                    before + withDrag(point.xyz - before, guides.step.sub * air, tangent, drag);
+                inverse_mass /= 1.0 + drag;
+                stiffness = pullOn(stiffness, drag);
             }
             point.xyz = pullToRest(point.xyz, rest, stiffness);
         }
@@ -127,7 +127,7 @@ void main() {
         axes[v] = jointAxis(tangent, frame.tangent);
     }
     float free_mass = 1.0 + pullPerMass(params.global_stiffness);
-    BendBelow below = nothingBelow();
+    BendBelow below = noBody();
     [[dont_unroll]] for (uint v = kVerticesPerStrand - 1; v > 0; --v) {
         float mass = inverse_masses[v] > 0.0 ? free_mass : kHeldMass * kVerticesPerStrand;
         addVertex(below, loads[v], mass, root_moved);
@@ -217,9 +217,9 @@ void main() {
         collided = true;
         float contact = 0.0;
         for (uint v = 0; v < kVerticesPerStrand; ++v) {
-            Met met = collide(guides, push.frame, push.frame_before, root + v, contact);
+            VertexContact met = collide(guides, push.frame, push.frame_before, root + v, contact);
             rows[v] = lengthRow(positions.at[root + v], met.plane, heldAcross(met.held));
-            inverse_masses[v] *= yieldAlong(met.held);
+            inverse_masses[v] *= complianceAlong(met.held);
         }
         if (!kTridiagonal || passes == 0 || contact == 0.0) break;
     }

@@ -76,7 +76,7 @@ bool shareACorner(const Face& a, const Face& b) {
 // [triangle]: whether a triangle without a common corner goes through it.
 std::vector<bool> crossedTriangles(
     const std::vector<glm::vec3>& positions, const std::vector<Face>& triangles,
-    const TriangleTree& tree) {
+    const TriangleBvh& tree) {
     std::vector<Bounds> bounds;  // [slot in the leaves]
     bounds.reserve(triangles.size());
     for (const std::uint32_t triangle : tree.order) {
@@ -95,12 +95,12 @@ std::vector<bool> crossedTriangles(
         if (pierces(a, b) || pierces(b, a)) crossed[one] = crossed[two] = true;
     };
     std::vector<std::uint32_t> waiting;
-    for (const TriangleTree::Node& leaf : tree.nodes) {
+    for (const TriangleBvh::Node& leaf : tree.nodes) {
         if (leaf.count == 0) continue;
         const Bounds box{leaf.low, leaf.high};
         waiting.assign(1, 0);
         while (!waiting.empty()) {
-            const TriangleTree::Node& node = tree.nodes[waiting.back()];
+            const TriangleBvh::Node& node = tree.nodes[waiting.back()];
             waiting.pop_back();
             if (!box.meet(node.low, node.high)) continue;
             if (node.count == 0) {
@@ -180,12 +180,12 @@ class Beside {
 public:
     Beside(const std::vector<glm::vec3>& positions, const std::vector<Face>& triangles)
         : positions_(positions), triangles_(triangles), winding_(positions, triangles) {
-        const TriangleTree::Node& root = tree().nodes.front();
+        const TriangleBvh::Node& root = tree().nodes.front();
         // Much more than a rounding and much less than a cell of any grid.
         offset_ = 1e-5 * glm::distance(glm::dvec3(root.low), glm::dvec3(root.high));
     }
 
-    const TriangleTree& tree() const { return winding_.tree(); }
+    const TriangleBvh& tree() const { return winding_.tree(); }
 
     Sides operator()(std::uint32_t triangle) const {
         const auto [a, b, c] = pointsOfFace(positions_, triangles_[triangle]);
@@ -289,7 +289,7 @@ faultsOf(const MeshEdges& edges, std::size_t crossed, std::size_t inner, std::si
 // Whether the sign of the nearest triangle is right everywhere: no triangle goes through another,
 // and the outside of each part is the outside of all.
 bool boundsABody(const ClosedMesh& closed) {
-    const TriangleTree tree = buildTriangleTree(closed.positions, closed.triangles, 4);
+    const TriangleBvh tree = buildTriangleBvh(closed.positions, closed.triangles, 4);
     const std::vector<bool> crossed = crossedTriangles(closed.positions, closed.triangles, tree);
     if (contains(crossed, true)) return false;
     const auto parts = partsOf(closed);

@@ -110,7 +110,7 @@ double solidAngle(const Multipole& moments, const glm::dvec3& away) {
 
 WindingNumber::WindingNumber(
     std::span<const glm::vec3> positions, std::span<const std::array<std::uint32_t, 3>> triangles)
-    : tree_(buildTriangleTree(positions, triangles, kMostInWindingLeaf)),
+    : tree_(buildTriangleBvh(positions, triangles, kMostInWindingLeaf)),
       multipoles_(tree_.nodes.size()) {
     corners_.reserve(triangles.size());
     for (const std::uint32_t triangle : tree_.order) {
@@ -123,7 +123,7 @@ WindingNumber::WindingNumber(
     };
     std::vector<Range> ranges(tree_.nodes.size());
     for (std::size_t i = tree_.nodes.size(); i-- > 0;) {
-        const TriangleTree::Node& node = tree_.nodes[i];
+        const TriangleBvh::Node& node = tree_.nodes[i];
         ranges[i] = node.count > 0 ? Range{node.first, node.count}
                                    : Range{
                                          ranges[node.first].first,
@@ -139,7 +139,7 @@ double WindingNumber::operator()(const glm::dvec3& point, double reach) const {
     double sum = 0.0;
     while (count > 0) {
         const std::uint32_t index = waiting[--count];
-        const TriangleTree::Node& node = tree_.nodes[index];
+        const TriangleBvh::Node& node = tree_.nodes[index];
         const Multipole& moments = multipoles_[index];
         const glm::dvec3 away = moments.centre - point;
         if (glm::length(away) > reach * moments.radius) {

@@ -75,9 +75,9 @@ LengthRow lengthRow(vec4 predicted, vec4 plane, float held) {
 
 // Compliance of a vertex along a body where friction cancels `share` of the motion, and its
 // reduction across the body; both relative to 1.
-float yieldAlong(float share) { return 1.0 - kHeld * max(share, 0.0); }
+float complianceAlong(float share) { return 1.0 - kHeld * max(share, 0.0); }
 float heldAcross(float share) {
-    return share < 0.0 ? 0.0 : kHeld * (1.0 - share) / yieldAlong(share);
+    return share < 0.0 ? 0.0 : kHeld * (1.0 - share) / complianceAlong(share);
 }
 
 LengthsAbove aboveAll(vec3 root) {
