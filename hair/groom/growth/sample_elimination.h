@@ -17,7 +17,7 @@ namespace hair::groom {
 
 // A priority queue of entries with weights that only fall. Entries wait unsorted in bins by
 // weight; only the highest bin is a heap.
-class FallingQueue {
+class BucketQueue {
 public:
     struct Entry {
         double weight;      // at least 0
@@ -26,7 +26,7 @@ public:
         auto operator<=>(const Entry&) const = default;
     };
 
-    explicit FallingQueue(std::vector<Entry> entries) : bins_(entries.size() / 256 + 1) {
+    explicit BucketQueue(std::vector<Entry> entries) : bins_(entries.size() / 256 + 1) {
         double most = 0.0;
         for (const Entry& entry : entries) most = std::max(most, entry.weight);
         if (most > 0.0) per_weight_ = static_cast<double>(bins_.size() - 1) / most;
@@ -77,15 +77,15 @@ private:
     std::size_t open_ = 0;
 };
 
-// Points sorted into cubes as wide as a radius. A point is known by its place; places that are
+// Points sorted into cells as wide as a radius. A point is known by its place; places that are
 // near in space are near in memory.
-class PointGrid {
+class HashGrid {
 public:
-    PointGrid(std::span<const glm::vec3> points, double radius);
+    HashGrid(std::span<const glm::vec3> points, double radius);
 
     std::uint32_t size() const { return static_cast<std::uint32_t>(points_.size()); }
     std::uint32_t source(std::uint32_t place) const { return sources_[place]; }
-    // A number of the point that depends on its cube and the other points alone.
+    // A number of the point that depends on its cell and the other points alone.
     std::uint32_t rank(std::uint32_t place) const { return ranks_[place]; }
 
     // Calls visit(place, distance) for every other point that is left and closer than the radius.
@@ -93,12 +93,12 @@ public:
     void forEachNear(std::uint32_t place, Visit&& visit) const {
         const glm::vec3 point = positions_[place];
         Neighbours neighbours;
-        for (const NearCube& cube : std::span(neighbours.begin(), findNear(point, neighbours))) {
-            for (std::uint32_t i = cube.bucket.first; i < cube.bucket.end; ++i) {
+        for (const NearCell& cell : std::span(neighbours.begin(), findNear(point, neighbours))) {
+            for (std::uint32_t i = cell.bucket.first; i < cell.bucket.end; ++i) {
                 const Point& other = points_[i];
                 const glm::vec3 gap = other.position - point;
-                // Most points end here, without a square root. Cubes can share a bucket.
-                if (glm::dot(gap, gap) > square_limit_ || other.key != cube.key) continue;
+                // Most points end here, without a square root. Cells can share a bucket.
+                if (glm::dot(gap, gap) > square_limit_ || other.key != cell.key) continue;
                 const double distance = glm::distance(other.position, point);
                 if (distance < radius_ && other.place != place) visit(other.place, distance);
             }
@@ -109,7 +109,7 @@ public:
     void erase(std::uint32_t place);
 
 private:
-    struct Cube {
+    struct Cell {
         int x, y, z;
     };
     struct Bucket {
@@ -119,19 +119,19 @@ private:
     struct Point {
         glm::vec3 position;
         std::uint32_t place;
-        std::uint32_t key;  // of its cube
+        std::uint32_t key;  // of its cell
     };
-    struct NearCube {
+    struct NearCell {
         Bucket bucket;
         std::uint32_t key;
     };
-    using Neighbours = std::array<NearCube, 27>;
+    using Neighbours = std::array<NearCell, 27>;
 
-    // Fills in the cubes round a point that may have points. Returns their number.
+    // Fills in the cells round a point that may have points. Returns their number.
     std::size_t findNear(const glm::vec3& point, Neighbours& neighbours) const;
-    Cube cube(const glm::vec3& point) const;
-    std::size_t number(const Cube& cube) const;  // of its bucket
-    static std::uint32_t key(const Cube& cube);
+    Cell cell(const glm::vec3& point) const;
+    std::size_t number(const Cell& cell) const;  // of its bucket
+    static std::uint32_t key(const Cell& cell);
 
     double radius_;
     float square_limit_;  // a little more than the radius squared
@@ -147,7 +147,7 @@ private:
 // are uniform over a surface of `area` m^2 and the fixed points lie on its boundary. Returns
 // indices in ascending order. Time and memory grow with the number of candidates.
 // Yuksel 2015, Sample elimination for generating Poisson disk sample sets.
-std::vector<std::uint32_t> spread(
+std::vector<std::uint32_t> eliminateSamples(
     std::span<const glm::vec3> candidates, std::span<const glm::vec3> fixed, std::uint32_t count,
     double area);
 

@@ -1,4 +1,4 @@
-#include "hair/groom/growth/surface_net.h"
+#include "hair/groom/growth/scalp_triangulation.h"
 
 #include <algorithm>
 #include <cmath>
@@ -15,11 +15,11 @@
 namespace hair::groom {
 namespace {
 
-constexpr auto kNone = TriangleNet::kNone;
+constexpr auto kNone = CornerTable::kNone;
 
 // Functions, so that no variable of a file that is compiled together with this one shadows them.
-std::uint32_t after(std::uint32_t corner) { return TriangleNet::after(corner); }
-std::uint32_t before(std::uint32_t corner) { return TriangleNet::before(corner); }
+std::uint32_t after(std::uint32_t corner) { return CornerTable::after(corner); }
+std::uint32_t before(std::uint32_t corner) { return CornerTable::before(corner); }
 
 // Angle over 180 degrees up to which two edges at a vertex may be replaced by one that passes it,
 // rad.
@@ -36,7 +36,7 @@ double angleBetween(const glm::dvec3& a, const glm::dvec3& b) {
 
 // ---- Triangles that know their neighbours -------------------------------------------------------
 
-TriangleNet::TriangleNet(std::span<const std::array<std::uint32_t, 3>> triangles) {
+CornerTable::CornerTable(std::span<const std::array<std::uint32_t, 3>> triangles) {
     struct Side {
         std::uint32_t low, high;  // the edge's vertices
         std::uint32_t corner;  // opposite
@@ -55,21 +55,21 @@ TriangleNet::TriangleNet(std::span<const std::array<std::uint32_t, 3>> triangles
     std::ranges::sort(
         sides, {}, [](const Side& side) { return std::tuple(side.low, side.high, side.corner); });
 
-    twins_.resize(vertices_.size(), kNone);
+    opposites_.resize(vertices_.size(), kNone);
     for (std::size_t i = 0; i < sides.size();) {
         std::size_t end = i + 1;
         while (end < sides.size() && sides[end].low == sides[i].low &&
                sides[end].high == sides[i].high)
             ++end;
         if (end - i == 2 && sides[i].upward != sides[i + 1].upward) {
-            twins_[sides[i].corner] = sides[i + 1].corner;
-            twins_[sides[i + 1].corner] = sides[i].corner;
+            opposites_[sides[i].corner] = sides[i + 1].corner;
+            opposites_[sides[i + 1].corner] = sides[i].corner;
         }
         i = end;
     }
 }
 
-std::vector<std::array<std::uint32_t, 3>> TriangleNet::triangles() const {
+std::vector<std::array<std::uint32_t, 3>> CornerTable::triangles() const {
     std::vector<std::array<std::uint32_t, 3>> triangles;
     for (std::uint32_t corner = 0; corner < cornerCount(); corner += 3) {
         if (exists(corner / 3))
@@ -78,51 +78,51 @@ std::vector<std::array<std::uint32_t, 3>> TriangleNet::triangles() const {
     return triangles;
 }
 
-TriangleNet::Fan TriangleNet::fan(std::uint32_t corner) const {
+CornerTable::Fan CornerTable::fan(std::uint32_t corner) const {
     Fan fan;
     std::uint32_t first = corner;
-    for (std::uint32_t across = twins_[before(first)]; across != kNone;
-         across = twins_[before(first)]) {  // clockwise
+    for (std::uint32_t across = opposites_[before(first)]; across != kNone;
+         across = opposites_[before(first)]) {  // clockwise
         first = before(across);
         if (first == corner) break;
     }
-    fan.closed = first == corner && twins_[before(first)] != kNone;
+    fan.closed = first == corner && opposites_[before(first)] != kNone;
     fan.corners.push_back(first);
-    for (std::uint32_t across = twins_[after(first)]; across != kNone && after(across) != first;
-         across = twins_[after(fan.corners.back())])
+    for (std::uint32_t across = opposites_[after(first)]; across != kNone && after(across) != first;
+         across = opposites_[after(fan.corners.back())])
         fan.corners.push_back(after(across));
     return fan;
 }
 
-void TriangleNet::setCell(
+void CornerTable::setCell(
     std::uint32_t cell, const std::array<std::uint32_t, 3>& vertices,
-    const std::array<std::uint32_t, 3>& twins) {
+    const std::array<std::uint32_t, 3>& opposites) {
     for (std::uint32_t i = 0; i < 3; ++i) {
         const std::uint32_t corner = 3 * cell + i;
         vertices_[corner] = vertices[i];
-        twins_[corner] = twins[i];
-        if (twins[i] != kNone) twins_[twins[i]] = corner;
+        opposites_[corner] = opposites[i];
+        if (opposites[i] != kNone) opposites_[opposites[i]] = corner;
     }
 }
 
-std::array<std::uint32_t, 4> TriangleNet::flip(std::uint32_t corner) {
-    const std::uint32_t other = twins_[corner];
+std::array<std::uint32_t, 4> CornerTable::flip(std::uint32_t corner) {
+    const std::uint32_t other = opposites_[corner];
     const std::uint32_t first = corner / 3;
     const std::uint32_t second = other / 3;
     const std::uint32_t a = vertices_[corner];
     const std::uint32_t b = vertices_[after(corner)];
     const std::uint32_t c = vertices_[before(corner)];
     const std::uint32_t d = vertices_[other];
-    const std::uint32_t beyond_ca = twins_[after(corner)];
-    const std::uint32_t beyond_ab = twins_[before(corner)];
-    const std::uint32_t beyond_bd = twins_[after(other)];
-    const std::uint32_t beyond_dc = twins_[before(other)];
+    const std::uint32_t beyond_ca = opposites_[after(corner)];
+    const std::uint32_t beyond_ab = opposites_[before(corner)];
+    const std::uint32_t beyond_bd = opposites_[after(other)];
+    const std::uint32_t beyond_dc = opposites_[before(other)];
     setCell(first, {a, b, d}, {beyond_bd, 3 * second + 2, beyond_ab});
     setCell(second, {a, d, c}, {beyond_dc, beyond_ca, 3 * first + 1});
     return {3 * first, 3 * first + 2, 3 * second, 3 * second + 1};
 }
 
-std::array<std::uint32_t, 3> TriangleNet::split(std::uint32_t cell, std::uint32_t vertex) {
+std::array<std::uint32_t, 3> CornerTable::split(std::uint32_t cell, std::uint32_t vertex) {
     const std::uint32_t corner = 3 * cell;
     const std::uint32_t second = cornerCount() / 3;
     const std::uint32_t third = second + 1;
@@ -130,38 +130,38 @@ std::array<std::uint32_t, 3> TriangleNet::split(std::uint32_t cell, std::uint32_
     const std::uint32_t b = vertices_[corner + 1];
     const std::uint32_t c = vertices_[corner + 2];
     const std::array<std::uint32_t, 3> beyond{
-        twins_[corner], twins_[corner + 1], twins_[corner + 2]};
+        opposites_[corner], opposites_[corner + 1], opposites_[corner + 2]};
     vertices_.resize(vertices_.size() + 6);
-    twins_.resize(twins_.size() + 6);
+    opposites_.resize(opposites_.size() + 6);
     setCell(cell, {a, b, vertex}, {3 * second + 1, 3 * third, beyond[2]});
     setCell(second, {b, c, vertex}, {3 * third + 1, 3 * cell, beyond[0]});
     setCell(third, {c, a, vertex}, {3 * cell + 1, 3 * second, beyond[1]});
     return {cell, second, third};
 }
 
-std::uint32_t TriangleNet::join(const std::array<std::uint32_t, 3>& corners) {
+std::uint32_t CornerTable::join(const std::array<std::uint32_t, 3>& corners) {
     std::array<std::uint32_t, 3> vertices{};
-    std::array<std::uint32_t, 3> twins{};
+    std::array<std::uint32_t, 3> opposites{};
     for (std::size_t i = 0; i < 3; ++i) {  // the edge from vertex i to the next is opposite i + 2
         vertices[i] = vertices_[after(corners[i])];
-        twins[(i + 2) % 3] = twins_[corners[i]];
+        opposites[(i + 2) % 3] = opposites_[corners[i]];
     }
     for (const std::uint32_t corner : corners) vertices_[corner / 3 * 3] = kNone;
-    setCell(corners[0] / 3, vertices, twins);
+    setCell(corners[0] / 3, vertices, opposites);
     return corners[0] / 3;
 }
 
-void TriangleNet::erase(std::uint32_t cell) {
+void CornerTable::erase(std::uint32_t cell) {
     for (std::uint32_t corner = 3 * cell; corner < 3 * cell + 3; ++corner) {
-        if (twins_[corner] != kNone) twins_[twins_[corner]] = kNone;
-        twins_[corner] = kNone;
+        if (opposites_[corner] != kNone) opposites_[opposites_[corner]] = kNone;
+        opposites_[corner] = kNone;
         vertices_[corner] = kNone;
     }
 }
 
 // ---- A scalp cut at roots -----------------------------------------------------------------------
 
-SurfaceNet::SurfaceNet(
+ScalpTriangulation::ScalpTriangulation(
     const Scalp& scalp, std::span<const SurfacePoint> roots,
     std::span<const std::array<std::uint32_t, 3>> cut)
     : root_count_(static_cast<std::uint32_t>(roots.size())), net_(cut) {
@@ -177,7 +177,7 @@ SurfaceNet::SurfaceNet(
 
 // Splits each vertex where several sheets meet, so that each sheet has a vertex of its own.
 // `corners` are all corners of their vertices.
-void SurfaceNet::separateFans(std::span<const std::uint32_t> corners) {
+void ScalpTriangulation::separateFans(std::span<const std::uint32_t> corners) {
     std::unordered_set<std::uint32_t> seen;
     for (const std::uint32_t corner : corners) {
         if (!net_.exists(corner / 3) || seen.contains(corner)) continue;
@@ -196,31 +196,31 @@ void SurfaceNet::separateFans(std::span<const std::uint32_t> corners) {
     }
 }
 
-void SurfaceNet::anchor(std::uint32_t cell) {
+void ScalpTriangulation::anchor(std::uint32_t cell) {
     for (std::uint32_t corner = 3 * cell; corner < 3 * cell + 3; ++corner)
         corners_[net_.vertex(corner)] = corner;
 }
 
 // Whether an edge leads from the corner's vertex to the other one.
-bool SurfaceNet::areJoined(std::uint32_t corner, std::uint32_t vertex) const {
+bool ScalpTriangulation::areJoined(std::uint32_t corner, std::uint32_t vertex) const {
     return std::ranges::any_of(net_.fan(corner).corners, [&](std::uint32_t member) {
         return net_.vertex(after(member)) == vertex || net_.vertex(before(member)) == vertex;
     });
 }
 
 // Whether both new triangles face the same way as the old ones.
-bool SurfaceNet::staysUnfolded(std::uint32_t corner) const {
+bool ScalpTriangulation::staysUnfolded(std::uint32_t corner) const {
     const glm::dvec3 a = position(corner);
     const glm::dvec3 b = position(after(corner));
     const glm::dvec3 c = position(before(corner));
-    const glm::dvec3 d = position(net_.twin(corner));
+    const glm::dvec3 d = position(net_.opposite(corner));
     const glm::dvec3 normal = glm::cross(b - a, c - a) + glm::cross(c - d, b - d);
     return glm::dot(glm::cross(b - a, d - a), normal) > 0.0 &&
            glm::dot(glm::cross(d - a, c - a), normal) > 0.0;
 }
 
-bool SurfaceNet::shouldFlip(std::uint32_t corner) const {
-    const std::uint32_t other = net_.twin(corner);
+bool ScalpTriangulation::shouldFlip(std::uint32_t corner) const {
+    const std::uint32_t other = net_.opposite(corner);
     const glm::dvec3 a = position(corner);
     const glm::dvec3 b = position(after(corner));
     const glm::dvec3 c = position(before(corner));
@@ -237,19 +237,19 @@ bool SurfaceNet::shouldFlip(std::uint32_t corner) const {
            net_.vertex(corner) != net_.vertex(other) && !areJoined(corner, net_.vertex(other));
 }
 
-void SurfaceNet::flipSuspects() {
+void ScalpTriangulation::flipSuspects() {
     flipEdges(
         net_, suspects_, std::size_t{20} * net_.cornerCount(),
         [&](std::uint32_t corner) { return net_.exists(corner / 3) && shouldFlip(corner); },
         [&](std::uint32_t corner) {
             anchor(corner / 3);
-            anchor(net_.twin(3 * (corner / 3) + 1) / 3);
+            anchor(net_.opposite(3 * (corner / 3) + 1) / 3);
         });
 }
 
-void SurfaceNet::makeDelaunay() {
+void ScalpTriangulation::makeDelaunay() {
     for (std::uint32_t corner = 0; corner < net_.cornerCount(); ++corner) {
-        if (net_.exists(corner / 3) && corner < net_.twin(corner)) suspects_.push_back(corner);
+        if (net_.exists(corner / 3) && corner < net_.opposite(corner)) suspects_.push_back(corner);
     }
     flipSuspects();
 }
@@ -257,7 +257,7 @@ void SurfaceNet::makeDelaunay() {
 // Flips one edge of the fan's vertex, so that an edge past the vertex joins its two neighbours
 // there. It takes the flip with the shortest new edge, measured in the plane that the fan unrolls
 // to, with the vertex at the origin. Returns false if there is none.
-bool SurfaceNet::flipAway(const TriangleNet::Fan& fan) {
+bool ScalpTriangulation::flipAway(const CornerTable::Fan& fan) {
     const auto count = fan.corners.size();
     const glm::dvec3 centre = position(fan.corners[0]);
     // [neighbour], one more than corners: at the end the first again, or the boundary's other one.
@@ -288,7 +288,7 @@ bool SurfaceNet::flipAway(const TriangleNet::Fan& fan) {
         const double ear = r0 * r1 * std::sin(turn_in) + r1 * r2 * std::sin(turn_out) -
                            r0 * r2 * std::sin(turn_in + turn_out);
         const std::uint32_t edge = before(fan.corners[i]);
-        const std::uint32_t other = net_.twin(edge);
+        const std::uint32_t other = net_.opposite(edge);
         if (!(ear > 0.0) || net_.vertex(edge) == net_.vertex(other) ||
             areJoined(edge, net_.vertex(other)))
             continue;
@@ -298,12 +298,12 @@ bool SurfaceNet::flipAway(const TriangleNet::Fan& fan) {
     if (best == kNone) return false;
     for (const std::uint32_t side : net_.flip(best)) suspects_.push_back(side);
     anchor(best / 3);
-    anchor(net_.twin(3 * (best / 3) + 1) / 3);
+    anchor(net_.opposite(3 * (best / 3) + 1) / 3);
     return true;
 }
 
 // Drops the triangles round a vertex.
-void SurfaceNet::erase(const TriangleNet::Fan& fan) {
+void ScalpTriangulation::erase(const CornerTable::Fan& fan) {
     std::vector<std::uint32_t> left;  // corners that their vertices keep
     for (const std::uint32_t corner : fan.corners) {
         for (const std::uint32_t neighbour : {after(corner), before(corner)}) {
@@ -317,8 +317,8 @@ void SurfaceNet::erase(const TriangleNet::Fan& fan) {
     separateFans(left);
 }
 
-void SurfaceNet::remove(std::uint32_t vertex, Stuck stuck) {
-    TriangleNet::Fan fan = net_.fan(corners_[vertex]);
+void ScalpTriangulation::remove(std::uint32_t vertex, Stuck stuck) {
+    CornerTable::Fan fan = net_.fan(corners_[vertex]);
     const auto isThree = [&] { return fan.closed && fan.corners.size() == 3; };
     while (!isThree() && flipAway(fan)) fan = net_.fan(corners_[vertex]);
     if (isThree()) {
@@ -334,7 +334,7 @@ void SurfaceNet::remove(std::uint32_t vertex, Stuck stuck) {
 }
 
 // Works from the inside to the boundary, where it drops triangles, so that few are dropped.
-void SurfaceNet::removeScalpVertices() {
+void ScalpTriangulation::removeScalpVertices() {
     const auto isLeft = [&](std::uint32_t vertex) {
         return sources_[vertex] >= root_count_ && corners_[vertex] != kNone;
     };
@@ -348,18 +348,18 @@ void SurfaceNet::removeScalpVertices() {
     }
 }
 
-void SurfaceNet::peel() {
+void ScalpTriangulation::peel() {
     std::vector<std::uint32_t> open;
     for (std::uint32_t corner = 0; corner < net_.cornerCount(); ++corner) open.push_back(corner);
     while (!open.empty()) {
         const std::uint32_t corner = open.back();
         open.pop_back();
-        if (!net_.exists(corner / 3) || net_.twin(corner) != kNone) continue;
+        if (!net_.exists(corner / 3) || net_.opposite(corner) != kNone) continue;
         const glm::dvec3 from = glm::normalize(position(after(corner)) - position(corner));
         const glm::dvec3 to = glm::normalize(position(before(corner)) - position(corner));
         if (glm::dot(from, to) > kFlattest || !net_.fan(corner).closed) continue;
-        const std::uint32_t behind_to = net_.twin(after(corner));
-        const std::uint32_t behind_from = net_.twin(before(corner));
+        const std::uint32_t behind_to = net_.opposite(after(corner));
+        const std::uint32_t behind_from = net_.opposite(before(corner));
         net_.erase(corner / 3);
         open.push_back(behind_to);
         open.push_back(behind_from);
@@ -367,7 +367,7 @@ void SurfaceNet::peel() {
 }
 
 // Gives a root in several fans one number, and no edge a third triangle.
-std::vector<std::array<std::uint32_t, 3>> SurfaceNet::triangles() const {
+std::vector<std::array<std::uint32_t, 3>> ScalpTriangulation::triangles() const {
     std::set<std::pair<std::uint32_t, std::uint32_t>> edges;
     std::vector<std::array<std::uint32_t, 3>> triangles;
     for (const auto& [i, j, k] : net_.triangles()) {

@@ -1,4 +1,4 @@
-#include "hair/groom/growth/spread.h"
+#include "hair/groom/growth/sample_elimination.h"
 
 #include <bit>
 #include <cassert>
@@ -13,21 +13,21 @@
 namespace hair::groom {
 namespace {
 
-constexpr int kCubeBits = 10;
-constexpr std::uint32_t kCubeMask = (1u << kCubeBits) - 1;
+constexpr int kCellBits = 10;
+constexpr std::uint32_t kCellMask = (1u << kCellBits) - 1;
 
 // Moves bits to every third place from the lowest.
 std::uint32_t spreadBits(std::uint32_t value) {
-    std::uint32_t spread = 0;
-    for (int bit = 0; bit < kCubeBits; ++bit) spread |= (value >> bit & 1) << 3 * bit;
-    return spread;
+    std::uint32_t eliminateSamples = 0;
+    for (int bit = 0; bit < kCellBits; ++bit) eliminateSamples |= (value >> bit & 1) << 3 * bit;
+    return eliminateSamples;
 }
 
-// The number of a key; in its order, buckets of near cubes follow each other. Morton 1966, A
+// The number of a key; in its order, buckets of near cells follow each other. Morton 1966, A
 // computer oriented geodetic data base.
 std::uint32_t mortonCode(std::uint32_t key) {
-    return spreadBits(key & kCubeMask) | spreadBits(key >> kCubeBits & kCubeMask) << 1 |
-           spreadBits(key >> 2 * kCubeBits) << 2;
+    return spreadBits(key & kCellMask) | spreadBits(key >> kCellBits & kCellMask) << 1 |
+           spreadBits(key >> 2 * kCellBits) << 2;
 }
 
 void prefetch([[maybe_unused]] const void* address) {
@@ -38,16 +38,16 @@ void prefetch([[maybe_unused]] const void* address) {
 
 }  // namespace
 
-// ---- Points in cubes ----------------------------------------------------------------------------
+// ---- Points in cells ----------------------------------------------------------------------------
 
-PointGrid::PointGrid(std::span<const glm::vec3> points, double radius)
+HashGrid::HashGrid(std::span<const glm::vec3> points, double radius)
     : radius_(radius), square_limit_(static_cast<float>(radius * radius * 1.0001)),
       buckets_(std::bit_ceil(points.size() / 4 + 1)) {
     std::vector<std::uint32_t> homes;  // [source], number of its bucket
-    std::vector<std::uint32_t> keys;  // [bucket], of a cube in it
+    std::vector<std::uint32_t> keys;  // [bucket], of a cell in it
     keys.resize(buckets_.size());
     for (const glm::vec3& point : points) {
-        const Cube home = cube(point);
+        const Cell home = cell(point);
         homes.push_back(static_cast<std::uint32_t>(number(home)));
         keys[homes.back()] = key(home);
         ++buckets_[homes.back()].end;
@@ -79,7 +79,7 @@ PointGrid::PointGrid(std::span<const glm::vec3> points, double radius)
     sources_.resize(points.size());
     for (std::uint32_t i = 0; i < points.size(); ++i) {
         const std::uint32_t place = buckets_[homes[i]].end++;
-        points_[place] = {points[i], place, key(cube(points[i]))};
+        points_[place] = {points[i], place, key(cell(points[i]))};
         positions_[place] = points[i];
         ranks_[place] = ranks[homes[i]]++;
         sources_[place] = i;
@@ -88,44 +88,44 @@ PointGrid::PointGrid(std::span<const glm::vec3> points, double radius)
     std::iota(where_.begin(), where_.end(), 0u);
 }
 
-void PointGrid::erase(std::uint32_t place) {
-    const std::uint32_t last = --buckets_[number(cube(positions_[place]))].end;
+void HashGrid::erase(std::uint32_t place) {
+    const std::uint32_t last = --buckets_[number(cell(positions_[place]))].end;
     const std::uint32_t at = where_[place];
     std::swap(points_[at], points_[last]);
     where_[points_[at].place] = at;
     where_[place] = last;
 }
 
-PointGrid::Cube PointGrid::cube(const glm::vec3& point) const {
-    static constexpr double limit = 1e9;  // points farther out share the last cube
+HashGrid::Cell HashGrid::cell(const glm::vec3& point) const {
+    static constexpr double limit = 1e9;  // points farther out share the last cell
     const auto along = [this](float coordinate) {
         return static_cast<int>(std::clamp(std::floor(coordinate / radius_), -limit, limit));
     };
     return {along(point.x), along(point.y), along(point.z)};
 }
 
-std::size_t PointGrid::number(const Cube& cube) const {
+std::size_t HashGrid::number(const Cell& cell) const {
     return hash(
-               static_cast<std::uint32_t>(cube.x), static_cast<std::uint32_t>(cube.y),
-               static_cast<std::uint32_t>(cube.z)) &
+               static_cast<std::uint32_t>(cell.x), static_cast<std::uint32_t>(cell.y),
+               static_cast<std::uint32_t>(cell.z)) &
            (buckets_.size() - 1);
 }
 
-// A key that differs between cubes that are less than 2^10 apart.
-std::uint32_t PointGrid::key(const Cube& cube) {
+// A key that differs between cells that are less than 2^10 apart.
+std::uint32_t HashGrid::key(const Cell& cell) {
     const auto along = [](int coordinate) {
-        return static_cast<std::uint32_t>(coordinate) & kCubeMask;
+        return static_cast<std::uint32_t>(coordinate) & kCellMask;
     };
-    return along(cube.x) | along(cube.y) << kCubeBits | along(cube.z) << 2 * kCubeBits;
+    return along(cell.x) | along(cell.y) << kCellBits | along(cell.z) << 2 * kCellBits;
 }
 
 // Prefetches all buckets before the first is needed, and then the points, because memory takes the
 // time.
-std::size_t PointGrid::findNear(const glm::vec3& point, Neighbours& neighbours) const {
-    const Cube centre = cube(point);
+std::size_t HashGrid::findNear(const glm::vec3& point, Neighbours& neighbours) const {
+    const Cell centre = cell(point);
     std::array<const Bucket*, 27> buckets;
     for (int i = 0; i < 27; ++i) {
-        const Cube at{centre.x + i % 3 - 1, centre.y + i / 3 % 3 - 1, centre.z + i / 9 - 1};
+        const Cell at{centre.x + i % 3 - 1, centre.y + i / 3 % 3 - 1, centre.z + i / 9 - 1};
         const auto index = static_cast<std::size_t>(i);
         buckets[index] = &buckets_[number(at)];
         prefetch(buckets[index]);
@@ -145,7 +145,7 @@ std::size_t PointGrid::findNear(const glm::vec3& point, Neighbours& neighbours) 
 
 // ---- Sample elimination -------------------------------------------------------------------------
 
-std::vector<std::uint32_t> spread(
+std::vector<std::uint32_t> eliminateSamples(
     std::span<const glm::vec3> candidates, std::span<const glm::vec3> fixed, std::uint32_t count,
     double area) {
     assert(count <= candidates.size());
@@ -156,7 +156,7 @@ std::vector<std::uint32_t> spread(
     const double reach = 2.0 * std::sqrt(area / (2.0 * std::numbers::sqrt3 * discs));
     std::vector<glm::vec3> points(candidates.begin(), candidates.end());
     points.insert(points.end(), fixed.begin(), fixed.end());
-    PointGrid grid(points, reach);
+    HashGrid grid(points, reach);
     const auto weigh = [reach](double distance) {
         const double near = 1.0 - distance / reach;
         const double near4 = near * near * near * near;
@@ -165,7 +165,7 @@ std::vector<std::uint32_t> spread(
 
     // Removes the most crowded candidate until `count` are left.
     std::vector<double> weights(grid.size(), 0.0);  // [place]
-    std::vector<FallingQueue::Entry> entries;
+    std::vector<BucketQueue::Entry> entries;
     inParallel("weighs roots", grid.size(), [&](std::uint32_t place) {
         if (grid.source(place) >= candidates.size()) return;
         grid.forEachNear(
@@ -175,7 +175,7 @@ std::vector<std::uint32_t> spread(
         if (grid.source(place) < candidates.size())
             entries.push_back({weights[place], grid.rank(place), place});
     std::vector<bool> present(candidates.size(), true);
-    FallingQueue queue(std::move(entries));
+    BucketQueue queue(std::move(entries));
     engine::Step step("spreads roots", candidates.size() - count);
     for (std::size_t left = candidates.size(); left > count; --left) {
         step.advance();

@@ -1,4 +1,4 @@
-#include "hair/groom/growth/spread.h"
+#include "hair/groom/growth/sample_elimination.h"
 
 #include <algorithm>
 #include <cmath>
@@ -36,42 +36,44 @@ std::vector<double> nearestDistances(const std::vector<glm::vec3>& points) {
 // Hexagonal packing is the best: 2 r_max = sqrt(2 / (sqrt(3) n)) = 1.07 / sqrt(n) between
 // neighbours (a little more, since the square's edge is free). Yuksel reports 0.7 of it and more
 // for eliminated samples. The closest pair of uniform points is at 0.66 / n: 0.04 of it here.
-TEST(Spread, KeepsPointsApart) {
+TEST(SampleElimination, KeepsPointsApart) {
     constexpr std::uint32_t count = 300;
     for (std::uint32_t seed = 0; seed < 5; ++seed) {
         const std::vector<glm::vec3> candidates = unitSquare(10 * count, seed);
         std::vector<glm::vec3> kept;
-        for (const std::uint32_t i : spread(candidates, {}, count, 1.0))
+        for (const std::uint32_t i : eliminateSamples(candidates, {}, count, 1.0))
             kept.push_back(candidates[i]);
         ASSERT_EQ(kept.size(), count);
         EXPECT_GT(std::ranges::min(nearestDistances(kept)), 0.6f * 1.07f / std::sqrt(300.0f));
     }
 }
 
-TEST(Spread, KeepsAwayFromFixedPoints) {
+TEST(SampleElimination, KeepsAwayFromFixedPoints) {
     std::vector<glm::vec3> all{{0, 0, 0}, {1, 0, 0}, {1, 0, 1}, {0, 0, 1}, {0.5f, 0, 0.5f}};
     const std::vector<glm::vec3> candidates = unitSquare(400, 1);
-    for (const std::uint32_t i : spread(candidates, all, 40, 1.0)) all.push_back(candidates[i]);
+    for (const std::uint32_t i : eliminateSamples(candidates, all, 40, 1.0))
+        all.push_back(candidates[i]);
     // 40 + 5 / 2 discs: 2 r_max = 0.165.
     EXPECT_GT(std::ranges::min(nearestDistances(all)), 0.6f * 0.165f);
 }
 
-TEST(Spread, GivesIndicesInOrderAndOnce) {
-    const std::vector<std::uint32_t> kept = spread(unitSquare(500, 2), {}, 50, 1.0);
+TEST(SampleElimination, GivesIndicesInOrderAndOnce) {
+    const std::vector<std::uint32_t> kept = eliminateSamples(unitSquare(500, 2), {}, 50, 1.0);
     EXPECT_EQ(kept.size(), 50u);
     EXPECT_TRUE(std::ranges::is_sorted(kept));
     EXPECT_EQ(std::ranges::adjacent_find(kept), kept.end());
     EXPECT_LT(kept.back(), 500u);
 }
 
-TEST(Spread, TakesAllOrNone) {
+TEST(SampleElimination, TakesAllOrNone) {
     const std::vector<glm::vec3> candidates = unitSquare(20, 3);
-    EXPECT_EQ(spread(candidates, {}, 20, 1.0).size(), 20u);
-    EXPECT_TRUE(spread(candidates, {}, 0, 1.0).empty());
+    EXPECT_EQ(eliminateSamples(candidates, {}, 20, 1.0).size(), 20u);
+    EXPECT_TRUE(eliminateSamples(candidates, {}, 0, 1.0).empty());
 }
 
-TEST(Spread, TakesCandidatesThatCoincide) {
-    EXPECT_EQ(spread(std::vector<glm::vec3>(30, glm::vec3(0.5f)), {}, 10, 1.0).size(), 10u);
+TEST(SampleElimination, TakesCandidatesThatCoincide) {
+    EXPECT_EQ(
+        eliminateSamples(std::vector<glm::vec3>(30, glm::vec3(0.5f)), {}, 10, 1.0).size(), 10u);
 }
 
 }  // namespace

@@ -15,7 +15,7 @@ namespace hair::groom {
 // Triangles that know their neighbours, to be changed by flips. Corner c of cell t has the number 3
 // t + c. It also stands for the opposite edge, which runs from the next corner's vertex to the one
 // after it.
-class TriangleNet {
+class CornerTable {
 public:
     static constexpr std::uint32_t kNone = ~0u;
 
@@ -28,12 +28,12 @@ public:
 
     // Two triangles are neighbours where they, and no third one, run along an edge in opposite
     // directions.
-    explicit TriangleNet(std::span<const std::array<std::uint32_t, 3>> triangles);
+    explicit CornerTable(std::span<const std::array<std::uint32_t, 3>> triangles);
 
     std::uint32_t cornerCount() const { return static_cast<std::uint32_t>(vertices_.size()); }
     std::uint32_t vertex(std::uint32_t corner) const { return vertices_[corner]; }
     // The corner opposite the same edge on its other side, or kNone.
-    std::uint32_t twin(std::uint32_t corner) const { return twins_[corner]; }
+    std::uint32_t opposite(std::uint32_t corner) const { return opposites_[corner]; }
     // False for a cell that was erased.
     bool exists(std::uint32_t cell) const { return vertices_[3 * cell] != kNone; }
     std::vector<std::array<std::uint32_t, 3>> triangles() const;
@@ -46,8 +46,8 @@ public:
     };
     Fan fan(std::uint32_t corner) const;
 
-    // Replaces the opposite edge, which must have a twin, by the quadrilateral's other diagonal,
-    // from the corner's vertex to the twin's. Returns the quadrilateral's sides.
+    // Replaces the opposite edge, which must have an opposite corner, by the quadrilateral's other
+    // diagonal, from the corner's vertex to the opposite one's. Returns the quadrilateral's sides.
     std::array<std::uint32_t, 4> flip(std::uint32_t corner);
     // Cuts a cell into three; edge 2 of each is one of the old sides. Returns the cells.
     std::array<std::uint32_t, 3> split(std::uint32_t cell, std::uint32_t vertex);
@@ -59,10 +59,10 @@ public:
 private:
     void setCell(
         std::uint32_t cell, const std::array<std::uint32_t, 3>& vertices,
-        const std::array<std::uint32_t, 3>& twins);
+        const std::array<std::uint32_t, 3>& opposites);
 
     std::vector<std::uint32_t> vertices_;  // [corner]
-    std::vector<std::uint32_t> twins_;  // [corner]
+    std::vector<std::uint32_t> opposites_;  // [corner]
 };
 
 // Flips edges until shouldFlip(corner) holds for no suspect, including those that flips add, or
@@ -70,12 +70,13 @@ private:
 // surface interpolation.
 template <class Test, class Flipped>
 void flipEdges(
-    TriangleNet& net, std::vector<std::uint32_t>& suspects, std::size_t most, Test&& shouldFlip,
+    CornerTable& net, std::vector<std::uint32_t>& suspects, std::size_t most, Test&& shouldFlip,
     Flipped&& flipped) {
     while (!suspects.empty()) {
         const std::uint32_t corner = suspects.back();
         suspects.pop_back();
-        if (most == 0 || net.twin(corner) == TriangleNet::kNone || !shouldFlip(corner)) continue;
+        if (most == 0 || net.opposite(corner) == CornerTable::kNone || !shouldFlip(corner))
+            continue;
         --most;
         for (const std::uint32_t side : net.flip(corner)) suspects.push_back(side);
         flipped(corner);
@@ -84,10 +85,10 @@ void flipEdges(
 
 // A scalp cut at roots; afterwards, the scalp's own vertices can be removed. Lengths and angles are
 // those of the straight triangles in space.
-class SurfaceNet {
+class ScalpTriangulation {
 public:
     // `cut`: cutAtRoots() of the scalp and the roots (triangulate.h).
-    SurfaceNet(
+    ScalpTriangulation(
         const Scalp& scalp, std::span<const SurfacePoint> roots,
         std::span<const std::array<std::uint32_t, 3>> cut);
 
@@ -112,14 +113,14 @@ private:
     bool staysUnfolded(std::uint32_t corner) const;
     void flipSuspects();
     void remove(std::uint32_t vertex, Stuck stuck);
-    void erase(const TriangleNet::Fan& fan);
-    bool flipAway(const TriangleNet::Fan& fan);
+    void erase(const CornerTable::Fan& fan);
+    bool flipAway(const CornerTable::Fan& fan);
     glm::dvec3 position(std::uint32_t corner) const { return positions_[net_.vertex(corner)]; }
 
     std::uint32_t root_count_;
     std::vector<glm::dvec3> positions_;  // [vertex], m, the roots first
     std::vector<std::uint32_t> sources_;  // [vertex], the first one that stands for the same point
-    TriangleNet net_;
+    CornerTable net_;
     std::vector<std::uint32_t> corners_;  // [vertex], one of its corners
     std::vector<std::uint32_t> suspects_;
 };
