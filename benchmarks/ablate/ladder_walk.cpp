@@ -108,7 +108,7 @@ StopCounts StopView::count(hair::rendering::StageWatch& watch) {
         engine::FrameLoop loop(device_, engine::Timing::wall_clock);
         draw(loop);
         loop.finish();
-        counts.seen = watch.counts().invocations;
+        counts.watched_invocations = watch.counts().invocations;
         watch.countNone();
     }
     return counts;

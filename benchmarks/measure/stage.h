@@ -104,7 +104,7 @@ public:
     virtual bool isProcessor() const = 0;
 
     // True if time passes while samples are assessed; false for a model.
-    virtual bool runsBesideThought() const { return true; }
+    virtual bool overlapsAssessment() const { return true; }
 
     // The machine's clock, s.
     virtual double seconds() = 0;

@@ -24,11 +24,11 @@ std::vector<std::string> timestampFaults(
 
     std::vector<std::string> faults;
     for (const std::string& pass : passNames(isolated)) {
-        const std::vector<double> stamped_times = passTimes(isolated, pass);
+        const std::vector<double> timestamped_times = passTimes(isolated, pass);
         const std::vector<double> clocked_times = passTimes(wall_clock, pass);
         if (clocked_times.empty()) continue;
         // A busy machine only adds time, so the fastest frames are compared.
-        const double timestamped = std::ranges::min(stamped_times);
+        const double timestamped = std::ranges::min(timestamped_times);
         const double clocked = std::ranges::min(clocked_times);
         const bool too_long = timestamped > clocked * (1.0 + kTrustTolerance) + slack;
         const bool too_short = timestamped < clocked * (1.0 - kTrustTolerance) - slack;
@@ -62,7 +62,7 @@ constexpr double kRateTolerance = 0.01;
 std::vector<std::string> checkTimestamps(
     const PlayedFrames& timestamped, const PlayedFrames& clocked,
     const std::function<bool()>& is_time) {
-    std::vector<engine::FrameRecord> stamped_frames;
+    std::vector<engine::FrameRecord> timestamped_frames;
     std::vector<engine::FrameRecord> clocked_frames;
     std::vector<std::string> faults;
     do {
@@ -70,10 +70,10 @@ std::vector<std::string> checkTimestamps(
             timestamped.play();
             clocked.play();
         }
-        std::ranges::move(timestamped.finish(), std::back_inserter(stamped_frames));
+        std::ranges::move(timestamped.finish(), std::back_inserter(timestamped_frames));
         std::ranges::move(clocked.finish(), std::back_inserter(clocked_frames));
-        faults = timestampFaults(stamped_frames, clocked_frames);
-    } while (!faults.empty() && stamped_frames.size() < kMostPairs && (!is_time || is_time()));
+        faults = timestampFaults(timestamped_frames, clocked_frames);
+    } while (!faults.empty() && timestamped_frames.size() < kMostPairs && (!is_time || is_time()));
     return faults;
 }
 
@@ -105,7 +105,7 @@ std::vector<engine::FrameRecord> playTwice(Player& player) {
 }
 
 // Steps of planted work that take the pass kPlantedTime by the CPU's clock.
-std::uint32_t stepsToSee(Stage& stage, const std::string& pass, double without) {
+std::uint32_t detectableSteps(Stage& stage, const std::string& pass, double without) {
     double steps = 1024.0;
     while (steps < kMostPlantedSteps) {
         const std::unique_ptr<Player> player =
@@ -147,7 +147,7 @@ std::vector<std::string> checkTimestamps(Stage& stage, report::CaseResult& resul
     const std::vector<engine::FrameRecord> frames = playTwice(*plain);
     std::uint32_t steps = 0;
     for (const std::string& pass : passNames(frames)) {
-        if (steps == 0) steps = stepsToSee(stage, pass, timeOf(frames, pass));
+        if (steps == 0) steps = detectableSteps(stage, pass, timeOf(frames, pass));
         addPlantedFaults(stage, {pass, steps}, {}, faults);
     }
     return faults;
@@ -187,7 +187,7 @@ TimestampJudgement judgeByPlantedWork(
         if (stage.seconds() + growth + look > end) return {};
         const auto plain = stage.player(engine::Timing::wall_clock);
         const double without = timeOf(playTwice(*plain), passes.front());
-        known.planted_steps = stepsToSee(stage, passes.front(), without);
+        known.planted_steps = detectableSteps(stage, passes.front(), without);
     }
     const auto is_time = [&] { return stage.seconds() + look <= end; };
     std::size_t& checked = known.checked_passes[passes];

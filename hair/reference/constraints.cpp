@@ -201,25 +201,27 @@ void solveLengths(
     };
     for (std::size_t i = 1; i < count; ++i) place(i, predicted[i]);
 
-    std::vector<double> stretches(count), diagonal(count), beside(count), densities(count + 1);
+    std::vector<double> stretches(count), diagonal(count), off_diagonal(count),
+        densities(count + 1);
     std::vector<glm::dvec3> pulls(count);
     for (std::uint32_t pass = 0; pass < passes; ++pass) {
-        // The tensions, row by row from the tip up; beside[i] is between i and i + 1.
+        // The tensions, row by row from the tip up; off_diagonal[i] is between i and i + 1.
         for (std::size_t i = 1; i < count; ++i) {
             const glm::dvec3& d = directions[i];
             diagonal[i] = compliance(i - 1, d, d, 1.0) + compliance(i, d, d, 1.0);
             if (i + 1 < count)
-                beside[i] = -compliance(i, d, directions[i + 1], glm::dot(d, directions[i + 1]));
+                off_diagonal[i] =
+                    -compliance(i, d, directions[i + 1], glm::dot(d, directions[i + 1]));
             stretches[i] = glm::dot(directions[i], predicted[i] - predicted[i - 1]) - restLength(i);
         }
         for (std::size_t i = count - 1; i > 1; --i) {
-            const double factor = beside[i - 1] / diagonal[i];
-            diagonal[i - 1] -= factor * beside[i - 1];
+            const double factor = off_diagonal[i - 1] / diagonal[i];
+            diagonal[i - 1] -= factor * off_diagonal[i - 1];
             stretches[i - 1] -= factor * stretches[i];
         }
         double tension = 0.0;
         for (std::size_t i = 1; i < count; ++i) {
-            tension = (stretches[i] - (i > 1 ? beside[i - 1] : 0.0) * tension) / diagonal[i];
+            tension = (stretches[i] - (i > 1 ? off_diagonal[i - 1] : 0.0) * tension) / diagonal[i];
             densities[i] = std::max(
                 tension / std::max(restLength(i), kShortest), -0.2 / (light(i - 1) + light(i)));
         }

@@ -79,7 +79,7 @@ bool segmentExists(uint j) { return j == 0 ? chunk > 0 : vertexExists(j); }
 vec3 edge(uint j) { return points[j + 1].xyz - points[j].xyz; }
 
 // Fetches the neighbouring vertices of the previous and the next chunk.
-void meetNeighbours() {
+void syncChunks() {
     if (kChunks == 1) return;
     firsts[turn][lane] = points[1];
     lasts[turn][lane] = points[kVerticesPerChunk];
@@ -226,8 +226,8 @@ void bend(vec2 stiffness, float free_mass, vec3 root_moved) {
         if (kChunks == 1 || chunk == waiting - 1) bendUpChunk(stiffness, free_mass, root_moved);
         if (kChunks > 1) barrier();
     }
-    for (uint walking = 0; walking < kChunks; ++walking) {
-        if (kChunks == 1 || chunk == walking) bendDownChunk(root_moved);
+    for (uint sweeping = 0; sweeping < kChunks; ++sweeping) {
+        if (kChunks == 1 || chunk == sweeping) bendDownChunk(root_moved);
         if (kChunks > 1) barrier();
     }
 }
@@ -237,7 +237,7 @@ void bend(vec2 stiffness, float free_mass, vec3 root_moved) {
 // through rotations[] and firsts[0], up through tangents[] and contacts[].
 LengthRow rows[kVerticesPerChunk];
 
-void walkDownChunk(bool last, bool planes) {
+void sweepDownChunk(bool last, bool planes) {
     LengthsAbove above = aboveAll(points[1].xyz);
     if (kChunks > 1 && chunk > 0) {
         vec4 place = rotations[0][lane - kStrandsPerGroup];
@@ -250,10 +250,10 @@ void walkDownChunk(bool last, bool planes) {
         if (!segmentExists(j)) continue;
         float rest_length = rest_edges[j].w;
         if (last) {
-            walkPlace(above.place, above.direction, rows[j], points[j + 1], rest_length, planes);
+            sweepPlace(above.place, above.direction, rows[j], points[j + 1], rest_length, planes);
             points[j + 1].xyz = above.place;
         } else {
-            walkDown(above, rows[j], points[j], points[j + 1], rest_length, planes);
+            sweepDown(above, rows[j], points[j], points[j + 1], rest_length, planes);
         }
     }
     if (kChunks == 1) return;
@@ -262,7 +262,7 @@ void walkDownChunk(bool last, bool planes) {
     firsts[0][lane] = vec4(above.normal, above.held);
 }
 
-void walkUpChunk() {
+void sweepUpChunk() {
     LengthsBelow below = LengthsBelow(vec3(0.0), 0.0, 0.0);
     if (kChunks > 1 && chunk < kLastChunk) {
         vec4 pull = tangents[lane + kStrandsPerGroup];
@@ -271,23 +271,23 @@ void walkUpChunk() {
     [[unroll]] for (uint up = 0; up < kVerticesPerChunk; ++up) {
         uint j = kVerticesPerChunk - 1 - up;
         if (segmentExists(j))
-            walkUp(below, rows[j], points[j], points[j + 1], rest_edges[j].w);
+            sweepUp(below, rows[j], points[j], points[j + 1], rest_edges[j].w);
     }
     if (kChunks == 1) return;
     tangents[lane] = vec4(below.pull, below.hold);
     contacts[lane] = below.tension;
 }
 
-void walkDownChunks(bool last, bool planes) {
-    for (uint walking = 0; walking < kChunks; ++walking) {
-        if (kChunks == 1 || chunk == walking) walkDownChunk(last, planes);
+void sweepDownChunks(bool last, bool planes) {
+    for (uint sweeping = 0; sweeping < kChunks; ++sweeping) {
+        if (kChunks == 1 || chunk == sweeping) sweepDownChunk(last, planes);
         if (kChunks > 1) barrier();
     }
 }
 
-void walkUpChunks() {
+void sweepUpChunks() {
     for (uint waiting = kChunks; waiting > 0; --waiting) {
-        if (kChunks == 1 || chunk == waiting - 1) walkUpChunk();
+        if (kChunks == 1 || chunk == waiting - 1) sweepUpChunk();
         if (kChunks > 1) barrier();
     }
 }
@@ -295,17 +295,17 @@ void walkUpChunks() {
 // `met`: contacts with bodies; read if `planes`.
 void solveLengths(uint passes, bool planes, VertexContact met[kVerticesPerChunk]) {
     if (passes == 0) return;
-    meetNeighbours();
+    syncChunks();
     if (kChunks > 1) barrier();  // firsts[] is reused
     [[unroll]] for (uint j = 0; j < kVerticesPerChunk; ++j)
         rows[j] = lengthRow(
             points[j + 1], planes ? met[j].plane : vec4(0.0),
             planes ? heldAcross(met[j].held) : 0.0);
     for (uint pass = 0; pass < passes; ++pass) {
-        walkDownChunks(false, planes);
-        walkUpChunks();
+        sweepDownChunks(false, planes);
+        sweepUpChunks();
     }
-    walkDownChunks(true, planes);
+    sweepDownChunks(true, planes);
 }
 
 void storePositions(Address positions, uint first) {
@@ -448,7 +448,7 @@ void main() {
         first_rest_tangent = firstTangent(head, Vectors(params.rest_edges).at[root + 1]);
     }
 
-    meetNeighbours();
+    syncChunks();
     bool lengths = true;  // true if lengths still need solving
 #ifdef HAIRBENCH_SHAPE_ENERGY
     findGoalEdges(first_rest_tangent);
@@ -464,14 +464,14 @@ void main() {
     for (uint iteration = 0; iteration < params.local_iterations; ++iteration) {
         findGoalEdges(first_rest_tangent);
         [[unroll]] for (uint j = 1; j < kVerticesPerChunk; j += 2) pull(j, stiffness);
-        meetNeighbours();
+        syncChunks();
         [[unroll]] for (uint j = 0; j <= kVerticesPerChunk; j += 2) pull(j, stiffness);
     }
 #endif
     if (!kTridiagonal && lengths) {
         for (uint iteration = 0; iteration < params.length_iterations; ++iteration) {
             [[unroll]] for (uint j = 1; j < kVerticesPerChunk; j += 2) project(j);
-            meetNeighbours();
+            syncChunks();
             [[unroll]] for (uint j = 0; j <= kVerticesPerChunk; j += 2) project(j);
         }
     }

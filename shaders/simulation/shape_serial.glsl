@@ -201,7 +201,7 @@ void main() {
             LengthsAbove above = aboveAll(a.xyz);
             for (uint v = 1; v < kVerticesPerStrand; ++v) {
                 vec4 b = vec4(positions.at[root + v].xyz, inverse_masses[v]);
-                walkDown(above, rows[v], a, b, rest_edges.at[root + v].w, collided);
+                sweepDown(above, rows[v], a, b, rest_edges.at[root + v].w, collided);
                 if (last) positions.at[root + v].xyz = above.place;
                 a = b;
             }
@@ -210,7 +210,7 @@ void main() {
             for (uint v = kVerticesPerStrand - 1; v > 0; --v) {
                 a = vec4(positions.at[root + v - 1].xyz, inverse_masses[v - 1]);
                 vec4 b = vec4(positions.at[root + v].xyz, inverse_masses[v]);
-                walkUp(below, rows[v], a, b, rest_edges.at[root + v].w);
+                sweepUp(below, rows[v], a, b, rest_edges.at[root + v].w);
             }
         }
         if (!kCollides || collided) break;

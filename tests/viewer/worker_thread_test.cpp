@@ -1,4 +1,4 @@
-#include "benchmarks/viewer/order_thread.h"
+#include "benchmarks/viewer/worker_thread.h"
 
 #include <algorithm>
 #include <array>
@@ -39,9 +39,9 @@ struct Held {
     std::binary_semaphore let_go{0};
 };
 
-TEST(OrderThread, AnswersEachOrderOnce) {
+TEST(WorkerThread, AnswersEachOrderOnce) {
     std::counting_semaphore<> told(0);
-    OrderThread<int, int> thread(
+    WorkerThread<int, int> thread(
         [](int order, const Stop&) { return order * order; }, [&] { told.release(); });
     EXPECT_FALSE(thread.busy());
     EXPECT_FALSE(thread.take());
@@ -58,9 +58,9 @@ TEST(OrderThread, AnswersEachOrderOnce) {
 }
 
 // The ordering thread continues while the latch is closed: it does not wait for the work.
-TEST(OrderThread, LeavesWhoeverGivesOrdersFreeMeanwhile) {
+TEST(WorkerThread, LeavesWhoeverGivesOrdersFreeMeanwhile) {
     Held held;
-    OrderThread<int, int> thread(
+    WorkerThread<int, int> thread(
         [&](int order, const Stop&) {
             held.begun.release();
             held.let_go.acquire();
@@ -80,11 +80,11 @@ TEST(OrderThread, LeavesWhoeverGivesOrdersFreeMeanwhile) {
 }
 
 // Changes during an order go into the next one, completely and in their latest state.
-TEST(OrderThread, LosesNoLastValueAndShowsNoneByHalf) {
+TEST(WorkerThread, LosesNoLastValueAndShowsNoneByHalf) {
     constexpr std::uint64_t kValues = 20000;
     std::vector<std::uint64_t> seen;
     bool whole = true;
-    OrderThread<Whole, Whole> thread(
+    WorkerThread<Whole, Whole> thread(
         [&](const Whole& order, const Stop&) {
             whole = whole && order.isWhole();
             seen.push_back(order.copies.front());
@@ -114,8 +114,8 @@ TEST(OrderThread, LosesNoLastValueAndShowsNoneByHalf) {
     EXPECT_TRUE(std::is_sorted(seen.begin(), seen.end()));
 }
 
-TEST(OrderThread, HandsErrorsOverAndGoesOn) {
-    OrderThread<int, int> thread(
+TEST(WorkerThread, HandsErrorsOverAndGoesOn) {
+    WorkerThread<int, int> thread(
         [](int order, const Stop&) {
             if (order < 0) throw std::runtime_error("the device was lost");
             return order;
@@ -130,9 +130,9 @@ TEST(OrderThread, HandsErrorsOverAndGoesOn) {
     EXPECT_EQ(thread.take(), 3);
 }
 
-TEST(OrderThread, EndsWorkThatLooksWhetherItIsToStop) {
+TEST(WorkerThread, EndsWorkThatLooksWhetherItIsToStop) {
     Held held;
-    OrderThread<int, std::string> thread(
+    WorkerThread<int, std::string> thread(
         [&](int, const Stop& stop) -> std::string {
             held.begun.release();
             while (!stop()) std::this_thread::yield();
@@ -147,11 +147,11 @@ TEST(OrderThread, EndsWorkThatLooksWhetherItIsToStop) {
 }
 
 // A thread without an order ends too, and so does one with a reply that is never taken.
-TEST(OrderThread, EndsWithoutAnOrderAndWithAReplyThatIsLeft) {
+TEST(WorkerThread, EndsWithoutAnOrderAndWithAReplyThatIsLeft) {
     {
-        OrderThread<int, int> thread([](int order, const Stop&) { return order; }, [] {});
+        WorkerThread<int, int> thread([](int order, const Stop&) { return order; }, [] {});
     }
-    OrderThread<int, int> thread([](int order, const Stop&) { return order; }, [] {});
+    WorkerThread<int, int> thread([](int order, const Stop&) { return order; }, [] {});
     thread.begin(1);
     EXPECT_TRUE(thread.waitFor(kHangs));
 }

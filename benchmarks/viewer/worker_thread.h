@@ -20,22 +20,22 @@ using Stop = std::function<bool()>;
 // move through a mailbox with room for one. Both threads share nothing else, and neither sees
 // partial writes of the other. All functions are for the thread that created this.
 template <class Order, class Reply>
-class OrderThread {
+class WorkerThread {
 public:
     // Called on the thread. `stop` returns true once requestStop() was called.
     using Work = std::function<Reply(const Order& order, const Stop& stop)>;
 
     // `replied` is called on the thread when a reply is ready.
-    OrderThread(Work work, std::function<void()> replied)
+    WorkerThread(Work work, std::function<void()> replied)
         : work_(std::move(work)), replied_(std::move(replied)), thread_([this] { run(); }) {}
 
     // Asks the thread to stop and waits for the current order.
-    ~OrderThread() {
+    ~WorkerThread() {
         requestStop();
         thread_.join();
     }
-    OrderThread(const OrderThread&) = delete;
-    OrderThread& operator=(const OrderThread&) = delete;
+    WorkerThread(const WorkerThread&) = delete;
+    WorkerThread& operator=(const WorkerThread&) = delete;
 
     // Whether an order was given and its reply is not taken yet.
     bool busy() const { return busy_; }

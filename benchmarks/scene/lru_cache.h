@@ -10,10 +10,10 @@ namespace benchmarks::scene {
 
 // An LRU cache: values by key.
 template <class Value>
-class Recent {
+class LruCache {
 public:
     // `most_bytes` limits the size of all values together, but the last value is always kept.
-    explicit Recent(std::size_t most_bytes) : most_bytes_(most_bytes) {}
+    explicit LruCache(std::size_t most_bytes) : most_bytes_(most_bytes) {}
 
     // Returns null if the key is absent. Valid until trim().
     const Value* find(std::string_view key) {
