@@ -238,7 +238,7 @@ void Commands::transition(
                  {.before = source,
                   .after = target,
                   .image = hazards_->image(image.get()),
-                  .changes_layout = true,
+                  .transitions_layout = true,
                   .place = textOf(place)}}});
     }
     const VkImageMemoryBarrier2 barrier{
@@ -294,18 +294,18 @@ void Commands::declare(std::initializer_list<Use> uses) {
 }
 
 // Declares the host-written buffers that push constants lead to.
-void Commands::declareHanded(const std::vector<ResourceId>& handed, Access access) {
-    if (handed.empty()) return;
+void Commands::declarePushed(const std::vector<ResourceId>& pushed, Access access) {
+    if (pushed.empty()) return;
     Recorded& recorded = recording_.emplace_back();
     recorded.pass = pass_;
-    for (const ResourceId id : handed) recorded.uses.push_back({id, scope(access)});
+    for (const ResourceId id : pushed) recorded.uses.push_back({id, scope(access)});
 }
 
 void Commands::checkDeclared() {
     if (!pass_.empty()) {
         if (declared_.empty())
             hazards_->complain(pass_, "a dispatch declares no use of a resource");
-        for (const ResourceId id : handed_)
+        for (const ResourceId id : pushed_)
             if (std::ranges::find(declared_, id) == declared_.end())
                 hazards_->complain(
                     pass_,
@@ -511,15 +511,15 @@ void Commands::endLabel() {
 }
 
 void Commands::bind(const ComputePipeline& pipeline) {
-    if (hazards_) handed_.clear();
+    if (hazards_) pushed_.clear();
     vkCmdBindPipeline(buffer_, VK_PIPELINE_BIND_POINT_COMPUTE, pipeline.get());
 }
 
 void Commands::bindCompute(const ComputePipeline& pipeline, std::span<const std::byte> push) {
     bind(pipeline);
     if (hazards_) {
-        declareHanded(hazards_->hostBuffersIn(push), Access::compute_read);
-        handed_ = hazards_->writtenBuffersIn(push);
+        declarePushed(hazards_->hostBuffersIn(push), Access::compute_read);
+        pushed_ = hazards_->writtenBuffersIn(push);
     }
     vkCmdPushConstants(
         buffer_, pipeline.layout(), VK_SHADER_STAGE_COMPUTE_BIT, 0,
@@ -527,7 +527,7 @@ void Commands::bindCompute(const ComputePipeline& pipeline, std::span<const std:
 }
 
 void Commands::bindGraphics(const GraphicsPipeline& pipeline, std::span<const std::byte> push) {
-    if (hazards_) declareHanded(hazards_->hostBuffersIn(push), Access::graphics_read);
+    if (hazards_) declarePushed(hazards_->hostBuffersIn(push), Access::graphics_read);
     vkCmdBindPipeline(buffer_, VK_PIPELINE_BIND_POINT_GRAPHICS, pipeline.get());
     vkCmdPushConstants(
         buffer_, pipeline.layout(), pipeline.pushStages(), 0,

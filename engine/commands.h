@@ -198,7 +198,7 @@ public:
 private:
     void touch(std::initializer_list<Use> uses);
     void declare(std::initializer_list<Use> uses);
-    void declareHanded(const std::vector<ResourceId>& handed, Access access);
+    void declarePushed(const std::vector<ResourceId>& pushed, Access access);
     void checkDeclared();
     void bindCompute(const ComputePipeline& pipeline, std::span<const std::byte> push);
     void bindGraphics(const GraphicsPipeline& pipeline, std::span<const std::byte> push);
@@ -218,7 +218,7 @@ private:
     Recording recording_;
     std::string pass_;
     std::vector<ResourceId> declared_;  // since the last dispatch
-    std::vector<ResourceId> handed_;  // frame-written buffers in the last push constants
+    std::vector<ResourceId> pushed_;  // frame-written buffers in the last push constants
 };
 
 }  // namespace engine

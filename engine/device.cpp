@@ -37,26 +37,26 @@ std::filesystem::path cacheFile(const VkPhysicalDeviceProperties& properties) {
 
 constexpr std::uintmax_t kMostCacheBytes = std::uintmax_t{256} << 20;  // of all files together
 
-// The seal follows a driver's data in its file: a format version and a checksum of the data,
+// The trailer follows a driver's data in its file: a format version and a checksum of the data,
 // because not every driver verifies its data.
-std::string sealOf(const std::vector<char>& data) {
+std::string trailerOf(const std::vector<char>& data) {
     const auto* const bytes = reinterpret_cast<const Bytef*>(data.data());
     const std::string sum = std::to_string(crc32_z(0, bytes, data.size()));
     return "hairbench 1 " + std::string(10 - sum.size(), '0') + sum;
 }
 
 // Returns a driver's data as written; empty if the file is damaged or missing.
-std::vector<char> sealedBytes(const std::filesystem::path& file) {
+std::vector<char> checkedData(const std::filesystem::path& file) {
     std::error_code error;
     const std::uintmax_t size =
         std::filesystem::is_regular_file(file, error) ? std::filesystem::file_size(file, error) : 0;
-    const std::size_t seal_size = sealOf({}).size();
-    if (error || size < seal_size || size > kMostCacheBytes) return {};
+    const std::size_t trailer_size = trailerOf({}).size();
+    if (error || size < trailer_size || size > kMostCacheBytes) return {};
     std::vector<char> data(size);
     std::ifstream(file, std::ios::binary).read(data.data(), static_cast<std::streamsize>(size));
-    const std::string seal(data.end() - static_cast<std::ptrdiff_t>(seal_size), data.end());
-    data.resize(size - seal_size);
-    if (seal != sealOf(data)) return {};
+    const std::string trailer(data.end() - static_cast<std::ptrdiff_t>(trailer_size), data.end());
+    data.resize(size - trailer_size);
+    if (trailer != trailerOf(data)) return {};
     std::filesystem::last_write_time(file, std::filesystem::file_time_type::clock::now(), error);
     return data;
 }
@@ -182,7 +182,7 @@ PipelineCache::PipelineCache(VkDevice device, const DeviceInfo& info) : device_(
     VkPhysicalDeviceProperties properties{};
     vkGetPhysicalDeviceProperties(info.handle, &properties);
     file_ = cacheFile(properties);
-    if (!file_.empty()) loaded_ = sealedBytes(file_);
+    if (!file_.empty()) loaded_ = checkedData(file_);
     if (!belongsTo(loaded_, properties)) loaded_.clear();
 
     const VkPipelineCacheCreateInfo create{
@@ -209,7 +209,7 @@ PipelineCache::~PipelineCache() {
 
     try {
         replaceFile(file_, [&](std::ostream& stream) {
-            stream.write(data.data(), static_cast<std::streamsize>(data.size())) << sealOf(data);
+            stream.write(data.data(), static_cast<std::streamsize>(data.size())) << trailerOf(data);
         });
     } catch (const Error&) {  // the next start compiles them again
     }
@@ -222,14 +222,13 @@ PipelineCache::~PipelineCache() {
 PipelineStore::Objects
 PipelineStore::get(const std::string& key, const std::function<PipelineObjects()>& make) {
     const std::lock_guard lock(mutex_);
-    const auto found =
-        std::ranges::find(newest_first_, key, &decltype(newest_first_)::value_type::first);
-    if (found != newest_first_.end())
-        newest_first_.splice(newest_first_.begin(), newest_first_, found);
+    const auto found = std::ranges::find(lru_, key, &decltype(lru_)::value_type::first);
+    if (found != lru_.end())
+        lru_.splice(lru_.begin(), lru_, found);
     else
-        newest_first_.emplace_front(key, std::make_shared<const PipelineObjects>(make()));
-    if (newest_first_.size() > kMost) newest_first_.pop_back();
-    return newest_first_.front().second;
+        lru_.emplace_front(key, std::make_shared<const PipelineObjects>(make()));
+    if (lru_.size() > kMost) lru_.pop_back();
+    return lru_.front().second;
 }
 
 // ---- The logical device -------------------------------------------------------------------------

@@ -114,7 +114,7 @@ private:
     static constexpr std::size_t kMost = 256;
 
     std::mutex mutex_;
-    std::list<std::pair<std::string, Objects>> newest_first_;
+    std::list<std::pair<std::string, Objects>> lru_;
 };
 
 struct DeviceOptions {
@@ -194,11 +194,11 @@ public:
     // Waits for the device. `wait` gets the longest time to wait (ns) and returns the result of the
     // Vulkan function that waits. A wait that fails for lack of memory is retried. Throws
     // DeviceLost. Throws DeviceSilent, at once if the device was given up before. An interrupt ends
-    // the program as in waitHeeding(). `what`: for example "wait for a frame".
+    // the program as in waitInterruptibly(). `what`: for example "wait for a frame".
     template <class Wait>
     void await(const char* what, Wait&& wait) const {
         const auto start = beginWait(what);
-        waitHeeding(
+        waitInterruptibly(
             [&](std::uint64_t nanoseconds) { return isOver(what, wait(nanoseconds), start); });
     }
 

@@ -13,7 +13,7 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-constexpr std::uint32_t kMaxStamps = 1024;
+constexpr std::uint32_t kMaxTimestamps = 1024;
 
 constexpr std::size_t kRecordsAtFirst = 64;  // frames
 
@@ -98,12 +98,12 @@ void submit(
 template <class Slot>
 class OneBufferPasses : public Passes {
 public:
-    // `beside`: records for the second queue; null: everything goes to the first.
+    // `async`: records for the second queue; null: everything goes to the first.
     OneBufferPasses(
-        const Device& device, Timing timing, Stamps stamps, Slot& slot, std::uint32_t index,
-        Commands& commands, Commands* beside)
-        : device_(device), timing_(timing), stamps_(stamps), slot_data_(slot), commands_(&commands),
-          beside_(beside) {
+        const Device& device, Timing timing, TimestampPlacement placement, Slot& slot,
+        std::uint32_t index, Commands& commands, Commands* async)
+        : device_(device), timing_(timing), placement_(placement), slot_data_(slot),
+          commands_(&commands), async_(async) {
         slot_ = index;
         if (timing_ == Timing::overlapped && slot_data_.timestamps)
             slot_data_.timestamps->write(*commands_);
@@ -114,9 +114,9 @@ public:
         switch (timing_) {
         case Timing::overlapped: {
             record(*commands_);
-            if (!slot_data_.timestamps || stamps_ == Stamps::frame) break;
-            const std::uint32_t stamp = slot_data_.timestamps->write(*commands_);
-            slot_data_.spans.push_back({name, stamp - 1, stamp});
+            if (!slot_data_.timestamps || placement_ == TimestampPlacement::frame) break;
+            const std::uint32_t timestamp = slot_data_.timestamps->write(*commands_);
+            slot_data_.spans.push_back({name, timestamp - 1, timestamp});
             break;
         }
         case Timing::isolated: {
@@ -145,37 +145,38 @@ public:
             break;
         }
         commands_->endLabel();
-        if (commands_ != beside_) drawing_ = true;
+        if (commands_ != async_) drawing_ = true;
     }
 
     bool joins() const override {
-        return timing_ == Timing::overlapped && stamps_ == Stamps::frame;
+        return timing_ == Timing::overlapped && placement_ == TimestampPlacement::frame;
     }
 
-    void beside(std::uint32_t frames, FunctionRef<void()> record) override {
-        if (!beside_) return record();
+    void asyncCompute(std::uint32_t frames, FunctionRef<void()> record) override {
+        if (!async_) return record();
         assert(!drawing_);
         least_ = std::min(least_.value_or(frames), frames);
-        Commands* const others = std::exchange(commands_, beside_);
+        Commands* const others = std::exchange(commands_, async_);
         record();
         commands_ = others;
     }
 
-    // Frames that all passes recorded by beside() may overlap; absent: there are none.
-    std::optional<std::uint32_t> leastBeside() const { return least_; }
+    // Frames that all passes recorded by asyncCompute() may overlap; absent: there are none.
+    std::optional<std::uint32_t> asyncFrames() const { return least_; }
 
     void end() {
-        if (timing_ == Timing::overlapped && stamps_ == Stamps::frame && slot_data_.timestamps)
+        if (timing_ == Timing::overlapped && placement_ == TimestampPlacement::frame &&
+            slot_data_.timestamps)
             slot_data_.timestamps->write(*commands_);
     }
 
 private:
     const Device& device_;
     Timing timing_;
-    Stamps stamps_;
+    TimestampPlacement placement_;
     Slot& slot_data_;
     Commands* commands_;
-    Commands* beside_;
+    Commands* async_;
     bool drawing_ = false;
     std::optional<std::uint32_t> least_;
 };
@@ -220,7 +221,7 @@ private:
 
 }  // namespace
 
-void Passes::beside(std::uint32_t, FunctionRef<void()> record) { record(); }
+void Passes::asyncCompute(std::uint32_t, FunctionRef<void()> record) { record(); }
 
 // A command pool of a queue family, with its own host memory.
 class RecordingPool {
@@ -275,24 +276,24 @@ struct FrameLoop::OwnBuffer {
 struct FrameLoop::Slot : OwnBuffer {
     Slot(const Device& device, Timing timing, bool async)
         : OwnBuffer(device, device.info().queue_family) {
-        if (async) beside.emplace(device, device.info().compute_family);
-        const bool stamped = timing == Timing::overlapped || timing == Timing::isolated;
-        if (stamped && device.info().timestamp_valid_bits > 0) {
-            timestamps.emplace(device, kMaxStamps);
+        if (async) async_buffer.emplace(device, device.info().compute_family);
+        const bool timestamped = timing == Timing::overlapped || timing == Timing::isolated;
+        if (timestamped && device.info().timestamp_valid_bits > 0) {
+            timestamps.emplace(device, kMaxTimestamps);
         }
     }
 
     struct Span {
         std::string name;
-        std::uint32_t first_stamp;
-        std::uint32_t last_stamp;
+        std::uint32_t first_timestamp;
+        std::uint32_t last_timestamp;
     };
     struct Query {
         std::string name;
         PipelineStatistics statistics;
     };
 
-    std::optional<OwnBuffer> beside;  // for the second queue
+    std::optional<OwnBuffer> async_buffer;  // for the second queue
     std::optional<Timestamps> timestamps;
     std::vector<Span> spans;
     std::vector<Query> queries;
@@ -302,16 +303,16 @@ struct FrameLoop::Slot : OwnBuffer {
 };
 
 FrameLoop::FrameLoop(const Device& device, Timing timing, const Overlap& overlap)
-    : device_(device), timing_(timing), stamps_(overlap.stamps),
+    : device_(device), timing_(timing), placement_(overlap.timestamps),
       timeline_(makeTimeline(device.get())) {
     assert(overlap.frames > 0 && overlap.frames <= kMaxSlots);
     const std::uint32_t count = timing == Timing::overlapped ? overlap.frames : 1;
     const bool async = timing == Timing::overlapped && overlap.async;
-    assert(!async || overlap.stamps == Stamps::frame);
+    assert(!async || overlap.timestamps == TimestampPlacement::frame);
     for (std::uint32_t i = 0; i < count; ++i) {
         slots_.push_back(std::make_unique<Slot>(device, timing, async));
     }
-    if (async) beside_ = makeTimeline(device.get());
+    if (async) async_timeline_ = makeTimeline(device.get());
     records_.reserve(kRecordsAtFirst);
     ends_.reserve(kRecordsAtFirst);
 }
@@ -319,7 +320,7 @@ FrameLoop::FrameLoop(const Device& device, Timing timing, const Overlap& overlap
 FrameLoop::~FrameLoop() {
     try {
         waitFor(device_, timeline_.get(), submitted_);
-        if (submitted_beside_ > 0) waitFor(device_, beside_.get(), submitted_beside_);
+        if (submitted_async_ > 0) waitFor(device_, async_timeline_.get(), submitted_async_);
         vkQueueWaitIdle(device_.queue());
         vkQueueWaitIdle(device_.computeQueue());
     } catch (const Error&) {  // there is nothing to wait for on a lost device
@@ -352,35 +353,36 @@ void FrameLoop::frame(FunctionRef<void(Passes&)> record) {
     slot.spans.clear();
     slot.queries.clear();
     Commands commands(slot.buffer, slot.sets, device_.hazards());
-    std::optional<Commands> beside;
-    if (slot.beside)
-        beside.emplace(
-            slot.beside->buffer, slot.beside->sets, device_.hazards(), QueueKind::compute);
+    std::optional<Commands> async;
+    if (slot.async_buffer)
+        async.emplace(
+            slot.async_buffer->buffer, slot.async_buffer->sets, device_.hazards(),
+            QueueKind::compute);
     commands.begin();
-    if (beside) beside->begin();
+    if (async) async->begin();
     OneBufferPasses<Slot> passes(
-        device_, timing_, stamps_, slot, index, commands, beside ? &*beside : nullptr);
+        device_, timing_, placement_, slot, index, commands, async ? &*async : nullptr);
     record(passes);
     passes.end();
     const std::uint64_t drawn =
-        submitted_ - std::min<std::uint64_t>(submitted_, passes.leastBeside().value_or(0));
-    if (beside) endBeside(*beside, drawn);
+        submitted_ - std::min<std::uint64_t>(submitted_, passes.asyncFrames().value_or(0));
+    if (async) endAsync(*async, drawn);
     commands.end();
     if (device_.hazards()) slot.submission = device_.hazards()->submissions();
     const Clock::time_point recorded = Clock::now();
     slot.value = submitted_ + 1;
     slot.record = records_.size() - 1;
-    if (beside && device_.hazards()) drawn_[slot.value] = slot.submission;
+    if (async && device_.hazards()) drawn_[slot.value] = slot.submission;
     // Counted only after submission succeeded: nobody waits for what is not submitted.
-    if (passes.leastBeside()) {
+    if (passes.asyncFrames()) {
         submit(
-            device_.computeQueue(), slot.beside->buffer, {beside_.get(), submitted_beside_ + 1},
-            {timeline_.get(), drawn});
-        ++submitted_beside_;
+            device_.computeQueue(), slot.async_buffer->buffer,
+            {async_timeline_.get(), submitted_async_ + 1}, {timeline_.get(), drawn});
+        ++submitted_async_;
     }
     submit(
         device_.queue(), slot.buffer, {timeline_.get(), slot.value},
-        {beside_.get(), submitted_beside_});
+        {async_timeline_.get(), submitted_async_});
     submitted_ = slot.value;
     const Clock::time_point submitted = Clock::now();
     result.wait = millisecondsBetween(start, free);
@@ -399,14 +401,14 @@ void FrameLoop::frame(FunctionRef<void(Passes&)> record) {
 
 // Ends the second queue's commands, which wait until the timeline reaches `drawn`. The first
 // queue's next submission waits for them.
-void FrameLoop::endBeside(Commands& beside, std::uint64_t drawn) {
+void FrameLoop::endAsync(Commands& async, std::uint64_t drawn) {
     HazardLog* const hazards = device_.hazards();
     if (hazards) {
         const auto end = drawn_.upper_bound(drawn);
         for (auto each = drawn_.begin(); each != end; ++each) hazards->waitFor(each->second);
         drawn_.erase(drawn_.begin(), end);
     }
-    beside.end();
+    async.end();
     if (hazards) hazards->waitFor(hazards->submissions());
 }
 
@@ -458,8 +460,8 @@ void FrameLoop::collect(Slot& slot) {
         const std::span<const double> times = slot.timestamps->read();
         for (const Slot::Span& span : slot.spans) {
             addTime(
-                record.passes,
-                {span.name, times[span.last_stamp] - times[span.first_stamp], ProcessUse{}});
+                record.passes, {span.name, times[span.last_timestamp] - times[span.first_timestamp],
+                                ProcessUse{}});
         }
         if (!times.empty()) {
             record.device = times.back();

@@ -54,7 +54,7 @@ enum class Timing {
 
 // Places of timestamps in overlapped frames. A timestamp after a pass is extra work for the device,
 // and the driver may stop there work that would overlap the next pass.
-enum class Stamps {
+enum class TimestampPlacement {
     frame,  // at both ends of a frame: pass times are unknown
     passes,  // after each pass too
 };
@@ -62,10 +62,10 @@ enum class Stamps {
 // How overlapped frames are played.
 struct Overlap {
     std::uint32_t frames = 2;  // in flight at most; from 1 to FrameLoop::kMaxSlots
-    Stamps stamps = Stamps::frame;
-    // Sends passes recorded by Passes::beside() to the device's second queue, or to the first in a
-    // submission of their own if there is no second. Only with Stamps::frame; then the timestamps
-    // are those of the remaining passes.
+    TimestampPlacement timestamps = TimestampPlacement::frame;
+    // Sends passes recorded by Passes::asyncCompute() to the device's second queue, or to the first
+    // in a submission of their own if there is no second. Only with TimestampPlacement::frame; then
+    // the timestamps are those of the remaining passes.
     bool async = false;
 };
 
@@ -104,7 +104,8 @@ struct FrameRecord {
     // GPU: from the last timestamp of the previous frame to the first of this one: the queue had no
     // work. Negative if this frame began earlier. Absent as `device`, and for a loop's first frame.
     std::optional<double> gap{};
-    // Passes of the same name are summed. Empty in overlapped frames with Stamps::frame.
+    // Passes of the same name are summed. Empty in overlapped frames with
+    // TimestampPlacement::frame.
     std::vector<PassTime> passes;
     std::vector<PassStatistics> statistics;
 };
@@ -120,7 +121,7 @@ public:
     // Calls `record`. Its passes may run while the last `frames` frames are drawn, but wait for
     // everything submitted before those frames. Passes recorded later wait for them. They must be
     // compute passes and the first of their frame.
-    virtual void beside(std::uint32_t frames, FunctionRef<void()> record);
+    virtual void asyncCompute(std::uint32_t frames, FunctionRef<void()> record);
 
     // Whether passes may share a rendering scope that one begins and another ends. False if each
     // pass is measured by itself or something is added to a pass.
@@ -162,17 +163,17 @@ private:
     struct Slot;
     void collect(Slot& slot);
     void setGaps(std::span<FrameRecord> records);
-    void endBeside(Commands& beside, std::uint64_t drawn);
+    void endAsync(Commands& async, std::uint64_t drawn);
     std::vector<FrameRecord> takeRecords();
 
     const Device& device_;
     Timing timing_;
-    Stamps stamps_;
+    TimestampPlacement placement_;
     Handle<VkSemaphore, &vkDestroySemaphore> timeline_;
     std::uint64_t submitted_ = 0;
     // Timeline of submissions to the second queue; null if there are none.
-    Handle<VkSemaphore, &vkDestroySemaphore> beside_;
-    std::uint64_t submitted_beside_ = 0;
+    Handle<VkSemaphore, &vkDestroySemaphore> async_timeline_;
+    std::uint64_t submitted_async_ = 0;
     // HazardLog submission numbers by timeline value, for frames that nothing on the second queue
     // waits for yet.
     std::map<std::uint64_t, std::uint64_t> drawn_;

@@ -201,12 +201,12 @@ void HazardChecker::apply(
         }
     }
     for (const RecordedBarrier& barrier : barriers)
-        if (barrier.changes_layout) changeLayout(barrier, pass, found);
+        if (barrier.transitions_layout) transitionLayout(barrier, pass, found);
 }
 
 // A layout change comes after everything its barrier waits for, and before everything that waits
 // for the barrier.
-void HazardChecker::changeLayout(
+void HazardChecker::transitionLayout(
     const RecordedBarrier& barrier, const std::string& pass, std::vector<Hazard>& found) {
     const Scope before = expanded(barrier.before);
     const Scope after = expanded(barrier.after);
@@ -270,11 +270,11 @@ std::set<std::string> barrierPlaces(std::span<const Recording> recordings) {
     for (const Recording& recording : recordings)
         for (const Recorded& each : recording)
             for (const RecordedBarrier& barrier : each.barriers)
-                if (!barrier.changes_layout) places.insert(barrier.place);
+                if (!barrier.transitions_layout) places.insert(barrier.place);
     return places;
 }
 
-std::vector<std::string> superfluousBarriers(std::span<const Recording> recordings) {
+std::vector<std::string> redundantBarriers(std::span<const Recording> recordings) {
     // Counts the hazards without the barriers of one place.
     const auto hazardsWithout = [&](const std::string& place) {
         HazardChecker checker;
@@ -283,17 +283,17 @@ std::vector<std::string> superfluousBarriers(std::span<const Recording> recordin
             Recording left = recording;
             for (Recorded& each : left)
                 std::erase_if(each.barriers, [&](const RecordedBarrier& barrier) {
-                    return !barrier.changes_layout && barrier.place == place;
+                    return !barrier.transitions_layout && barrier.place == place;
                 });
             count += checker.submit(left).size();
         }
         return count;
     };
     const std::size_t anyway = hazardsWithout("");
-    std::vector<std::string> superfluous;
+    std::vector<std::string> redundant;
     for (const std::string& place : barrierPlaces(recordings))
-        if (hazardsWithout(place) <= anyway) superfluous.push_back(place);
-    return superfluous;
+        if (hazardsWithout(place) <= anyway) redundant.push_back(place);
+    return redundant;
 }
 
 // ---- Buffers and images -------------------------------------------------------------------------

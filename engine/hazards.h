@@ -43,7 +43,7 @@ struct RecordedBarrier {
     Scope before;
     Scope after;
     std::optional<ResourceId> image;
-    bool changes_layout = false;
+    bool transitions_layout = false;
     std::string place;  // in the source: "hair_hair.cpp:187"
 };
 
@@ -97,7 +97,7 @@ private:
     };
 
     void forgetIf(const std::function<bool(const Done&)>& is_over);
-    void changeLayout(
+    void transitionLayout(
         const RecordedBarrier& barrier, const std::string& pass, std::vector<Hazard>& found);
     void apply(
         const std::vector<RecordedBarrier>& barriers, const std::string& pass,
@@ -111,8 +111,8 @@ private:
 
 // Returns the places of barriers that can each be left out: without it, the recordings, submitted
 // one after the other, have no additional hazard. Layout changes are not listed, because the layout
-// needs them. Two barriers that make each other superfluous are both listed.
-std::vector<std::string> superfluousBarriers(std::span<const Recording> recordings);
+// needs them. Two barriers that make each other redundant are both listed.
+std::vector<std::string> redundantBarriers(std::span<const Recording> recordings);
 
 // Returns the places of all barriers except layout changes.
 std::set<std::string> barrierPlaces(std::span<const Recording> recordings);

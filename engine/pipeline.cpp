@@ -375,7 +375,7 @@ private:
     std::string bytes_;
 };
 
-constexpr const char* kCutOff = "the description of a pipeline is cut off";
+constexpr const char* kTruncated = "the description of a pipeline is cut off";
 
 // Reads what a DescriptionWriter of the same build wrote.
 class DescriptionReader {
@@ -407,7 +407,7 @@ public:
 
 private:
     std::string_view take(std::size_t size) {
-        if (size > left_.size()) throw Error(kCutOff);
+        if (size > left_.size()) throw Error(kTruncated);
         const std::string_view taken = left_.substr(0, size);
         left_.remove_prefix(size);
         return taken;
@@ -539,7 +539,7 @@ GraphicsPipeline::GraphicsPipeline(const Device& device, const GraphicsDescripti
 }
 
 TrialDescription readTrial(const Device& device, std::string_view bytes) {
-    if (bytes.empty()) throw Error(kCutOff);
+    if (bytes.empty()) throw Error(kTruncated);
     const bool is_compute = bytes.starts_with('C');
     bytes.remove_prefix(1);
     if (is_compute) return readAs<ComputeDescription>(device, bytes);

@@ -188,7 +188,7 @@ std::optional<std::uint32_t> Swapchain::acquire(VkSemaphore acquired) {
     std::uint32_t index = 0;
     VkResult result{};
     // An invisible window may delay its image for as long as it is invisible.
-    waitHeeding([&](std::uint64_t nanoseconds) {
+    waitInterruptibly([&](std::uint64_t nanoseconds) {
         result = vkAcquireNextImageKHR(
             device_.get(), swapchain_.get(), nanoseconds, acquired, VK_NULL_HANDLE, &index);
         return result != VK_TIMEOUT && result != VK_NOT_READY;

@@ -79,11 +79,11 @@ extern "C" void onInterrupt(int signal) {
     std::signal(signal, SIG_DFL);
 }
 
-// Last actions of endInterrupted(): files to remove and LastWords to call.
+// Last actions of endInterrupted(): files to remove and InterruptMessages to call.
 struct Ending {
     std::mutex mutex;
     std::multiset<std::filesystem::path> leftovers;
-    const LastWords* last_words = nullptr;
+    const InterruptMessage* last_words = nullptr;
     std::optional<Clock::time_point> came;  // first seen by a waiting thread
 };
 
@@ -169,12 +169,12 @@ TimeLimit::TimeLimit(double seconds, const std::string& name) {
 
 TimeLimit::~TimeLimit() { time_limit.end = kNoEnd; }
 
-LastWords::LastWords(std::function<void()> speak) : speak_(std::move(speak)) {
+InterruptMessage::InterruptMessage(std::function<void()> speak) : speak_(std::move(speak)) {
     const std::lock_guard lock(ending().mutex);
     before_ = std::exchange(ending().last_words, this);
 }
 
-LastWords::~LastWords() {
+InterruptMessage::~InterruptMessage() {
     const std::lock_guard lock(ending().mutex);
     ending().last_words = before_;
 }
@@ -182,7 +182,7 @@ LastWords::~LastWords() {
 void endInterrupted() {
     if (heeded.exchange(Heeded::by_end) == Heeded::by_end)
         for (;;) pause();  // another thread ends the program
-    const LastWords* words{};
+    const InterruptMessage* words{};
     {
         const std::lock_guard lock(ending().mutex);
         words = ending().last_words;
@@ -374,7 +374,7 @@ ProcessUse processUse() {
     return {millisecondsOf(CLOCK_PROCESS_CPUTIME_ID), instructions.read()};
 }
 
-void giveWay() {
+void lowerPriority() {
     // Per thread on Linux. Gives about a third of a normal thread's share.
     constexpr int kNice = 5;
     const auto thread = static_cast<id_t>(syscall(SYS_gettid));

@@ -19,10 +19,10 @@ namespace engine {
 //
 // There are three reactions, each with the exit status kInterruptedStatus:
 // - work that calls interrupted() or checkInterrupted() ends itself;
-// - a wait for a device (waitHeeding()) that isn't done 0.7 s after the interrupt ends the program
-//   at once, by endInterrupted(), because a driver's work can't be cancelled;
+// - a wait for a device (waitInterruptibly()) that isn't done 0.7 s after the interrupt ends the
+//   program at once, by endInterrupted(), because a driver's work can't be cancelled;
 // - if nothing asks for 1.2 s (kPatience), as within a library, a thread ends the program, without
-//   LastWords.
+//   InterruptMessages.
 void catchInterrupts();
 
 // Whether an interrupt came since catchInterrupts(). A caller that gets true must end its work:
@@ -56,24 +56,24 @@ inline constexpr int kInterruptedStatus = 130;  // shell convention: 128 + SIGIN
 // A function that speaks and writes before endInterrupted() ends the program, during this object's
 // lifetime. The newest object speaks first. The thread that waits for the device calls it, so it
 // must not wait for a device itself.
-class LastWords {
+class InterruptMessage {
 public:
-    explicit LastWords(std::function<void()> speak);
-    ~LastWords();
-    LastWords(const LastWords&) = delete;
-    LastWords& operator=(const LastWords&) = delete;
+    explicit InterruptMessage(std::function<void()> speak);
+    ~InterruptMessage();
+    InterruptMessage(const InterruptMessage&) = delete;
+    InterruptMessage& operator=(const InterruptMessage&) = delete;
 
     void speak() const { speak_(); }
-    const LastWords* before() const { return before_; }
+    const InterruptMessage* before() const { return before_; }
 
 private:
     std::function<void()> speak_;
-    const LastWords* before_ = nullptr;
+    const InterruptMessage* before_ = nullptr;
 };
 
-// Ends the program with kInterruptedStatus, or with another status if LastWords throw. First calls
-// the LastWords (or prints a line on stderr if there are none) and removes Leftover files. No
-// object is destroyed.
+// Ends the program with kInterruptedStatus, or with another status if an InterruptMessage throws.
+// First calls the InterruptMessages (or prints a line on stderr if there are none) and removes
+// Leftover files. No object is destroyed.
 [[noreturn]] void endInterrupted();
 
 // Calls endInterrupted() if an interrupt was seen at least 0.7 s ago.
@@ -82,7 +82,7 @@ void endIfLongInterrupted();
 // Waits for a device. `wait` gets the longest time to wait (ns) and returns whether all work is
 // done.
 template <class Wait>
-void waitHeeding(Wait&& wait) {
+void waitInterruptibly(Wait&& wait) {
     constexpr std::uint64_t kSlice = 50'000'000;
     while (!wait(kSlice)) endIfLongInterrupted();
 }
@@ -198,6 +198,6 @@ ProcessUse processUse();
 
 // Lowers the priority of the calling thread and of threads that it starts from now on. They slow
 // down only if other work on this machine needs the same processors.
-void giveWay();
+void lowerPriority();
 
 }  // namespace engine

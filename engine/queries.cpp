@@ -176,7 +176,7 @@ std::optional<double> timestampRate(const Device& device) {
 Timestamps::Timestamps(const Device& device, std::uint32_t capacity)
     : device_(device.get()),
       period_(static_cast<double>(device.info().limits.timestampPeriod) * 1e-6),
-      mask_(validMask(device.info().timestamp_valid_bits)), stamps_(capacity), times_(capacity) {
+      mask_(validMask(device.info().timestamp_valid_bits)), results_(capacity), times_(capacity) {
     VkQueryPoolCreateInfo create{};
     create.sType = VK_STRUCTURE_TYPE_QUERY_POOL_CREATE_INFO;
     create.queryType = VK_QUERY_TYPE_TIMESTAMP;
@@ -193,9 +193,9 @@ void Timestamps::reset() {
 }
 
 std::uint32_t Timestamps::write(Commands& commands) {
-    if (count_ == stamps_.size()) {
+    if (count_ == results_.size()) {
         throw Error(
-            "a frame has more passes than " + std::to_string(stamps_.size()) + " timestamps");
+            "a frame has more passes than " + std::to_string(results_.size()) + " timestamps");
     }
     vkCmdWriteTimestamp2(commands.get(), VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, pool_.get(), count_);
     return count_++;
@@ -203,15 +203,15 @@ std::uint32_t Timestamps::write(Commands& commands) {
 
 std::span<const double> Timestamps::read() {
     if (count_ == 0) return {};
-    const std::span<Stamp> stamps = std::span(stamps_).first(count_);
+    const std::span<Result> results = std::span(results_).first(count_);
     check(
         vkGetQueryPoolResults(
-            device_, pool_.get(), 0, count_, stamps.size_bytes(), stamps.data(), sizeof(Stamp),
+            device_, pool_.get(), 0, count_, results.size_bytes(), results.data(), sizeof(Result),
             VK_QUERY_RESULT_64_BIT | VK_QUERY_RESULT_WITH_AVAILABILITY_BIT),
         "read the timestamps");
-    for (std::size_t i = 0; i < stamps.size(); ++i) {
-        if (!stamps[i].available) throw Error("the device did not write a timestamp");
-        const std::uint64_t ticks = ticksBetween(stamps.front().ticks, stamps[i].ticks, mask_);
+    for (std::size_t i = 0; i < results.size(); ++i) {
+        if (!results[i].available) throw Error("the device did not write a timestamp");
+        const std::uint64_t ticks = ticksBetween(results.front().ticks, results[i].ticks, mask_);
         times_[i] = static_cast<double>(ticks) * period_;
     }
     return std::span(times_).first(count_);

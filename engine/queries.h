@@ -103,7 +103,7 @@ public:
     Ends ends() const { return {stamps_.front().ticks, stamps_[count_ - 1].ticks, period_, mask_}; }
 
 private:
-    struct Stamp {
+    struct Result {
         std::uint64_t ticks;
         std::uint64_t available;
     };
@@ -112,7 +112,7 @@ private:
     double period_;  // ms per tick
     std::uint64_t mask_;
     std::uint32_t count_ = 0;
-    std::vector<Stamp> stamps_;  // [capacity], like times_
+    std::vector<Result> results_;  // [capacity], like times_
     std::vector<double> times_;
     Handle<VkQueryPool, &vkDestroyQueryPool> pool_;
 };

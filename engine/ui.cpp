@@ -100,7 +100,7 @@ Ui::Ui(const Device& device, const Window& window, float scale)
     ImGuiIO& io = ImGui::GetIO();
     io.IniFilename = nullptr;
     io.ConfigWindowsMoveFromTitleBarOnly = true;
-    makeLetters();
+    makeFont();
     ImGui_ImplGlfw_InitForVulkan(window.get(), true);
     ImGui_ImplVulkan_LoadFunctions(loadFunction, device.instance());
     ImGui_ImplVulkan_InitInfo info{};
@@ -122,7 +122,7 @@ Ui::Ui(const Device& device, const Window& window, float scale)
 }
 
 // Fonts have the resolution of the window's pixels, even if a screen coordinate covers several.
-void Ui::makeLetters() {
+void Ui::makeFont() {
     ImGuiIO& io = ImGui::GetIO();
     const float density = window_.density();
     io.Fonts->Clear();
@@ -133,7 +133,7 @@ void Ui::makeLetters() {
 void Ui::setScale(float scale) {
     scale_ = scale;
     check(vkQueueWaitIdle(device_.queue()), "wait for the device");
-    makeLetters();
+    makeFont();
     ImGui_ImplVulkan_DestroyFontsTexture();
     ImGui_ImplVulkan_CreateFontsTexture();
 }

@@ -50,7 +50,7 @@ public:
     };
 
 private:
-    void makeLetters();
+    void makeFont();
 
     const Device& device_;
     const Window& window_;

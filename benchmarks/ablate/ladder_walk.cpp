@@ -104,12 +104,12 @@ StopCounts StopView::count(hair::rendering::StageWatch& watch) {
     counts.statistics = countStatistics();
     counts.samples_passed = countSamples();
     if (stop_.stages.watched) {
-        watch.seeAll();
+        watch.countAll();
         engine::FrameLoop loop(device_, engine::Timing::wall_clock);
         draw(loop);
         loop.finish();
-        counts.seen = watch.seen().invocations;
-        watch.seeNone();
+        counts.watched_invocations = watch.counts().invocations;
+        watch.countNone();
     }
     return counts;
 }
@@ -174,13 +174,13 @@ constexpr std::uint32_t kWarmUps = 2;  // frames per pipeline before timing
 // Isolated timing, or the CPU's clock if timestamps are wrong.
 engine::Timing
 trustedTiming(const engine::Device& device, StopView& pass, std::vector<std::string>& warnings) {
-    engine::FrameLoop stamped(device, engine::Timing::isolated);
+    engine::FrameLoop timestamped(device, engine::Timing::isolated);
     engine::FrameLoop clocked(device, engine::Timing::wall_clock);
     const auto played = [&](engine::FrameLoop& loop) {
         return measure::PlayedFrames{[&] { pass.draw(loop); }, [&] { return loop.finish(); }};
     };
     const std::vector<std::string> faults =
-        measure::checkTimestamps(played(stamped), played(clocked));
+        measure::checkTimestamps(played(timestamped), played(clocked));
     if (faults.empty()) return engine::Timing::isolated;
     warnings.push_back("timestamps are not trusted: times are by the CPU's clock");
     warnings.insert(warnings.end(), faults.begin(), faults.end());
@@ -280,7 +280,7 @@ void measureCase(
     progress("pipelines");
     LadderWalk ladder(device, hair, settings, result);
     const auto attribute_done = [&] { attributeCase(ladder.plan(), result); };
-    const engine::LastWords last_words(attribute_done);
+    const engine::InterruptMessage last_words(attribute_done);
     try {
         ladder.walk(laps, progress);
     } catch (const engine::Interrupted&) {

@@ -223,7 +223,9 @@ std::vector<report::Statistic> stopStatistics(
         "samples_passed", counts.samples_passed,
         rasterises ? std::nullopt : std::optional<std::uint64_t>(0));
     if (stop.stages.watched)
-        lines.add("seen", counts.seen, expectedInvocations(*stop.stages.watched, expected));
+        lines.add(
+            "seen", counts.watched_invocations,
+            expectedInvocations(*stop.stages.watched, expected));
     return lines.take();
 }
 

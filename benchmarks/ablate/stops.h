@@ -101,7 +101,8 @@ private:
 struct StopCounts {
     std::optional<engine::StatisticCounts> statistics;
     std::optional<std::uint64_t> samples_passed;  // samples that passed the depth test
-    std::optional<std::uint64_t> seen;  // invocations of the watched stage, by its own count
+    std::optional<std::uint64_t>
+        watched_invocations;  // invocations of the watched stage, by its own count
 };
 
 // The counts, with the expected values where the plan implies them. Only stages of the stop are

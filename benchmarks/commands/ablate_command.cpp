@@ -82,7 +82,7 @@ int ablateScene(const AblateOptions& options) {
         std::cerr << "interrupted: " << report.cases.size() << " of " << plan.cases.size()
                   << " cases have results\n";
     };
-    const engine::LastWords last_words(finish_interrupted);
+    const engine::InterruptMessage last_words(finish_interrupted);
     try {
         ablateAll(device, plan, options.passes, cache, progress, report.cases);
     } catch (const engine::Interrupted&) {

@@ -85,7 +85,7 @@ int examineMachine(const DoctorOptions& options) {
         }
         if (report.interrupted) std::cerr << "interrupted\n";
     };
-    const engine::LastWords last_words([&] {
+    const engine::InterruptMessage last_words([&] {
         report.interrupted = true;
         finish();
     });

@@ -65,7 +65,7 @@ int walkLod(const LodOptions& options) {
             std::cerr << "interrupted after " << report.steps.size() << " of " << path.steps
                       << " steps\n";
     };
-    const engine::LastWords last_words([&] {
+    const engine::InterruptMessage last_words([&] {
         report.interrupted = true;
         finish();
     });

@@ -38,7 +38,7 @@ int checkPhysics(const PhysicsOptions& options) {
         std::cout << physics::physicsTable(report) << "report: " << out.string() << '\n';
         if (report.interrupted) std::cerr << "interrupted\n";
     };
-    const engine::LastWords last_words([&] {
+    const engine::InterruptMessage last_words([&] {
         report.interrupted = true;
         finish();
     });

@@ -88,7 +88,7 @@ int renderScene(const RenderOptions& options) {
         std::cerr << "interrupted: " << written << " of " << range.count()
                   << " pictures are written\n";
     };
-    const engine::LastWords last_words(say_interrupted);
+    const engine::InterruptMessage last_words(say_interrupted);
     try {
         play(device, picture, range, progress, [&](std::uint32_t frame) {
             writePicture(picture, render, file(frame));

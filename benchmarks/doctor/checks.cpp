@@ -190,21 +190,21 @@ double scatter(const std::vector<double>& differences) {
 }
 
 Judgement judgeTimestamps(const Facts& facts) {
-    const TimestampFacts& stamps = facts.timestamps;
-    if (stamps.valid_bits == 0)
+    const TimestampFacts& timestamps = facts.timestamps;
+    if (timestamps.valid_bits == 0)
         return {
             Health::bad, "the device's queue has none",
             "passes cannot be timed on this device: use another one"};
-    std::string seen = std::to_string(stamps.valid_bits) + " bits, " +
-                       report::shortNumber(stamps.period_ns) + " ns a tick";
-    if (!stamps.step_ns || !stamps.gap_ns)
+    std::string seen = std::to_string(timestamps.valid_bits) + " bits, " +
+                       report::shortNumber(timestamps.period_ns) + " ns a tick";
+    if (!timestamps.step_ns || !timestamps.gap_ns)
         return {Health::bad, seen + "; they do not advance", "update the driver"};
-    seen += ", in steps of " + report::shortNumber(*stamps.step_ns) + " ns; two in a row are " +
-            report::shortNumber(*stamps.gap_ns * 1e-3) + " us apart";
-    if (*stamps.step_ns > kCoarseStep)
+    seen += ", in steps of " + report::shortNumber(*timestamps.step_ns) + " ns; two in a row are " +
+            report::shortNumber(*timestamps.gap_ns * 1e-3) + " us apart";
+    if (*timestamps.step_ns > kCoarseStep)
         return {
             Health::warn, seen,
-            "the error of passes below " + report::shortNumber(*stamps.step_ns * 1e-4) +
+            "the error of passes below " + report::shortNumber(*timestamps.step_ns * 1e-4) +
                 " ms is above 1 %: make the scene larger"};
     return {Health::ok, seen};
 }
@@ -226,7 +226,7 @@ Judgement judgePassSum(const Facts& facts) {
         "again; if it persists, the driver is at fault"};
 }
 
-Judgement judgeStamps(const Facts& facts) {
+Judgement judgePassTimes(const Facts& facts) {
     if (facts.timestamps.valid_bits == 0) return {Health::unknown, "needs timestamps"};
     const std::vector<std::string>& faults = facts.passes.faults;
     if (faults.empty()) return {Health::ok, "the same as by submitting and waiting for each pass"};
@@ -280,7 +280,7 @@ Judgement judgeNoise(const Facts& facts) {
 
 constexpr DoctorCheck kChecks[] = {
     {"device", judgeDevice},         {"build", judgeBuild},       {"layers", judgeLayers},
-    {"timestamps", judgeTimestamps}, {"pass sum", judgePassSum},  {"pass times", judgeStamps},
+    {"timestamps", judgeTimestamps}, {"pass sum", judgePassSum},  {"pass times", judgePassTimes},
     {"repeatability", judgeRepeat},  {"noise", judgeNoise},       {"clocks", judgeClocks},
     {"processor", judgeProcessor},   {"other load", judgeOthers}, {"steal", judgeSteal},
     {"power", judgePower},

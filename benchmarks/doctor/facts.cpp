@@ -135,15 +135,15 @@ std::optional<TimestampSteps> timestampSteps(std::span<const std::uint64_t> tick
 
 std::optional<TimestampSteps> timestampSteps(const engine::Device& device) {
     if (device.info().timestamp_valid_bits == 0) return std::nullopt;
-    constexpr std::uint32_t kStamps = 1000;
-    engine::Timestamps stamps(device, kStamps);
+    constexpr std::uint32_t kTimestamps = 1000;
+    engine::Timestamps timestamps(device, kTimestamps);
     runOnce(device, [&](engine::Commands& commands) {
-        for (std::uint32_t i = 0; i < kStamps; ++i) stamps.write(commands);
+        for (std::uint32_t i = 0; i < kTimestamps; ++i) timestamps.write(commands);
     });
     // Converts back to whole ticks; a double holds numbers of this size exactly.
     const double tick = double{device.info().limits.timestampPeriod} * 1e-6;  // ms
     std::vector<std::uint64_t> ticks;
-    for (const double milliseconds : stamps.read())
+    for (const double milliseconds : timestamps.read())
         ticks.push_back(static_cast<std::uint64_t>(std::llround(milliseconds / tick)));
     return timestampSteps(ticks);
 }

@@ -19,8 +19,8 @@ namespace benchmarks::doctor {
 struct TimestampFacts {
     std::uint32_t valid_bits = 0;  // 0: the device has no timestamps
     double period_ns = 0.0;        // of a tick, as reported by the driver
-    std::optional<double> step_ns;  // all differences of stamps are multiples of this
-    std::optional<double> gap_ns;   // smallest difference between adjacent stamps
+    std::optional<double> step_ns;  // all differences of timestamps are multiples of this
+    std::optional<double> gap_ns;   // smallest difference between adjacent timestamps
 };
 
 struct ClockFacts {
@@ -95,14 +95,14 @@ std::optional<bool> onBattery(const std::filesystem::path& root = "/");
 struct TimestampSteps {
     std::uint64_t step = 0;  // all differences are multiples of this; the counter may advance by
                              // more than a tick
-    std::uint64_t gap = 0;  // smallest difference between successive different stamps: the apparent
-                            // duration of an empty pass
+    std::uint64_t gap = 0;  // smallest difference between successive different timestamps: the
+                            // apparent duration of an empty pass
 };
 
-// Resolution from stamps in the order in which they were taken; absent if none differ.
+// Resolution from timestamps in the order in which they were taken; absent if none differ.
 std::optional<TimestampSteps> timestampSteps(std::span<const std::uint64_t> ticks);
 
-// Resolution of the device's timestamps, from stamps with nothing between them.
+// Resolution of the device's timestamps, from timestamps with nothing between them.
 std::optional<TimestampSteps> timestampSteps(const engine::Device& device);
 
 }  // namespace benchmarks::doctor

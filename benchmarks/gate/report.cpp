@@ -198,7 +198,7 @@ std::string tooShortText(const GateRun& run) {
     const bool software = run.first_a->software_device && run.first_b->software_device;
     std::string text =
         "shorter than " +
-        report::plainNumber(software ? report::kShortestTime : report::kShortestStamped) +
+        report::plainNumber(software ? report::kShortestTime : report::kShortestTimestamped) +
         " ms, not judged:";
     std::set<std::string> names;
     for (const GateTime& each : run.too_short) names.insert(each.metric.name());

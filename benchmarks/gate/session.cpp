@@ -183,7 +183,8 @@ void GateSession::chooseTimes() {
         judged_ ? judged_ : report::timesBy(report::judgedClock(software, metrics));
     for (const CommonMetric& each : common) {
         const report::Judgement judgement = report::judgementOf(
-            judged, *each.a, *each.b, software ? report::kShortestTime : report::kShortestStamped);
+            judged, *each.a, *each.b,
+            software ? report::kShortestTime : report::kShortestTimestamped);
         if (judgement == report::Judgement::not_wanted) continue;
         GateTime time{.case_name = each.case_name, .metric = *each.a};
         for (const auto& [block, metric] :

@@ -66,7 +66,7 @@ scene::Json distancesJson(const DistanceFindings& found) {
         {"maximum", found.maximum}};
 }
 
-scene::Json spreadJson(const hair::groom::Spread& spread) {
+scene::Json summaryJson(const hair::groom::Summary& spread) {
     return {{"minimum", spread.minimum}, {"quartile1", spread.quartile1},
             {"median", spread.median},   {"quartile3", spread.quartile3},
             {"maximum", spread.maximum}, {"mean", spread.mean}};
@@ -75,8 +75,8 @@ scene::Json spreadJson(const hair::groom::Spread& spread) {
 scene::Json distributionJson(const DistributionFindings& found, std::string_view unit) {
     return {
         {"unit", unit},
-        {"first", spreadJson(found.first)},
-        {"second", spreadJson(found.second)},
+        {"first", summaryJson(found.first)},
+        {"second", summaryJson(found.second)},
         {"earth_movers_distance", found.earth_movers_distance},
         {"histogram_distance", found.histogram_distance},
         {"histogram",

@@ -203,7 +203,7 @@ void put(scene::Json& object, const char* key, double value) {
     if (std::isfinite(value)) object[key] = value;
 }
 
-scene::Json toJson(const hair::groom::Spread& spread, std::string_view unit, double factor = 1.0) {
+scene::Json toJson(const hair::groom::Summary& spread, std::string_view unit, double factor = 1.0) {
     scene::Json object = {{"unit", unit}};
     put(object, "minimum", spread.minimum * factor);
     put(object, "quartile1", spread.quartile1 * factor);
@@ -321,7 +321,7 @@ std::string line(const std::string& name, const std::string& text) {
 
 std::string pointsText(const hair::groom::StrandFindings& found) {
     std::string text = report::countText(found.points);
-    const hair::groom::Spread& each = found.points_per_strand;
+    const hair::groom::Summary& each = found.points_per_strand;
     if (found.strands == 0) return text;
     if (each.minimum == each.maximum)
         return text + ", " + report::plainNumber(each.minimum) + "  per strand";
@@ -375,9 +375,9 @@ std::string attributes(const hair::groom::StrandSet& strands, double metres_per_
 }
 
 // A row for each quantity, in the unit that fits it.
-class SpreadTable {
+class SummaryTable {
 public:
-    void add(const std::string& name, const hair::groom::Spread& spread, double metres) {
+    void add(const std::string& name, const hair::groom::Summary& spread, double metres) {
         const report::LengthUnit unit = report::readableUnit(
             spread.median > 0.0 ? spread.median * metres : spread.maximum * metres);
         const double factor = metres / unit.metres;
@@ -408,9 +408,9 @@ private:
         {.title = "", .numeric = false}};
 };
 
-std::string spreads(const GroomInfo& info) {
+std::string summaries(const GroomInfo& info) {
     const hair::groom::StrandFindings& found = info.findings;
-    SpreadTable table;
+    SummaryTable table;
     table.add("length", found.lengths, found.metres_per_unit);
     table.add("segment", found.segment_lengths, found.metres_per_unit);
     if (!info.strands.widths.values.empty())
@@ -447,7 +447,7 @@ std::string groomInfoText(const GroomInfo& info) {
         text += line("off the mesh", report::countText(found.mesh->roots_off_surface, "root"));
         text += line("inside the mesh", insideText(*found.mesh));
     }
-    if (found.strands > 0) text += '\n' + spreads(info);
+    if (found.strands > 0) text += '\n' + summaries(info);
     if (!info.strands.warnings.empty()) text += "\nleft out:\n";
     for (const std::string& warning : info.strands.warnings)
         text += "  " + engine::shownText(warning) + '\n';

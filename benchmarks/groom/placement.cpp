@@ -72,10 +72,10 @@ constexpr double kLargestHead = 2.5;
 bool isSizeOfHead(double metres) { return metres >= kSmallestHead && metres <= kLargestHead; }
 
 double headUnit(double size) {
-    const auto misfit = [size](double metres) {
+    const auto deviation = [size](double metres) {
         return std::abs(std::log(size * metres / kHeadSize) / std::log(kHeadScatter));
     };
-    return *std::ranges::min_element(kUnits, {}, misfit);
+    return *std::ranges::min_element(kUnits, {}, deviation);
 }
 
 // ---- Roots on the head --------------------------------------------------------------------------

@@ -68,8 +68,8 @@ public:
     void pass(
         const char* name, engine::PassKind kind,
         engine::FunctionRef<void(engine::Commands&)> record) override;
-    void beside(std::uint32_t frames, engine::FunctionRef<void()> record) override {
-        passes_.beside(frames, record);
+    void asyncCompute(std::uint32_t frames, engine::FunctionRef<void()> record) override {
+        passes_.asyncCompute(frames, record);
     }
 
 private:

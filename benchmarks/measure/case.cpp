@@ -127,14 +127,14 @@ void Case::simulate(engine::Passes& passes) {
 
 // Drawing reads one of two copies of the guides, so the next step may write the other meanwhile.
 void Case::frame(engine::Passes& passes) {
-    passes.beside(1, [&] { simulate(passes); });
+    passes.asyncCompute(1, [&] { simulate(passes); });
     draw(passes);
 }
 
 void Case::draw(engine::Passes& passes) { renderer_->record(passes, view()); }
 
 void Case::recordReset(engine::Passes& passes) {
-    passes.beside(0, [&] {
+    passes.asyncCompute(0, [&] {
         passes.pass("reset", engine::PassKind::compute, [&](engine::Commands& commands) {
             simulation_.recordReset(commands);
         });

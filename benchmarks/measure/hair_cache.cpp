@@ -212,7 +212,7 @@ std::string HairCache::program(const engine::Device& device) {
 }
 
 template <class Value>
-void HairCache::keep(const std::string& key, Value value, scene::Recent<Value>& values) {
+void HairCache::keep(const std::string& key, Value value, scene::LruCache<Value>& values) {
     const std::size_t size = sizeOf(value);
     if (disk_.takes(size)) disk_.store(key, bytesOf(value));
     values.add(key, std::move(value), size);

@@ -6,7 +6,7 @@
 
 #include "benchmarks/measure/disk_cache.h"
 #include "benchmarks/scene/assets.h"
-#include "benchmarks/scene/recent.h"
+#include "benchmarks/scene/lru_cache.h"
 #include "engine/device.h"
 #include "hair/groom/groom.h"
 #include "hair/groom/mesh/deforming_mesh.h"
@@ -48,7 +48,7 @@ private:
     static constexpr std::size_t kMostStates = std::size_t{512} << 20;  // B
 
     template <class Value>
-    void keep(const std::string& key, Value value, scene::Recent<Value>& values);
+    void keep(const std::string& key, Value value, scene::LruCache<Value>& values);
     const hair::simulation::BakedField* field(const std::string& key);
     const hair::simulation::SettledState* settled(const std::string& key);
     // Identifies the program's file, if entries outlive the process, and its replaced shaders.
@@ -56,8 +56,8 @@ private:
 
     DiskCache disk_;
     scene::AssetStore assets_;
-    scene::Recent<hair::simulation::BakedField> fields_{kMostFields};
-    scene::Recent<hair::simulation::SettledState> states_{kMostStates};
+    scene::LruCache<hair::simulation::BakedField> fields_{kMostFields};
+    scene::LruCache<hair::simulation::SettledState> states_{kMostStates};
     std::string program_;  // hash of its file; empty: not computed
     std::size_t made_ = 0;
 };

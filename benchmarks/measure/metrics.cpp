@@ -348,8 +348,9 @@ void addOverlappedMetrics(std::span<const engine::FrameRecord> frames, report::C
         result.metrics.push_back({std::move(id), collect(frames, get), report::Mode::overlapped});
     };
     addTimes(report::ofFrame(report::Measured::time), [](auto& f) { return f.interval; });
-    const bool stamped = std::ranges::all_of(frames, [](auto& f) { return f.device.has_value(); });
-    if (stamped) {
+    const bool timestamped =
+        std::ranges::all_of(frames, [](auto& f) { return f.device.has_value(); });
+    if (timestamped) {
         // A host that wakes up late makes an interval long, but not the device's own time.
         const std::vector<double> times = collect(frames, [](auto& f) { return *f.device; });
         addLows(times, 0.01, kDeviceLow1, result);

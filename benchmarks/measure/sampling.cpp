@@ -171,7 +171,7 @@ private:
         if (looking_.valid()) return;  // the last assessment is still running
         const std::vector<std::size_t> clean = cleanRounds();
         looked_at_ = clean.size();
-        if (rule_.looks_beside) {
+        if (rule_.overlaps_assessment) {
             looking_ =
                 std::async(std::launch::async, [times = timesOf(clean)] { return assess(times); });
         } else {
@@ -336,7 +336,7 @@ SampledMode sampleMode(
     const bool follows = timing == Timing::wall_clock && rule.max_time <= 0.0;
     const bool streams = !stage.isProcessor() && rule.max_time > 0.0 && run.round_time > 0.0f;
     SamplingRule this_rule = rule;
-    this_rule.looks_beside = streams && stage.runsBesideThought();
+    this_rule.overlaps_assessment = streams && stage.overlapsAssessment();
     std::optional<std::uint32_t> plays;  // per round, in a stream
     if (streams) {
         player.round();

@@ -77,7 +77,7 @@ struct SamplingRule {
     bool counts = false;
     // True if samples are assessed while the next round is played, so that the device always has
     // work.
-    bool looks_beside = false;
+    bool overlaps_assessment = false;
 };
 
 // Functions for playing a series of rounds.

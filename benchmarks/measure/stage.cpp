@@ -119,7 +119,7 @@ constexpr std::uint32_t kMostSteps = 1u << 30;
 
 // Returns the steps of work that take the device about `wanted` ms; 0 without timestamps. If
 // timestamps stand still, the host's clock ends the search.
-std::uint32_t stepsThatTake(Stage& stage, double wanted) {
+std::uint32_t calibratedSteps(Stage& stage, double wanted) {
     std::uint32_t steps = kFewestSteps;
     while (steps < kMostSteps) {
         const std::unique_ptr<Player> player = stage.emptyPlayer(engine::Timing::isolated, steps);
@@ -140,7 +140,7 @@ std::uint32_t stepsThatTake(Stage& stage, double wanted) {
 
 EmptySubmission measureEmptySubmission(Stage& stage, double frame) {
     const std::uint32_t steps =
-        stage.isProcessor() ? 0 : stepsThatTake(stage, std::min(frame, kLongestWait));
+        stage.isProcessor() ? 0 : calibratedSteps(stage, std::min(frame, kLongestWait));
     const std::unique_ptr<Player> player = stage.emptyPlayer(engine::Timing::isolated, steps);
     for (int i = 0; i < kEmptyFrames; ++i) player->frame();
     return emptySubmission(player->finish());
@@ -160,7 +160,8 @@ std::unique_ptr<Player> DeviceStage::player(engine::Timing timing) {
 std::unique_ptr<Player> DeviceStage::player(engine::Timing timing, const PlantedWork& planted) {
     const engine::Overlap overlap{
         .frames = run_.frames_in_flight,
-        .stamps = run_.overlapped_stamps ? engine::Stamps::passes : engine::Stamps::frame,
+        .timestamps = run_.overlapped_stamps ? engine::TimestampPlacement::passes
+                                             : engine::TimestampPlacement::frame,
         .async = run_.async_compute};
     return std::make_unique<DevicePlayer>(
         device_, test_case_, hooks_, timing, overlap, planted, counted_);

@@ -104,7 +104,7 @@ public:
     virtual bool isProcessor() const = 0;
 
     // True if time passes while samples are assessed; false for a model.
-    virtual bool runsBesideThought() const { return true; }
+    virtual bool overlapsAssessment() const { return true; }
 
     // The machine's clock, s.
     virtual double seconds() = 0;
@@ -114,7 +114,7 @@ public:
     // both read. Absent without such a clock. Takes kRateTime.
     virtual std::optional<double> timestampRate() = 0;
 
-    // Time in ms, by timestamps, of an empty pass: two barriers and two stamps. Absent without
+    // Time in ms, by timestamps, of an empty pass: two barriers and two timestamps. Absent without
     // timestamps.
     virtual std::optional<double> emptyPass() = 0;
 

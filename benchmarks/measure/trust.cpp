@@ -25,17 +25,17 @@ std::vector<std::string> timestampFaults(
 
     std::vector<std::string> faults;
     for (const std::string& pass : passNames(isolated)) {
-        const std::vector<double> stamped_times = passTimes(isolated, pass);
+        const std::vector<double> timestamped_times = passTimes(isolated, pass);
         const std::vector<double> clocked_times = passTimes(wall_clock, pass);
         if (clocked_times.empty()) continue;
         // A busy machine only adds time, so the fastest frames are compared.
-        const double stamped = std::ranges::min(stamped_times);
+        const double timestamped = std::ranges::min(timestamped_times);
         const double clocked = std::ranges::min(clocked_times);
-        const bool too_long = stamped > clocked * (1.0 + report::kTrustTolerance) + slack;
-        const bool too_short = stamped < clocked * (1.0 - report::kTrustTolerance) - slack;
+        const bool too_long = timestamped > clocked * (1.0 + report::kTrustTolerance) + slack;
+        const bool too_short = timestamped < clocked * (1.0 - report::kTrustTolerance) - slack;
         if (too_long || too_short) {
             faults.push_back(
-                "pass." + pass + ": timestamps say " + report::shortNumber(stamped) +
+                "pass." + pass + ": timestamps say " + report::shortNumber(timestamped) +
                 " ms, the CPU's clock " + report::shortNumber(clocked) + " ms");
         }
     }
@@ -61,20 +61,20 @@ constexpr double kRateTolerance = 0.01;
 }  // namespace
 
 std::vector<std::string> checkTimestamps(
-    const PlayedFrames& stamped, const PlayedFrames& clocked,
+    const PlayedFrames& timestamped, const PlayedFrames& clocked,
     const std::function<bool()>& is_time) {
-    std::vector<engine::FrameRecord> stamped_frames;
+    std::vector<engine::FrameRecord> timestamped_frames;
     std::vector<engine::FrameRecord> clocked_frames;
     std::vector<std::string> faults;
     do {
         for (std::uint32_t i = 0; i < kPairs; ++i) {
-            stamped.play();
+            timestamped.play();
             clocked.play();
         }
-        std::ranges::move(stamped.finish(), std::back_inserter(stamped_frames));
+        std::ranges::move(timestamped.finish(), std::back_inserter(timestamped_frames));
         std::ranges::move(clocked.finish(), std::back_inserter(clocked_frames));
-        faults = timestampFaults(stamped_frames, clocked_frames);
-    } while (!faults.empty() && stamped_frames.size() < kMostPairs && (!is_time || is_time()));
+        faults = timestampFaults(timestamped_frames, clocked_frames);
+    } while (!faults.empty() && timestamped_frames.size() < kMostPairs && (!is_time || is_time()));
     return faults;
 }
 
@@ -89,9 +89,9 @@ pairFaults(Stage& stage, const PlantedWork* planted, const std::function<bool()>
     const auto player = [&](engine::Timing timing) {
         return planted ? stage.player(timing, *planted) : stage.player(timing);
     };
-    const auto stamped = player(engine::Timing::isolated);
+    const auto timestamped = player(engine::Timing::isolated);
     const auto clocked = player(engine::Timing::wall_clock);
-    return checkTimestamps(playedBy(*stamped), playedBy(*clocked), is_time);
+    return checkTimestamps(playedBy(*timestamped), playedBy(*clocked), is_time);
 }
 
 double timeOf(std::span<const engine::FrameRecord> frames, const std::string& pass) {
@@ -106,7 +106,7 @@ std::vector<engine::FrameRecord> playTwice(Player& player) {
 }
 
 // Steps of planted work that take the pass kPlantedTime by the CPU's clock.
-std::uint32_t stepsToSee(Stage& stage, const std::string& pass, double without) {
+std::uint32_t detectableSteps(Stage& stage, const std::string& pass, double without) {
     double steps = 1024.0;
     while (steps < kMostPlantedSteps) {
         const std::unique_ptr<Player> player =
@@ -148,7 +148,7 @@ std::vector<std::string> checkTimestamps(Stage& stage, report::CaseResult& resul
     const std::vector<engine::FrameRecord> frames = playTwice(*plain);
     std::uint32_t steps = 0;
     for (const std::string& pass : passNames(frames)) {
-        if (steps == 0) steps = stepsToSee(stage, pass, timeOf(frames, pass));
+        if (steps == 0) steps = detectableSteps(stage, pass, timeOf(frames, pass));
         addPlantedFaults(stage, {pass, steps}, {}, faults);
     }
     return faults;
@@ -188,7 +188,7 @@ TimestampJudgement judgeByPlantedWork(
         if (stage.seconds() + growth + look > end) return {};
         const auto plain = stage.player(engine::Timing::wall_clock);
         const double without = timeOf(playTwice(*plain), passes.front());
-        known.planted_steps = stepsToSee(stage, passes.front(), without);
+        known.planted_steps = detectableSteps(stage, passes.front(), without);
     }
     const auto is_time = [&] { return stage.seconds() + look <= end; };
     std::size_t& checked = known.checked_passes[passes];

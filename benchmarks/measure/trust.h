@@ -39,7 +39,7 @@ struct PlayedFrames {
 // passes: while there are faults, more pairs are played, up to 16 and while `is_time` is true. An
 // empty `is_time` sets no limit.
 std::vector<std::string> checkTimestamps(
-    const PlayedFrames& stamped, const PlayedFrames& clocked,
+    const PlayedFrames& timestamped, const PlayedFrames& clocked,
     const std::function<bool()>& is_time = {});
 
 // The same for a case, plus faults of the timestamps' rate (trust.timestamp_rate), without a time

@@ -63,7 +63,7 @@ void runCheck(
         std::ranges::copy(findings.outcomes(), std::back_inserter(report.outcomes));
         std::ranges::copy(findings.curves(), std::back_inserter(report.curves));
     };
-    const engine::LastWords last_words(keep);
+    const engine::InterruptMessage last_words(keep);
     try {
         check.run(device, solver, findings);
     } catch (const engine::Unsupported& error) {

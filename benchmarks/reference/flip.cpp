@@ -150,7 +150,7 @@ struct Sensitivity {
 constexpr std::array<Sensitivity, 3> kSensitivities{
     {{{1.0, 0.0}, {0.0047, 1e-5}}, {{1.0, 0.0}, {0.0053, 1e-5}}, {{34.1, 13.5}, {0.04, 0.025}}}};
 
-Plane asSeen(const Plane& plane, const Sensitivity& sensitivity) {
+Plane filterByContrastSensitivity(const Plane& plane, const Sensitivity& sensitivity) {
     constexpr double kWidest = 0.04;  // greatest b of all channels
     static const int radius =
         static_cast<int>(std::ceil(3.0 * std::sqrt(kWidest / (2.0 * pi * pi)) * kPixelsPerDegree));
@@ -175,12 +175,12 @@ Plane asSeen(const Plane& plane, const Sensitivity& sensitivity) {
 
 // ---- Differences --------------------------------------------------------------------------------
 
-std::vector<glm::dvec3> seenColors(const Planes& opponent) {
+std::vector<glm::dvec3> filteredColors(const Planes& opponent) {
     static const glm::dmat3 to_rgb = glm::inverse(whiteRelative());
     static const glm::dmat3 to_xyz = whiteRelative();
     Planes seen;
     for (std::size_t channel = 0; channel < 3; ++channel)
-        seen[channel] = asSeen(opponent[channel], kSensitivities[channel]);
+        seen[channel] = filterByContrastSensitivity(opponent[channel], kSensitivities[channel]);
     std::vector<glm::dvec3> colors;
     colors.reserve(seen[0].values.size());
     for (std::size_t i = 0; i < seen[0].values.size(); ++i) {
@@ -209,7 +209,7 @@ double colorError(const glm::dvec3& a, const glm::dvec3& b) {
 }
 
 // Normalises positive weights to a sum of 1 and negative ones to -1.
-Kernel balanced(Kernel kernel) {
+Kernel normalized(Kernel kernel) {
     double positive = 0.0;
     double negative = 0.0;
     for (const double weight : kernel) (weight > 0.0 ? positive : negative) += weight;
@@ -218,7 +218,8 @@ Kernel balanced(Kernel kernel) {
 }
 
 // Magnitudes of the gradients from a kernel applied along both axes.
-std::vector<double> strengths(const Plane& plane, const Kernel& change, const Kernel& gauss) {
+std::vector<double>
+gradientMagnitudes(const Plane& plane, const Kernel& change, const Kernel& gauss) {
     const Plane across = filtered(plane, change, gauss);
     const Plane down = filtered(plane, gauss, change);
     std::vector<double> lengths;
@@ -235,13 +236,13 @@ std::vector<double> featureErrors(const Plane& reference, const Plane& picture) 
     Kernel gauss = kernelOf(radius, bell);
     const double sum = total(gauss);
     for (double& weight : gauss) weight /= sum;
-    const Kernel edge = balanced(kernelOf(radius, [&](double x) { return -x * bell(x); }));
-    const Kernel point = balanced(
+    const Kernel edge = normalized(kernelOf(radius, [&](double x) { return -x * bell(x); }));
+    const Kernel point = normalized(
         kernelOf(radius, [&](double x) { return (x * x / (sigma * sigma) - 1.0) * bell(x); }));
     std::vector<double> errors(reference.values.size(), 0.0);
     for (const Kernel* const kernel : {&edge, &point}) {
-        const std::vector<double> a = strengths(reference, *kernel, gauss);
-        const std::vector<double> b = strengths(picture, *kernel, gauss);
+        const std::vector<double> a = gradientMagnitudes(reference, *kernel, gauss);
+        const std::vector<double> b = gradientMagnitudes(picture, *kernel, gauss);
         for (std::size_t i = 0; i < errors.size(); ++i)
             errors[i] = std::max(errors[i], std::abs(a[i] - b[i]));
     }
@@ -268,8 +269,8 @@ double flipError(
     const int h = static_cast<int>(height);
     const Planes a = opponentPlanes(reference, w, h);
     const Planes b = opponentPlanes(picture, w, h);
-    const std::vector<glm::dvec3> colors_a = seenColors(a);
-    const std::vector<glm::dvec3> colors_b = seenColors(b);
+    const std::vector<glm::dvec3> colors_a = filteredColors(a);
+    const std::vector<glm::dvec3> colors_b = filteredColors(b);
     const std::vector<double> features = featureErrors(brightness(a[0]), brightness(b[0]));
     double sum = 0.0;
     for (std::size_t i = 0; i < pixels; ++i)

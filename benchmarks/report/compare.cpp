@@ -205,7 +205,7 @@ public:
         if (!judged_) judged_ = timesBy(clockFor(a, b));
         const bool software =
             isSoftwareDevice(a.at("environment")) || isSoftwareDevice(b.at("environment"));
-        shortest_ = software ? kShortestTime : kShortestStamped;
+        shortest_ = software ? kShortestTime : kShortestTimestamped;
     }
 
     void addCase(const scene::Json& a, const scene::Json& b) {

@@ -28,7 +28,7 @@ inline constexpr double kShortestTime = 0.05;  // ms
 
 // The same limit for a GPU: its timestamps are finer, and interruptions of the host do not fall
 // between them.
-inline constexpr double kShortestStamped = 0.002;  // ms
+inline constexpr double kShortestTimestamped = 0.002;  // ms
 
 enum class Judgement { judged, too_short, not_wanted };
 

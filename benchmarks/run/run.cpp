@@ -190,7 +190,7 @@ FinishedRun playRun(
     };
     Ended ended;
     {
-        const engine::LastWords words([&] { last_words(finish({.interrupted = true})); });
+        const engine::InterruptMessage words([&] { last_words(finish({.interrupted = true})); });
         ended =
             playCases(device, plan, record, keeps_pictures ? out : std::filesystem::path(), cache);
     }

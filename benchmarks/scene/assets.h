@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "benchmarks/scene/reach.h"
-#include "benchmarks/scene/recent.h"
+#include "benchmarks/scene/lru_cache.h"
 #include "hair/groom/groom.h"
 #include "hair/groom/mesh/deforming_mesh.h"
 #include "hair/groom/mesh/mesh.h"
@@ -51,8 +51,8 @@ private:
     static constexpr std::size_t kMostMeshes = std::size_t{256} << 20;  // B
     static constexpr std::size_t kMostGrooms = std::size_t{512} << 20;  // B
 
-    Recent<std::optional<hair::groom::Mesh>> meshes_{kMostMeshes};
-    Recent<hair::groom::Groom> grooms_{kMostGrooms};
+    LruCache<std::optional<hair::groom::Mesh>> meshes_{kMostMeshes};
+    LruCache<hair::groom::Groom> grooms_{kMostGrooms};
 };
 
 // Loads the meshes of /simulation/distance_fields, in their order. `grown_on` is from loadMesh().

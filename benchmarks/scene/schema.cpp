@@ -186,7 +186,7 @@ Broken busyWorkHasAPass(const hair::Settings& s) {
     return "is above 0, but /run/busy_pass is empty";
 }
 
-Broken stampsAreOfOneQueue(const hair::Settings& s) {
+Broken timestampsAreOfOneQueue(const hair::Settings& s) {
     if (!s.run.async_compute || !s.run.overlapped_stamps) return {};
     return "is on, but so is /run/async_compute: passes on two queues have no common order";
 }
@@ -249,7 +249,7 @@ constexpr Rule kRules[] = {
     {"/shading/lights", lightsHaveDirections},
     {"/shading/lights", lightsHaveRoomForTheirMaps},
     {"/run/busy_work", busyWorkHasAPass},
-    {"/run/overlapped_stamps", stampsAreOfOneQueue},
+    {"/run/overlapped_stamps", timestampsAreOfOneQueue},
     {"/run/frame_time", frameHasRoomForItsSteps}};
 
 }  // namespace

@@ -56,9 +56,9 @@ float splitter(const char* name, const Box& box) {
 }
 
 // Drags start from the column's actual width, not from a wanted one that did not fit.
-void drag(Column& column, const Box& box, float letters) {
-    if (letters == 0.0f) return;
-    column.width = std::max(box.width / ImGui::GetFontSize() + letters, kNarrowestColumn);
+void drag(Column& column, const Box& box, float ems) {
+    if (ems == 0.0f) return;
+    column.width = std::max(box.width / ImGui::GetFontSize() + ems, kNarrowestColumn);
 }
 
 constexpr std::array kTabs{Tab::scene, Tab::files, Tab::timings, Tab::compare, Tab::shaders};

@@ -118,7 +118,7 @@ void moveHand(std::vector<hair::PullKey>& path, const Moment& moment, glm::vec3 
     path.push_back({moment.later, position});
 }
 
-void letGo(std::vector<hair::PullKey>& path, const Moment& moment) {
+void release(std::vector<hair::PullKey>& path, const Moment& moment) {
     if (path.empty()) return;
     const glm::vec3 wanted = path.back().position;
     cut(path, moment.now);
@@ -153,7 +153,7 @@ Edit GrabTool::drag(const Pointer& pointer, hair::Settings& settings, const Show
     const std::vector<hair::PullKey> before = path;
     const bool ends = !pointer.holds || !hasRoom(path);
     if (ends)
-        letGo(path, moment);
+        release(path, moment);
     else
         moveHand(
             path, moment,

@@ -79,7 +79,7 @@ void moveHand(std::vector<hair::PullKey>& path, const Moment& moment, glm::vec3 
 
 // Ends the pull now. A pull without a played frame still pulls for the next frame. Clears a path
 // that would begin after now, because time was set back.
-void letGo(std::vector<hair::PullKey>& path, const Moment& moment);
+void release(std::vector<hair::PullKey>& path, const Moment& moment);
 
 // Whether a path has room for the keys of moveHand().
 bool hasRoom(std::span<const hair::PullKey> path);

@@ -25,7 +25,7 @@ constexpr std::array kSpeeds{
     Speed{"4x", 4.0},
 };
 
-float letters(float count) { return count * ImGui::GetFontSize(); }
+float ems(float count) { return count * ImGui::GetFontSize(); }
 
 void tip(const char* text) {
     if (ImGui::IsItemHovered(ImGuiHoveredFlags_DelayNormal | ImGuiHoveredFlags_AllowWhenDisabled))
@@ -36,7 +36,7 @@ void speedCombo(std::optional<double>& speed) {
     const char* name = "other";
     for (const Speed& each : kSpeeds)
         if (each.speed == speed) name = each.name;
-    ImGui::SetNextItemWidth(letters(8.0f));
+    ImGui::SetNextItemWidth(ems(8.0f));
     if (ImGui::BeginCombo("##speed", name)) {
         for (const Speed& each : kSpeeds)
             if (ImGui::Selectable(each.name, each.speed == speed)) speed = each.speed;
@@ -212,7 +212,7 @@ void OpenScene::savedAs(const std::filesystem::path& path, const hair::Settings&
 
 void playPanel(PlayState& state, const Shown& shown) {
     // Wide enough for both of its names, so that nothing moves when it is pressed.
-    if (ImGui::Button(state.playing ? "Pause###play" : "Play###play", {letters(4.5f), 0.0f}))
+    if (ImGui::Button(state.playing ? "Pause###play" : "Play###play", {ems(4.5f), 0.0f}))
         state.playing = !state.playing;
     tip("plays or pauses: Space");
     ImGui::SameLine();
@@ -229,7 +229,7 @@ void playPanel(PlayState& state, const Shown& shown) {
     ImGui::AlignTextToFramePadding();
     ImGui::TextUnformatted("Frame");
     ImGui::SameLine();
-    ImGui::SetNextItemWidth(letters(5.5f));
+    ImGui::SetNextItemWidth(ems(5.5f));
     std::uint32_t wanted = shown.frame;
     ImGui::InputScalar("##frame", ImGuiDataType_U32, &wanted);
     if (ImGui::IsItemDeactivatedAfterEdit()) state.seek = wanted;

@@ -184,7 +184,7 @@ void Player::drawFrame(
     engine::Timing timing, const std::function<void(engine::Passes&)>& simulate) {
     hair::rendering::Renderer* const renderer = level_ > 0 ? &coarse() : nullptr;
     play(timing, [&](engine::Passes& passes) {
-        if (simulate) passes.beside(1, [&] { simulate(passes); });
+        if (simulate) passes.asyncCompute(1, [&] { simulate(passes); });
         if (renderer)
             renderer->record(passes, case_->view());
         else

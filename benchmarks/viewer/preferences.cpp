@@ -26,7 +26,7 @@ constexpr float kStatus = 1.8f;
 constexpr float kLeastPicture = 8.0f;  // beside the last column
 
 // Rounds to whole pixels, because letters at fractions of a pixel are blurred.
-float pixels(float letters, float letter) { return std::round(letters * letter); }
+float pixels(float ems, float em) { return std::round(ems * em); }
 
 // ---- Theme --------------------------------------------------------------------------------------
 
@@ -174,18 +174,18 @@ scene::Json columnJson(const Column& column) {
 
 // ---- Layout -------------------------------------------------------------------------------------
 
-Layout arrange(
-    float width, float height, float top, float letter, const Column& left, const Column& right) {
+Layout
+arrange(float width, float height, float top, float em, const Column& left, const Column& right) {
     Layout layout;
-    const float status = std::min(pixels(kStatus, letter), std::max(height - top, 0.0f));
-    const float play = std::min(pixels(kPlay, letter), std::max(height - top - status, 0.0f));
+    const float status = std::min(pixels(kStatus, em), std::max(height - top, 0.0f));
+    const float play = std::min(pixels(kPlay, em), std::max(height - top - status, 0.0f));
     layout.status = {0.0f, height - status, width, status};
     layout.play = {0.0f, layout.status.y - play, width, play};
 
-    const float splitter = pixels(kSplitter, letter);
-    const float narrowest = pixels(kNarrowestColumn, letter);
-    const float picture = pixels(kNarrowestPicture, letter);
-    const float least = pixels(kLeastPicture, letter);
+    const float splitter = pixels(kSplitter, em);
+    const float narrowest = pixels(kNarrowestColumn, em);
+    const float picture = pixels(kNarrowestPicture, em);
+    const float least = pixels(kLeastPicture, em);
     layout.merged = width < 2.0f * (narrowest + splitter) + picture;
     const bool fits = width >= narrowest + splitter + least;
     const bool has_left = fits && (left.shown || (layout.merged && right.shown));
@@ -194,12 +194,12 @@ Layout arrange(
     const float others = has_right ? narrowest + 2.0f * splitter + picture : splitter + picture;
     const float left_width =
         has_left
-            ? std::clamp(pixels(left.width, letter), narrowest, std::max(narrowest, width - others))
+            ? std::clamp(pixels(left.width, em), narrowest, std::max(narrowest, width - others))
             : 0.0f;
     const float left_end = has_left ? left_width + splitter : 0.0f;
     const float right_width = has_right
                                   ? std::clamp(
-                                        pixels(right.width, letter), narrowest,
+                                        pixels(right.width, em), narrowest,
                                         std::max(narrowest, width - left_end - splitter - picture))
                                   : 0.0f;
     const float right_start = has_right ? width - right_width : width;

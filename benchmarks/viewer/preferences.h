@@ -55,8 +55,8 @@ inline constexpr float kNarrowestPicture = 22.0f;
 // Returns the layout of a window of this size with a menu that ends at `top`; `letter` is the
 // height of a letter. The picture has priority over columns, and two columns without enough room
 // become one.
-Layout arrange(
-    float width, float height, float top, float letter, const Column& left, const Column& right);
+Layout
+arrange(float width, float height, float top, float em, const Column& left, const Column& right);
 
 // ---- Theme --------------------------------------------------------------------------------------
 

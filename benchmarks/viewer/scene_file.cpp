@@ -351,7 +351,7 @@ bool growOn(
         const glm::dvec3 root(strands.points[strands.first(i)]);
         distances.push_back(static_cast<float>(nearest(root * metres_per_unit).distance));
     }
-    return hair::groom::spreadOf(distances).quartile3 <= kOnSurface;
+    return hair::groom::summaryOf(distances).quartile3 <= kOnSurface;
 }
 
 // Removes bodies that move with a head that is gone.

@@ -51,7 +51,7 @@ bool computesOnProcessors(const engine::DeviceOptions& options) {
 std::unique_ptr<engine::Device>
 makeSceneDevice(const engine::DeviceOptions& options, bool gives_way) {
     std::packaged_task<std::unique_ptr<engine::Device>()> make([&] {
-        if (gives_way) engine::giveWay();
+        if (gives_way) engine::lowerPriority();
         return std::make_unique<engine::Device>(options);
     });
     std::future<std::unique_ptr<engine::Device>> made = make.get_future();
@@ -101,7 +101,7 @@ Shell::Shell(
           options.before_drawing, std::move(cache)),
       drawing(
           [this, first = true](const Order& order, const Stop& stop) mutable {
-              if (std::exchange(first, false) && gives_way) engine::giveWay();
+              if (std::exchange(first, false) && gives_way) engine::lowerPriority();
               return studio.perform(order, stop);
           },
           &engine::Window::endWait) {

@@ -15,7 +15,7 @@
 #include "benchmarks/viewer/columns.h"
 #include "benchmarks/viewer/compare_panel.h"
 #include "benchmarks/viewer/open_scene.h"
-#include "benchmarks/viewer/order_thread.h"
+#include "benchmarks/viewer/worker_thread.h"
 #include "benchmarks/viewer/picture_area.h"
 #include "benchmarks/viewer/player.h"
 #include "benchmarks/viewer/preferences.h"
@@ -206,7 +206,7 @@ struct Shell {
 
     // Last, so that it ends before anything that it uses is destroyed.
     Studio studio;
-    OrderThread<Order, Reply> drawing;
+    WorkerThread<Order, Reply> drawing;
 };
 
 }  // namespace benchmarks::viewer

@@ -36,8 +36,8 @@ constexpr float kSizeStep = 1.15f;  // per key press
 constexpr float kPlaceStep = 0.125f;  // share of the radius between points of a path
 constexpr float kSteepest = 0.5f;  // limit of the brush's movement in depth, over its movement
                                    // along the picture
-constexpr std::size_t kMostForeseen = 1u << 15;  // guide vertices that can be brushed in each
-                                                 // picture
+constexpr std::size_t kMostPredicted = 1u << 15;  // guide vertices that can be brushed in each
+                                                  // picture
 
 std::optional<glm::vec3> hairUnder(const Pointer& pointer, const Shown& played) {
     return pickHair(
@@ -131,10 +131,10 @@ Edit StrokeTool::drag(const Pointer& pointer, hair::Settings& settings, const Sh
 }
 
 // Previews the stroke's effect on the guides, without keeping them out of the head.
-void StrokeTool::foresee(const hair::Settings& settings, const Shown& played) {
+void StrokeTool::predict(const hair::Settings& settings, const Shown& played) {
     drag_->guides.clear();
     const std::size_t vertices = played.vertices_per_guide;
-    if (played.rest_guides.empty() || played.rest_guides.size() > kMostForeseen) return;
+    if (played.rest_guides.empty() || played.rest_guides.size() > kMostPredicted) return;
     drag_->guides = played.rest_guides;
     glm::dvec3 middle(0.0);
     for (std::size_t i = 0; i < drag_->guides.size(); i += vertices) middle += drag_->guides[i];
@@ -180,10 +180,10 @@ Edit StrokeTool::update(
     Edit edit;
     if (pointer.pressed && !drag_) {
         edit = press(pointer, settings, played);
-        if (drag_) foresee(settings, played);
+        if (drag_) predict(settings, played);
     } else if (drag_ && drag_->played == &played) {
         edit = drag(pointer, settings, played);
-        if (drag_ && edit.changed) foresee(settings, played);
+        if (drag_ && edit.changed) predict(settings, played);
     }
     const bool drags = drag_ && drag_->played == &played;
     draw(pointer, handles, played);

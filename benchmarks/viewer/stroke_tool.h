@@ -53,7 +53,7 @@ private:
     };
     Edit press(const Pointer& pointer, hair::Settings& settings, const Shown& played);
     Edit drag(const Pointer& pointer, hair::Settings& settings, const Shown& played);
-    void foresee(const hair::Settings& settings, const Shown& played);
+    void predict(const hair::Settings& settings, const Shown& played);
     void draw(const Pointer& pointer, Handles& handles, const Shown& played);
     void resize();
 

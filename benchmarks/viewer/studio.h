@@ -11,7 +11,7 @@
 
 #include "benchmarks/measure/hair_cache.h"
 #include "benchmarks/measure/measure.h"
-#include "benchmarks/viewer/order_thread.h"
+#include "benchmarks/viewer/worker_thread.h"
 #include "benchmarks/viewer/player.h"
 #include "benchmarks/viewer/shader_reload.h"
 #include "benchmarks/viewer/timings.h"

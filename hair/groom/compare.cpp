@@ -134,7 +134,7 @@ MeasuredStrands measureStrands(const StrandSet& set, double spacing, const char*
     // Neighbours in space follow each other, because they look at the same part of the other groom.
     MeasuredStrands measured{.set = set};
     measured.first_samples.push_back(0);
-    for (const std::uint32_t place : buildTriangleTree(middles, places, 1).order) {
+    for (const std::uint32_t place : buildTriangleBvh(middles, places, 1).order) {
         const double length = lengths[with_length[place]];
         measured.strands.push_back(with_length[place]);
         measured.lengths.push_back(length);
@@ -162,7 +162,7 @@ void forEachSample(const MeasuredStrands& strands, std::uint32_t strand, Visit&&
 // A bounding volume hierarchy of the segments of strands. A segment longer than `longest_box` has
 // several boxes along it, so that boxes are small compared with the distances of a search. Each of
 // its boxes finds the whole segment. Boxes are off by the rounding of floats, 1e-8 m for a head.
-class SegmentTree {
+class SegmentBvh {
 public:
     struct Segment {
         glm::vec3 from;
@@ -170,7 +170,7 @@ public:
         std::uint32_t strand;  // among the measured ones
     };
 
-    SegmentTree(const MeasuredStrands& strands, double longest_box) {
+    SegmentBvh(const MeasuredStrands& strands, double longest_box) {
         std::vector<glm::vec3> ends;
         std::vector<std::array<std::uint32_t, 3>> boxes;  // triangles of two corners
         std::vector<Segment> owners;
@@ -194,7 +194,7 @@ public:
         if (boxes.size() > std::numeric_limits<std::uint32_t>::max() / 2)
             throw engine::Error("grooms", "they have too many segments to compare");
         constexpr std::size_t kMostSegmentsInLeaf = 8;
-        tree_ = buildTriangleTree(ends, boxes, kMostSegmentsInLeaf);
+        tree_ = buildTriangleBvh(ends, boxes, kMostSegmentsInLeaf);
         segments_.reserve(boxes.size());
         for (const std::uint32_t i : tree_.order) segments_.push_back(owners[i]);
     }
@@ -203,19 +203,19 @@ public:
     // false. It also visits some segments farther away, and some more than once.
     template <class Visit>
     void forEachNear(const glm::dvec3& point, double square, Visit&& visit) const {
-        std::array<std::uint32_t, kMostWaiting> waiting;
+        std::array<std::uint32_t, kStackSize> stack;
         std::size_t count = 0;
-        waiting[count++] = 0;
+        stack[count++] = 0;
         while (count > 0) {
-            const TriangleTree::Node& node = tree_.nodes[waiting[--count]];
+            const TriangleBvh::Node& node = tree_.nodes[stack[--count]];
             if (squareDistanceOf(point, node) > square) continue;
             for (std::size_t i = 0; i < node.count; ++i) {
                 const Segment& segment = segments_[node.first + i];
                 if (!visit(segment, squareDistanceOf(point, segment))) return;
             }
             if (node.count > 0) continue;
-            waiting[count++] = node.first;
-            waiting[count++] = node.first + 1;
+            stack[count++] = node.first;
+            stack[count++] = node.first + 1;
         }
     }
 
@@ -226,39 +226,39 @@ public:
 
     // The nearest segment, or none where it is not nearer than `bound`.
     Nearest nearest(const glm::dvec3& point, double bound) const {
-        struct Waiting {
+        struct StackEntry {
             std::uint32_t node;
             double square;
         };
         Nearest best{.square = bound * bound};
-        std::array<Waiting, kMostWaiting> waiting;
+        std::array<StackEntry, kStackSize> stack;
         std::size_t count = 0;
-        const auto wait = [&](std::uint32_t node) {
-            waiting[count++] = {node, squareDistanceOf(point, tree_.nodes[node])};
+        const auto push = [&](std::uint32_t node) {
+            stack[count++] = {node, squareDistanceOf(point, tree_.nodes[node])};
         };
-        wait(0);
+        push(0);
         while (count > 0) {
-            const Waiting next = waiting[--count];
+            const StackEntry next = stack[--count];
             if (next.square >= best.square) continue;
-            const TriangleTree::Node& node = tree_.nodes[next.node];
+            const TriangleBvh::Node& node = tree_.nodes[next.node];
             for (std::size_t i = 0; i < node.count; ++i) {
                 const Segment& segment = segments_[node.first + i];
                 const double square = squareDistanceOf(point, segment);
                 if (square < best.square) best = {square, &segment};
             }
             if (node.count > 0) continue;
-            wait(node.first);
-            wait(node.first + 1);
-            if (waiting[count - 2].square < waiting[count - 1].square)
-                std::swap(waiting[count - 2], waiting[count - 1]);
+            push(node.first);
+            push(node.first + 1);
+            if (stack[count - 2].square < stack[count - 1].square)
+                std::swap(stack[count - 2], stack[count - 1]);
         }
         return best;
     }
 
 private:
-    static constexpr std::size_t kMostWaiting = 64;  // every split halves, and counts have 32 bits
+    static constexpr std::size_t kStackSize = 64;  // every split halves, and counts have 32 bits
 
-    static double squareDistanceOf(const glm::dvec3& point, const TriangleTree::Node& box) {
+    static double squareDistanceOf(const glm::dvec3& point, const TriangleBvh::Node& box) {
         const glm::dvec3 off = point - glm::clamp(point, glm::dvec3(box.low), glm::dvec3(box.high));
         return glm::dot(off, off);
     }
@@ -272,7 +272,7 @@ private:
         return glm::dot(off, off);
     }
 
-    TriangleTree tree_;
+    TriangleBvh tree_;
     std::vector<Segment> segments_;  // in the order of the leaves
 };
 
@@ -341,7 +341,7 @@ std::size_t consistencySamples(std::size_t samples, std::uint32_t most) {
 class StrandSearch {
 public:
     StrandSearch(
-        const MeasuredStrands& strands, const MeasuredStrands& others, const SegmentTree& tree,
+        const MeasuredStrands& strands, const MeasuredStrands& others, const SegmentBvh& tree,
         const CompareSettings& settings, MatchedStrands kind, Found& found)
         : strands_(strands), tree_(tree), directions_(settings.directions),
           consistency_samples_(settings.consistency_samples), kind_(kind),
@@ -393,11 +393,11 @@ private:
 
     // Tries the nearest segment first, because it mostly matches.
     void match(
-        const StrandSample& sample, const SegmentTree::Nearest& nearest, MatchedStrands kind,
+        const StrandSample& sample, const SegmentBvh::Nearest& nearest, MatchedStrands kind,
         std::uint32_t number) {
         is_matched_.assign(limits_.size(), false);
         std::size_t left = limits_.size();  // limits without a match
-        const auto goOn = [&](const SegmentTree::Segment& other, double square) {
+        const auto goOn = [&](const SegmentBvh::Segment& other, double square) {
             if (square > reach_) return true;
             const glm::dvec3 along = glm::dvec3(other.to) - glm::dvec3(other.from);
             double cosine = glm::dot(sample.tangent, along) / glm::length(along);
@@ -414,7 +414,7 @@ private:
     }
 
     const MeasuredStrands& strands_;
-    const SegmentTree& tree_;
+    const SegmentBvh& tree_;
     StrandDirections directions_;
     std::uint32_t consistency_samples_;
     MatchedStrands kind_;
@@ -433,7 +433,7 @@ Found findIn(
     double farthest = 0.0;
     for (const MatchThreshold& each : settings.thresholds)
         farthest = std::max(farthest, each.distance);
-    const SegmentTree tree(others, std::max(2.0 * farthest, kShortestBox));
+    const SegmentBvh tree(others, std::max(2.0 * farthest, kShortestBox));
     Found found{.distances = std::vector<float>(strands.first_samples.back())};
     found.matched.assign(settings.thresholds.size(), std::vector<std::uint32_t>(strands.count()));
     found.together = found.matched;
@@ -515,7 +515,7 @@ std::vector<double> sharesOf(std::span<const float> ascending, std::span<const d
 
 // The numbers must not be negative. The bins reach to the greater one of both 99th percentiles.
 DistributionFindings distributionsOf(std::vector<float> first, std::vector<float> second) {
-    DistributionFindings findings{.first = spreadOf(first), .second = spreadOf(second)};
+    DistributionFindings findings{.first = summaryOf(first), .second = summaryOf(second)};
     double top = std::max(quantileOf(first, 0.99), quantileOf(second, 0.99));
     if (top == 0.0) top = 1.0;
     std::ranges::sort(first);

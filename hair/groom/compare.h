@@ -62,7 +62,7 @@ struct MatchScores {
 };
 
 // Statistics of the distances from one groom's samples to the other's strands, m. Quantiles as in
-// Spread.
+// Summary.
 struct DistanceFindings {
     double mean = 0.0;
     double mean_square = 0.0;  // m^2
@@ -75,8 +75,8 @@ struct DistanceFindings {
 
 // Distribution of a quantity in both grooms.
 struct DistributionFindings {
-    Spread first;
-    Spread second;
+    Summary first;
+    Summary second;
     // The area between both cumulative distributions, in the quantity's unit: the earth mover's or
     // first Wasserstein distance.
     double earth_movers_distance = 0.0;

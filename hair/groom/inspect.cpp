@@ -91,7 +91,7 @@ constexpr double kLength = 0.1;
 constexpr double kLengthScatter = 10.0;
 
 // Squared deviation of a size from the expected one, in units of the scatter.
-double misfit(double size, double expected, double scatter) {
+double deviation(double size, double expected, double scatter) {
     const double off = size > 0.0 ? std::log(size / expected) / std::log(scatter) : 0.0;
     return off * off;
 }
@@ -102,8 +102,8 @@ Unit guessUnit(double root_extent, double median_length) {
     const Known* best = &kKnown.front();
     double least = std::numeric_limits<double>::infinity();
     for (const Known& known : kKnown) {
-        const double found = misfit(root_extent * known.metres, kRootExtent, kRootScatter) +
-                             misfit(median_length * known.metres, kLength, kLengthScatter);
+        const double found = deviation(root_extent * known.metres, kRootExtent, kRootScatter) +
+                             deviation(median_length * known.metres, kLength, kLengthScatter);
         if (found >= least) continue;
         least = found;
         best = &known;
@@ -166,7 +166,7 @@ MeshFindings inspectOnMesh(const StrandSet& strands, const Mesh& mesh, double me
         if (distance > kSurfaceTolerance) ++findings.roots_off_surface;
         distances.push_back(static_cast<float>(distance));
     }
-    findings.root_distances = spreadOf(distances);
+    findings.root_distances = summaryOf(distances);
     try {
         inspectInside(strands, closeMesh(mesh), metres_per_unit, findings);
     } catch (const engine::Error& error) {
@@ -184,7 +184,7 @@ void inspectSizes(const StrandSet& strands, StrandFindings& findings) {
         sizes.push_back(static_cast<float>(strands.size(i)));
         if (strands.size(i) == 1) ++findings.single_point_strands;
     }
-    findings.points_per_strand = spreadOf(sizes);
+    findings.points_per_strand = summaryOf(sizes);
 }
 
 void inspectLengths(const StrandSet& strands, StrandFindings& findings) {
@@ -206,8 +206,8 @@ void inspectLengths(const StrandSet& strands, StrandFindings& findings) {
         if (points.size() > 1 && length == 0.0) ++findings.zero_length_strands;
         lengths.push_back(static_cast<float>(length));
     }
-    findings.lengths = spreadOf(lengths);
-    findings.segment_lengths = spreadOf(segments);
+    findings.lengths = summaryOf(lengths);
+    findings.segment_lengths = summaryOf(segments);
 }
 
 void inspectBox(const StrandSet& strands, StrandFindings& findings) {
@@ -222,7 +222,7 @@ void inspectBox(const StrandSet& strands, StrandFindings& findings) {
 void inspectWidths(const StrandSet& strands, StrandFindings& findings) {
     std::vector<float> widths = strands.widths.values;
     if (widths.empty() && strands.widths.everywhere) widths = {*strands.widths.everywhere};
-    findings.widths = spreadOf(widths);
+    findings.widths = summaryOf(widths);
 }
 
 // The greatest side of the roots' bounding box.
@@ -262,7 +262,7 @@ double quantileOf(std::span<float> numbers, double share) {
     return std::lerp(double{*below}, double{*std::min_element(below + 1, numbers.end())}, fraction);
 }
 
-Spread spreadOf(std::vector<float>& numbers) {
+Summary summaryOf(std::vector<float>& numbers) {
     if (numbers.empty()) return {};
     const auto quantile = [&](double share) { return quantileOf(numbers, share); };
     return {

@@ -16,7 +16,7 @@
 namespace hair::groom {
 
 // The quartiles, extremes and mean of many numbers.
-struct Spread {
+struct Summary {
     double minimum = 0.0;
     double quartile1 = 0.0;
     double median = 0.0;
@@ -32,7 +32,7 @@ inline constexpr double kSurfaceTolerance = 1e-3;
 
 // How strands lie on the mesh that they grow on; distances in metres.
 struct MeshFindings {
-    Spread root_distances;  // of roots from the surface, unsigned
+    Summary root_distances;  // of roots from the surface, unsigned
     std::uint32_t roots_off_surface = 0;  // further than `tolerance`
     double tolerance = 0.0;  // m
     // Absent where the mesh is not closed: then nothing is inside it.
@@ -46,12 +46,12 @@ struct MeshFindings {
 struct StrandFindings {
     std::uint32_t strands = 0;
     std::size_t points = 0;
-    Spread points_per_strand;
-    Spread lengths;
-    Spread segment_lengths;
+    Summary points_per_strand;
+    Summary lengths;
+    Summary segment_lengths;
     glm::vec3 minimum{0.0f};  // bounding box
     glm::vec3 maximum{0.0f};
-    Spread widths;  // all 0 where not known
+    Summary widths;  // all 0 where not known
 
     std::uint32_t single_point_strands = 0;
     std::size_t zero_length_segments = 0;
@@ -91,6 +91,6 @@ Unit statedUnit(double metres);
 double quantileOf(std::span<float> numbers, double share);
 
 // Quartiles by quantileOf(), so it also reorders the numbers. All 0 without numbers.
-Spread spreadOf(std::vector<float>& numbers);
+Summary summaryOf(std::vector<float>& numbers);
 
 }  // namespace hair::groom

@@ -92,7 +92,7 @@ void MassSpringStep::predict(std::span<const glm::dvec3> accelerations, const Ro
     masses = {glm::dmat3(0.0)};
     for (std::size_t i = 1; i < size(); ++i) {
         glm::dvec3 velocity = parameters.velocity_kept * state.velocities[i] + h * accelerations[i];
-        if (air) velocity = braked(velocity, drag[i], air->velocities[i], h);
+        if (air) velocity = withDrag(velocity, drag[i], air->velocities[i], h);
         const auto pin = state.pins.find(i);
         predicted.push_back(pin == state.pins.end() ? before[i] + h * velocity : pin->second);
         masses.push_back(rest.masses[i] * (glm::dmat3(1.0) + h * drag[i]));
@@ -119,14 +119,14 @@ void MassSpringStep::stretch(std::size_t i, std::size_t j) {
     const glm::dvec3 force = stiffness * (now - length) * along;
     const glm::dmat3 projection = glm::outerProduct(along, along);
     const double across = std::max(1.0 - length / now, 0.0);
-    const glm::dmat3 yields = stiffness * (projection + across * (glm::dmat3(1.0) - projection));
+    const glm::dmat3 hessian = stiffness * (projection + across * (glm::dmat3(1.0) - projection));
     for (int axis = 0; axis < 3; ++axis) {
         forces[3 * i + static_cast<std::size_t>(axis)] -= force[axis];
         forces[3 * j + static_cast<std::size_t>(axis)] += force[axis];
     }
-    add(i, i, yields);
-    add(j, j, yields);
-    add(i, j, -yields);
+    add(i, i, hessian);
+    add(j, j, hessian);
+    add(i, j, -hessian);
 }
 
 // The angular spring of segment i.
@@ -146,11 +146,11 @@ void MassSpringStep::turn(std::size_t i) {
             forces[3 * (i - 1) + static_cast<std::size_t>(axis)] -= force[axis];
         }
     }
-    const glm::dmat3 yields = parameters.angular_stiffness * rest.lengths[i] / (length * length) *
-                              (glm::dmat3(1.0) - glm::outerProduct(along, along));
-    add(i, i, yields);
-    add(i - 1, i - 1, yields);
-    add(i, i - 1, -yields);
+    const glm::dmat3 hessian = parameters.angular_stiffness * rest.lengths[i] / (length * length) *
+                               (glm::dmat3(1.0) - glm::outerProduct(along, along));
+    add(i, i, hessian);
+    add(i - 1, i - 1, hessian);
+    add(i, i - 1, -hessian);
 }
 
 void MassSpringStep::iterate() {

@@ -38,8 +38,8 @@ glm::dmat3 smallestRotation(const glm::dvec3& from, const glm::dvec3& to) {
 
 double weight(std::size_t vertex) { return vertex == 0 ? 0.0 : 1.0; }
 
-double leftOf(Lightness lightness, std::size_t vertex) {
-    return lightness.empty() ? 1.0 : lightness[vertex];
+double inverseMassOf(InverseMasses inverse_masses, std::size_t vertex) {
+    return inverse_masses.empty() ? 1.0 : inverse_masses[vertex];
 }
 
 // Calls `correct(i)` for every segment of a strand in red-black order.
@@ -49,9 +49,9 @@ void redBlack(std::size_t vertices, Correct correct) {
         for (std::size_t i = first; i < vertices; i += 2) correct(i);
 }
 
-double pullOn(double stiffness, double lightness) {
+double pullOn(double stiffness, double inverse_mass) {
     if (stiffness == 1.0) return 1.0;
-    const double spring = lightness * stiffness / (1.0 - stiffness);
+    const double spring = inverse_mass * stiffness / (1.0 - stiffness);
     return spring / (1.0 + spring);
 }
 
@@ -90,17 +90,19 @@ void integrate(
 }
 
 glm::dvec3
-braked(const glm::dvec3& velocity, const glm::dmat3& rate, const glm::dvec3& air, double h) {
+withDrag(const glm::dvec3& velocity, const glm::dmat3& rate, const glm::dvec3& air, double h) {
     return glm::inverse(glm::dmat3(1.0) + h * rate) * (velocity + h * rate * air);
 }
 
-double lightnessIn(const glm::dmat3& rate, double h) {
+double inverseMassIn(const glm::dmat3& rate, double h) {
     return 1.0 / (1.0 + h * (rate[0][0] + rate[1][1] + rate[2][2]) / 2.0);
 }
 
-void pullToRest(Points positions, ConstPoints rest, double stiffness, Lightness lightness) {
+void pullToRest(
+    Points positions, ConstPoints rest, double stiffness, InverseMasses inverse_masses) {
     for (std::size_t i = 1; i < positions.size(); ++i)
-        positions[i] += pullOn(stiffness, leftOf(lightness, i)) * (rest[i] - positions[i]);
+        positions[i] +=
+            pullOn(stiffness, inverseMassOf(inverse_masses, i)) * (rest[i] - positions[i]);
 }
 
 std::vector<glm::dmat3>
@@ -131,52 +133,53 @@ segmentFrames(ConstPoints positions, ConstPoints rest, const glm::dmat3& root_fr
 
 void pullToShape(
     Points positions, ConstPoints rest, double stiffness, const glm::dmat3& root_frame,
-    Lightness lightness) {
+    InverseMasses inverse_masses) {
     const auto frames = segmentFrames(positions, rest, root_frame);
     redBlack(positions.size(), [&](std::size_t i) {
         const glm::dvec3 goal = positions[i - 1] + frames[i - 1] * (rest[i] - rest[i - 1]);
         const glm::dvec3 d = goal - positions[i];
         const double sum = weight(i - 1) + weight(i);
-        positions[i - 1] -= leftOf(lightness, i - 1) * weight(i - 1) / sum * stiffness * d;
-        positions[i] += leftOf(lightness, i) * weight(i) / sum * stiffness * d;
+        positions[i - 1] -=
+            inverseMassOf(inverse_masses, i - 1) * weight(i - 1) / sum * stiffness * d;
+        positions[i] += inverseMassOf(inverse_masses, i) * weight(i) / sum * stiffness * d;
     });
 }
 
-void projectLengths(Points positions, ConstPoints rest, Lightness lightness) {
+void projectLengths(Points positions, ConstPoints rest, InverseMasses inverse_masses) {
     redBlack(positions.size(), [&](std::size_t i) {
         const double rest_length = glm::length(rest[i] - rest[i - 1]);
         const glm::dvec3 edge = positions[i] - positions[i - 1];
         const double length = glm::length(edge);
         const glm::dvec3 n = length < kShortest ? glm::dvec3{0.0, 1.0, 0.0} : edge / length;
         const double stretch = length - rest_length;
-        const double above = leftOf(lightness, i - 1) * weight(i - 1);
-        const double below = leftOf(lightness, i) * weight(i);
+        const double above = inverseMassOf(inverse_masses, i - 1) * weight(i - 1);
+        const double below = inverseMassOf(inverse_masses, i) * weight(i);
         positions[i - 1] += above / (above + below) * stretch * n;
         positions[i] -= below / (above + below) * stretch * n;
     });
 }
 
 void solveLengths(
-    Points positions, ConstPoints rest, std::uint32_t passes, Lightness lightness,
-    std::span<const Pushed> met) {
+    Points positions, ConstPoints rest, std::uint32_t passes, InverseMasses inverse_masses,
+    std::span<const VertexContact> met) {
     if (passes == 0) return;
     const std::size_t count = positions.size();
     const std::vector<glm::dvec3> predicted(positions.begin(), positions.end());
     std::vector<glm::dvec3> directions(count, glm::dvec3(0.0));  // of segments
-    const auto metAt = [&](std::size_t i) { return met.empty() ? Pushed{} : met[i]; };
+    const auto metAt = [&](std::size_t i) { return met.empty() ? VertexContact{} : met[i]; };
     // Yielding of a vertex on a body: across the surface 0.01 of its free yielding, along it 1
     // minus 0.99 of the fraction that friction holds.
     const auto light = [&](std::size_t i) {
-        return (1.0 - 0.99 * metAt(i).held) * weight(i) * leftOf(lightness, i);
+        return (1.0 - 0.99 * metAt(i).held) * weight(i) * inverseMassOf(inverse_masses, i);
     };
     const auto restLength = [&](std::size_t i) { return glm::distance(rest[i], rest[i - 1]); };
     // Returns how far vertex i moves along b under a force along a; `cosine` is that of their
     // angle.
-    const auto yields = [&](std::size_t i, const glm::dvec3& a, const glm::dvec3& b,
-                            double cosine) {
+    const auto compliance = [&](std::size_t i, const glm::dvec3& a, const glm::dvec3& b,
+                                double cosine) {
         if (!metAt(i).touches) return light(i) * cosine;
         const glm::dvec3 n = metAt(i).normal;
-        const double across = 0.01 * weight(i) * leftOf(lightness, i);
+        const double across = 0.01 * weight(i) * inverseMassOf(inverse_masses, i);
         return light(i) * cosine - (light(i) - across) * glm::dot(a, n) * glm::dot(n, b);
     };
     const auto place = [&](std::size_t i, const glm::dvec3& wanted) {
@@ -198,25 +201,27 @@ void solveLengths(
     };
     for (std::size_t i = 1; i < count; ++i) place(i, predicted[i]);
 
-    std::vector<double> stretches(count), diagonal(count), beside(count), densities(count + 1);
+    std::vector<double> stretches(count), diagonal(count), off_diagonal(count),
+        densities(count + 1);
     std::vector<glm::dvec3> pulls(count);
     for (std::uint32_t pass = 0; pass < passes; ++pass) {
-        // The tensions, row by row from the tip up; beside[i] is between i and i + 1.
+        // The tensions, row by row from the tip up; off_diagonal[i] is between i and i + 1.
         for (std::size_t i = 1; i < count; ++i) {
             const glm::dvec3& d = directions[i];
-            diagonal[i] = yields(i - 1, d, d, 1.0) + yields(i, d, d, 1.0);
+            diagonal[i] = compliance(i - 1, d, d, 1.0) + compliance(i, d, d, 1.0);
             if (i + 1 < count)
-                beside[i] = -yields(i, d, directions[i + 1], glm::dot(d, directions[i + 1]));
+                off_diagonal[i] =
+                    -compliance(i, d, directions[i + 1], glm::dot(d, directions[i + 1]));
             stretches[i] = glm::dot(directions[i], predicted[i] - predicted[i - 1]) - restLength(i);
         }
         for (std::size_t i = count - 1; i > 1; --i) {
-            const double factor = beside[i - 1] / diagonal[i];
-            diagonal[i - 1] -= factor * beside[i - 1];
+            const double factor = off_diagonal[i - 1] / diagonal[i];
+            diagonal[i - 1] -= factor * off_diagonal[i - 1];
             stretches[i - 1] -= factor * stretches[i];
         }
         double tension = 0.0;
         for (std::size_t i = 1; i < count; ++i) {
-            tension = (stretches[i] - (i > 1 ? beside[i - 1] : 0.0) * tension) / diagonal[i];
+            tension = (stretches[i] - (i > 1 ? off_diagonal[i - 1] : 0.0) * tension) / diagonal[i];
             densities[i] = std::max(
                 tension / std::max(restLength(i), kShortest), -0.2 / (light(i - 1) + light(i)));
         }
@@ -324,12 +329,12 @@ void stepFtl(
     for (std::size_t i = 1; i < positions.size(); ++i) {
         glm::dvec3 p = start[i] + step.velocity_kept * (start[i] - previous[i]) +
                        h * h * step.accelerations[i];
-        double lightness = 1.0;
+        double inverse_mass = 1.0;
         if (!step.drag.empty()) {
-            p = start[i] + h * braked((p - start[i]) / h, step.drag[i], step.air[i], h);
-            lightness = lightnessIn(step.drag[i], h);
+            p = start[i] + h * withDrag((p - start[i]) / h, step.drag[i], step.air[i], h);
+            inverse_mass = inverseMassIn(step.drag[i], h);
         }
-        p += pullOn(step.global_stiffness, lightness) * (rest[i] - p);
+        p += pullOn(step.global_stiffness, inverse_mass) * (rest[i] - p);
 
         const glm::dvec3 to_follower = p - positions[i - 1];
         const double length = glm::length(to_follower);

@@ -28,7 +28,7 @@ namespace hair::reference {
 
 using Points = std::span<glm::dvec3>;
 using ConstPoints = std::span<const glm::dvec3>;
-struct Pushed;  // below
+struct VertexContact;  // below
 
 constexpr double kShortest = 1e-9;  // m, shortest segment with a direction
 
@@ -45,18 +45,19 @@ void integrate(
 // Returns v' = velocity + h K (air - v'): the velocity after an implicit step h of a free vertex to
 // which everything else gives `velocity`.
 glm::dvec3
-braked(const glm::dvec3& velocity, const glm::dmat3& rate, const glm::dvec3& air, double h);
+withDrag(const glm::dvec3& velocity, const glm::dmat3& rate, const glm::dvec3& air, double h);
 
 // Returns the fraction that remains of a later movement of the vertex across its tangent:
 // 1 / (1 + h k), where k is the double eigenvalue of K.
-double lightnessIn(const glm::dmat3& rate, double h);
+double inverseMassIn(const glm::dmat3& rate, double h);
 
-// Fraction of the vertices' inverse masses that air leaves, [vertex]: lightnessIn(). Empty: 1.
-using Lightness = std::span<const double>;
+// Fraction of the vertices' inverse masses that air leaves, [vertex]: inverseMassIn(). Empty: 1.
+using InverseMasses = std::span<const double>;
 
 // Thesis eq. 10: an implicit step of a spring by the fraction c / (1 + c), where c is the spring's
 // stiffness times the inverse mass.
-void pullToRest(Points positions, ConstPoints rest, double stiffness, Lightness lightness = {});
+void pullToRest(
+    Points positions, ConstPoints rest, double stiffness, InverseMasses inverse_masses = {});
 
 // Returns the frames of the segments, [vertex]: entry 0 is the root's, entry i >= 1 that of segment
 // i. A frame turns the rest strand's directions into the current ones: R_0 = root_frame; R_1 is R_0
@@ -72,17 +73,17 @@ std::vector<glm::dmat3> segmentFrames(
 // Thesis eq. 11, one red-black iteration with the frames of its start; Han and Harada 2012.
 void pullToShape(
     Points positions, ConstPoints rest, double stiffness,
-    const glm::dmat3& root_frame = glm::dmat3(1.0), Lightness lightness = {});
+    const glm::dmat3& root_frame = glm::dmat3(1.0), InverseMasses inverse_masses = {});
 
 // Thesis eq. 12, one red-black iteration. Coinciding vertices are separated along +y.
-void projectLengths(Points positions, ConstPoints rest, Lightness lightness = {});
+void projectLengths(Points positions, ConstPoints rest, InverseMasses inverse_masses = {});
 
 // Moves the strand to the nearest positions, in the metric of the masses, at which segments have
 // their rest lengths, by `passes` passes of simulation/constraints/length.glsl, which has the
 // equations. 0 passes: no change. `met`: contact of each vertex with bodies; empty: none.
 void solveLengths(
-    Points positions, ConstPoints rest, std::uint32_t passes, Lightness lightness = {},
-    std::span<const Pushed> met = {});
+    Points positions, ConstPoints rest, std::uint32_t passes, InverseMasses inverse_masses = {},
+    std::span<const VertexContact> met = {});
 
 // Gap to a capsule with its margin.
 struct CapsuleGap {
@@ -98,7 +99,7 @@ entryInto(const Collider& collider, const glm::dvec3& from, const glm::dvec3& to
 
 // A vertex after contact with bodies, with the tangent plane of the last body that it touches, or
 // else of the nearest.
-struct Pushed {
+struct VertexContact {
     glm::dvec3 position;
     glm::dvec3 normal{0.0};  // outward; 0 if there is no body
     double height = 0.0;  // of the plane along the normal
@@ -106,7 +107,7 @@ struct Pushed {
     double held = 0.0;  // fraction of its motion along the surface that friction removes
 };
 // Returns the contact of a vertex that moved from `before` to `position`.
-using PushOut = std::function<Pushed(const glm::dvec3& position, const glm::dvec3& before)>;
+using PushOut = std::function<VertexContact(const glm::dvec3& position, const glm::dvec3& before)>;
 
 // Contact of one vertex with every capsule, in list order, each in the frame that it moves with;
 // sliding is the motion relative to the capsule. The vertex goes the shortest way to the capsule's
@@ -119,8 +120,8 @@ struct Contact {
     simulation::RigidMotion frame;  // of the head at the end of the substep
     simulation::RigidMotion frame_before;  // of the head at its start
 
-    Pushed operator()(const glm::dvec3& position, const glm::dvec3& before) const {
-        Pushed pushed{.position = position};
+    VertexContact operator()(const glm::dvec3& position, const glm::dvec3& before) const {
+        VertexContact pushed{.position = position};
         double nearest = std::numeric_limits<double>::infinity();
         for (const Collider& collider : settings.colliders) {
             const bool on_head = collider.follows == Follows::head;

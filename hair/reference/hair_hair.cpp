@@ -156,7 +156,7 @@ volumeAccelerations(const SimulationSettings& settings, const VolumeState& state
     // The exact solution over a step, including friction's effect on everything else that acts.
     const double decay = std::pow(1.0 - contact.friction, 60.0 * step);
     const double exponent = -60.0 * step * std::log(1.0 - contact.friction);
-    const double foreseen =
+    const double predicted =
         contact.friction > 0.0f
             ? std::min(1.0 - (1.0 - decay) / exponent, contact.repulsion > 0.0f ? decay : 0.75)
             : 0.0;
@@ -205,9 +205,9 @@ volumeAccelerations(const SimulationSettings& settings, const VolumeState& state
             if (glm::length(push) > greatest) push *= greatest / glm::length(push);
             const bool known = state.kept != nullptr && !state.kept->empty();
             const glm::dvec3 driven = known ? drag - (*state.kept)[p] : glm::dvec3(0.0);
-            const glm::dvec3 braked = (1.0 - decay) * drag + foreseen * driven;
-            left.push_back(drag - braked);
-            accelerations[p] = braked / step + state.frame.rotation * push;
+            const glm::dvec3 friction = (1.0 - decay) * drag + predicted * driven;
+            left.push_back(drag - friction);
+            accelerations[p] = friction / step + state.frame.rotation * push;
         }
     }
     if (state.kept != nullptr) *state.kept = left;

@@ -24,7 +24,7 @@ namespace hair::reference {
 inline namespace path_tracer {
 
 constexpr double kTracedPi = std::numbers::pi;
-constexpr double kNever = std::numeric_limits<double>::infinity();
+constexpr double kNoHit = std::numeric_limits<double>::infinity();
 
 // ---- Random numbers -----------------------------------------------------------------------------
 
@@ -118,8 +118,8 @@ void addPieces(
     }
 }
 
-// Returns where a ray enters the piece, beyond `begin`; kNever if it doesn't.
-double enters(const Piece& piece, const Ray& ray, double begin) {
+// Returns where a ray enters the piece, beyond `begin`; kNoHit if it doesn't.
+double intersect(const Piece& piece, const Ray& ray, double begin) {
     const glm::dvec3 a(piece.a);
     const glm::dvec3 offset = glm::dvec3(piece.b) - a;
     const double length = glm::length(offset);
@@ -135,17 +135,17 @@ double enters(const Piece& piece, const Ray& ray, double begin) {
     const double radius = piece.a.w + slope * from_along;
     const double change = slope * along;
     const double square = glm::dot(across, across) - change * change;
-    if (square <= 0) return kNever;
+    if (square <= 0) return kNoHit;
     const double half = glm::dot(from_across, across) - change * radius;
     const double rest = glm::dot(from_across, from_across) - radius * radius;
     const double discriminant = half * half - square * rest;
-    if (discriminant <= 0) return kNever;
+    if (discriminant <= 0) return kNoHit;
     const double t = (-half - std::sqrt(discriminant)) / square;
-    if (!(t > begin)) return kNever;
+    if (!(t > begin)) return kNoHit;
     const glm::dvec3 point = ray.at(t);
     const bool within = glm::dot(point - a, piece.plane_a) >= 0 &&
                         glm::dot(point - glm::dvec3(piece.b), piece.plane_b) < 0;
-    return within ? t : kNever;
+    return within ? t : kNoHit;
 }
 
 // ---- Triangles ----------------------------------------------------------------------------------
@@ -156,14 +156,14 @@ struct Corners {
 };
 
 struct TriangleHit {
-    double t = kNever;
+    double t = kNoHit;
     double v = 0;  // barycentric coordinates of the second and third corner
     double w = 0;
 };
 
 // Möller and Trumbore 1997, Fast, minimum storage ray/triangle intersection.
-TriangleHit
-meets(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c, const Ray& ray, double begin) {
+TriangleHit intersectTriangle(
+    const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c, const Ray& ray, double begin) {
     const glm::dvec3 ab = b - a;
     const glm::dvec3 ac = c - a;
     const glm::dvec3 p = glm::cross(ray.direction, ac);
@@ -179,21 +179,21 @@ meets(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c, const Ray& 
 }
 
 // Returns where a ray enters a sphere, beyond `begin`.
-double entersSphere(const SphereLight& sphere, const Ray& ray, double begin) {
+double intersectSphere(const SphereLight& sphere, const Ray& ray, double begin) {
     const glm::dvec3 from = ray.origin - sphere.center;
     const double half = glm::dot(from, ray.direction);
     const double rest = glm::dot(from, from) - sphere.radius * sphere.radius;
     const double discriminant = half * half - rest;
-    if (discriminant <= 0) return kNever;
+    if (discriminant <= 0) return kNoHit;
     const double t = -half - std::sqrt(discriminant);
-    return t > begin ? t : kNever;
+    return t > begin ? t : kNoHit;
 }
 
 // ---- Boxes --------------------------------------------------------------------------------------
 
 struct TracedBox {
-    glm::dvec3 lower{kNever};
-    glm::dvec3 upper{-kNever};
+    glm::dvec3 lower{kNoHit};
+    glm::dvec3 upper{-kNoHit};
 
     void add(const glm::dvec3& a, const glm::dvec3& b) {
         lower = glm::min(lower, a);
@@ -202,15 +202,15 @@ struct TracedBox {
     void add(const TracedBox& box) { add(box.lower, box.upper); }
     glm::dvec3 middle() const { return 0.5 * (lower + upper); }
 
-    // Returns where the ray enters the box, kNever if not before `end`.
-    double enters(const glm::dvec3& origin, const glm::dvec3& inverse, double end) const {
+    // Returns where the ray enters the box, kNoHit if not before `end`.
+    double intersect(const glm::dvec3& origin, const glm::dvec3& inverse, double end) const {
         const glm::dvec3 one = (lower - origin) * inverse;
         const glm::dvec3 other = (upper - origin) * inverse;
         const glm::dvec3 in = glm::min(one, other);
         const glm::dvec3 out = glm::max(one, other);
         const double first = std::max({in.x, in.y, in.z, 0.0});
         const double last = std::min({out.x, out.y, out.z, end});
-        return first <= last ? first : kNever;
+        return first <= last ? first : kNoHit;
     }
 };
 
@@ -230,19 +230,19 @@ struct Node {
     std::uint32_t count = 0;  // 0: an inner node; its first child is the next node
 };
 
-constexpr std::uint32_t kLeafThings = 4;
+constexpr std::uint32_t kLeafPrimitives = 4;
 
 // A BVH that splits at the median of the boxes' centres along the longest side.
-class BoxTree {
+class Bvh {
 public:
-    explicit BoxTree(std::span<const TracedBox> boxes) : order_(boxes.size()) {
+    explicit Bvh(std::span<const TracedBox> boxes) : order_(boxes.size()) {
         for (std::uint32_t i = 0; i < order_.size(); ++i) order_[i] = i;
         if (!boxes.empty()) split(boxes, 0, static_cast<std::uint32_t>(boxes.size()));
     }
 
-    // visit(thing, end) returns the new end of the ray. A negative end stops the traversal.
+    // visit(primitive, end) returns the new end of the ray. A negative end stops the traversal.
     template <class Visit>
-    void follow(const Ray& ray, double end, const Visit& visit) const {
+    void traverse(const Ray& ray, double end, const Visit& visit) const {
         if (nodes_.empty()) return;
         const glm::dvec3 inverse = 1.0 / ray.direction;
         std::array<std::uint32_t, 64> stack;
@@ -251,7 +251,7 @@ public:
         while (left > 0) {
             const std::uint32_t index = stack[--left];
             const Node& node = nodes_[index];
-            if (node.box.enters(ray.origin, inverse, end) == kNever) continue;
+            if (node.box.intersect(ray.origin, inverse, end) == kNoHit) continue;
             for (std::uint32_t i = 0; i < node.count; ++i) {
                 end = visit(order_[node.begin + i], end);
                 if (end < 0) return;
@@ -259,8 +259,8 @@ public:
             if (node.count > 0) continue;
             std::uint32_t near = index + 1;
             std::uint32_t far = node.begin;
-            if (nodes_[far].box.enters(ray.origin, inverse, end) <
-                nodes_[near].box.enters(ray.origin, inverse, end))
+            if (nodes_[far].box.intersect(ray.origin, inverse, end) <
+                nodes_[near].box.intersect(ray.origin, inverse, end))
                 std::swap(near, far);
             stack[left++] = far;
             stack[left++] = near;
@@ -277,7 +277,7 @@ private:
             node.box.add(boxes[order_[i]]);
             middles.add(middle, middle);
         }
-        const bool leaf = end - begin <= kLeafThings;
+        const bool leaf = end - begin <= kLeafPrimitives;
         if (leaf) {
             node.begin = begin;
             node.count = end - begin;
@@ -309,8 +309,8 @@ private:
 class PathTracer::Surfaces {
 public:
     struct Hit {
-        double t = kNever;
-        std::uint32_t thing = 0;
+        double t = kNoHit;
+        std::uint32_t primitive = 0;
         double v = 0;  // of a triangle: barycentric
         double w = 0;
     };
@@ -318,17 +318,20 @@ public:
     explicit Surfaces(const TracedScene& scene)
         : scene_(scene), pieces_(piecesOf(scene)), corners_(cornersOf(scene)),
           tree_(boxes(scene, pieces_, corners_)) {
-        for (const Piece& piece : pieces_) begin_ = std::max(begin_, kApart * piece.a.w);
+        for (const Piece& piece : pieces_)
+            ray_offset_ = std::max(ray_offset_, kRayOffset * piece.a.w);
     }
 
-    bool isFiber(const Hit& hit) const { return hit.thing < pieces_.size(); }
-    const Piece& piece(const Hit& hit) const { return pieces_[hit.thing]; }
-    const Corners& corners(const Hit& hit) const { return corners_[hit.thing - pieces_.size()]; }
+    bool isFiber(const Hit& hit) const { return hit.primitive < pieces_.size(); }
+    const Piece& piece(const Hit& hit) const { return pieces_[hit.primitive]; }
+    const Corners& corners(const Hit& hit) const {
+        return corners_[hit.primitive - pieces_.size()];
+    }
 
-    Hit first(const Ray& ray) const {
+    Hit closestHit(const Ray& ray) const {
         Hit hit;
-        tree_.follow(ray, kNever, [&](std::uint32_t thing, double end) {
-            const Hit other = meet(ray, thing);
+        tree_.traverse(ray, kNoHit, [&](std::uint32_t primitive, double end) {
+            const Hit other = intersect(ray, primitive);
             if (!(other.t < end)) return end;
             hit = other;
             return other.t;
@@ -336,29 +339,30 @@ public:
         return hit;
     }
 
-    bool isFree(const Ray& ray, double end) const {
+    bool isUnoccluded(const Ray& ray, double end) const {
         bool free = true;
-        tree_.follow(ray, end, [&](std::uint32_t thing, double within) {
-            free = !(meet(ray, thing).t < within);
+        tree_.traverse(ray, end, [&](std::uint32_t primitive, double within) {
+            free = !(intersect(ray, primitive).t < within);
             return free ? within : -1.0;
         });
         return free;
     }
 
     // Rays that leave a surface hit nothing nearer than this, which is far above rounding.
-    double begin() const { return begin_; }
+    double begin() const { return ray_offset_; }
 
 private:
-    static constexpr double kApart = 1e-4;  // of the widest fibre's radius
+    static constexpr double kRayOffset = 1e-4;  // of the widest fibre's radius
 
-    Hit meet(const Ray& ray, std::uint32_t thing) const {
-        if (thing < pieces_.size()) return {enters(pieces_[thing], ray, begin_), thing};
-        const Corners& corners = corners_[thing - pieces_.size()];
+    Hit intersect(const Ray& ray, std::uint32_t primitive) const {
+        if (primitive < pieces_.size())
+            return {intersect(pieces_[primitive], ray, ray_offset_), primitive};
+        const Corners& corners = corners_[primitive - pieces_.size()];
         const MattMesh& mesh = scene_.meshes[corners.mesh];
         const auto& [a, b, c] = mesh.triangles[corners.triangle];
-        const TriangleHit hit =
-            meets(mesh.positions[a], mesh.positions[b], mesh.positions[c], ray, begin_);
-        return {hit.t, thing, hit.v, hit.w};
+        const TriangleHit hit = intersectTriangle(
+            mesh.positions[a], mesh.positions[b], mesh.positions[c], ray, ray_offset_);
+        return {hit.t, primitive, hit.v, hit.w};
     }
 
     static std::vector<Piece> piecesOf(const TracedScene& scene) {
@@ -394,8 +398,8 @@ private:
     const TracedScene& scene_;
     std::vector<Piece> pieces_;
     std::vector<Corners> corners_;
-    BoxTree tree_;
-    double begin_ = 1e-12;  // m, if there are no fibres
+    Bvh tree_;
+    double ray_offset_ = 1e-12;  // m, if there are no fibres
 };
 
 // ---- Paths --------------------------------------------------------------------------------------
@@ -427,18 +431,18 @@ FiberAxes axesAt(const Piece& piece, const glm::dvec3& point) {
 }
 
 // Returns two unit vectors perpendicular to a third.
-std::array<glm::dvec3, 2> axesAcross(const glm::dvec3& axis) {
+std::array<glm::dvec3, 2> perpendicularAxes(const glm::dvec3& axis) {
     const glm::dvec3 other = std::abs(axis.x) < 0.5 ? glm::dvec3(1, 0, 0) : glm::dvec3(0, 1, 0);
     const glm::dvec3 first = glm::normalize(glm::cross(axis, other));
     return {first, glm::cross(axis, first)};
 }
 
 // Samples uniformly in a cone about `axis`, with cosines of `least` or more.
-glm::dvec3 inCone(const glm::dvec3& axis, double least, SplitMix& random) {
+glm::dvec3 sampleCone(const glm::dvec3& axis, double least, SplitMix& random) {
     const double cosine = 1 - random.number() * (1 - least);
     const double sine = std::sqrt(std::max(1 - cosine * cosine, 0.0));
     const double angle = 2 * kTracedPi * random.number();
-    const auto [first, second] = axesAcross(axis);
+    const auto [first, second] = perpendicularAxes(axis);
     return cosine * axis + sine * (std::cos(angle) * first + std::sin(angle) * second);
 }
 
@@ -452,46 +456,47 @@ public:
     // Returns the radiance along the ray towards its origin.
     glm::dvec3 radiance(Ray ray, SplitMix& random) const {
         glm::dvec3 gathered(0);
-        glm::dvec3 carried(1);
-        for (int meetings = 0; meetings < kMostMeetings; ++meetings) {
-            const Surfaces::Hit hit = surfaces_.first(ray);
-            const SphereLight* const sphere = sphereBefore(ray, hit.t);
-            if (sphere && meetings == 0) gathered += sphere->radiance;
+        glm::dvec3 throughput(1);
+        for (int bounces = 0; bounces < kMostBounces; ++bounces) {
+            const Surfaces::Hit hit = surfaces_.closestHit(ray);
+            const SphereLight* const sphere = nearestSphere(ray, hit.t);
+            if (sphere && bounces == 0) gathered += sphere->radiance;
             if (sphere) break;  // its light on a surface is sampled at the surface
-            if (hit.t == kNever) {
-                gathered += carried * scene_.background;
+            if (hit.t == kNoHit) {
+                gathered += throughput * scene_.background;
                 break;
             }
             const glm::dvec3 point = ray.at(hit.t);
             const glm::dvec3 from = -ray.direction;
             const bool goes_on =
                 surfaces_.isFiber(hit)
-                    ? meetFiber(surfaces_.piece(hit), point, from, gathered, carried, ray, random)
-                    : meetMesh(hit, point, from, gathered, carried, ray, random);
-            if (!goes_on || !survives(meetings, carried, random)) break;
+                    ? scatterAtFiber(
+                          surfaces_.piece(hit), point, from, gathered, throughput, ray, random)
+                    : scatterAtMesh(hit, point, from, gathered, throughput, ray, random);
+            if (!goes_on || !survivesRoulette(bounces, throughput, random)) break;
         }
         return gathered;
     }
 
 private:
-    static constexpr int kSureMeetings = 8;
-    static constexpr double kMostLikely = 0.95;
+    static constexpr int kRouletteStart = 8;
+    static constexpr double kMostSurvival = 0.95;
 
     // Russian roulette.
-    static bool survives(int meetings, glm::dvec3& carried, SplitMix& random) {
-        const double most = std::max({carried.r, carried.g, carried.b});
+    static bool survivesRoulette(int bounces, glm::dvec3& throughput, SplitMix& random) {
+        const double most = std::max({throughput.r, throughput.g, throughput.b});
         if (!(most > 0)) return false;
-        if (meetings < kSureMeetings) return true;
-        const double likely = std::min(most, kMostLikely);
+        if (bounces < kRouletteStart) return true;
+        const double likely = std::min(most, kMostSurvival);
         if (random.number() >= likely) return false;
-        carried /= likely;
+        throughput /= likely;
         return true;
     }
 
-    const SphereLight* sphereBefore(const Ray& ray, double end) const {
+    const SphereLight* nearestSphere(const Ray& ray, double end) const {
         const SphereLight* first = nullptr;
         for (const SphereLight& sphere : scene_.spheres) {
-            const double t = entersSphere(sphere, ray, surfaces_.begin());
+            const double t = intersectSphere(sphere, ray, surfaces_.begin());
             if (!(t < end)) continue;
             end = t;
             first = &sphere;
@@ -499,17 +504,18 @@ private:
         return first;
     }
 
-    bool isFree(const Ray& ray, double end) const {
-        return !sphereBefore(ray, end) && surfaces_.isFree(ray, end);
+    bool isUnoccluded(const Ray& ray, double end) const {
+        return !nearestSphere(ray, end) && surfaces_.isUnoccluded(ray, end);
     }
 
     // Returns the light from all sources at a point, weighted by `scattered(wi)`: f |cos|.
     template <class Scattered>
-    glm::dvec3 lit(const glm::dvec3& point, SplitMix& random, const Scattered& scattered) const {
+    glm::dvec3
+    directLight(const glm::dvec3& point, SplitMix& random, const Scattered& scattered) const {
         glm::dvec3 sum(0);
         const auto add = [&](const glm::dvec3& wi, double distance, const glm::dvec3& irradiance) {
             const glm::dvec3 light = irradiance * scattered(wi);
-            if (light != glm::dvec3(0) && isFree({point, wi}, distance)) sum += light;
+            if (light != glm::dvec3(0) && isUnoccluded({point, wi}, distance)) sum += light;
         };
         for (const PointLight& light : scene_.points) {
             const glm::dvec3 offset = light.position - point;
@@ -517,25 +523,25 @@ private:
             add(offset / distance, distance, light.intensity / (distance * distance));
         }
         for (const DirectionalLight& light : scene_.directions)
-            add(-light.direction, kNever, light.irradiance);
+            add(-light.direction, kNoHit, light.irradiance);
         for (const SphereLight& light : scene_.spheres) {
             const glm::dvec3 offset = light.center - point;
             const double distance = glm::length(offset);
             if (distance <= light.radius) continue;
             const double sine = light.radius / distance;
             const double cosine = std::sqrt(1 - sine * sine);
-            const glm::dvec3 wi = inCone(offset / distance, cosine, random);
+            const glm::dvec3 wi = sampleCone(offset / distance, cosine, random);
             // 1 - cosine, without cancellation.
             const double solid_angle = 2 * kTracedPi * sine * sine / (1 + cosine);
-            const double end = entersSphere(light, {point, wi}, 0);
-            if (end < kNever) add(wi, end * (1 - 1e-9), light.radiance * solid_angle);
+            const double end = intersectSphere(light, {point, wi}, 0);
+            if (end < kNoHit) add(wi, end * (1 - 1e-9), light.radiance * solid_angle);
         }
         return sum;
     }
 
-    bool meetFiber(
+    bool scatterAtFiber(
         const Piece& piece, const glm::dvec3& point, const glm::dvec3& from, glm::dvec3& gathered,
-        glm::dvec3& carried, Ray& ray, SplitMix& random) const {
+        glm::dvec3& throughput, Ray& ray, SplitMix& random) const {
         const FiberAxes axes = axesAt(piece, point);
         const glm::dvec3 wo = axes.local(from);
         // The azimuth of the normal, phi_o - asin(h), is 0.
@@ -543,21 +549,21 @@ private:
         const double h = across_axis > 0 ? std::clamp(wo.z / across_axis, -1.0, 1.0) : 0.0;
         Fiber fiber = scene_.fiber;
         if (!scene_.absorptions.empty()) fiber.absorption = scene_.absorptions[piece.span];
-        gathered += carried * lit(point, random, [&](const glm::dvec3& wi) {
+        gathered += throughput * directLight(point, random, [&](const glm::dvec3& wi) {
                         return scattering(fiber, wo, axes.local(wi), h);
                     });
         const std::array u{random.number(), random.number(), random.number(), random.number()};
         const glm::dvec3 wi = sampleDirection(fiber, wo, h, u);
         const double density = samplingPdf(fiber, wo, wi, h);
         if (!(density > 0)) return false;
-        carried *= scattering(fiber, wo, wi, h) / density;
+        throughput *= scattering(fiber, wo, wi, h) / density;
         ray = {point, glm::normalize(axes.world(wi))};
         return true;
     }
 
-    bool meetMesh(
+    bool scatterAtMesh(
         const Surfaces::Hit& hit, const glm::dvec3& point, const glm::dvec3& from,
-        glm::dvec3& gathered, glm::dvec3& carried, Ray& ray, SplitMix& random) const {
+        glm::dvec3& gathered, glm::dvec3& throughput, Ray& ray, SplitMix& random) const {
         const Corners& corners = surfaces_.corners(hit);
         const MattMesh& mesh = scene_.meshes[corners.mesh];
         const auto& [a, b, c] = mesh.triangles[corners.triangle];
@@ -568,16 +574,16 @@ private:
             if (mesh.sides == MattMesh::Sides::front) return false;
             normal = -normal;
         }
-        gathered += carried * lit(point, random, [&](const glm::dvec3& wi) {
+        gathered += throughput * directLight(point, random, [&](const glm::dvec3& wi) {
                         return mesh.reflectance * (std::max(glm::dot(normal, wi), 0.0) / kTracedPi);
                     });
         // Samples by the cosine: Malley's method.
         const double radius = std::sqrt(random.number());
         const double angle = 2 * kTracedPi * random.number();
-        const auto [first, second] = axesAcross(normal);
+        const auto [first, second] = perpendicularAxes(normal);
         const glm::dvec3 wi = radius * (std::cos(angle) * first + std::sin(angle) * second) +
                               std::sqrt(std::max(1 - radius * radius, 0.0)) * normal;
-        carried *= mesh.reflectance;
+        throughput *= mesh.reflectance;
         ray = {point, glm::normalize(wi)};
         return true;
     }

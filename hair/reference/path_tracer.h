@@ -73,7 +73,7 @@ struct TracedPicture {
 };
 
 // Paths end after this many hits of fibres and meshes.
-inline constexpr int kMostMeetings = 63;
+inline constexpr int kMostBounces = 63;
 
 class PathTracer {
 public:

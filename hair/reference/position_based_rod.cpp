@@ -45,8 +45,8 @@ struct PositionBasedStep {
     std::vector<glm::dvec3> before;  // positions of the vertices, m
     std::vector<glm::dquat> orientations_before;
     std::vector<glm::dvec3> positions;  // m
-    std::vector<glm::dmat3> lightness;  // inverse masses of vertices, 1/kg
-    std::vector<double> turn_lightness;  // inverse masses of quaternions, 1/(kg m^2)
+    std::vector<glm::dmat3> inverse_masses;  // inverse masses of vertices, 1/kg
+    std::vector<double> inverse_inertias;  // inverse masses of quaternions, 1/(kg m^2)
     std::vector<glm::dvec3> stretch_multipliers;
     std::vector<glm::dvec3> joint_multipliers;
 
@@ -54,8 +54,8 @@ struct PositionBasedStep {
     double per_square() const { return 1.0 / (parameters.substep * parameters.substep); }
 
     void predict(std::span<const glm::dvec3> accelerations, const RodRoot& root, const RodAir* air);
-    void holdSegment(std::size_t i);
-    void holdJoint(std::size_t i);
+    void projectSegment(std::size_t i);
+    void projectJoint(std::size_t i);
     void iterate();
     void finish();
 };
@@ -75,18 +75,18 @@ void PositionBasedStep::predict(
     state.root = root.rotation * rest.points[0] + root.translation;
     state.orientations[0] = root.rotation * rest.orientations[0];
     positions = {state.root};
-    lightness = {glm::dmat3(0.0)};
-    turn_lightness = {0.0};
+    inverse_masses = {glm::dmat3(0.0)};
+    inverse_inertias = {0.0};
     for (std::size_t i = 1; i < size(); ++i) {
         glm::dvec3 velocity = parameters.velocity_kept * state.velocities[i] + h * accelerations[i];
-        if (air) velocity = braked(velocity, drag[i], air->velocities[i], h);
+        if (air) velocity = withDrag(velocity, drag[i], air->velocities[i], h);
         const auto pin = state.pins.find(i);
         const bool held = pin != state.pins.end();
         positions.push_back(held ? pin->second : before[i] + h * velocity);
-        lightness.push_back(
+        inverse_masses.push_back(
             held ? glm::dmat3(0.0)
                  : glm::inverse(rest.masses[i] * (glm::dmat3(1.0) + h * drag[i])));
-        turn_lightness.push_back(1.0 / (4.0 * rest.inertias[i]));
+        inverse_inertias.push_back(1.0 / (4.0 * rest.inertias[i]));
         const glm::dvec3 turn = h * parameters.velocity_kept * state.angular_velocities[i];
         state.orientations[i] = glm::normalize(glm::dquat(1.0, 0.5 * turn) * state.orientations[i]);
     }
@@ -94,7 +94,7 @@ void PositionBasedStep::predict(
     joint_multipliers.assign(size(), glm::dvec3(0.0));
 }
 
-void PositionBasedStep::holdSegment(std::size_t i) {
+void PositionBasedStep::projectSegment(std::size_t i) {
     const double mean = std::max(
         std::accumulate(rest.lengths.begin(), rest.lengths.end(), 0.0) /
             static_cast<double>(size() - 1),
@@ -107,24 +107,24 @@ void PositionBasedStep::holdSegment(std::size_t i) {
     };
     // A segment without length at rest has no direction term.
     const double share = rest.lengths[i] / length;
-    const glm::dvec3 misfit = (positions[i] - positions[i - 1]) / length - share * axis(q, q);
+    const glm::dvec3 residual = (positions[i] - positions[i - 1]) / length - share * axis(q, q);
     // The gradient of a unit segment: a shorter segment turns like one.
     const TurnGradient gradient =
         gradientOf([&](const glm::dquat& unit) { return -(axis(unit, q) + axis(q, unit)); });
     const double compliance = per_square() / (parameters.stretch_stiffness * length);
-    const glm::dmat3 yields = (lightness[i - 1] + lightness[i]) / (length * length) +
-                              turn_lightness[i] * gradient * glm::transpose(gradient) +
-                              glm::dmat3(compliance);
+    const glm::dmat3 denominator = (inverse_masses[i - 1] + inverse_masses[i]) / (length * length) +
+                                   inverse_inertias[i] * gradient * glm::transpose(gradient) +
+                                   glm::dmat3(compliance);
     glm::dvec3& multiplier = stretch_multipliers[i];
-    const glm::dvec3 more = -(glm::inverse(yields) * (misfit + compliance * multiplier));
+    const glm::dvec3 more = -(glm::inverse(denominator) * (residual + compliance * multiplier));
     multiplier += more;
-    positions[i - 1] -= lightness[i - 1] * more / length;
-    positions[i] += lightness[i] * more / length;
-    const glm::dvec4 turn = turn_lightness[i] * (glm::transpose(gradient) * more);
+    positions[i - 1] -= inverse_masses[i - 1] * more / length;
+    positions[i] += inverse_masses[i] * more / length;
+    const glm::dvec4 turn = inverse_inertias[i] * (glm::transpose(gradient) * more);
     state.orientations[i] = glm::normalize(q + glm::dquat(turn.w, turn.x, turn.y, turn.z));
 }
 
-void PositionBasedStep::holdJoint(std::size_t i) {
+void PositionBasedStep::projectJoint(std::size_t i) {
     const glm::dquat half = rest.half_rotations[i];
     const glm::dquat back = glm::conjugate(half);
     const glm::dquat above = state.orientations[i - 1];
@@ -134,7 +134,7 @@ void PositionBasedStep::holdJoint(std::size_t i) {
         return back * glm::conjugate(first) * second * back;
     };
     const double nearer = rotation(above, here).w < 0.0 ? -1.0 : 1.0;
-    const glm::dvec3 misfit = nearer * imaginary(rotation(above, here));
+    const glm::dvec3 residual = nearer * imaginary(rotation(above, here));
     const TurnGradient by_above = gradientOf(
         [&](const glm::dquat& unit) { return nearer * imaginary(rotation(unit, here)); });
     const TurnGradient by_here = gradientOf(
@@ -142,14 +142,14 @@ void PositionBasedStep::holdJoint(std::size_t i) {
     const glm::dvec3 compliance =
         per_square() /
         (4.0 * glm::dvec3(rest.bend_stiffness[i], rest.bend_stiffness[i], rest.twist_stiffness[i]));
-    glm::dmat3 yields = turn_lightness[i - 1] * by_above * glm::transpose(by_above) +
-                        turn_lightness[i] * by_here * glm::transpose(by_here);
-    for (int axis = 0; axis < 3; ++axis) yields[axis][axis] += compliance[axis];
+    glm::dmat3 denominator = inverse_inertias[i - 1] * by_above * glm::transpose(by_above) +
+                             inverse_inertias[i] * by_here * glm::transpose(by_here);
+    for (int axis = 0; axis < 3; ++axis) denominator[axis][axis] += compliance[axis];
     glm::dvec3& multiplier = joint_multipliers[i];
-    const glm::dvec3 more = -(glm::inverse(yields) * (misfit + compliance * multiplier));
+    const glm::dvec3 more = -(glm::inverse(denominator) * (residual + compliance * multiplier));
     multiplier += more;
     const auto turn = [&](std::size_t segment, const TurnGradient& gradient) {
-        const glm::dvec4 by = turn_lightness[segment] * (glm::transpose(gradient) * more);
+        const glm::dvec4 by = inverse_inertias[segment] * (glm::transpose(gradient) * more);
         glm::dquat& orientation = state.orientations[segment];
         orientation = glm::normalize(orientation + glm::dquat(by.w, by.x, by.y, by.z));
     };
@@ -162,11 +162,11 @@ void PositionBasedStep::iterate() {
     for (std::size_t i = 1; i < size(); ++i) (i % 2 == 1 ? down : up).push_back(i);
     std::ranges::reverse(up);
     for (std::size_t k = 0; k < down.size(); ++k) {
-        holdSegment(down[k]);
-        holdJoint(down[k]);
+        projectSegment(down[k]);
+        projectJoint(down[k]);
         if (k >= up.size()) continue;
-        holdSegment(up[k]);
-        holdJoint(up[k]);
+        projectSegment(up[k]);
+        projectJoint(up[k]);
     }
 }
 
@@ -194,8 +194,8 @@ void stepPositionBasedRod(
         .before = {},
         .orientations_before = {},
         .positions = {},
-        .lightness = {},
-        .turn_lightness = {},
+        .inverse_masses = {},
+        .inverse_inertias = {},
         .stretch_multipliers = {},
         .joint_multipliers = {}};
     step.predict(accelerations, root, air);

@@ -59,7 +59,7 @@ constexpr double kBeta = 4.0 / 9.0;
 constexpr double kForceShare = kBeta * (1.0 - kAlphaForces);
 // Over the strand's mean segment: a segment that collisions stretch by more returns at once, and
 // says nothing about the acceleration.
-constexpr double kLeastMisfit = 1e-4;
+constexpr double kLeastResidual = 1e-4;
 
 const glm::dmat3 kIdentity(1.0);
 
@@ -148,7 +148,7 @@ void RodSubstep::predict(
         (turned_by.w < 0.0 ? -2.0 : 2.0) * glm::dvec3(turned_by.x, turned_by.y, turned_by.z)};
     state.orientations[0] = follicle;
     // The prediction itself stretches segments; displacements are relative to it.
-    glm::dvec3 misfits{0.0};  // by collisions, from the root down
+    glm::dvec3 residuals{0.0};  // by collisions, from the root down
     const double mean = std::accumulate(rest.lengths.begin(), rest.lengths.end(), 0.0) /
                         static_cast<double>(size() - 1);
     glm::dvec3 position = state.root;
@@ -157,12 +157,13 @@ void RodSubstep::predict(
         state.velocities[i] *= velocity_kept;
         if (!second_order) state.velocities[i] += substep * accelerations[i];
         if (air)
-            state.velocities[i] = braked(state.velocities[i], drag[i], air->velocities[i], substep);
+            state.velocities[i] =
+                withDrag(state.velocities[i], drag[i], air->velocities[i], substep);
         state.angular_velocities[i] *= velocity_kept;
         const glm::dvec3 edge = rest.lengths[i] * axisOf(state.orientations[i]);
-        misfits += state.edges[i] - edge;
-        stretched = stretched || glm::length(state.edges[i] - edge) > kLeastMisfit * mean;
-        displacements[i] = substep * (state.velocities[0] - state.velocities[i]) - misfits;
+        residuals += state.edges[i] - edge;
+        stretched = stretched || glm::length(state.edges[i] - edge) > kLeastResidual * mean;
+        displacements[i] = substep * (state.velocities[0] - state.velocities[i]) - residuals;
         if (second_order)
             displacements[i] -= carried(state.accelerations[i], state.true_accelerations[i]) +
                                 kForceShare * substep * substep * accelerations[i];
@@ -202,8 +203,8 @@ void RodSubstep::iterate() {
         glm::dvec3 a{0.0}, b{0.0};
     };
     struct Turn {  // of a segment, from the vertex and the segment above
-        glm::dmat3 by_move, by_turn;
-        glm::dvec3 by_itself;
+        glm::dmat3 move_response, turn_response;
+        glm::dvec3 constant_term;
     };
     std::vector<Turn> answers(size());
     const double per_square = 1.0 / (forceShare() * substep * substep);
@@ -238,18 +239,18 @@ void RodSubstep::iterate() {
         below.B += below.A * lever;
         below.b += glm::transpose(lever) * below.a;
 
-        const glm::dmat3 yields = glm::inverse(below.C + joint.stiffness);
+        const glm::dmat3 compliance = glm::inverse(below.C + joint.stiffness);
         Turn& answer = answers[i];
-        answer.by_move = -yields * glm::transpose(below.B);
-        answer.by_turn = yields * joint.stiffness;
-        answer.by_itself = yields * (joint.torque - below.b);
+        answer.move_response = -compliance * glm::transpose(below.B);
+        answer.turn_response = compliance * joint.stiffness;
+        answer.constant_term = compliance * (joint.torque - below.b);
 
         Below above;
-        above.A = below.A + below.B * answer.by_move;
-        above.B = below.B * answer.by_turn;
-        above.C = below.C * answer.by_turn;
-        above.a = below.a + below.B * answer.by_itself;
-        above.b = joint.stiffness * (yields * below.b) + below.C * (yields * joint.torque);
+        above.A = below.A + below.B * answer.move_response;
+        above.B = below.B * answer.turn_response;
+        above.C = below.C * answer.turn_response;
+        above.a = below.a + below.B * answer.constant_term;
+        above.b = joint.stiffness * (compliance * below.b) + below.C * (compliance * joint.torque);
         below = above;
     }
 
@@ -258,7 +259,8 @@ void RodSubstep::iterate() {
     state.smooth = true;
     for (std::size_t i = 1; i < size(); ++i) {
         const Turn& answer = answers[i];
-        glm::dvec3 turn = answer.by_move * moved + answer.by_turn * turns.back() + answer.by_itself;
+        glm::dvec3 turn = answer.move_response * moved + answer.turn_response * turns.back() +
+                          answer.constant_term;
         state.smooth = state.smooth && glm::length(turn) <= kSmoothTurn;
         turn *= kMostTurn / std::max(glm::length(turn), kMostTurn);
         moved += glm::cross(turn, state.edges[i]);

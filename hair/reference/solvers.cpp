@@ -254,10 +254,10 @@ void stepShape(const Substep& substep, const SimulationSettings& settings, const
 
     const std::vector<glm::dvec3> before(positions.begin(), positions.end());
     const std::vector<glm::dmat3> drag = dragOf(substep, settings, step);
-    std::vector<double> lightness;
+    std::vector<double> inverse_masses;
     const bool bends = settings.local.method == LocalMethod::energy &&
                        settings.local.stiffness > 0.0f && settings.local.iterations > 0;
-    for (const glm::dmat3& rate : drag) lightness.push_back(lightnessIn(rate, step.sub));
+    for (const glm::dmat3& rate : drag) inverse_masses.push_back(inverseMassIn(rate, step.sub));
     if (bends) {
         bendShape(substep, rest, drag, settings, step);
     } else {
@@ -267,28 +267,28 @@ void stepShape(const Substep& substep, const SimulationSettings& settings, const
             positions, substep.previous, substep.accelerations, keptFactor(settings, step),
             step.sub);
         for (std::size_t i = 1; i < drag.size(); ++i)
-            positions[i] = before[i] + step.sub * braked(
+            positions[i] = before[i] + step.sub * withDrag(
                                                       (positions[i] - before[i]) / step.sub,
                                                       drag[i], substep.air[i], step.sub);
-        pullToRest(positions, rest, globalFactor(settings, step), lightness);
+        pullToRest(positions, rest, globalFactor(settings, step), inverse_masses);
         for (std::uint32_t i = 0; i < settings.local.iterations; ++i)
-            pullToShape(positions, substep.rest, local, root_frame, lightness);
+            pullToShape(positions, substep.rest, local, root_frame, inverse_masses);
         if (settings.length.method == LengthMethod::tridiagonal)
-            solveLengths(positions, rest, settings.length.iterations, lightness);
+            solveLengths(positions, rest, settings.length.iterations, inverse_masses);
         else
             for (std::uint32_t i = 0; i < settings.length.iterations; ++i)
-                projectLengths(positions, rest, lightness);
+                projectLengths(positions, rest, inverse_masses);
     }
 
     // Bodies act between two length passes: one more pass if the strand touches a body.
-    std::vector<Pushed> met(vertices);
+    std::vector<VertexContact> met(vertices);
     for (std::size_t i = 1; i < vertices; ++i) {
         met[i] = substep.push_out(positions[i], before[i]);
         positions[i] = met[i].position;
     }
-    if (std::ranges::any_of(met, &Pushed::touches) &&
+    if (std::ranges::any_of(met, &VertexContact::touches) &&
         settings.length.method == LengthMethod::tridiagonal && settings.length.iterations > 0)
-        solveLengths(positions, rest, 1, lightness, met);
+        solveLengths(positions, rest, 1, inverse_masses, met);
 }
 
 void stepFtl(const Substep& substep, const SimulationSettings& settings, const Step& step) {

@@ -116,7 +116,7 @@ void CosseratStep::predict(
     predicted = {state.root};
     for (std::size_t i = 1; i < size(); ++i) {
         glm::dvec3 velocity = parameters.velocity_kept * state.velocities[i] + h * accelerations[i];
-        if (air) velocity = braked(velocity, drag[i], air->velocities[i], h);
+        if (air) velocity = withDrag(velocity, drag[i], air->velocities[i], h);
         const auto pin = state.pins.find(i);
         if (pin != state.pins.end()) drag[i] = glm::dmat3(0.0);
         predicted.push_back(pin == state.pins.end() ? before[i] + h * velocity : pin->second);

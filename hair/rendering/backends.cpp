@@ -217,7 +217,7 @@ public:
           indices_(engine::makeBuffer(
               context.device, std::span<const std::uint32_t>(quadIndices(strandLines(context))),
               "strands' corners")),
-          seen_(listBuffer(
+          visible_(listBuffer(
               context.device, sizeof(std::uint32_t) * points_.strandCount(), "strands' list")),
           arguments_(
               listBuffer(context.device, sizeof(gpu::IndexedCommand) * draws_, "strands' draws")),
@@ -235,7 +235,7 @@ public:
         if (!is_listed_) return;
         commands.uses(
             {{points_.pieces(), Access::compute_read},
-             {seen_, Access::compute_write},
+             {visible_, Access::compute_write},
              {arguments_, Access::compute_write}});
         gpu::ExpandedPush constants = push(picture);
         constants.picture = 0;
@@ -253,7 +253,7 @@ public:
         commands.uses(
             {{points_.points(), Access::vertex_read},
              {points_.pieces(), Access::vertex_read},
-             {constants.seen, Access::vertex_read}});
+             {constants.visible, Access::vertex_read}});
         commands.bind(pipeline_, constants);
         commands.images(pipeline_, picture.images);
         if (is_listed_) {
@@ -279,7 +279,7 @@ private:
             .picture = picture.address,
             .points = points_.points().address(),
             .pieces = points_.pieces().address(),
-            .seen = is_listed_ ? seen_.address() : 0,
+            .visible = is_listed_ ? visible_.address() : 0,
             .arguments = is_listed_ ? arguments_.address() : 0,
             .strands = points_.strandCount()};
     }
@@ -323,7 +323,7 @@ private:
     std::uint32_t draws_;
     std::uint32_t indices_per_strand_;
     engine::Buffer indices_;
-    engine::Buffer seen_;  // gpu::ExpandedPush::seen
+    engine::Buffer visible_;  // gpu::ExpandedPush::visible
     engine::Buffer arguments_;  // gpu::IndexedCommand
     engine::ComputePipeline list_;
     engine::GraphicsPipeline pipeline_;
@@ -474,19 +474,19 @@ bool readsSceneDepth(const Settings& settings) {
 
 StageWatch::StageWatch(const engine::Device& device)
     : device_(device), buffer_(watchBuffer(device)) {
-    seeNone();
+    countNone();
 }
 
-void StageWatch::seeAll() { see(0, 0); }
+void StageWatch::countAll() { set(0, 0); }
 
-void StageWatch::seeNone() { see(0xffffffff, 0x9e3779b9); }  // an arbitrary number
+void StageWatch::countNone() { set(0xffffffff, 0x9e3779b9); }  // an arbitrary number
 
-StageWatch::Seen StageWatch::seen() const {
+StageWatch::Counts StageWatch::counts() const {
     const gpu::StageWatch watch = engine::downloadAs<gpu::StageWatch>(device_, buffer_).front();
     return {.invocations = watch.count, .sum = watch.sum};
 }
 
-void StageWatch::see(std::uint32_t mask, std::uint32_t wanted) {
+void StageWatch::set(std::uint32_t mask, std::uint32_t wanted) {
     const gpu::StageWatch watch{.mask = mask, .wanted = wanted, .sum = 0, .count = 0};
     engine::upload(device_, std::as_bytes(std::span(&watch, 1)), buffer_);
 }

@@ -37,7 +37,7 @@ bool readsSceneDepth(const Settings& settings);
 // additions are atomic and need no order, so Commands::uses() need not know of them.
 class StageWatch {
 public:
-    // Starts in the state of seeNone(). Throws engine::Unsupported where stages before the
+    // Starts in the state of countNone(). Throws engine::Unsupported where stages before the
     // rasteriser can't write to buffers.
     explicit StageWatch(const engine::Device& device);
 
@@ -45,20 +45,20 @@ public:
 
     // Adds up every invocation from the next frame on, which is slow. The device must have finished
     // the last frame.
-    void seeAll();
+    void countAll();
     // Adds up almost no invocation from the next frame on (one of 2^32 for random outputs), at the
     // cost of a comparison. The device must have finished the last frame.
-    void seeNone();
+    void countNone();
 
-    struct Seen {
+    struct Counts {
         std::uint32_t invocations = 0;
         std::uint32_t sum = 0;  // of the bits of their outputs, modulo 2^32
     };
-    // Returns the sums since the last call of seeAll() or seeNone(). Waits for the device.
-    Seen seen() const;
+    // Returns the sums since the last call of countAll() or countNone(). Waits for the device.
+    Counts counts() const;
 
 private:
-    void see(std::uint32_t mask, std::uint32_t wanted);
+    void set(std::uint32_t mask, std::uint32_t wanted);
 
     const engine::Device& device_;
     engine::Buffer buffer_;

@@ -91,32 +91,32 @@ void forEachTexel(const engine::FloatPixels& picture, double turn, Function f) {
 }
 
 // Light of some of an environment's directions.
-struct LightPart {
+struct LightCluster {
     glm::dvec3 light{0};  // radiance times solid angle
     double weight = 0;  // the mean of its channels
     glm::dvec3 moment{0};  // sum of weight times direction
     double solid_angle = 0;
 
-    void add(const LightPart& other) {
+    void add(const LightCluster& other) {
         light += other.light;
         weight += other.weight;
         moment += other.moment;
         solid_angle += other.solid_angle;
     }
     // The direction that the irradiance comes from.
-    glm::dvec3 middle() const {
+    glm::dvec3 centroid() const {
         const double length = glm::length(moment);
         return length > 1e-9 * weight ? moment / length : glm::dvec3(0, 1, 0);
     }
-    // The weight times 1 - the mean cosine with the middle.
+    // The weight times 1 - the mean cosine with the centroid.
     double spread() const { return weight - glm::length(moment); }
 };
 
 // Sums of the picture's texels over at most 128 x 64 cells, without the dark ones.
-std::vector<LightPart> cellsOf(const engine::FloatPixels& picture, double turn) {
+std::vector<LightCluster> cellsOf(const engine::FloatPixels& picture, double turn) {
     const std::uint32_t columns = std::min(picture.width, 128u);
     const std::uint32_t rows = std::min(picture.height, 64u);
-    std::vector<LightPart> cells(std::size_t{columns} * rows);
+    std::vector<LightCluster> cells(std::size_t{columns} * rows);
     std::size_t texel = 0;
     forEachTexel(picture, turn, [&](const glm::dvec3& direction, const TexelLight& at) {
         const std::size_t row = texel / picture.width * rows / picture.height;
@@ -125,76 +125,79 @@ std::vector<LightPart> cellsOf(const engine::FloatPixels& picture, double turn) 
         cells[row * columns + column].add({at.light, weight, weight * direction, at.solid_angle});
         ++texel;
     });
-    std::erase_if(cells, [](const LightPart& cell) { return cell.weight == 0; });
+    std::erase_if(cells, [](const LightCluster& cell) { return cell.weight == 0; });
     return cells;
 }
 
-// Cells divided into parts by k-means on the sphere: each cell belongs to the part with the nearest
-// middle, weighted by light.
-class LightParts {
+// Clusters of cells by k-means on the sphere: each cell belongs to the cluster with the nearest
+// centroid, weighted by light.
+class LightClusters {
 public:
-    explicit LightParts(std::span<const LightPart> cells) : cells_(cells) { divide({}); }
+    explicit LightClusters(std::span<const LightCluster> cells) : cells_(cells) { assign({}); }
 
-    const std::vector<LightPart>& parts() const { return parts_; }
+    const std::vector<LightCluster>& clusters() const { return clusters_; }
     double spread() const {
         double sum = 0;
-        for (const LightPart& part : parts_) sum += part.spread();
+        for (const LightCluster& cluster : clusters_) sum += cluster.spread();
         return sum;
     }
 
-    // Divides the part with the widest light in two, across its longest axis.
+    // Divides the cluster with the widest light in two, across its longest axis.
     void split() {
-        const auto widest = std::ranges::max_element(parts_, {}, &LightPart::spread);
-        const auto index = static_cast<std::size_t>(widest - parts_.begin());
+        const auto widest = std::ranges::max_element(clusters_, {}, &LightCluster::spread);
+        const auto index = static_cast<std::size_t>(widest - clusters_.begin());
         const glm::dvec3 axis = longestAxis(index);
         const glm::dvec3 mean = widest->moment / widest->weight;
-        std::vector<glm::dvec3> middles;
-        for (const LightPart& part : parts_) middles.push_back(part.middle());
-        std::array<LightPart, 2> halves;
+        std::vector<glm::dvec3> centroids;
+        for (const LightCluster& cluster : clusters_) centroids.push_back(cluster.centroid());
+        std::array<LightCluster, 2> halves;
         for (std::size_t i = 0; i < cells_.size(); ++i)
-            if (owners_[i] == index)
-                halves[glm::dot(cells_[i].middle() - mean, axis) > 0 ? 1 : 0].add(cells_[i]);
-        middles[index] = halves[0].middle();
-        middles.push_back(halves[1].middle());
-        divide(middles);
+            if (assignments_[i] == index)
+                halves[glm::dot(cells_[i].centroid() - mean, axis) > 0 ? 1 : 0].add(cells_[i]);
+        centroids[index] = halves[0].centroid();
+        centroids.push_back(halves[1].centroid());
+        assign(centroids);
     }
 
-    void settle(int times) {
+    void iterate(int times) {
         for (int i = 0; i < times; ++i) {
-            std::vector<glm::dvec3> middles;
-            for (const LightPart& part : parts_) middles.push_back(part.middle());
-            divide(middles);
+            std::vector<glm::dvec3> centroids;
+            for (const LightCluster& cluster : clusters_) centroids.push_back(cluster.centroid());
+            assign(centroids);
         }
     }
 
 private:
-    // Without middles, all cells are one part. Parts without a cell disappear.
-    void divide(std::span<const glm::dvec3> middles) {
-        std::vector<LightPart> parts(std::max<std::size_t>(middles.size(), 1));
-        owners_.resize(cells_.size());
+    // Without centroids, all cells are one cluster. Clusters without a cell disappear.
+    void assign(std::span<const glm::dvec3> centroids) {
+        std::vector<LightCluster> clusters(std::max<std::size_t>(centroids.size(), 1));
+        assignments_.resize(cells_.size());
         for (std::size_t i = 0; i < cells_.size(); ++i) {
-            const glm::dvec3 direction = cells_[i].middle();
-            const auto nearest = std::ranges::max_element(
-                middles, {}, [&](const glm::dvec3& middle) { return glm::dot(middle, direction); });
-            owners_[i] = middles.empty() ? 0 : static_cast<std::size_t>(nearest - middles.begin());
-            parts[owners_[i]].add(cells_[i]);
+            const glm::dvec3 direction = cells_[i].centroid();
+            const auto nearest =
+                std::ranges::max_element(centroids, {}, [&](const glm::dvec3& centroid) {
+                    return glm::dot(centroid, direction);
+                });
+            assignments_[i] =
+                centroids.empty() ? 0 : static_cast<std::size_t>(nearest - centroids.begin());
+            clusters[assignments_[i]].add(cells_[i]);
         }
-        std::vector<std::size_t> kept(parts.size());
-        parts_.clear();
-        for (std::size_t i = 0; i < parts.size(); ++i) {
-            kept[i] = parts_.size();
-            if (parts[i].weight > 0) parts_.push_back(parts[i]);
+        std::vector<std::size_t> kept(clusters.size());
+        clusters_.clear();
+        for (std::size_t i = 0; i < clusters.size(); ++i) {
+            kept[i] = clusters_.size();
+            if (clusters[i].weight > 0) clusters_.push_back(clusters[i]);
         }
-        for (std::size_t& owner : owners_) owner = kept[owner];
+        for (std::size_t& assignment : assignments_) assignment = kept[assignment];
     }
 
-    // The axis of the greatest variance of a part's directions, by the power method.
-    glm::dvec3 longestAxis(std::size_t part) const {
-        const glm::dvec3 mean = parts_[part].moment / parts_[part].weight;
+    // The axis of the greatest variance of a cluster's directions, by the power method.
+    glm::dvec3 longestAxis(std::size_t cluster) const {
+        const glm::dvec3 mean = clusters_[cluster].moment / clusters_[cluster].weight;
         glm::dmat3 variance(0);
         for (std::size_t i = 0; i < cells_.size(); ++i) {
-            if (owners_[i] != part) continue;
-            const glm::dvec3 offset = cells_[i].middle() - mean;
+            if (assignments_[i] != cluster) continue;
+            const glm::dvec3 offset = cells_[i].centroid() - mean;
             variance += cells_[i].weight * glm::outerProduct(offset, offset);
         }
         glm::dvec3 axis = glm::normalize(glm::dvec3(0.8, 0.53, 0.29));  // along no likely axis
@@ -206,38 +209,39 @@ private:
         return axis;
     }
 
-    std::span<const LightPart> cells_;
-    std::vector<std::size_t> owners_;  // [cell], its part
-    std::vector<LightPart> parts_;
+    std::span<const LightCluster> cells_;
+    std::vector<std::size_t> assignments_;  // [cell], its cluster
+    std::vector<LightCluster> clusters_;
 };
 
-// Lights whose directions are within a mean cosine of 1 - this, some 8 degrees, need no more parts:
+// Lights whose directions are within a mean cosine of 1 - this, some 8 degrees, need no more
+// clusters:
 // hair's narrowest lobes are about as wide.
 constexpr double kNarrow = 0.005;
 
-std::vector<LightPart> partsOf(std::span<const LightPart> cells, std::uint32_t count) {
-    LightParts parts(cells);
+std::vector<LightCluster> clustersOf(std::span<const LightCluster> cells, std::uint32_t count) {
+    LightClusters clusters(cells);
     double weight = 0;
-    for (const LightPart& cell : cells) weight += cell.weight;
-    while (parts.parts().size() < count && parts.spread() > kNarrow * weight) {
-        const std::size_t before = parts.parts().size();
-        parts.split();
-        if (parts.parts().size() == before) break;
-        parts.settle(3);
+    for (const LightCluster& cell : cells) weight += cell.weight;
+    while (clusters.clusters().size() < count && clusters.spread() > kNarrow * weight) {
+        const std::size_t before = clusters.clusters().size();
+        clusters.split();
+        if (clusters.clusters().size() == before) break;
+        clusters.iterate(3);
     }
-    parts.settle(12);
-    std::vector<LightPart> result = parts.parts();
-    std::ranges::sort(result, std::ranges::greater(), &LightPart::weight);
+    clusters.iterate(12);
+    std::vector<LightCluster> result = clusters.clusters();
+    std::ranges::sort(result, std::ranges::greater(), &LightCluster::weight);
     return result;
 }
 
-// How much wider discs are than the light of their part, from 1 to the root of 2. Discs of even
+// How much wider discs are than the light of their cluster, from 1 to the root of 2. Discs of even
 // light would leave dark gaps between them, so they have twice the area. Uneven light, with a mean
 // square of its radiance of 1.5 times the squared mean or more, keeps its contrast.
-double widening(std::span<const LightPart> cells) {
+double widening(std::span<const LightCluster> cells) {
     double weight = 0;
     double squares = 0;
-    for (const LightPart& cell : cells) {
+    for (const LightCluster& cell : cells) {
         weight += cell.weight;
         squares += cell.weight * cell.weight / cell.solid_angle;
     }
@@ -264,23 +268,23 @@ std::array<glm::dvec3, 9> irradianceHarmonics(const engine::FloatPixels& picture
 std::vector<LightSettings> environmentLights(
     const engine::FloatPixels& picture, const RenderSettings& render, std::uint32_t count) {
     const engine::FloatPixels light = soundLight(picture, render.environment_strength);
-    const std::vector<LightPart> cells =
+    const std::vector<LightCluster> cells =
         cellsOf(light, glm::radians(double{render.environment_turn}));
     if (cells.empty()) return {};
     const double wider = widening(cells);
     std::vector<LightSettings> lights;
-    for (const LightPart& part : partsOf(cells, count)) {
+    for (const LightCluster& cluster : clustersOf(cells, count)) {
         // A light's colour is irradiance / pi, split into display RGB up to 1 and a strength.
-        const glm::dvec3 color = part.light / std::numbers::pi;
+        const glm::dvec3 color = cluster.light / std::numbers::pi;
         const double strength = std::max({color.r, color.g, color.b, 1e-12});
         const glm::dvec3 share = color / strength;
         const bool is_linear = hasLinearLight(render);
         // The mean cosine of a cap's directions with its middle is (1 + cos r) / 2.
-        const double cosine = 1 - 2 * part.spread() / part.weight;
+        const double cosine = 1 - 2 * cluster.spread() / cluster.weight;
         const double radius = wider * std::acos(std::clamp(cosine, -1.0, 1.0));
         lights.push_back(
             {.type = LightType::directional,
-             .direction = glm::vec3(-part.middle()),
+             .direction = glm::vec3(-cluster.centroid()),
              .color = glm::vec3(is_linear ? toDisplay(share) : toDisplay(color)),
              .strength = is_linear ? static_cast<float>(strength) : 1.0f,
              .angular_radius = static_cast<float>(std::min(glm::degrees(radius), 90.0))});

@@ -108,7 +108,7 @@ std::uint32_t lightKinds(const Settings& settings) {
         const bool distant = light.type == gpu::kLightDirectional;
         if (light.type == gpu::kLightSphere || (distant && light.radius > 0.0f))
             kinds |= gpu::kSomeSpheres;
-        if (light.reference_distance > 0.0f) kinds |= gpu::kSomeWeaken;
+        if (light.reference_distance > 0.0f) kinds |= gpu::kSomeAttenuate;
     }
     return kinds;
 }

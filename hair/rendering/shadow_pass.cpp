@@ -82,12 +82,12 @@ glm::mat4 looking(const glm::vec3& from, const glm::vec3& axis) {
 LightView
 parallelView(const glm::vec3& axis, const ShadowBounds& bounds, float radius, float texels) {
     const Sphere& range = bounds.range;
-    const float start = glm::dot(range.centre - bounds.seen.centre, axis) - range.radius;
+    const float start = glm::dot(range.centre - bounds.receivers.centre, axis) - range.radius;
     const glm::mat4 projection = glm::orthoRH_ZO(
         -radius, radius, -radius, radius, 2.0f * std::max(range.radius, kLeastRadius), 0.0f);
     return {
-        .view_projection = projection * looking(bounds.seen.centre + start * axis, axis),
-        .eye = bounds.seen.centre - kFarAway * radius * axis,
+        .view_projection = projection * looking(bounds.receivers.centre + start * axis, axis),
+        .eye = bounds.receivers.centre - kFarAway * radius * axis,
         .depth_terms = {-projection[2][2], projection[3][2], 0.0f, 1.0f},
         .texel_near = 2.0f * radius / texels,
         .texel_slope = 0.0f};
@@ -108,18 +108,18 @@ LightView perspectiveView(
         .texel_slope = 2.0f * slope / texels};
 }
 
-// A map of side x side texels shows bounds.seen and `margin` texels round it. Where the light is
-// inside bounds.seen, or sees it under more than 150 degrees, the map shows 150 degrees round its
-// centre, and nothing beyond casts a shadow. Nor does anything nearer to a point light than a
-// hundredth of the far end of bounds.range, because depth would be too coarse.
+// A map of side x side texels shows bounds.receivers and `margin` texels round it. Where the light
+// is inside bounds.receivers, or sees it under more than 150 degrees, the map shows 150 degrees
+// round its centre, and nothing beyond casts a shadow. Nor does anything nearer to a point light
+// than a hundredth of the far end of bounds.range, because depth would be too coarse.
 LightView lightView(
     const LightSettings& light, const ShadowBounds& bounds, std::uint32_t side, float margin) {
     const auto texels = static_cast<float>(side);
     const float widened = texels / (texels - 2.0f * margin);
-    const float radius = std::max(bounds.seen.radius, kLeastRadius);
+    const float radius = std::max(bounds.receivers.radius, kLeastRadius);
     if (light.type == LightType::directional)
         return parallelView(unit(light.direction), bounds, widened * radius, texels);
-    const glm::vec3 to_centre = bounds.seen.centre - light.position;
+    const glm::vec3 to_centre = bounds.receivers.centre - light.position;
     const float most = std::sin(glm::radians(kMostHalfAngle));
     const float sine = std::min(radius / std::max(glm::length(to_centre), radius), most);
     const float slope = sine / std::sqrt(1.0f - sine * sine);
@@ -267,19 +267,20 @@ Sphere strandBounds(const groom::Groom& groom, const StrandSettings& settings) {
     return bounds;
 }
 
-LightSettings lightSample(const LightSettings& light, const glm::vec3& seen, std::uint32_t index) {
+LightSettings
+lightSample(const LightSettings& light, const glm::vec3& receiver, std::uint32_t index) {
     const std::uint32_t count = shadowMaps(light);
     LightSettings sample = light;
     if (count == 1) return sample;
-    // A sphere is sampled on the disc bounded by its outline as seen from `seen`. A disc at
+    // A sphere is sampled on the disc bounded by its outline as seen from `receiver`. A disc at
     // infinity is sampled on its projection, where equal parts give equal light to a surface that
     // faces its middle.
     const bool directional = light.type == LightType::directional;
-    const glm::vec3 axis = unit(directional ? light.direction : seen - light.position);
+    const glm::vec3 axis = unit(directional ? light.direction : receiver - light.position);
     const glm::mat4 view = looking(glm::vec3(0.0f), axis);
     const glm::vec3 right(view[0][0], view[1][0], view[2][0]);
     const glm::vec3 up(view[0][1], view[1][1], view[2][1]);
-    const float apart = glm::distance(seen, light.position);
+    const float apart = glm::distance(receiver, light.position);
     const float ratio = std::min(light.radius / std::max(apart, kLeastRadius), 0.95f);
     const float radius = light.radius / std::sqrt(1.0f - ratio * ratio);
     const float sine = std::sin(glm::radians(light.angular_radius));
@@ -314,9 +315,9 @@ ShadowScene::ShadowScene(const Settings& settings, const RenderAssets& assets) {
 
 ShadowBounds ShadowScene::bounds(const StrandView& view) const {
     const Sphere hair{view.centre, view.radius};
-    ShadowBounds bounds{.seen = moved(view.head, enclosing(hair, head_))};
-    if (bounds.seen.radius == 0.0f) bounds.seen = others_;
-    bounds.range = enclosing(bounds.seen, others_);
+    ShadowBounds bounds{.receivers = moved(view.head, enclosing(hair, head_))};
+    if (bounds.receivers.radius == 0.0f) bounds.receivers = others_;
+    bounds.range = enclosing(bounds.receivers, others_);
     return bounds;
 }
 
@@ -394,7 +395,7 @@ ShadowPass::ShadowPass(
       sampler_(device, {.filter = VK_FILTER_NEAREST}),
       images_{{&mesh_depths_, &sampler_}, {&hair_depths_, &sampler_}, {&hair_layers_, &sampler_}},
       mesh_color_(meanColor(settings, assets)), written_(maps_.size() * kPictureStride) {
-    seen_.reserve(maps_.size());
+    light_pictures_.reserve(maps_.size());
     for (std::uint32_t slot = 0; slot < engine::FrameLoop::kMaxSlots; ++slot) {
         parameters_[slot] =
             uploadBuffer(device, sizeof(gpu::ShadowParameters), "shadow parameters");
@@ -435,39 +436,39 @@ void ShadowPass::writeParameters(
     // The map has room for samples round a point: those of the filter, and strands a texel wide.
     const float margin = std::max(shadows.softness, 0.5f) + 1.0f;
     const ShadowBounds bounds = scene_.bounds(view);
-    seen_.clear();
+    light_pictures_.clear();
     std::uint32_t further = gpu::kMostLights;
     for (std::uint32_t i = 0; i < maps_.size(); ++i) {
         const auto [light, sample] = maps_[i];
         const LightSettings& whole = settings_.shading.lights[light];
-        const LightView seen =
-            lightView(lightSample(whole, bounds.seen.centre, sample), bounds, atlas_.side, margin);
+        const LightView light_view = lightView(
+            lightSample(whole, bounds.receivers.centre, sample), bounds, atlas_.side, margin);
         const VkOffset2D corner = atlas_.part(i).offset;
         const std::uint32_t map = sample == 0 ? light : further++;
         parameters.maps[map] = {
-            .view_projection = seen.view_projection,
-            .depth_terms = seen.depth_terms,
+            .view_projection = light_view.view_projection,
+            .depth_terms = light_view.depth_terms,
             .corner = {corner.x, corner.y},
-            .texel_near = seen.texel_near,
-            .texel_slope = seen.texel_slope,
+            .texel_near = light_view.texel_near,
+            .texel_slope = light_view.texel_slope,
             .layer_depth = shadows.layer_depth,
             .ends_at_meshes = mesh_maps_ && shadows.hair == HairShadows::deep_shadow ? 1u : 0u,
             .casters = (mesh_maps_ ? gpu::kMeshesCast : 0u) | (hair_maps_ ? gpu::kHairCasts : 0u),
             .further = further,
             .further_count = shadowMaps(whole) - 1u};
         gpu::PictureParameters picture = of;
-        picture.view_projection = seen.view_projection;
-        picture.eye = seen.eye;
+        picture.view_projection = light_view.view_projection;
+        picture.eye = light_view.eye;
         // Deep shadow maps trace rays through texels, so strands keep their width.
         const bool widens = shadows.hair != HairShadows::deep_shadow;
-        picture.pixel_near = widens ? seen.texel_near : 0.0f;
-        picture.pixel_slope = widens ? seen.texel_slope : 0.0f;
+        picture.pixel_near = widens ? light_view.texel_near : 0.0f;
+        picture.pixel_slope = widens ? light_view.texel_slope : 0.0f;
         if (settings_.render.transparency == Transparency::none) picture.opacity = 1.0f;
         picture.shadows = parameters_[slot].address() + offsetof(gpu::ShadowParameters, maps) +
                           map * sizeof(gpu::ShadowMap);
         const std::size_t place = i * kPictureStride;
         std::memcpy(&written_[place], &picture, sizeof picture);
-        seen_.push_back({pictures_[slot].address() + place, picture});
+        light_pictures_.push_back({pictures_[slot].address() + place, picture});
     }
     parameters_[slot].write(parameters);
     pictures_[slot].write(std::span<const std::byte>(written_));
@@ -477,9 +478,9 @@ void ShadowPass::drawMeshes(engine::Commands& commands, const SceneMeshes& meshe
     toDraw(commands, mesh_depths_, VK_IMAGE_LAYOUT_DEPTH_ATTACHMENT_OPTIMAL);
     engine::beginRendering(
         commands, {}, engine::Attachment{&mesh_depths_, engine::Load::clear, {engine::kFarDepth}});
-    for (std::uint32_t i = 0; i < seen_.size(); ++i) {
+    for (std::uint32_t i = 0; i < light_pictures_.size(); ++i) {
         engine::setArea(commands, atlas_.part(i));
-        meshes.drawDepth(commands, seen_[i].address);
+        meshes.drawDepth(commands, light_pictures_[i].address);
     }
     engine::endRendering(commands);
     toRead(commands, mesh_depths_, VK_IMAGE_LAYOUT_DEPTH_ATTACHMENT_OPTIMAL);
@@ -492,16 +493,16 @@ void ShadowPass::drawHair(engine::Commands& commands) const {
             .parameters = picture.parameters,
             .images = std::span(images_).first(images)};
     };
-    for (const LightPicture& picture : seen_) {
+    for (const LightPicture& picture : light_pictures_) {
         depth_->prepare(commands, drawn(picture, 0));
         opacity_->prepare(commands, drawn(picture, 2));
     }
     toDraw(commands, hair_depths_, VK_IMAGE_LAYOUT_DEPTH_ATTACHMENT_OPTIMAL);
     engine::beginRendering(
         commands, {}, engine::Attachment{&hair_depths_, engine::Load::clear, {engine::kFarDepth}});
-    for (std::uint32_t i = 0; i < seen_.size(); ++i) {
+    for (std::uint32_t i = 0; i < light_pictures_.size(); ++i) {
         engine::setArea(commands, atlas_.part(i));
-        depth_->draw(commands, drawn(seen_[i], 0));
+        depth_->draw(commands, drawn(light_pictures_[i], 0));
     }
     engine::endRendering(commands);
     toRead(commands, hair_depths_, VK_IMAGE_LAYOUT_DEPTH_ATTACHMENT_OPTIMAL);
@@ -509,9 +510,9 @@ void ShadowPass::drawHair(engine::Commands& commands) const {
     toDraw(commands, hair_layers_, VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL);
     const engine::Attachment layers{&hair_layers_, engine::Load::clear, {}};
     engine::beginRendering(commands, std::span(&layers, 1), std::nullopt);
-    for (std::uint32_t i = 0; i < seen_.size(); ++i) {
+    for (std::uint32_t i = 0; i < light_pictures_.size(); ++i) {
         engine::setArea(commands, atlas_.part(i));
-        opacity_->draw(commands, drawn(seen_[i], 2));
+        opacity_->draw(commands, drawn(light_pictures_[i], 2));
     }
     engine::endRendering(commands);
     toRead(commands, hair_layers_, VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL);

@@ -37,7 +37,7 @@ Sphere enclosing(const Sphere& a, const Sphere& b);
 
 // The regions that shadow maps have to show.
 struct ShadowBounds {
-    Sphere seen;  // a light's map shows all of it: the hair and the head
+    Sphere receivers;  // a light's map shows all of it: the hair and the head
     Sphere range;  // the depth range of a light's map: everything that is drawn
 };
 
@@ -71,9 +71,10 @@ struct MapOfLight {
 };
 
 // Returns the light moved to one point of its face or, where it is a disc at infinity, turned to
-// one direction of its disc, as seen from `seen`. Returns the light itself where it has one map.
-// `index` is below shadowMaps(); each index stands for an equal part of the light.
-LightSettings lightSample(const LightSettings& light, const glm::vec3& seen, std::uint32_t index);
+// one direction of its disc, as seen from `receiver`. Returns the light itself where it has one
+// map. `index` is below shadowMaps(); each index stands for an equal part of the light.
+LightSettings
+lightSample(const LightSettings& light, const glm::vec3& receiver, std::uint32_t index);
 
 // Whether there are shadow maps of hair.
 bool hasHairMaps(const Settings& settings);
@@ -136,7 +137,7 @@ private:
     std::vector<engine::SampledImage> images_;
     glm::vec3 mesh_color_;
     // Values of the frame that is recorded:
-    std::vector<LightPicture> seen_;
+    std::vector<LightPicture> light_pictures_;
     std::vector<std::byte> written_;  // into pictures_
     std::unique_ptr<StrandBackend> depth_;
     std::unique_ptr<StrandBackend> opacity_;

@@ -17,7 +17,7 @@ static_assert(offsetof(gpu::SoftwarePush, width) == 88 && sizeof(gpu::SoftwarePu
 
 constexpr const char* kSoftware = "/strands/backend: software";
 constexpr std::size_t kSampleBytes = 8;  // two words
-constexpr std::uint32_t kCoveredPieces = 128;  // at most, per invocation
+constexpr std::uint32_t kRasterizedPieces = 128;  // at most, per invocation
 
 // Throws engine::Unsupported for counts and positions of samples that the shaders don't know.
 std::uint32_t checkedSamples(const engine::Device& device, std::uint32_t samples) {
@@ -50,7 +50,7 @@ bool isPacked(const engine::Device& device) {
 }
 
 // A piece takes an iteration to test it, and more to list it.
-std::uint32_t foundBlock(const BackendContext& context) {
+std::uint32_t culledBlock(const BackendContext& context) {
     return strandBlock(context.device, context.strands, context.plan, 3);
 }
 
@@ -63,7 +63,7 @@ std::uint32_t pixelGroup(const engine::Device& device) {
 // Whether each invocation of `shade` takes one pixel. Lavapipe ends an invocation's loops after
 // 65,535 iterations in all, and each light adds iterations for each texel of its map. With few
 // lights, an invocation takes many pixels and reads the picture's parameters once.
-bool shadesPixelsApart(const BackendContext& context) {
+bool shadesPixelPerInvocation(const BackendContext& context) {
     constexpr std::uint32_t kFewLights = 2;
     return std::ranges::any_of(context.output.shading, [](const engine::Constant& constant) {
         return constant.id == gpu::kLightCountConstant && constant.bits > kFewLights;
@@ -123,12 +123,12 @@ engine::ComputeDescription shadeStage(const BackendContext& context) {
     return stage;
 }
 
-engine::GraphicsDescription showStage(const BackendContext& context) {
+engine::GraphicsDescription blitStage(const BackendContext& context) {
     const bool has_texels = texelsOf(context) != nullptr;
     return {
         .shaders =
-            {"strands/software/show.vert",
-             shaderOf(context, has_texels ? "show_texels" : "show", ".frag")},
+            {"strands/software/blit.vert",
+             shaderOf(context, has_texels ? "blit_texels" : "blit", ".frag")},
         .constants = softwareConstants(context, 1),
         .push_size = sizeof(gpu::SoftwarePush),
         .colors = context.output.colors,
@@ -145,12 +145,12 @@ SoftwareSizes softwareSizes(const engine::TargetDescription& target, std::uint64
     const std::size_t tiles = std::size_t{divideUp(target.width * target.ssaa, gpu::kTile)} *
                               divideUp(target.height * target.ssaa, gpu::kTile);
     return {
-        .samples = samples,
+        .visibility = samples,
         .colors = target.color_format == engine::Target::kOutputFormat ? 0 : samples,
         .list = sizeof(std::uint32_t) * pieces,
         .large = sizeof(std::uint32_t) * gpu::kMostLargePieces,
-        .tiles = sizeof(std::uint32_t) * tiles,
-        .windows = kSampleBytes * tiles};
+        .tile_depths = sizeof(std::uint32_t) * tiles,
+        .pyramid = kSampleBytes * tiles};
 }
 
 SoftwareBackend::SoftwareBackend(const BackendContext& context)
@@ -158,38 +158,38 @@ SoftwareBackend::SoftwareBackend(const BackendContext& context)
           context,
           softwareSizes(
               context.target->description(),
-              std::uint64_t{divideUp(context.points->strandCount(), foundBlock(context))} *
-                  foundBlock(context) * context.plan.segments * context.plan.forced_tessellation)) {
-}
+              std::uint64_t{divideUp(context.points->strandCount(), culledBlock(context))} *
+                  culledBlock(context) * context.plan.segments *
+                  context.plan.forced_tessellation)) {}
 
 SoftwareBackend::SoftwareBackend(const BackendContext& context, const SoftwareSizes& sizes)
     : target_(*context.target), points_(*context.points),
       samples_per_pixel_(checkedSamples(context.device, context.output.samples)),
-      block_(foundBlock(context)), blocks_(divideUp(points_.strandCount(), block_)),
+      block_(culledBlock(context)), blocks_(divideUp(points_.strandCount(), block_)),
       pieces_per_strand_(context.plan.segments * context.plan.forced_tessellation),
       is_packed_(isPacked(context.device)), texels_(texelsOf(context)),
-      samples_(softwareBuffer(context.device, sizes.samples, "samples")),
+      visibility_(softwareBuffer(context.device, sizes.visibility, "visibility buffer")),
       counts_(softwareBuffer(context.device, sizeof(gpu::PieceCounts), "counts")),
       list_(softwareBuffer(context.device, sizes.list, "list")),
       large_(softwareBuffer(context.device, sizes.large, "large pieces")),
-      tiles_(softwareBuffer(context.device, sizes.tiles, "depths of tiles")),
-      windows_(softwareBuffer(context.device, sizes.windows, "depths of windows")),
+      tile_depths_(softwareBuffer(context.device, sizes.tile_depths, "depths of tiles")),
+      pyramid_(softwareBuffer(context.device, sizes.pyramid, "depth pyramid")),
       clear_(context.device, clearStage(context)),
-      find_tiles_(context.device, texelStage(context, "tiles", 1)),
-      find_windows_(context.device, texelStage(context, "windows", 1)),
-      find_(context.device, texelStage(context, "find", 2, block_)),
-      cover_(context.device, texelStage(context, "cover", 2)),
-      cover_large_(context.device, texelStage(context, "cover_large", 2)),
+      reduce_tiles_(context.device, texelStage(context, "tiles", 1)),
+      build_pyramid_(context.device, texelStage(context, "pyramid", 1)),
+      cull_(context.device, texelStage(context, "cull", 2, block_)),
+      rasterize_(context.device, texelStage(context, "raster", 2)),
+      rasterize_large_(context.device, texelStage(context, "raster_large", 2)),
       shaded_columns_(
-          shadesPixelsApart(context)
+          shadesPixelPerInvocation(context)
               ? divideUp(target_.color().extent().width, pixelGroup(context.device))
               : 1),
-      shade_(context.device, shadeStage(context)), show_(context.device, showStage(context)) {
+      shade_(context.device, shadeStage(context)), blit_(context.device, blitStage(context)) {
     if (sizes.colors > 0) colors_ = softwareBuffer(context.device, sizes.colors, "colors");
     if (!texels_) return;
-    sample_texels_ = {context.device, samples_, VK_FORMAT_R32G32_UINT};
-    tile_texels_ = {context.device, tiles_, VK_FORMAT_R32_UINT};
-    window_texels_ = {context.device, windows_, VK_FORMAT_R32G32_UINT};
+    visibility_texels_ = {context.device, visibility_, VK_FORMAT_R32G32_UINT};
+    tile_texels_ = {context.device, tile_depths_, VK_FORMAT_R32_UINT};
+    pyramid_texels_ = {context.device, pyramid_, VK_FORMAT_R32G32_UINT};
 }
 
 void SoftwareBackend::check(
@@ -209,28 +209,28 @@ gpu::SoftwarePush SoftwareBackend::push(const StrandPicture& picture) const {
         .picture = picture.address,
         .points = 0,
         .pieces = 0,
-        .samples = 0,
+        .visibility = 0,
         .colors = 0,
         .bounds = 0,
         .counts = 0,
         .list = 0,
         .large = 0,
-        .tiles = 0,
-        .windows = 0,
+        .tile_depths = 0,
+        .pyramid = 0,
         .width = extent.width,
         .height = extent.height,
         .strands = points_.strandCount(),
         .choice = 0,
-        .part = gpu::kCoverFirst,
+        .part = gpu::kFirstPart,
         .list_begin = 0};
 }
 
 void SoftwareBackend::clear(engine::Commands& commands, const StrandPicture& picture) const {
     gpu::SoftwarePush constants = push(picture);
-    constants.samples = samples_.address();
+    constants.visibility = visibility_.address();
     constants.bounds = points_.bounds().address();
     target_.beginDepthRead(commands);
-    commands.uses({{samples_, Access::compute_write}, {points_.bounds(), Access::compute_read}});
+    commands.uses({{visibility_, Access::compute_write}, {points_.bounds(), Access::compute_read}});
     commands.bind(clear_, constants);
     const engine::Image* const depth = &target_.depth();
     commands.images(clear_, std::span(&depth, 1), {});
@@ -241,18 +241,18 @@ void SoftwareBackend::clear(engine::Commands& commands, const StrandPicture& pic
 gpu::SoftwarePush SoftwareBackend::ofPart(gpu::SoftwarePush constants, std::uint32_t part) const {
     const std::uint32_t first = divideUp(blocks_, gpu::kFirstStrands);
     constants.part = part;
-    constants.list_begin = part == gpu::kCoverFirst ? 0 : first * block_ * pieces_per_strand_;
+    constants.list_begin = part == gpu::kFirstPart ? 0 : first * block_ * pieces_per_strand_;
     return constants;
 }
 
-void SoftwareBackend::findPieces(engine::Commands& commands, gpu::SoftwarePush constants) const {
+void SoftwareBackend::cullPieces(engine::Commands& commands, gpu::SoftwarePush constants) const {
     const std::uint32_t first = divideUp(blocks_, gpu::kFirstStrands);
-    const std::uint32_t blocks = constants.part == gpu::kCoverFirst ? first : blocks_ - first;
+    const std::uint32_t blocks = constants.part == gpu::kFirstPart ? first : blocks_ - first;
     if (blocks == 0) return;
     constants.points = points_.points().address();
     constants.pieces = points_.pieces().address();
     constants.bounds = points_.bounds().address();
-    constants.windows = windows_.address();
+    constants.pyramid = pyramid_.address();
     constants.counts = counts_.address();
     constants.list = list_.address();
     commands.barrier(Access::compute_write, Access::compute_write);
@@ -260,22 +260,23 @@ void SoftwareBackend::findPieces(engine::Commands& commands, gpu::SoftwarePush c
         {{points_.points(), Access::compute_read},
          {points_.pieces(), Access::compute_read},
          {points_.bounds(), Access::compute_read},
-         {windows_, Access::compute_read},
+         {pyramid_, Access::compute_read},
          {counts_, Access::compute_write},
          {list_, Access::compute_write}});
-    commands.bind(find_, constants);
-    if (texels_) commands.images(find_, {}, std::array{texels_, &window_texels_});
+    commands.bind(cull_, constants);
+    if (texels_) commands.images(cull_, {}, std::array{texels_, &pyramid_texels_});
     commands.dispatchInvocations(blocks, gpu::kSoftwareStrandGroup);
 }
 
-// Dispatches an invocation for every kCoveredPieces pieces of all strands. Only listed pieces are
-// covered, so most invocations have few. kCoveredPieces are few enough to be done before lavapipe
-// ends an invocation's loops.
-void SoftwareBackend::coverPieces(engine::Commands& commands, gpu::SoftwarePush constants) const {
+// Dispatches an invocation for every kRasterizedPieces pieces of all strands. Only listed pieces
+// are covered, so most invocations have few. kRasterizedPieces are few enough to be done before
+// lavapipe ends an invocation's loops.
+void SoftwareBackend::rasterizePieces(
+    engine::Commands& commands, gpu::SoftwarePush constants) const {
     constants.points = points_.points().address();
     constants.list = list_.address();
     constants.pieces = points_.pieces().address();
-    constants.samples = samples_.address();
+    constants.visibility = visibility_.address();
     constants.counts = counts_.address();
     constants.large = large_.address();
     commands.barrier(Access::compute_write, Access::compute_write);
@@ -283,99 +284,100 @@ void SoftwareBackend::coverPieces(engine::Commands& commands, gpu::SoftwarePush 
         {{points_.points(), Access::compute_read},
          {points_.pieces(), Access::compute_read},
          {list_, Access::compute_read},
-         {samples_, Access::compute_write},
+         {visibility_, Access::compute_write},
          {counts_, Access::compute_write},
          {large_, Access::compute_write}});
-    commands.bind(cover_, constants);
-    if (texels_) commands.images(cover_, {}, std::array{texels_, &sample_texels_});
+    commands.bind(rasterize_, constants);
+    if (texels_) commands.images(rasterize_, {}, std::array{texels_, &visibility_texels_});
     const std::uint32_t pieces = points_.strandCount() * pieces_per_strand_;
-    commands.dispatchInvocations(divideUp(pieces, kCoveredPieces), gpu::kSoftwareStrandGroup);
+    commands.dispatchInvocations(divideUp(pieces, kRasterizedPieces), gpu::kSoftwareStrandGroup);
 }
 
-void SoftwareBackend::coverLarge(engine::Commands& commands, gpu::SoftwarePush constants) const {
+void SoftwareBackend::rasterizeLarge(
+    engine::Commands& commands, gpu::SoftwarePush constants) const {
     constants.points = points_.points().address();
     constants.pieces = points_.pieces().address();
-    constants.samples = samples_.address();
+    constants.visibility = visibility_.address();
     constants.counts = counts_.address();
     constants.large = large_.address();
     commands.barrier(Access::compute_write, Access::compute_write);
     commands.uses(
         {{points_.points(), Access::compute_read},
          {points_.pieces(), Access::compute_read},
-         {samples_, Access::compute_write},
+         {visibility_, Access::compute_write},
          {counts_, Access::compute_read},
          {large_, Access::compute_read}});
-    commands.bind(cover_large_, constants);
-    if (texels_) commands.images(cover_large_, {}, std::array{texels_, &sample_texels_});
+    commands.bind(rasterize_large_, constants);
+    if (texels_) commands.images(rasterize_large_, {}, std::array{texels_, &visibility_texels_});
     commands.dispatch(gpu::kLargeGroups);
 }
 
-void SoftwareBackend::findTiles(engine::Commands& commands, gpu::SoftwarePush constants) const {
-    constants.samples = samples_.address();
+void SoftwareBackend::reduceTiles(engine::Commands& commands, gpu::SoftwarePush constants) const {
+    constants.visibility = visibility_.address();
     constants.bounds = points_.bounds().address();
-    constants.tiles = tiles_.address();
+    constants.tile_depths = tile_depths_.address();
     commands.barrier(Access::compute_write, Access::compute_write);
     commands.uses(
-        {{samples_, Access::compute_read},
+        {{visibility_, Access::compute_read},
          {points_.bounds(), Access::compute_read},
-         {tiles_, Access::compute_write}});
-    commands.bind(find_tiles_, constants);
-    if (texels_) commands.images(find_tiles_, {}, std::array{&sample_texels_});
+         {tile_depths_, Access::compute_write}});
+    commands.bind(reduce_tiles_, constants);
+    if (texels_) commands.images(reduce_tiles_, {}, std::array{&visibility_texels_});
     commands.dispatch(divideUp(constants.height, gpu::kTile));
 }
 
-void SoftwareBackend::findWindows(engine::Commands& commands, gpu::SoftwarePush constants) const {
+void SoftwareBackend::buildPyramid(engine::Commands& commands, gpu::SoftwarePush constants) const {
     constants.bounds = points_.bounds().address();
-    constants.tiles = tiles_.address();
-    constants.windows = windows_.address();
+    constants.tile_depths = tile_depths_.address();
+    constants.pyramid = pyramid_.address();
     commands.barrier(Access::compute_write, Access::compute_write);
     commands.uses(
-        {{tiles_, Access::compute_read},
+        {{tile_depths_, Access::compute_read},
          {points_.bounds(), Access::compute_read},
-         {windows_, Access::compute_write}});
-    commands.bind(find_windows_, constants);
-    if (texels_) commands.images(find_windows_, {}, std::array{&tile_texels_});
+         {pyramid_, Access::compute_write}});
+    commands.bind(build_pyramid_, constants);
+    if (texels_) commands.images(build_pyramid_, {}, std::array{&tile_texels_});
     commands.dispatch(divideUp(constants.height, gpu::kTile));
 }
 
 // With 64-bit atomics, the depth and the number of a sample's piece are one word. Without them, a
 // first pass finds the nearest depth of each sample, and a second pass the first piece at that
 // depth.
-void SoftwareBackend::cover(engine::Commands& commands, const StrandPicture& picture) const {
+void SoftwareBackend::rasterize(engine::Commands& commands, const StrandPicture& picture) const {
     gpu::SoftwarePush constants = push(picture);
-    const gpu::SoftwarePush first = ofPart(constants, gpu::kCoverFirst);
-    const gpu::SoftwarePush others = ofPart(constants, gpu::kCoverOthers);
-    findPieces(commands, first);
-    coverPieces(commands, first);
-    findTiles(commands, constants);
-    findWindows(commands, constants);
-    findPieces(commands, others);
-    coverPieces(commands, others);
-    coverLarge(commands, constants);
+    const gpu::SoftwarePush first = ofPart(constants, gpu::kFirstPart);
+    const gpu::SoftwarePush others = ofPart(constants, gpu::kOtherPart);
+    cullPieces(commands, first);
+    rasterizePieces(commands, first);
+    reduceTiles(commands, constants);
+    buildPyramid(commands, constants);
+    cullPieces(commands, others);
+    rasterizePieces(commands, others);
+    rasterizeLarge(commands, constants);
     if (is_packed_) return;
     constants.choice = 1;
-    for (const std::uint32_t part : {gpu::kCoverFirst, gpu::kCoverOthers})
-        coverPieces(commands, ofPart(constants, part));
-    coverLarge(commands, constants);
+    for (const std::uint32_t part : {gpu::kFirstPart, gpu::kOtherPart})
+        rasterizePieces(commands, ofPart(constants, part));
+    rasterizeLarge(commands, constants);
 }
 
 void SoftwareBackend::shade(engine::Commands& commands, const StrandPicture& picture) const {
     gpu::SoftwarePush constants = push(picture);
     constants.points = points_.points().address();
     constants.pieces = points_.pieces().address();
-    constants.samples = samples_.address();
+    constants.visibility = visibility_.address();
     constants.bounds = points_.bounds().address();
     if (target_.hasRadiance()) constants.colors = colors_.address();
     commands.barrier(Access::compute_write, Access::compute_write);
     commands.uses(
         {{points_.points(), Access::compute_read},
          {points_.pieces(), Access::compute_read},
-         {samples_, Access::compute_write},
+         {visibility_, Access::compute_write},
          {points_.bounds(), Access::compute_read},
          {constants.colors, Access::compute_write}});
     commands.bind(shade_, constants);
     if (texels_)
-        commands.images(shade_, picture.images, std::array{texels_, &sample_texels_});
+        commands.images(shade_, picture.images, std::array{texels_, &visibility_texels_});
     else
         commands.images(shade_, picture.images);
     commands.dispatch(constants.height, shaded_columns_);
@@ -385,24 +387,24 @@ void SoftwareBackend::prepare(engine::Commands& commands, const StrandPicture& p
     commands.fill(counts_, 0);
     commands.barrier(Access::transfer_write, Access::compute_write);
     clear(commands, picture);
-    cover(commands, picture);
+    rasterize(commands, picture);
     shade(commands, picture);
     commands.barrier(Access::compute_write, Access::fragment_read);
 }
 
 void SoftwareBackend::draw(engine::Commands& commands, const StrandPicture& picture) const {
     gpu::SoftwarePush constants = push(picture);
-    constants.samples = samples_.address();
+    constants.visibility = visibility_.address();
     constants.bounds = points_.bounds().address();
     if (target_.hasRadiance()) constants.colors = colors_.address();
     commands.uses(
-        {{samples_, Access::fragment_read},
+        {{visibility_, Access::fragment_read},
          {constants.colors, Access::fragment_read},
          {points_.bounds(), Access::vertex_read}});
     // One draw per sample, because sample-rate shading is a feature that not every device has.
     for (constants.choice = 0; constants.choice < samples_per_pixel_; ++constants.choice) {
-        commands.bind(show_, constants);
-        if (texels_) commands.images(show_, {}, std::array{&sample_texels_});
+        commands.bind(blit_, constants);
+        if (texels_) commands.images(blit_, {}, std::array{&visibility_texels_});
         commands.draw({.vertices = 6});
     }
 }

@@ -18,14 +18,14 @@ namespace hair::rendering {
 
 // Bytes of the buffers that the back end `software` keeps for samples, tiles and pieces of strands.
 struct SoftwareSizes {
-    std::size_t samples = 0;
+    std::size_t visibility = 0;
     std::size_t colors = 0;  // 0 without linear light
     std::size_t list = 0;
     std::size_t large = 0;
-    std::size_t tiles = 0;
-    std::size_t windows = 0;
+    std::size_t tile_depths = 0;
+    std::size_t pyramid = 0;
 
-    std::size_t sum() const { return samples + colors + list + large + tiles + windows; }
+    std::size_t sum() const { return visibility + colors + list + large + tile_depths + pyramid; }
 };
 
 // `pieces` counts the pieces of all strands of a dispatch, rounded up to whole blocks of strands.
@@ -63,13 +63,13 @@ private:
     // others.
     gpu::SoftwarePush push(const StrandPicture& picture) const;
     void clear(engine::Commands& commands, const StrandPicture& picture) const;
-    void cover(engine::Commands& commands, const StrandPicture& picture) const;
+    void rasterize(engine::Commands& commands, const StrandPicture& picture) const;
     gpu::SoftwarePush ofPart(gpu::SoftwarePush constants, std::uint32_t part) const;
-    void findPieces(engine::Commands& commands, gpu::SoftwarePush constants) const;
-    void coverPieces(engine::Commands& commands, gpu::SoftwarePush constants) const;
-    void coverLarge(engine::Commands& commands, gpu::SoftwarePush constants) const;
-    void findTiles(engine::Commands& commands, gpu::SoftwarePush constants) const;
-    void findWindows(engine::Commands& commands, gpu::SoftwarePush constants) const;
+    void cullPieces(engine::Commands& commands, gpu::SoftwarePush constants) const;
+    void rasterizePieces(engine::Commands& commands, gpu::SoftwarePush constants) const;
+    void rasterizeLarge(engine::Commands& commands, gpu::SoftwarePush constants) const;
+    void reduceTiles(engine::Commands& commands, gpu::SoftwarePush constants) const;
+    void buildPyramid(engine::Commands& commands, gpu::SoftwarePush constants) const;
     void shade(engine::Commands& commands, const StrandPicture& picture) const;
 
     const engine::Target& target_;
@@ -80,7 +80,7 @@ private:
     std::uint32_t pieces_per_strand_;
     bool is_packed_;  // with 64-bit integers and atomics
     const engine::TexelView* texels_;  // the points; null where shaders read by address alone
-    engine::Buffer samples_;
+    engine::Buffer visibility_;
     engine::Buffer colors_;  // empty without linear light
     engine::Buffer counts_;  // gpu::PieceCounts
     // Pieces that may be visible: those of the first strands, then those of the others. It has room
@@ -88,21 +88,21 @@ private:
     // first.
     engine::Buffer list_;
     engine::Buffer large_;  // pieces that cover many samples
-    engine::Buffer tiles_;
-    engine::Buffer windows_;
+    engine::Buffer tile_depths_;
+    engine::Buffer pyramid_;
     // Only where texels_ is set.
-    engine::TexelView sample_texels_;
+    engine::TexelView visibility_texels_;
     engine::TexelView tile_texels_;
-    engine::TexelView window_texels_;
+    engine::TexelView pyramid_texels_;
     engine::ComputePipeline clear_;
-    engine::ComputePipeline find_tiles_;
-    engine::ComputePipeline find_windows_;
-    engine::ComputePipeline find_;
-    engine::ComputePipeline cover_;
-    engine::ComputePipeline cover_large_;
+    engine::ComputePipeline reduce_tiles_;
+    engine::ComputePipeline build_pyramid_;
+    engine::ComputePipeline cull_;
+    engine::ComputePipeline rasterize_;
+    engine::ComputePipeline rasterize_large_;
     std::uint32_t shaded_columns_;  // work groups per row of pixels
     engine::ComputePipeline shade_;
-    engine::GraphicsPipeline show_;
+    engine::GraphicsPipeline blit_;
 };
 
 }  // namespace hair::rendering

@@ -207,7 +207,7 @@ std::uint32_t samplesFor(
 }
 
 // The point that follows three evenly spaced points of a parabola.
-glm::vec3 runOn(const glm::vec3& a, const glm::vec3& b, const glm::vec3& c) {
+glm::vec3 extrapolated(const glm::vec3& a, const glm::vec3& b, const glm::vec3& c) {
     return 3.0f * (c - b) + a;
 }
 
@@ -321,9 +321,10 @@ StrandOffsets makeStrandOffsets(
             addModelOffsets(
                 strands->strand(static_cast<std::uint32_t>(strand)), length, turn, samples);
         }
-        offsets.values.push_back(runOn(samples[2], samples[1], samples[0]));
+        offsets.values.push_back(extrapolated(samples[2], samples[1], samples[0]));
         offsets.values.insert(offsets.values.end(), samples.begin(), samples.end());
-        offsets.values.push_back(runOn(samples.end()[-3], samples.end()[-2], samples.end()[-1]));
+        offsets.values.push_back(
+            extrapolated(samples.end()[-3], samples.end()[-2], samples.end()[-1]));
     }
     return offsets;
 }

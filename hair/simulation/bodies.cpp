@@ -27,15 +27,15 @@ namespace {
 // ---- Baking a distance field --------------------------------------------------------------------
 
 static_assert(sizeof(gpu::DistanceField) == 40 && offsetof(gpu::DistanceField, points) == 24);
-static_assert(sizeof(gpu::TreeNode) == 32 && offsetof(gpu::TreeNode, upper) == 16);
-static_assert(sizeof(gpu::TreeTriangle) == 48 && offsetof(gpu::TreeTriangle, normal) == 36);
+static_assert(sizeof(gpu::BvhNode) == 32 && offsetof(gpu::BvhNode, upper) == 16);
+static_assert(sizeof(gpu::BvhTriangle) == 48 && offsetof(gpu::BvhTriangle, normal) == 36);
 static_assert(sizeof(gpu::TriangleNormals) == 84 && offsetof(gpu::TriangleNormals, corners) == 48);
 static_assert(sizeof(gpu::BlockMiddle) == 8);
 static_assert(sizeof(gpu::BakeDistancePush) == 108 && offsetof(gpu::BakeDistancePush, nodes) == 40);
 static_assert(offsetof(gpu::BakeDistancePush, first_block) == 92);
 
 // On lavapipe, 12 bakes 1.4 times as fast as 4: processing a leaf costs less than finding it.
-// Halving 2^32 triangles down to leaves of this size takes fewer than gpu::kTreeDepth levels.
+// Halving 2^32 triangles down to leaves of this size takes fewer than gpu::kBvhDepth levels.
 constexpr std::size_t kMostInLeaf = 12;
 
 // One submission of this size takes less than a second on lavapipe. Drivers abort submissions that
@@ -99,7 +99,7 @@ makeBuffer(const engine::Device& device, const std::vector<Value>& values, const
 // cell's diagonal is 1.73 cells. The remainder covers rounding on grids far from the origin.
 constexpr float kBandCells = 2.5f;
 
-glm::dvec3 normalOf(const gpu::TreeTriangle& triangle) {
+glm::dvec3 normalOf(const gpu::BvhTriangle& triangle) {
     const glm::dvec3 a(triangle.corners[0]);
     return glm::normalize(
         glm::cross(glm::dvec3(triangle.corners[1]) - a, glm::dvec3(triangle.corners[2]) - a));
@@ -123,20 +123,20 @@ private:
         const engine::Device& device, std::span<const glm::vec3> positions,
         std::span<const std::array<std::uint32_t, 3>> faces,
         std::span<const groom::Pseudonormals> from) {
-        groom::TriangleTree tree = groom::buildTriangleTree(positions, faces, kMostInLeaf);
-        std::vector<gpu::TreeNode> boxes;
-        for (const groom::TriangleTree::Node& node : tree.nodes) {
+        groom::TriangleBvh tree = groom::buildTriangleBvh(positions, faces, kMostInLeaf);
+        std::vector<gpu::BvhNode> boxes;
+        for (const groom::TriangleBvh::Node& node : tree.nodes) {
             boxes.push_back(
                 {.lower = node.low, .first = node.first, .upper = node.high, .count = node.count});
             // Sorted by index, so that the same one of equally near triangles counts everywhere.
             if (node.count > 0)
                 std::ranges::sort(std::span(tree.order).subspan(node.first, node.count));
         }
-        std::vector<gpu::TreeTriangle> corners;
+        std::vector<gpu::BvhTriangle> corners;
         std::vector<gpu::TriangleNormals> pseudonormals;
         for (const std::uint32_t index : tree.order) {
             const auto& [a, b, c] = faces[index];
-            gpu::TreeTriangle& triangle = corners.emplace_back();
+            gpu::BvhTriangle& triangle = corners.emplace_back();
             triangle.corners[0] = positions[a];
             triangle.corners[1] = positions[b];
             triangle.corners[2] = positions[c];

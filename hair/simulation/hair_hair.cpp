@@ -30,7 +30,7 @@ constexpr double kReach = 1.1;
 constexpr double kGreatestPush = 1.0;
 // Largest predicted part of friction. The exact part tends to 1 for large friction, and the
 // prediction would then never decay.
-constexpr double kMostForeseen = 0.75;
+constexpr double kMostPredicted = 0.75;
 // Largest repulsion in use, over (cell / step)^2.
 constexpr double kGreatestRepulsion = 0.5;
 
@@ -75,7 +75,7 @@ std::vector<float> toFloat(std::span<const double> values) {
 
 struct Friction {
     double settled = 0.0;
-    double foreseen = 0.0;
+    double predicted = 0.0;
 };
 
 // Returns the parts that friction removes in a step: of the differences at its start, and of those
@@ -85,8 +85,8 @@ Friction frictionIn(const HairHairSettings& contact, double step) {
     if (setting == 0.0) return {};
     const double rate = -std::log1p(-setting) / kReferenceStep;
     const double settled = -std::expm1(-rate * step);
-    const double most = contact.repulsion > 0.0f ? 1.0 - settled : kMostForeseen;
-    return {.settled = settled, .foreseen = std::min(1.0 - settled / (rate * step), most)};
+    const double most = contact.repulsion > 0.0f ? 1.0 - settled : kMostPredicted;
+    return {.settled = settled, .predicted = std::min(1.0 - settled / (rate * step), most)};
 }
 
 // Returns the parameters without addresses.
@@ -109,7 +109,7 @@ parametersOf(const groom::Groom& groom, const SimulationSettings& settings, cons
         .resolution = grid.resolution,
         .crowded = static_cast<float>(double{contact.crowding} * meanRestDensity(groom, grid)),
         .settled = static_cast<float>(friction.settled),
-        .foreseen = static_cast<float>(friction.foreseen),
+        .predicted = static_cast<float>(friction.predicted),
         .per_step = static_cast<float>(1.0 / whole),
         .repulsion = static_cast<float>(repulsion / grid.cell),
         .greatest_repulsion = static_cast<float>(kGreatestPush * fastest / whole),

@@ -44,7 +44,7 @@ std::vector<gpu::WindingNode> nodesOf(const WindingNumber& winding) {
     nodes.reserve(winding.multipoles().size());
     for (std::size_t i = 0; i < winding.multipoles().size(); ++i) {
         const groom::Multipole& moments = winding.multipoles()[i];
-        const groom::TriangleTree::Node& from = winding.tree().nodes[i];
+        const groom::TriangleBvh::Node& from = winding.tree().nodes[i];
         gpu::WindingNode& node = nodes.emplace_back();
         node.centre = glm::vec3(moments.centre);
         node.reach = static_cast<float>(WindingNumber::kReach * moments.radius);

@@ -33,16 +33,16 @@ struct Strain {
     glm::dquat rotation;  // of the second frame relative to the first
 };
 
-glm::dquat shortWay(const glm::dquat& q) { return q.w < 0.0 ? -q : q; }
+glm::dquat shortestRotation(const glm::dquat& q) { return q.w < 0.0 ? -q : q; }
 
 // Returns half of a rotation, of unit length.
 glm::dquat rootOf(const glm::dquat& rotation) {
-    return glm::normalize(shortWay(rotation) + glm::dquat(1.0, 0.0, 0.0, 0.0));
+    return glm::normalize(shortestRotation(rotation) + glm::dquat(1.0, 0.0, 0.0, 0.0));
 }
 
 // Returns the energy's gradient by rotations of the second frame, in axes of the first.
 glm::dvec3 gradientOf(const glm::dquat& strain, const JointStiffness& joint) {
-    const glm::dquat r = shortWay(strain);
+    const glm::dquat r = shortestRotation(strain);
     const double cosine2 = r.w * r.w + r.z * r.z;  // cos^2 of half the bend
     const double cosine = cosine2 - r.x * r.x - r.y * r.y;  // cosine of the bend
     // Sine times cosine of half the bend, along the bend's axis, and perpendicular to it.
@@ -65,7 +65,7 @@ glm::dvec3 gradientOf(const glm::dquat& strain, const JointStiffness& joint) {
 // differences. The square of the step, and rounding over the step, are at most 1e-10 of the
 // stiffness.
 glm::dmat3
-changeOf(const glm::dquat& first, const glm::dquat& second, const JointStiffness& joint) {
+hessianOf(const glm::dquat& first, const glm::dquat& second, const JointStiffness& joint) {
     constexpr double kTurn = 1e-5;
     glm::dmat3 change;
     for (int axis = 0; axis < 3; ++axis) {
@@ -126,13 +126,13 @@ std::optional<Strain> strainOf(const glm::dvec3& gradient, const JointStiffness&
     const glm::dquat none(1.0, 0.0, 0.0, 0.0);
     if (!(strain.bend <= most_bend)) strain.rotation = none;
     for (int i = 0; i < kMostIterations; ++i) {
-        const glm::dvec3 missing = gradient - gradientOf(strain.rotation, joint);
-        glm::dvec3 turn = glm::inverse(changeOf(none, strain.rotation, joint)) * missing;
+        const glm::dvec3 residual = gradient - gradientOf(strain.rotation, joint);
+        glm::dvec3 turn = glm::inverse(hessianOf(none, strain.rotation, joint)) * residual;
         const double size = glm::length(turn);
         if (!(size < 1e9)) return std::nullopt;
         turn *= kMostTurn / std::max(size, kMostTurn);
-        strain.rotation =
-            shortWay(glm::normalize(glm::normalize(glm::dquat(1.0, turn / 2.0)) * strain.rotation));
+        strain.rotation = shortestRotation(
+            glm::normalize(glm::normalize(glm::dquat(1.0, turn / 2.0)) * strain.rotation));
         strain.bend =
             2.0 * std::asin(std::min(1.0, std::hypot(strain.rotation.x, strain.rotation.y)));
         if (!(strain.bend <= most_bend)) return std::nullopt;
@@ -159,7 +159,7 @@ std::optional<glm::dquat> halfRotationOf(
         const Strain& strain = *found;
         // (h S)^2 = between S.
         const glm::dquat next =
-            shortWay(rootOf(between * strain.rotation) * glm::conjugate(strain.rotation));
+            shortestRotation(rootOf(between * strain.rotation) * glm::conjugate(strain.rotation));
         const double change = glm::length(next - half);
         if (change < kSolved) return next;
         // A full step can be too far for a strongly bent joint; then take half.
@@ -174,7 +174,7 @@ std::optional<glm::dquat> halfRotationOf(
 glm::dmat3 symmetric(const glm::dmat3& m) { return 0.5 * (m + glm::transpose(m)); }
 
 // For a symmetric matrix.
-bool isPositive(const glm::dmat3& m) {
+bool isPositiveDefinite(const glm::dmat3& m) {
     return m[0][0] > 0.0 && m[0][0] * m[1][1] - m[0][1] * m[1][0] > 0.0 &&
            glm::determinant(m) > 0.0;
 }
@@ -194,7 +194,7 @@ unloadedOf(const glm::dquat& first, const glm::dquat& second, const JointStiffne
         return joint.bend * (glm::dmat3(1.0) - along + more * glm::outerProduct(across, across)) +
                joint.twist * along;
     const double e = joint.ellipticity;
-    const glm::dquat r = shortWay(glm::conjugate(first) * second);
+    const glm::dquat r = shortestRotation(glm::conjugate(first) * second);
     const double sine2 = std::max(r.x * r.x + r.y * r.y, 1e-30);
     const double length = std::hypot(r.w, r.z);
     const double energy = joint.at_follicle ? -std::log1p(-2.0 * sine2) : -2.0 * std::log1p(-sine2);
@@ -260,7 +260,7 @@ bool isStable(
         const JointStiffness joint = stiffnessOf(rod, i, stiffening);
         const glm::dmat3 unloaded = unloadedOf(first, second, joint);
         const glm::dmat3 change =
-            unloaded + kLoadMargin * (changeOf(first, second, joint) - unloaded);
+            unloaded + kLoadMargin * (hessianOf(first, second, joint) - unloaded);
         const glm::dmat3 own = symmetric(change);
 
         const glm::dvec3& edge = rod.edges[i];
@@ -268,7 +268,7 @@ bool isStable(
         const glm::dmat3 geometric =
             glm::dot(force, edge) * glm::dmat3(1.0) - symmetric(glm::outerProduct(force, edge));
         const glm::dmat3 pivot = own + below + kLoadMargin * geometric;
-        if (!isPositive(pivot)) return false;
+        if (!isPositiveDefinite(pivot)) return false;
         below = own - symmetric(change * glm::inverse(pivot) * glm::transpose(change));
     }
     return true;

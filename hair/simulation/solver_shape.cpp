@@ -66,27 +66,27 @@ std::vector<double> lengthsOf(std::span<const glm::dvec3> points) {
 
 // Largest movement of vertices by weight in a substep before the lengths take it back, over the
 // shortest segment. If vertices move past each other, there is more than one way back.
-constexpr double kMostTaken = 0.125;
+constexpr double kMostSag = 0.125;
 
 // Returns the movement of a hanging strand's vertices by weight in a substep, before the lengths
 // take it back, [vertex], m. From the tip up, a segment takes the component along itself of the
 // pull at its end as a tension, which also pulls at its start. The rest is left to the pull toward
 // the rest position. Tensions are never negative, so the balance is stable whatever else is stiff.
 // They bear the weight up to `most`.
-std::vector<glm::dvec3> takenByWeight(
+std::vector<glm::dvec3> sagOf(
     std::span<const glm::dvec3> points, std::span<const double> lengths, const glm::dvec3& weight,
     double most) {
     const glm::dvec3 borne = weight * std::min(1.0, most / glm::length(weight));
-    std::vector<glm::dvec3> taken(points.size(), glm::dvec3(0.0));
-    if (*std::ranges::min_element(lengths.subspan(1)) == 0.0) return taken;
+    std::vector<glm::dvec3> sag(points.size(), glm::dvec3(0.0));
+    if (*std::ranges::min_element(lengths.subspan(1)) == 0.0) return sag;
     glm::dvec3 below{0.0};  // pull of the segment below
     for (std::size_t i = points.size() - 1; i > 0; --i) {
         const glm::dvec3 along = (points[i] - points[i - 1]) / lengths[i];
         const glm::dvec3 tension = std::max(glm::dot(borne + below, along), 0.0) * along;
-        taken[i] = tension - below;
+        sag[i] = tension - below;
         below = tension;
     }
-    return taken;
+    return sag;
 }
 
 }  // namespace
@@ -163,9 +163,9 @@ restOfShapes(const groom::Groom& groom, const SimulationSettings& settings, cons
         if (keeps_lengths && rest->weight != glm::dvec3(0.0)) {
             const double most =
                 rest->exact ? std::numeric_limits<double>::infinity()
-                            : kMostTaken * *std::ranges::min_element(std::span(lengths).subspan(1));
-            const auto taken = takenByWeight(points, lengths, rest->weight, most);
-            for (std::size_t i = 0; i < points.size(); ++i) points[i] += taken[i];
+                            : kMostSag * *std::ranges::min_element(std::span(lengths).subspan(1));
+            const auto sag = sagOf(points, lengths, rest->weight, most);
+            for (std::size_t i = 0; i < points.size(); ++i) points[i] += sag[i];
         }
         std::ranges::copy(points, std::back_inserter(rest->left));
     }

@@ -12,7 +12,7 @@ bool isNearer(float depth, float than) { return depth > than; }
 bool isNearerOrEqual(float depth, float than) { return depth >= than; }
 
 // A clip-space position beyond the far plane, which no picture shows.
-const vec4 kNowhere = vec4(0.0, 0.0, 2.0 * float(kFarDepth) - float(kNearDepth), 1.0);
+const vec4 kClippedPosition = vec4(0.0, 0.0, 2.0 * float(kFarDepth) - float(kNearDepth), 1.0);
 
 // Moves a depth towards the near plane by a positive amount.
 float nearer(float depth, float by) { return depth + by; }
@@ -28,6 +28,6 @@ float depthOf(uint nearness) { return uintBitsToFloat(~nearness); }
 
 // Distance of a clip-space position from the near plane: 0 on it, positive beyond it, linear in the
 // coordinates.
-float beyondNear(vec4 clip) { return clip.w - clip.z; }
+float pastNearPlane(vec4 clip) { return clip.w - clip.z; }
 
 #endif

@@ -39,7 +39,7 @@ float visiblePart(PictureParameters picture, uint light) {
     vec3 flat_normal = cross(dFdx(position), dFdy(position));
     flat_normal /= max(length(flat_normal), 1e-30);
     Receiver receiver =
-        Receiver(position, flat_normal, vec3(0.0), 0.0, passedOpaque(picture));
+        Receiver(position, flat_normal, vec3(0.0), 0.0, opaqueTransmittance(picture));
     return visibility(lightPath(picture, light, receiver));
 }
 

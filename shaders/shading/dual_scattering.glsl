@@ -15,18 +15,18 @@ FiberAverage mixed(FiberAverage a, FiberAverage b, float part) {
 }
 
 // An entry of a row and the part of the way to the next one.
-struct AveragePlace {
+struct AverageEntry {
     uint first;
     float part;
 };
 
-AveragePlace averagePlace(float cos_theta) {
+AverageEntry averageEntry(float cos_theta) {
     float place = cos_theta * float(kFiberAverages - 1u);
     uint first = min(uint(place), kFiberAverages - 2u);
-    return AveragePlace(first, place - float(first));
+    return AverageEntry(first, place - float(first));
 }
 
-FiberAverage averageInRow(HairOptics optics, AveragePlace place, uint row) {
+FiberAverage averageInRow(HairOptics optics, AverageEntry place, uint row) {
     uint first = row * kFiberAverages + place.first;
     return mixed(FiberAverages(optics.averages).at[first],
                  FiberAverages(optics.averages).at[first + 1u], place.part);
@@ -34,7 +34,7 @@ FiberAverage averageInRow(HairOptics optics, AveragePlace place, uint row) {
 
 // The averages of the strands around.
 FiberAverage fiberAverage(HairOptics optics, float cos_theta) {
-    AveragePlace place = averagePlace(cos_theta);
+    AverageEntry place = averageEntry(cos_theta);
     if (kOwnColors == 0u) return averageInRow(optics, place, 0u);
     uint row = min(uint(optics.mean_row), kFiberAverageRows - 2u);
     return mixed(averageInRow(optics, place, row), averageInRow(optics, place, row + 1u),
@@ -43,7 +43,7 @@ FiberAverage fiberAverage(HairOptics optics, float cos_theta) {
 
 // a_f of the strand itself.
 vec3 ownForward(HairOptics optics, float cos_theta) {
-    AveragePlace place = averagePlace(cos_theta);
+    AverageEntry place = averageEntry(cos_theta);
     uint row = min(uint(optics.own_row), kFiberAverageRows - 2u);
     uint at = row * kFiberAverages + place.first;
     FiberAverages table = FiberAverages(optics.averages);
@@ -55,7 +55,7 @@ vec3 ownForward(HairOptics optics, float cos_theta) {
 
 // The part of N_p in the half turn with its middle at these distances from the lobe's own. The
 // logistic distribution wraps round the fibre.
-vec4 azimuthalHalves(HairOptics optics, vec3 distances) {
+vec4 azimuthalHalfIntegrals(HairOptics optics, vec3 distances) {
     const float half_pi = 1.57079633;
     float k = optics.inverse_azimuthal_scale;
     vec3 begin = 1.0 / (1.0 + exp(min(k * (half_pi - distances), 80.0)));
@@ -66,7 +66,7 @@ vec4 azimuthalHalves(HairOptics optics, vec3 distances) {
 }
 
 // The part of the light from that direction that a fibre scatters forward to other fibres.
-vec3 passedForward(HairOptics optics, vec3 to_light) {
+vec3 forwardScattering(HairOptics optics, vec3 to_light) {
     return fiberAverage(optics, sqrt(max(1.0 - to_light.x * to_light.x, 0.0))).forward.rgb;
 }
 
@@ -74,21 +74,21 @@ vec3 passedForward(HairOptics optics, vec3 to_light) {
 // leaves through the fibre itself, so it has a_f of this one instead of the mean.
 //
 // f |cos theta_i| of a fibre whose light has come along `path`, which was computed with
-// passedForward(). The result includes the losses on the path, except those by meshes. Directions
-// are as in fiberBsdf(); `view` belongs to to_eye.
+// forwardScattering(). The result includes the losses on the path, except those by meshes.
+// Directions are as in fiberBsdf(); `view` belongs to to_eye.
 vec3 dualScattering(HairOptics optics, FiberView view, vec3 to_eye, vec3 to_light,
                     LightPath path) {
     float sin_i = clamp(to_light.x, -1.0, 1.0);
     float cos_i = sqrt(1.0 - sin_i * sin_i);
     float sin_o = clamp(to_eye.x, -1.0, 1.0);
     float cos_o = sqrt(1.0 - sin_o * sin_o);
-    vec2 light = azimuthOf(to_light);
+    vec2 light = azimuthDirection(to_light);
     vec3 distances = azimuthalDistances(view, light);
     float cos_phi = dot(light, view.eye);
     FiberAverage average = fiberAverage(optics, cos_i);
 
-    float forward_shift = path.met * average.shifts.x;
-    float forward_variance = path.met * average.forward.w;
+    float forward_shift = path.scatter_count * average.shifts.x;
+    float forward_variance = path.scatter_count * average.forward.w;
 
     // Shifts of the mean of theta_i: none, forward, backward there, both.
     vec4 changes =
@@ -107,7 +107,7 @@ vec3 dualScattering(HairOptics optics, FiberView view, vec3 to_eye, vec3 to_ligh
     // With m fibres behind, the paths that turn back once among them sum to 1 - q^m of the infinite
     // series. q is the part that one fibre passes there and back. A surface behind them sends back
     // the light that passes them.
-    vec3 albedo = path.kept *
+    vec3 albedo = path.multiple_scattering *
                   (average.local.rgb * (1.0 - path.ended) + average.forward.rgb * path.returned);
     albedo *= optics.body;
     if (kOwnColors != 0u)
@@ -120,7 +120,7 @@ vec3 dualScattering(HairOptics optics, FiberView view, vec3 to_eye, vec3 to_ligh
     vec4 spread = longitudinalLobes(
         sin_from.y, cos_from.y, view.sin_tilted, view.cos_tilted,
         optics.variances + forward_variance);
-    spread *= kInversePi * azimuthalHalves(optics, distances);
+    spread *= kInversePi * azimuthalHalfIntegrals(optics, distances);
     return sum + path.scattered * (view.attenuations * spread + local.y * albedo);
 }
 

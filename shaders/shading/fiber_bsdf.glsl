@@ -58,7 +58,7 @@ struct FiberView {
 // Turns `v` by the angle of the direction `by`.
 vec2 turned(vec2 v, vec2 by) { return vec2(v.x * by.x - v.y * by.y, v.x * by.y + v.y * by.x); }
 
-vec2 azimuthOf(vec3 direction) {
+vec2 azimuthDirection(vec3 direction) {
     float size = length(direction.yz);
     return size > 1e-6 ? direction.yz / size : vec2(1.0, 0.0);
 }
@@ -69,7 +69,7 @@ FiberView fiberView(HairOptics optics, vec3 to_eye, float h) {
     FiberView view;
     view.sin_tilted = sin_o * optics.cos_tilts + cos_o * optics.sin_tilts;
     view.cos_tilted = abs(cos_o * optics.cos_tilts - sin_o * optics.sin_tilts);
-    view.eye = azimuthOf(to_eye);
+    view.eye = azimuthDirection(to_eye);
 
     // eta' cos theta_o = sqrt(eta^2 - sin^2 theta_o) also equals eta cos theta_t.
     float inner = sqrt(optics.eta * optics.eta - sin_o * sin_o);
@@ -141,7 +141,7 @@ vec3 fiberScattering(HairOptics optics, FiberView view, vec3 to_light) {
     float cos_i = sqrt(1.0 - sin_i * sin_i);
     vec4 lobes = longitudinalLobes(
         sin_i, cos_i, view.sin_tilted, view.cos_tilted, optics.variances);
-    lobes *= azimuthalLobes(optics, view, azimuthalDistances(view, azimuthOf(to_light)));
+    lobes *= azimuthalLobes(optics, view, azimuthalDistances(view, azimuthDirection(to_light)));
     return view.attenuations * lobes;
 }
 

@@ -27,7 +27,7 @@ const float kLightInversePi = 0.318309886;
 const float kNearestLight = 1e-3;  // m: a point light is not stronger than at this distance
 
 // A rectangle shines to one side, with uniform radiance.
-void seeRectangle(inout LightSample result, Light light, vec3 offset) {
+void sampleRectangle(inout LightSample result, Light light, vec3 offset) {
     if (dot(offset, light.to_light) <= 0.0) {
         result.color = vec3(0.0);
         return;
@@ -57,10 +57,10 @@ LightSample lightAt(Light light, vec3 position) {
     if ((kLightKinds & kSomeDirectional) != 0u && light.type == kLightDirectional)
         result.to_light = light.to_light;
     if (hasRectangles() && light.type == kLightRectangle) {
-        seeRectangle(result, light, offset);
+        sampleRectangle(result, light, offset);
         return result;
     }
-    if ((kLightKinds & kSomeWeaken) != 0u && light.reference_distance > 0.0) {
+    if ((kLightKinds & kSomeAttenuate) != 0u && light.reference_distance > 0.0) {
         float nearest = max(length(offset), max(light.radius, kNearestLight));
         float ratio = light.reference_distance / nearest;
         result.color *= ratio * ratio;
@@ -77,24 +77,25 @@ struct LightPath {
     float strands;  // mean number of strands on the path
     float direct;  // part that meets no strand
     vec3 scattered;  // part that reaches the point through one or more strands
-    float met;  // mean number of strands that the scattered light passes; at least 1
+    float scatter_count;  // mean number of strands that the scattered light passes; at least 1
     vec3 ended;  // part that the strands behind the point would let through, there and back
     vec3 returned;  // part of `ended` that meshes behind the strands send back
-    float kept;  // ratio of light that turns back in hair to the same where it comes straight in
+    // Ratio of light that turns back in hair to the same where it comes straight in.
+    float multiple_scattering;
 };
 
 const LightPath kFreePath =
     LightPath(1.0, 0.0, 1.0, vec3(0.0), 1.0, vec3(0.0), vec3(0.0), 1.0);
 
 // For light that meets strands independently, the number of strands has a Poisson distribution.
-// `passed` is the part that each strand lets through. exp(-n) meets none; exp(-n (1 - passed)) -
-// exp(-n) arrives through some.
-LightPath metAtRandom(LightPath path, float strands, vec3 passed) {
+// `transmittance` is the part that each strand lets through. exp(-n) meets none;
+// exp(-n (1 - transmittance)) - exp(-n) arrives through some.
+LightPath poissonPath(LightPath path, float strands, vec3 transmittance) {
     path.strands = strands;
     path.direct = exp(-strands);
-    path.scattered = max(exp(-strands * (1.0 - passed)) - path.direct, 0.0);
-    float through = strands * dot(passed, vec3(1.0 / 3.0));
-    path.met = through > 1e-3 ? through / (1.0 - exp(-through)) : 1.0;
+    path.scattered = max(exp(-strands * (1.0 - transmittance)) - path.direct, 0.0);
+    float through = strands * dot(transmittance, vec3(1.0 / 3.0));
+    path.scatter_count = through > 1e-3 ? through / (1.0 - exp(-through)) : 1.0;
     return path;
 }
 
@@ -109,8 +110,8 @@ Light pictureLight(PictureParameters picture, uint index) {
 float mattResponse(LightSample light, vec3 normal) {
     float cosine = dot(normal, light.to_light);
     if (isRectangle(light)) {
-        if (isBefore(light.corners, normal)) return max(cosine, 0.0);
-        vec3 irradiance = vectorIrradiance(cutByHorizon(light.corners, normal));
+        if (isAboveHorizon(light.corners, normal)) return max(cosine, 0.0);
+        vec3 irradiance = vectorIrradiance(clipToHorizon(light.corners, normal));
         return max(dot(irradiance, normal), 0.0) / light.facing;
     }
     if (!hasSpheres()) return max(cosine, 0.0);

@@ -5,7 +5,7 @@
 
 // The corners of a rectangle in order, after a plane through the point may have cut it. If there
 // are fewer than five, the last one is repeated. Lengths don't matter.
-struct CutRectangle {
+struct ClippedPolygon {
     vec3 at[5];
 };
 
@@ -30,7 +30,7 @@ vec3 cornerDirection(vec3 corner) {
 // The vector irradiance of a polygon of radiance 1. Its dot product with n is the irradiance of a
 // surface with normal n, provided that the whole polygon is in front of the surface. It points to
 // the polygon if the corners run clockwise as seen from the point.
-vec3 vectorIrradiance(CutRectangle polygon) {
+vec3 vectorIrradiance(ClippedPolygon polygon) {
     vec3 sum = vec3(0.0);
     vec3 last = cornerDirection(polygon.at[4]);
     for (int i = 0; i < 5; ++i) {
@@ -41,18 +41,18 @@ vec3 vectorIrradiance(CutRectangle polygon) {
     return 0.5 * sum;
 }
 
-CutRectangle wholeRectangle(mat4x3 corners) {
-    return CutRectangle(vec3[5](corners[0], corners[1], corners[2], corners[3], corners[3]));
+ClippedPolygon wholeRectangle(mat4x3 corners) {
+    return ClippedPolygon(vec3[5](corners[0], corners[1], corners[2], corners[3], corners[3]));
 }
 
-bool isBefore(mat4x3 corners, vec3 normal) {
+bool isAboveHorizon(mat4x3 corners, vec3 normal) {
     return all(greaterThanEqual(normal * corners, vec4(0.0)));
 }
 
 // Returns the part of a rectangle in front of the surface. If there is none, all corners are 0.
-CutRectangle cutByHorizon(mat4x3 corners, vec3 normal) {
+ClippedPolygon clipToHorizon(mat4x3 corners, vec3 normal) {
     const vec3 none = vec3(0.0);
-    CutRectangle result = CutRectangle(vec3[5](none, none, none, none, none));
+    ClippedPolygon result = ClippedPolygon(vec3[5](none, none, none, none, none));
     vec4 heights = normal * corners;
     int count = 0;
     vec3 last = none;

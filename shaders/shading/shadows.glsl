@@ -25,7 +25,7 @@ struct Receiver {
     vec3 normal;  // of a surface, with either sign; 0 for a strand
     vec3 tangent;  // of a strand, unit length
     float width;  // m, of a strand
-    vec3 passed;  // part of the light that each strand in between lets through
+    vec3 transmittance;  // part of the light that each strand in between lets through
 };
 
 // A point in a map. The depths of nearby texels are assumed to lie on a plane through it.
@@ -35,8 +35,8 @@ struct ShadowPoint {
     vec2 slope;  // of depth, per texel
     float most_slope;  // limit for each component of `slope`
     float bias;  // in depth: whatever is in front of the point by less than this does not shade it
-    vec3 log_passed;  // log of Receiver::passed
-    vec3 log_turned;  // log of the part that a strand in between lets through there and back
+    vec3 log_transmittance;  // log of Receiver::transmittance
+    vec3 log_round_trip;  // log of the part that a strand in between lets through there and back
     // Strands only:
     vec2 line;  // direction in the map, unit length
     vec2 line_slope;  // depth per texel along `line`
@@ -57,9 +57,9 @@ const float kTurned = 0.0873;
 const float kStrandBias = 2.0;
 // A ray through a texel may meet the strand itself up to this many strand widths before the point.
 const float kOwnDepth = 1.0;
-// For keptInHair(). The first strands of single texels scatter in depth by the thickness of a lock.
-// The slope of their surface is therefore taken over kReach, m. Where the surface ends, it falls by
-// kEdge times kReach.
+// For multipleScattering(). The first strands of single texels scatter in depth by the thickness of
+// a lock. The slope of their surface is therefore taken over kReach, m. Where the surface ends, it
+// falls by kEdge times kReach.
 const float kReach = 0.008;
 const float kEdge = 3.0;
 // Compared with Mitsuba over the light's cosine, paths among strands are about right at 0.8 without
@@ -87,7 +87,7 @@ struct RayStrands {
 };
 
 // The ray meets its first strand `ahead` metres before the point.
-RayStrands strandsOnRay(vec4 layers, float ahead, ShadowMap map, ShadowPoint point,
+RayStrands strandsAlongRay(vec4 layers, float ahead, ShadowMap map, ShadowPoint point,
                         bool hits_itself) {
     float before = 0.0;
     if (ahead > point.own_depth) {
@@ -110,16 +110,16 @@ void addRay(inout LightPath path, ShadowMap map, ShadowPoint point, ivec2 at, ve
     float nearest = texelFetch(hair_depths, at, 0).r;
     float ahead = viewDepth(map.depth_terms, beside) - viewDepth(map.depth_terms, nearest);
     RayStrands met =
-        strandsOnRay(texelFetch(hair_layers, at, 0), ahead, map, point, hits_itself);
+        strandsAlongRay(texelFetch(hair_layers, at, 0), ahead, map, point, hits_itself);
     path.strands += weight * met.before;
     if (met.before == 0.0) {
         path.direct += weight;
     } else {
-        vec3 through = weight * exp(met.before * point.log_passed);
+        vec3 through = weight * exp(met.before * point.log_transmittance);
         path.scattered += through;
-        path.met += met.before * dot(through, vec3(1.0));
+        path.scatter_count += met.before * dot(through, vec3(1.0));
     }
-    vec3 ended = weight * exp(met.behind * point.log_turned);
+    vec3 ended = weight * exp(met.behind * point.log_round_trip);
     path.ended += ended;
     if (kMeshShadows != 0 && (map.casters & kMeshesCast) != 0u) {
         float surface = texelFetch(mesh_depths, at, 0).r;
@@ -169,12 +169,12 @@ LightPath filteredPath(ShadowMap map, ShadowPoint point, float half_width) {
     if (!meshes_cast) path.meshes = 1.0;
     if (!hair_casts) {
         path.direct = 1.0;
-        path.met = 1.0;
+        path.scatter_count = 1.0;
     } else if (kHairShadows == kHairShadowsDeepShadow) {
         float through = dot(path.scattered, vec3(1.0));
-        path.met = through > 1e-6 ? max(path.met / through, 1.0) : 1.0;
+        path.scatter_count = through > 1e-6 ? max(path.scatter_count / through, 1.0) : 1.0;
     } else {
-        path = metAtRandom(path, path.strands, exp(point.log_passed));
+        path = poissonPath(path, path.strands, exp(point.log_transmittance));
     }
     return path;
 }
@@ -199,7 +199,7 @@ float firstStrand(ShadowMap map, vec2 texel, float side, float here) {
 // kStraight. H(mu) is 1 + 2 mu, for no absorption (Hapke 1981, Bidirectional reflectance
 // spectroscopy 1); the eye's is kEyeH. The surface is that of the first strands, with its slope
 // taken over kReach to both sides.
-float keptInHair(ShadowMap map, vec2 texel, float side, float texel_size) {
+float multipleScattering(ShadowMap map, vec2 texel, float side, float texel_size) {
     float nearest = texelFetch(hair_depths, ivec2(map.corner) + ivec2(texel), 0).r;
     if (!isNearer(nearest, float(kFarDepth))) return 1.0;
     float here = viewDepth(map.depth_terms, nearest);
@@ -214,7 +214,7 @@ float keptInHair(ShadowMap map, vec2 texel, float side, float texel_size) {
 }
 
 // Returns the path of light to a point, from one of the light's maps.
-LightPath pathByMap(ShadowReference shadows, ShadowMap map, Receiver receiver) {
+LightPath pathFromMap(ShadowReference shadows, ShadowMap map, Receiver receiver) {
     vec4 clip = map.view_projection * vec4(receiver.position, 1.0);
     if (clip.w <= 0.0) return kFreePath;  // behind the light's view
     float w = clip.w;
@@ -238,8 +238,9 @@ LightPath pathByMap(ShadowReference shadows, ShadowMap map, Receiver receiver) {
     point.line_slope = vec2(0.0);
     point.half_width = 0.0;
     point.own_depth = 0.0;
-    point.log_passed = log(max(receiver.passed, 1e-6));
-    point.log_turned = point.log_passed + receiver.passed - 1.0;  // as LocalScattering has it
+    point.log_transmittance = log(max(receiver.transmittance, 1e-6));
+    // As LocalScattering has it.
+    point.log_round_trip = point.log_transmittance + receiver.transmittance - 1.0;
     if (receiver.normal != vec3(0.0)) {
         point.slope = planeSlope(map, clip.xyz, receiver.normal, side);
         vec2 steepness = min(abs(point.slope) / depth_per_texel, vec2(kSteepest));
@@ -258,7 +259,7 @@ LightPath pathByMap(ShadowReference shadows, ShadowMap map, Receiver receiver) {
     LightPath path = filteredPath(map, point, half_width);
     path.returned *= shadows.parameters.mesh_color;
     if (kHairShadows == kHairShadowsDeepShadow && (map.casters & kHairCasts) != 0u)
-        path.kept = keptInHair(map, point.texel, side, texel);
+        path.multiple_scattering = multipleScattering(map, point.texel, side, texel);
     return path;
 }
 
@@ -269,26 +270,26 @@ LightPath meanPath(ShadowReference shadows, ShadowMap first, Receiver receiver) 
     for (uint i = 0u; i <= first.further_count; ++i) {
         ShadowMap map = first;
         if (i > 0u) map = shadows.parameters.maps[first.further + i - 1u];
-        LightPath path = pathByMap(shadows, map, receiver);
+        LightPath path = pathFromMap(shadows, map, receiver);
         float through = path.meshes * dot(path.scattered, vec3(1.0));
         sum.meshes += path.meshes;
         sum.strands += path.meshes * path.strands;
         sum.direct += path.meshes * path.direct;
         sum.scattered += path.meshes * path.scattered;
-        sum.met += through * path.met;
+        sum.scatter_count += through * path.scatter_count;
         sum.ended += path.meshes * path.ended;
         sum.returned += path.meshes * path.returned;
-        sum.kept += path.meshes * path.kept;
+        sum.multiple_scattering += path.meshes * path.multiple_scattering;
     }
     float through = dot(sum.scattered, vec3(1.0));
-    sum.met = through > 1e-6 ? max(sum.met / through, 1.0) : 1.0;
+    sum.scatter_count = through > 1e-6 ? max(sum.scatter_count / through, 1.0) : 1.0;
     float whole = 1.0 / max(sum.meshes, 1e-6);
     sum.strands *= whole;
     sum.direct *= whole;
     sum.scattered *= whole;
     sum.ended *= whole;
     sum.returned *= whole;
-    sum.kept *= whole;
+    sum.multiple_scattering *= whole;
     sum.meshes /= float(first.further_count + 1u);
     return sum;
 }
@@ -301,18 +302,18 @@ LightPath lightPath(PictureParameters picture, uint light, Receiver receiver) {
     if (map.casters == 0u) return kFreePath;
     if ((kLightKinds & kSomeSampled) != 0u && map.further_count > 0u)
         return meanPath(shadows, map, receiver);
-    return pathByMap(shadows, map, receiver);
+    return pathFromMap(shadows, map, receiver);
 }
 
 // The part of the light that each strand in between lets through, for opaque shading models: those
 // of the thesis and of meshes.
-vec3 passedOpaque(PictureParameters picture) {
+vec3 opaqueTransmittance(PictureParameters picture) {
     if (kHairShadows == kHairShadowsNone) return vec3(0.0);
     return vec3(1.0 - ShadowReference(picture.shadows).parameters.stopped);
 }
 
-// The part of the light that reaches a point, for a path with passedOpaque(). For strands at random
-// it is exp(-stopped n).
+// The part of the light that reaches a point, for a path with opaqueTransmittance(). For strands at
+// random it is exp(-stopped n).
 float visibility(LightPath path) { return path.meshes * (path.direct + path.scattered.g); }
 
 #endif

@@ -46,14 +46,14 @@ vec3 cylinderNormal(StrandFragment fragment) {
     return x * side + sqrt(1.0 - x * x) * facing;
 }
 
-Receiver receiverOf(StrandFragment fragment, vec3 passed) {
-    return Receiver(fragment.position, vec3(0.0), fragment.tangent, fragment.width, passed);
+Receiver receiverOf(StrandFragment fragment, vec3 transmittance) {
+    return Receiver(fragment.position, vec3(0.0), fragment.tangent, fragment.width, transmittance);
 }
 
 float visiblePart(PictureParameters picture, uint light, StrandFragment fragment) {
     if (kMeshShadows == 0u && kHairShadows == kHairShadowsNone) return 1.0;
-    vec3 passed = passedOpaque(picture);
-    return visibility(lightPath(picture, light, receiverOf(fragment, passed)));
+    vec3 transmittance = opaqueTransmittance(picture);
+    return visibility(lightPath(picture, light, receiverOf(fragment, transmittance)));
 }
 
 // A model's two terms for one light, without colour.
@@ -110,7 +110,7 @@ HairOptics widened(HairOptics optics, LightSample light) {
 }
 
 // The scattering towards the eye of light that comes along `path`, without the losses by meshes.
-vec3 seenScattering(HairOptics optics, FiberView view, vec3 to_eye, vec3 to_light,
+vec3 scatteringToEye(HairOptics optics, FiberView view, vec3 to_eye, vec3 to_light,
                     LightPath path) {
     // marschner loses all light that has met a strand.
     if (kModel == kModelMarschner) return fiberScattering(optics, view, to_light) * path.direct;
@@ -143,7 +143,7 @@ vec3 footprintScattering(HairOptics optics, Footprint footprint, vec3 to_eye, ve
                          LightPath path) {
     if (kFarField == 0u || footprint.to - footprint.from < kNearField) {
         FiberView view = fiberView(optics, to_eye, footprint.h);
-        return seenScattering(optics, view, to_eye, to_light, path);
+        return scatteringToEye(optics, view, to_eye, to_light, path);
     }
     float from = asin(footprint.from);
     float turn = (asin(footprint.to) - from) / float(kFootprintParts);
@@ -152,7 +152,7 @@ vec3 footprintScattering(HairOptics optics, Footprint footprint, vec3 to_eye, ve
     for (int i = 0; i < kFootprintParts; ++i) {
         float gamma = from + (float(i) + 0.5) * turn;
         FiberView view = fiberViewRound(optics, to_eye, gamma, turn);
-        sum += part * cos(gamma) * seenScattering(optics, view, to_eye, to_light, path);
+        sum += part * cos(gamma) * scatteringToEye(optics, view, to_eye, to_light, path);
     }
     return sum;
 }
@@ -238,9 +238,9 @@ vec3 shadeFiber(PictureParameters picture, StrandFragment fragment, vec3 painted
         LightSample light = lightAt(pictureLight(picture, i), fragment.position);
         HairOptics seen = widened(optics, light);
         vec3 to_light = light.to_light * frame;
-        vec3 passed = vec3(0.0);
-        if (kModel == kModelDualScattering) passed = passedForward(seen, to_light);
-        LightPath path = lightPath(picture, i, receiverOf(fragment, passed));
+        vec3 transmittance = vec3(0.0);
+        if (kModel == kModelDualScattering) transmittance = forwardScattering(seen, to_light);
+        LightPath path = lightPath(picture, i, receiverOf(fragment, transmittance));
         vec3 scattered;
         if (isRectangle(light)) {
             scattered = rectangleScattering(optics, frame, footprint, to_eye, light, path);
@@ -267,7 +267,7 @@ HairLight hairLight(HairPoint point, uint light) {
     float visible = 1.0;
     if (kMeshShadows != 0u || kHairShadows != kHairShadowsNone) {
         Receiver receiver = Receiver(point.position, vec3(0.0), point.tangent, point.width,
-                                     passedOpaque(extended_picture));
+                                     opaqueTransmittance(extended_picture));
         visible = visibility(lightPath(extended_picture, light, receiver));
     }
     return HairLight(at.to_light, at.color, visible);

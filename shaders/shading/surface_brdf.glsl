@@ -78,7 +78,7 @@ RectangleReflection rectangleBrdf(Surface surface, vec3 normal, vec3 to_eye, vec
     to_eye = normalize(to_eye + normal * max(1e-3 - dot(normal, to_eye), 0.0));
     float roughness = max(surface.roughness, kSmoothest);
     float alpha = roughness * roughness;
-    CutRectangle before = cutByHorizon(corners, normal);
+    ClippedPolygon before = clipToHorizon(corners, normal);
     vec3 seen = vec3(0.0);
     vec3 from = before.at[4];
     vec3 last = stretchedFacet(from, normal, to_eye, alpha);

@@ -5,7 +5,7 @@
 // device addresses.
 
 // Maximum number of nodes from the root of a triangle tree to a leaf.
-const uint kTreeDepth = 32u;
+const uint kBvhDepth = 32u;
 
 // Grid points along each side of a block for baking.
 const uint kBakeBlock = 4u;
@@ -20,14 +20,14 @@ struct DistanceField {
 };
 
 // A node of a triangle tree; the root is node 0.
-struct TreeNode {
+struct BvhNode {
     vec3 lower;  // of the bounding box of all triangles below, m
     uint first;  // first triangle of a leaf, or the first of two adjacent children
     vec3 upper;
     uint count;  // number of a leaf's triangles; 0: not a leaf
 };
 
-struct TreeTriangle {
+struct BvhTriangle {
     vec3 corners[3];  // m, counter-clockwise seen from outside
     vec3 normal;  // unit length
 };
@@ -77,8 +77,8 @@ struct BakeWindingPush {
 // Push constants of simulation/bake_distance.comp.
 struct BakeDistancePush {
     DistanceField field;  // its distances are written
-    Address nodes;  // TreeNode
-    Address triangles;  // TreeTriangle, in the order of the leaves
+    Address nodes;  // BvhNode
+    Address triangles;  // BvhTriangle, in the order of the leaves
     Address normals;  // TriangleNormals, in the same order; not read if there are sides
     Address middles;  // BlockMiddle [block]
     Address sides;  // float [z][y][x]: -1 inside, 1 outside; 0: the normals give the sign

@@ -10,7 +10,7 @@ const uint kLightRectangle = 3u;
 // in shading/options.glsl.
 const uint kSomeDirectional = 1u;
 const uint kSomeSpheres = 2u;  // or directional lights with an angular radius
-const uint kSomeWeaken = 4u;  // fall off with distance
+const uint kSomeAttenuate = 4u;  // fall off with distance
 const uint kSomeRectangles = 8u;
 const uint kSomeSampled = 16u;  // sampled by several shadow maps
 const uint kAllLightKinds = 31u;

@@ -157,7 +157,7 @@ const uint kResolveGroupSide = 8u;
 const uint kShapeGroupSizeConstant = 0u;
 const uint kShapeVerticesPerStrandConstant = 1u;
 const uint kShapeCollidesConstant = 2u;
-const uint kShapeTridiagonalConstant = 3u;  // enforces lengths with walkDown() and walkUp()
+const uint kShapeTridiagonalConstant = 3u;  // enforces lengths with sweepDown() and sweepUp()
 const uint kShapeVerticesPerChunkConstant = 4u;
 
 // Constants of every solver: simulation/constraints/bodies.glsl and simulation/root_frame.glsl.

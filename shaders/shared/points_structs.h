@@ -46,7 +46,8 @@ struct ExpandedPush {
     Address picture;  // PictureParameters
     Address points;  // PointsPush::points
     Address pieces;  // PointsPush::pieces
-    Address seen;  // uint [draw][kExpandedStrands]: strands; address 0: all strands in their order
+    Address
+        visible;  // uint [draw][kExpandedStrands]: strands; address 0: all strands in their order
     Address arguments;  // IndexedCommand [draw]
     uint strands;
 };

@@ -25,8 +25,8 @@ const uint kRodMotionRows = 4u;
 const uint kRodOrientation = 0u;  // unit quaternion; rotates z to the segment's direction
 const uint kRodAngularVelocity = 1u;  // in world axes
 const uint kRodVelocity = 2u;
-const uint kRodMisfit = 3u;  // difference between the edge and the segment's length along its
-                             // direction, after collisions
+const uint kRodResidual = 3u;  // difference between the edge and the segment's length along its
+                               // direction, after collisions
 
 // Rows of accelerations, per substep squared, for `rod` with generalised alpha: of the vertex and
 // round the segment. Each has the acceleration that moved the velocities and the true one from

@@ -43,9 +43,9 @@ struct VolumeParameters {
     uint resolution;   // cells a side
     float crowded;     // share per cell from which hair repels hair
     float settled;     // part of a velocity difference that friction removes in a step
-    float foreseen;    // the same part for what everything else adds to the difference in a step
-    float per_step;    // 1 / the time step, 1/s
-    float repulsion;   // m/s^2
+    float predicted;  // the same part for what everything else adds to the difference in a step
+    float per_step;  // 1 / the time step, 1/s
+    float repulsion;  // m/s^2
     float greatest_repulsion;  // m/s^2
     uint borrows;  // 1: the last component of a sum lacks 1 if the third is negative
     Address kept;  // vec4 [strand][vertex]: velocity difference that friction left in the step
@@ -54,10 +54,10 @@ struct VolumeParameters {
 
 // Push constants of every pass of the grid.
 struct VolumePush {
-    Address guides;         // GuideParameters
-    Address volume;         // VolumeParameters
+    Address guides;  // GuideParameters
+    Address volume;  // VolumeParameters
     Address accelerations;  // m/s^2, added to by simulation/volume_force.comp
-    RigidFrame frame;        // of the head at the end of the step
+    RigidFrame frame;  // of the head at the end of the step
 };
 
 #endif

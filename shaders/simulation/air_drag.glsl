@@ -44,23 +44,23 @@ vec3 tangentBetween(vec3 above, vec3 below) {
 }
 
 // h k of a hair with this tangent, in air of relative velocity u, m/s.
-float brakeOf(AirDrag drag, vec3 tangent, vec3 u, float substep) {
+float dragFactor(AirDrag drag, vec3 tangent, vec3 u, float substep) {
     if (tangent == vec3(0.0)) return 0.0;
     float speed = length(u - dot(tangent, u) * tangent);
     return substep * (drag.inertial * speed + drag.viscous * pow(speed, 1.0 / 3.0));
 }
 
 // w as defined above, in the unit of the other two velocities.
-vec3 braked(vec3 velocity, vec3 air, vec3 tangent, float brake) {
+vec3 withDrag(vec3 velocity, vec3 air, vec3 tangent, float drag) {
     vec3 u = air - velocity;
-    return velocity + brake / (1.0 + brake) * (u - dot(tangent, u) * tangent);
+    return velocity + drag / (1.0 + drag) * (u - dot(tangent, u) * tangent);
 }
 
-// The remainder of an implicit pull c / (1 + c) when air makes the vertex 1 + brake times as heavy;
+// The remainder of an implicit pull c / (1 + c) when air makes the vertex 1 + drag times as heavy;
 // c is a spring's stiffness over the mass. Hair then comes to rest where the spring balances the
 // drag.
-float pullOn(float stiffness, float brake) {
-    return stiffness / (1.0 + brake * (1.0 - stiffness));
+float pullOn(float stiffness, float drag) {
+    return stiffness / (1.0 + drag * (1.0 - stiffness));
 }
 
 #endif

@@ -7,17 +7,17 @@
 #include "shared/rod_structs.h"
 
 // Rows of the scratch memory. kPredicted: the vertex's displacement without springs. kMoved: its
-// displacement. kBrake: the tangent and the strength of the drag across it. kGhostEdge: its
-// segment's rest edge, turned with the head. From kGoesWith on: the elimination of a Newton step
+// displacement. kDrag: the tangent and the strength of the drag across it. kGhostEdge: its
+// segment's rest edge, turned with the head. From kFactors on: the elimination of a Newton step
 // from the tip up, as columns of three matrices. They are the vertex's response to the
 // displacements of the first, second and third vertex above it. The last row of the first matrix is
 // the vertex's displacement when those do not move.
 const uint kScratchRows = kMassSpringScratchRows;
 const uint kPredicted = 0u;
 const uint kMoved = 1u;
-const uint kBrake = 2u;
+const uint kDrag = 2u;
 const uint kGhostEdge = 3u;
-const uint kGoesWith = 4u;
+const uint kFactors = 4u;
 
 #include "simulation/rod/edges.glsl"
 #include "simulation/rod/joint.glsl"
@@ -35,14 +35,14 @@ void predict() {
     vec3 edges = vec3(0.0);  // from the root to here
     vec4 ghost = orientationAt(0);
     for (uint i = 1; i < guides.vertices_per_strand; ++i) {
-        vec4 brake;
-        vec3 moved = predictedMove(i, motionAt(i), edges, brake);
+        vec4 drag;
+        vec3 moved = predictedMove(i, motionAt(i), edges, drag);
         // The first segment at rest has the follicle's orientation.
         vec4 half_rotation = segmentRow(rod.segments, i, kRodHalfRotation, guides.strand_count, strand);
         if (i > 1) ghost = normalize(multiply(ghost, multiply(half_rotation, half_rotation)));
         setScratch(i, kPredicted, vec4(moved, 0.0));
         setScratch(i, kMoved, vec4(moved, 0.0));
-        setScratch(i, kBrake, brake);
+        setScratch(i, kDrag, drag);
         setScratch(i, kGhostEdge, vec4(restLength(i) * axisOf(ghost), 0.0));
     }
 }
@@ -87,9 +87,9 @@ Spring turnOf(vec3 edge, vec3 ghost_axis, float rest_length) {
         stiffness / len * (mat3(1.0) - outerProduct(along, along)));
 }
 
-void setGoesWith(uint i, uint which, mat3 with, vec3 by_itself) {
+void setFactor(uint i, uint which, mat3 with, vec3 constant_term) {
     for (uint k = 0; k < 3; ++k)
-        setScratch(i, kGoesWith + 3 * which + k, vec4(with[k], by_itself[k]));
+        setScratch(i, kFactors + 3 * which + k, vec4(with[k], constant_term[k]));
 }
 
 // Eliminates vertices from the tip up. Carries the action of all vertices below on the current
@@ -106,9 +106,9 @@ void eliminate() {
     vec3 force_second = vec3(0.0);
 
     // Displacement of the vertex from its ghost.
-    vec3 astray = vec3(0.0);
+    vec3 ghost_offset = vec3(0.0);
     for (uint i = 1; i < guides.vertices_per_strand; ++i)
-        astray += edgeNow(i) - scratchAt(i, kGhostEdge).xyz;
+        ghost_offset += edgeNow(i) - scratchAt(i, kGhostEdge).xyz;
 
     for (uint i = guides.vertices_per_strand - 1; i > 0; --i) {
         RodSegment segment = loadSegment(rod.segments, i, guides.strand_count, strand);
@@ -120,14 +120,15 @@ void eliminate() {
 
         // Inertia, drag and the integrity spring act on the vertex alone.
         vec3 behind = scratchAt(i, kPredicted).xyz - scratchAt(i, kMoved).xyz;
-        vec4 brake = scratchAt(i, kBrake);
-        float heavier = segment.mass * brake.w;
+        vec4 drag = scratchAt(i, kDrag);
+        float added_mass = segment.mass * drag.w;
         float integrity = segment.mass * rod.integrity;
         own += mat3(segment.mass + integrity) +
-               heavier * (mat3(1.0) - outerProduct(brake.xyz, brake.xyz));
+               added_mass * (mat3(1.0) - outerProduct(drag.xyz, drag.xyz));
         force += segment.mass * behind +
-                 heavier * (behind - dot(brake.xyz, behind) * brake.xyz) - integrity * astray;
-        astray -= edge - ghost_edge;
+                 added_mass * (behind - dot(drag.xyz, behind) * drag.xyz) -
+                 integrity * ghost_offset;
+        ghost_offset -= edge - ghost_edge;
 
         Spring spring = stretchOf(edge, ghost_edge);
         // The rest edge is not divided by its length, which may be 0.
@@ -163,34 +164,34 @@ void eliminate() {
             force_third = -spring.force;
         }
 
-        mat3 with_first = mat3(0.0);
-        mat3 with_second = mat3(0.0);
-        mat3 with_third = mat3(0.0);
-        vec3 by_itself = vec3(0.0);
+        mat3 factor_first = mat3(0.0);
+        mat3 factor_second = mat3(0.0);
+        mat3 factor_third = mat3(0.0);
+        vec3 constant_term = vec3(0.0);
         if (!isPinned(i)) {
-            mat3 yields = inverseOfSymmetric(own);
-            with_first = -yields * own_first;
-            with_second = -yields * own_second;
-            with_third = -yields * own_third;
-            by_itself = yields * force;
+            mat3 compliance = inverseOfSymmetric(own);
+            factor_first = -compliance * own_first;
+            factor_second = -compliance * own_second;
+            factor_third = -compliance * own_third;
+            constant_term = compliance * force;
         }
-        setGoesWith(i, 0, with_first, by_itself);
-        setGoesWith(i, 1, with_second, vec3(0.0));
-        setGoesWith(i, 2, with_third, vec3(0.0));
+        setFactor(i, 0, factor_first, constant_term);
+        setFactor(i, 1, factor_second, vec3(0.0));
+        setFactor(i, 2, factor_third, vec3(0.0));
 
         // Shift by one vertex: the vertex above is next.
         mat3 from_first = transpose(own_first);
         mat3 from_second = transpose(own_second);
         mat3 from_third = transpose(own_third);
-        own = symmetric(first + from_first * with_first);
-        own_first = first_second + from_first * with_second;
-        own_second = from_first * with_third;
-        first = symmetric(second + from_second * with_second);
-        first_second = from_second * with_third;
-        second = symmetric(third + from_third * with_third);
-        force = force_first - from_first * by_itself;
-        force_first = force_second - from_second * by_itself;
-        force_second = force_third - from_third * by_itself;
+        own = symmetric(first + from_first * factor_first);
+        own_first = first_second + from_first * factor_second;
+        own_second = from_first * factor_third;
+        first = symmetric(second + from_second * factor_second);
+        first_second = from_second * factor_third;
+        second = symmetric(third + from_third * factor_third);
+        force = force_first - from_first * constant_term;
+        force_first = force_second - from_second * constant_term;
+        force_second = force_third - from_third * constant_term;
     }
 }
 
@@ -202,10 +203,10 @@ void moveVertices() {
     for (uint i = 1; i < guides.vertices_per_strand; ++i) {
         vec3 further = vec3(0.0);
         for (uint k = 0; k < 3; ++k) {
-            vec4 column = scratchAt(i, kGoesWith + k);
+            vec4 column = scratchAt(i, kFactors + k);
             further[k] += column.w;
-            further += above[k] * column.xyz + second_above[k] * scratchAt(i, kGoesWith + 3 + k).xyz +
-                       third_above[k] * scratchAt(i, kGoesWith + 6 + k).xyz;
+            further += above[k] * column.xyz + second_above[k] * scratchAt(i, kFactors + 3 + k).xyz +
+                       third_above[k] * scratchAt(i, kFactors + 6 + k).xyz;
         }
         setScratch(i, kMoved, vec4(scratchAt(i, kMoved).xyz + further, 0.0));
         third_above = second_above;

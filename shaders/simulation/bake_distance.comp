@@ -17,8 +17,8 @@ layout(local_size_x = kBakeBlock * kBakeBlock * kBakeBlock) in;
 
 layout(push_constant, scalar) uniform Push { BakeDistancePush push; };
 
-layout(buffer_reference, scalar) readonly buffer Nodes { TreeNode at[]; };
-layout(buffer_reference, scalar) readonly buffer Triangles { TreeTriangle at[]; };
+layout(buffer_reference, scalar) readonly buffer Nodes { BvhNode at[]; };
+layout(buffer_reference, scalar) readonly buffer Triangles { BvhTriangle at[]; };
 layout(buffer_reference, scalar) readonly buffer Normals { TriangleNormals at[]; };
 layout(buffer_reference, scalar) readonly buffer Sides { float at[]; };
 layout(buffer_reference, scalar) buffer Middles { BlockMiddle at[]; };
@@ -44,8 +44,8 @@ float distanceTo(vec3 p, float most, out uint found) {
     Nearest nearest = Nearest(vec3(0.0), most * most, kFaceFeature);
     found = 0u;
 
-    uint waiting[kTreeDepth];
-    float waiting_distance[kTreeDepth];
+    uint stack[kBvhDepth];
+    float stack_distance[kBvhDepth];
     uint depth = 0u;
     uint node = 0u;
     float node_distance = 0.0;
@@ -58,8 +58,8 @@ float distanceTo(vec3 p, float most, out uint found) {
                 float right =
                     boxDistance(p, nodes.at[first + 1u].lower, nodes.at[first + 1u].upper);
                 bool left_first = left <= right;
-                waiting[depth] = left_first ? first + 1u : first;
-                waiting_distance[depth] = max(left, right);
+                stack[depth] = left_first ? first + 1u : first;
+                stack_distance[depth] = max(left, right);
                 ++depth;
                 node = left_first ? first : first + 1u;
                 node_distance = min(left, right);
@@ -73,8 +73,8 @@ float distanceTo(vec3 p, float most, out uint found) {
         }
         if (depth == 0u) break;
         --depth;
-        node = waiting[depth];
-        node_distance = waiting_distance[depth];
+        node = stack[depth];
+        node_distance = stack_distance[depth];
     }
 
     if (push.sides != kNoAddress) return sqrt(nearest.size);
@@ -110,7 +110,7 @@ void findPoint(uint group) {
     if (found <= push.band || side < 0.0) {
         // The triangle nearest to the middle gives an upper bound of the distance. Rounding errors
         // are below a quarter of a cell.
-        TreeTriangle triangle = Triangles(push.triangles).at[middle.triangle];
+        BvhTriangle triangle = Triangles(push.triangles).at[middle.triangle];
         Nearest near = Nearest(vec3(0.0), 3.0e38, kFaceFeature);
         compareTriangle(p, triangle.corners, triangle.normal, near);
         uint nearest;

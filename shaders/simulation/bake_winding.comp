@@ -20,7 +20,7 @@ const float kTwoPi = 6.28318531;
 // The solid angle of a triangle over 4 pi, positive behind it: van Oosterom and Strackee 1983, The
 // solid angle of a plane triangle, eq. 8. In the plane of the triangle it has no sign and is set to
 // 0.
-float turnsRound(vec3 corners[3], vec3 p) {
+float windingOf(vec3 corners[3], vec3 p) {
     vec3 a = corners[0] - p;
     vec3 b = corners[1] - p;
     vec3 c = corners[2] - p;
@@ -35,7 +35,7 @@ float turnsRound(vec3 corners[3], vec3 p) {
 }
 
 // The solid angle over 4 pi of a node at the offset `away`, approximated by its moments.
-float fromAfar(uint index, vec3 away) {
+float multipoleWinding(uint index, vec3 away) {
     Nodes nodes = Nodes(push.nodes);
     float closeness = inversesqrt(dot(away, away));
     vec3 d = away * closeness;
@@ -59,28 +59,28 @@ float windingNumber(vec3 p, vec3 middle, float radius) {
     Nodes nodes = Nodes(push.nodes);
     Triangles triangles = Triangles(push.triangles);
     float sum = 0.0;
-    uint waiting[kTreeDepth];
+    uint stack[kBvhDepth];
     uint depth = 0u;
     uint index = 0u;
     while (true) {
         vec3 centre = nodes.at[index].centre;
         if (distance(centre, middle) > nodes.at[index].reach + radius) {
-            sum += fromAfar(index, centre - p);
+            sum += multipoleWinding(index, centre - p);
         } else {
             uint first = nodes.at[index].first;
             uint count = nodes.at[index].count;
             if (count == 0u) {
-                waiting[depth] = first + 1u;
+                stack[depth] = first + 1u;
                 ++depth;
                 index = first;
                 continue;
             }
             for (uint i = first; i < first + count; ++i)
-                sum += turnsRound(triangles.at[i].corners, p);
+                sum += windingOf(triangles.at[i].corners, p);
         }
         if (depth == 0u) break;
         --depth;
-        index = waiting[depth];
+        index = stack[depth];
     }
     return sum;
 }

@@ -7,12 +7,12 @@
 // Moves a vertex of a strand out of bodies and marks contact. `contact` is 1 if any vertex above
 // touched a body, else 0. The invocation has already stored the vertex's position, and in
 // `previous` the position before the substep.
-Met collide(
+VertexContact collide(
     GuideParameters guides, RigidFrame frame, RigidFrame frame_before, uint vertex,
     inout float contact) {
     vec4 point = State(guides.positions).at[vertex];
     vec3 before = State(guides.previous).at[vertex].xyz;
-    Met met = Met(vec4(0.0), kTouchesNone);
+    VertexContact met = VertexContact(vec4(0.0), kTouchesNone);
     if (point.w > 0.0)
         point.xyz = pushOutOfBodies(
             point.xyz, before, bodiesAt(guides, vertex), frame, frame_before, met);

@@ -57,16 +57,16 @@ void main() {
                 vec3 tangent = tangentBetween(directionOf(before - leader_before), below);
                 vec3 air = Vectors(push.air).at[i].xyz;
                 vec3 u = air - (before - previous_before.at[i].xyz) / guides.step.sub;
-                float brake = brakeOf(push.drag, tangent, u, guides.step.sub);
+                float drag = dragFactor(push.drag, tangent, u, guides.step.sub);
                 predicted =
-                    before + braked(predicted - before, guides.step.sub * air, tangent, brake);
-                stiffness = pullOn(stiffness, brake);
+                    before + withDrag(predicted - before, guides.step.sub * air, tangent, drag);
+                stiffness = pullOn(stiffness, drag);
             }
             predicted = pullToRest(predicted, toWorld(root_frame, rest.at[i].xyz), stiffness);
             float rest_length = distance(rest.at[i].xyz, rest.at[i - 1].xyz);
             point.xyz = followLeader(leader, predicted, rest_length);
             correction = point.xyz - predicted;
-            Met met;
+            VertexContact met;
             point.xyz = pushOutOfBodies(
                 point.xyz, before, bodiesAt(guides, i), push.frame, push.frame_before, met);
             if (met.held != kTouchesNone) contact = 1.0;

@@ -14,11 +14,12 @@ layout(constant_id = kWarmStartConstant) const bool kWarmStart = false;
 layout(constant_id = kRodSegmentsConstant) const uint kSegments = kRodNoSegments;
 const bool kSegmentsCollide = kSegments != kRodNoSegments;
 
-// Rows of the scratch memory. 0 to 2: the columns of `by_move`, with `by_itself` as the last row. 3
-// to 5: the columns of `by_turn`. 6 and 7: the vertex's displacement and the segment's rotation
-// since the prediction. 8: the tangent and the strength of the drag across it (air_drag.glsl). 9
-// and 10, if contact forces are carried: its Hold. The last row, if segments collide with bodies:
-// the push of bodies on the vertex, and 1 if it or its segment touches a body.
+// Rows of the scratch memory. 0 to 2: the columns of `move_response`, with `constant_term` as the
+// last row. 3 to 5: the columns of `turn_response`. 6 and 7: the vertex's displacement and the
+// segment's rotation since the prediction. 8: the tangent and the strength of the drag across it
+// (air_drag.glsl). 9 and 10, if contact forces are carried: its ContactConstraint. The last row, if
+// segments collide with bodies: the push of bodies on the vertex, and 1 if it or its segment
+// touches a body.
 const uint kPushRow = kRodScratchRows + (kWarmStart ? kRodContactScratchRows : 0u);
 const uint kScratchRows = kPushRow + (kSegmentsCollide ? 1u : 0u);
 
@@ -34,9 +35,9 @@ const float kPinMass = 100.0;  // of a pinned vertex, relative to the strand's: 
 
 float pinMass() { return kPinMass * float(guides.vertices_per_strand - 1); }
 
-Hold holdAt(uint i) {
+ContactConstraint constraintAt(uint i) {
     vec4 facing = scratchAt(i, 9);
-    return Hold(facing.xyz, facing.w, scratchAt(i, 10).xyz);
+    return ContactConstraint(facing.xyz, facing.w, scratchAt(i, 10).xyz);
 }
 
 // Weights of generalised alpha (rod.h). kCarried: of the previous accelerations in a prediction,
@@ -49,7 +50,7 @@ const vec2 kTaken = vec2(1.0 / 3.0, 2.0 / 3.0);  // of the previous and the curr
                                                  // acceleration in the one that moves velocities
 const float kForceShare = 8.0 / 27.0;
 const float kSmoothTurn = 1.0e-3;   // rad
-const float kLeastMisfit = 1.0e-4;  // smaller misfits do not affect accelerations
+const float kLeastResidual = 1.0e-4;  // smaller residuals do not affect accelerations
 
 // Whether accelerations are kept, and whether the material damps. They are constants because
 // lavapipe evaluates both sides of a branch, but a constant removes the code.
@@ -99,14 +100,14 @@ void predict() {
     State(guides.previous).at[root] = vec4(follicle.xyz, 0.0);
     State(guides.positions).at[root] = vec4(root_now, follicle.w);
     vec3 edges = vec3(0.0);    // from the root to here
-    vec3 misfits = vec3(0.0);  // from the root to here
+    vec3 residuals = vec3(0.0);  // from the root to here
     vec3 moved = vec3(0.0);    // by rotating segments
     for (uint i = 1; i < guides.vertices_per_strand; ++i) {
         RodMotion motion = motionAt(i);
         float len = restLength(i);
         vec3 load = loadAt(i);
-        vec4 brake = vec4(0.0);
-        if (push.air != kNoAddress) brake = brakeAt(i, motion);
+        vec4 drag = vec4(0.0);
+        if (push.air != kNoAddress) drag = dragAt(i, motion);
         motion.velocity *= guides.velocity_kept;
         vec3 free = motion.velocity;  // displacement of the vertex by itself
         if (kAlpha && second_order)
@@ -116,29 +117,30 @@ void predict() {
             motion.velocity += load;
         if (push.air != kNoAddress) {
             vec3 air = guides.step.sub / unit * Vectors(push.air).at[root + i].xyz;
-            motion.velocity = braked(motion.velocity, air, brake.xyz, brake.w);
-            setScratch(i, 8, brake);
+            motion.velocity = withDrag(motion.velocity, air, drag.xyz, drag.w);
+            setScratch(i, 8, drag);
         }
         motion.angular_velocity *= guides.velocity_kept;
         if (!second_order) free = motion.velocity;
         vec3 turn = predictedTurn(i, motion.angular_velocity);
         moved += gainOf(len * axisOf(motion.orientation), turn);
         motion.orientation = turned(motion.orientation, turn);
-        misfits += motion.misfit;
-        is_smooth = is_smooth && length(motion.misfit) <= kLeastMisfit;
+        residuals += motion.residual;
+        is_smooth = is_smooth && length(motion.residual) <= kLeastResidual;
         edges += len * axisOf(motion.orientation);
-        vec3 displacement = root_moved - misfits + moved - free;
+        vec3 displacement = root_moved - residuals + moved - free;
         if (isPinned(i)) {
             motion.velocity = vec3(0.0);
             displacement = (root_now - positions.at[root + i].xyz) / unit + edges;
         }
         if (kWarmStart) {
-            Hold hold = kNoHold;
+            ContactConstraint constraint = kNoConstraint;
             if (!isPinned(i) && motion.contact != vec3(0.0))
-                hold = holdOf(i, positions.at[root + i].xyz, motion.contact, motion.velocity);
-            if (hold.normal == vec3(0.0)) motion.contact = vec3(0.0);
-            setScratch(i, 9, vec4(hold.normal, hold.what));
-            setScratch(i, 10, vec4(hold.offset, 0.0));
+                constraint = constraintOf(
+                    i, positions.at[root + i].xyz, motion.contact, motion.velocity);
+            if (constraint.normal == vec3(0.0)) motion.contact = vec3(0.0);
+            setScratch(i, 9, vec4(constraint.normal, constraint.state));
+            setScratch(i, 10, vec4(constraint.offset, 0.0));
         }
         setMotion(i, motion);
         setScratch(i, 6, vec4(displacement, 0.0));
@@ -165,7 +167,7 @@ void eliminate() {
     vec3 b = vec3(0.0);
     vec3 force = vec3(0.0);  // force that the segment transmits to the vertex at its end
     vec4 orientation = orientationAt(guides.vertices_per_strand - 1);
-    float heaviness = second_order ? 1.0 / kForceShare : 1.0;  // because forces act for a shorter
+    float mass_scale = second_order ? 1.0 / kForceShare : 1.0;  // because forces act for a shorter
                                                                // time
     for (uint i = guides.vertices_per_strand - 1; i > 0; --i) {
         RodSegment segment = loadSegment(rod.segments, i, guides.strand_count, strand);
@@ -174,36 +176,37 @@ void eliminate() {
         vec3 displacement = from_space * scratchAt(i, 6).xyz;
         vec3 rotation = from_space * scratchAt(i, 7).xyz;
         float mass = isPinned(i) ? pinMass() : segment.mass;
-        mass *= heaviness;
+        mass *= mass_scale;
         float turning_length = max(segment.rest_length, kLeastLength);
-        float inertia = heaviness * turning_length * turning_length * turning_length / 12.0;
+        float inertia = mass_scale * turning_length * turning_length * turning_length / 12.0;
 
         // Tension straightens: Tournier et al. 2015, Stable constrained dynamics.
         vec3 held = mass * displacement;
         A += mat3(mass);
         if (push.air != kNoAddress && !isPinned(i)) {
-            vec4 brake = scratchAt(i, 8);
-            vec3 tangent = from_space * brake.xyz;
-            float heavier = mass * brake.w;
-            A += heavier * (mat3(1.0) - outerProduct(tangent, tangent));
-            held += heavier * (displacement - dot(tangent, displacement) * tangent);
+            vec4 drag = scratchAt(i, 8);
+            vec3 tangent = from_space * drag.xyz;
+            float added_mass = mass * drag.w;
+            A += added_mass * (mat3(1.0) - outerProduct(tangent, tangent));
+            held += added_mass * (displacement - dot(tangent, displacement) * tangent);
         }
         if (kWarmStart) {
-            Hold hold = holdAt(i);
-            if (hold.normal != vec3(0.0)) {
+            ContactConstraint constraint = constraintAt(i);
+            if (constraint.normal != vec3(0.0)) {
                 vec3 contact = motionAt(i).contact;
-                mat3 holds = pinMass() * heldBy(hold, contact);
-                A += from_space * holds * transpose(from_space);
-                held += from_space * (holds * (scratchAt(i, 6).xyz + hold.offset) -
-                                      segment.mass * contact);
+                mat3 contact_stiffness = pinMass() * constraintProjection(constraint, contact);
+                A += from_space * contact_stiffness * transpose(from_space);
+                held += from_space *
+                        (contact_stiffness * (scratchAt(i, 6).xyz + constraint.offset) -
+                         segment.mass * contact);
             }
         }
         force += held;
-        float straightening = segment.rest_length * max(-force.z, 0.0);
+        float geometric_stiffness = segment.rest_length * max(-force.z, 0.0);
         a += held;
         C += mat3(inertia);
-        C[0][0] += straightening;
-        C[1][1] += straightening;
+        C[0][0] += geometric_stiffness;
+        C[1][1] += geometric_stiffness;
         b += inertia * rotation;
 
         // Moves the reference from the vertex at the segment's end to that at its start, which
@@ -225,21 +228,21 @@ void eliminate() {
             stiffness *= 1.0 + viscosity;
         }
 
-        mat3 yields = inverseOfSymmetric(C + stiffness);
-        mat3 by_move = -yields * transpose(B);
-        mat3 by_turn = yields * stiffness;
-        vec3 by_itself = yields * (torque - b);
+        mat3 compliance = inverseOfSymmetric(C + stiffness);
+        mat3 move_response = -compliance * transpose(B);
+        mat3 turn_response = compliance * stiffness;
+        vec3 constant_term = compliance * (torque - b);
         for (uint k = 0; k < 3; ++k) {
-            setScratch(i, k, vec4(by_move[k], by_itself[k]));
-            setScratch(i, 3 + k, vec4(by_turn[k], 0.0));
+            setScratch(i, k, vec4(move_response[k], constant_term[k]));
+            setScratch(i, 3 + k, vec4(turn_response[k], 0.0));
         }
 
         mat3 to_above = transpose(matrixOf(above)) * transpose(from_space);
-        a = to_above * (a + B * by_itself);
-        b = to_above * (stiffness * (yields * b) + C * (yields * torque));
-        A = symmetric(to_above * (A + B * by_move) * transpose(to_above));
-        B = to_above * (B * by_turn) * transpose(to_above);
-        C = symmetric(to_above * (C * by_turn) * transpose(to_above));
+        a = to_above * (a + B * constant_term);
+        b = to_above * (stiffness * (compliance * b) + C * (compliance * torque));
+        A = symmetric(to_above * (A + B * move_response) * transpose(to_above));
+        B = to_above * (B * turn_response) * transpose(to_above);
+        C = symmetric(to_above * (C * turn_response) * transpose(to_above));
         force = to_above * force;
         orientation = above;
     }
@@ -252,19 +255,20 @@ float turnSegments() {
     vec3 linear = vec3(0.0);  // displacement of the vertex above for small rotations
     vec3 moved = vec3(0.0);   // its actual displacement
     for (uint i = 1; i < guides.vertices_per_strand; ++i) {
-        mat3 by_move;
-        mat3 by_turn;
-        vec3 by_itself;
+        mat3 move_response;
+        mat3 turn_response;
+        vec3 constant_term;
         for (uint k = 0; k < 3; ++k) {
             vec4 row = scratchAt(i, k);
-            by_move[k] = row.xyz;
-            by_itself[k] = row.w;
-            by_turn[k] = scratchAt(i, 3 + k).xyz;
+            move_response[k] = row.xyz;
+            constant_term[k] = row.w;
+            turn_response[k] = scratchAt(i, 3 + k).xyz;
         }
         vec4 orientation = orientationAt(i);
         mat3 to_space = matrixOf(orientation);
         vec3 edge = restLength(i) * to_space[2];
-        vec3 own = by_move * (linear * to_space) + by_turn * (turn * to_space) + by_itself;
+        vec3 own = move_response * (linear * to_space) + turn_response * (turn * to_space) +
+                   constant_term;
         greatest = max(greatest, length(own));
         turn = to_space * own * (kMostTurn / max(length(own), kMostTurn));
         linear += cross(turn, edge);
@@ -278,7 +282,7 @@ float turnSegments() {
 
 // The velocity change by accelerations, which are kept in two rows from `row` on. `now` is the
 // acceleration from forces and inertia.
-vec3 speedUp(uint i, uint row, vec3 now) {
+vec3 updateAcceleration(uint i, uint row, vec3 now) {
     if (!kAlpha) return now;
     vec3 taken = now;
     vec3 change = now;
@@ -315,7 +319,7 @@ void pushSegments() {
                 touched = pushed.w;
             } else if (!isPinned(i)) {
                 vec3 pushed;
-                held = heldByBodies(i, free, before, touched, pushed);
+                held = collideVertex(i, free, before, touched, pushed);
             }
             float w_a = i > 1 && !isPinned(i - 1) ? 1.0 : 0.0;
             float w_b = isPinned(i) ? 0.0 : 1.0;
@@ -328,14 +332,14 @@ void pushSegments() {
                 push.frame_before, true, kSegments == kRodSegmentsAtRest, entered, clearance);
             float s = contact.at;
             float r = 1.0 - s;
-            float yields = r * r * w_a + s * s * w_b;
-            if (contact.gap < 0.0 && yields > 0.0) {
+            float compliance = r * r * w_a + s * s * w_b;
+            if (contact.gap < 0.0 && compliance > 0.0) {
                 vec3 slid = movedPast(segment, contact, push.frame, push.frame_before);
                 float share;
                 vec3 kept = slideBack(
                     slid - contact.gap * contact.normal, vec3(0.0), contact.normal, -contact.gap,
                     guides.bodies.friction, share);
-                vec3 move = (kept - slid) / yields;
+                vec3 move = (kept - slid) / compliance;
                 segment.a += r * w_a * move;
                 segment.b += s * w_b * move;
                 touched = 1.0;
@@ -352,7 +356,8 @@ void pushSegments() {
     }
 }
 
-// Updates velocities and positions, and collides. Pushes of bodies turn segments and leave misfits.
+// Updates velocities and positions, and collides. Pushes of bodies turn segments and leave
+// residuals.
 void finish() {
     State positions = State(guides.positions);
     vec3 edges = vec3(0.0);  // from the root to here, without collisions
@@ -367,7 +372,7 @@ void finish() {
         edges += len * axis;
         float share = second_order ? 1.0 / kForceShare : 1.0;
         motion.angular_velocity +=
-            speedUp(i, kRodAngularAcceleration, share * scratchAt(i, 7).xyz);
+            updateAcceleration(i, kRodAngularAcceleration, share * scratchAt(i, 7).xyz);
         vec3 pushed = vec3(0.0);
         if (!isPinned(i)) {
             vec3 free = root_now + unit * edges;
@@ -378,24 +383,27 @@ void finish() {
                 contact = max(contact, push_of_bodies.w);
                 held = free + unit * pushed;
             } else {
-                held = heldByBodies(i, free, before, contact, pushed);
+                held = collideVertex(i, free, before, contact, pushed);
             }
             // Implicit Euler's velocity already includes the load.
             vec3 load = kAlpha ? loadAt(i) : vec3(0.0);
-            vec3 change = speedUp(i, kRodAcceleration, share * scratchAt(i, 6).xyz + load);
+            vec3 change =
+                updateAcceleration(i, kRodAcceleration, share * scratchAt(i, 6).xyz + load);
             motion.velocity += (second_order ? change : change - load) + pushed;
             is_smooth = is_smooth && pushed == vec3(0.0);
             if (kWarmStart) {
-                Hold hold = holdAt(i);
-                if (hold.normal == vec3(0.0)) {
+                ContactConstraint constraint = constraintAt(i);
+                if (constraint.normal == vec3(0.0)) {
                     motion.contact = pushed;
                 } else {
                     float mass =
                         segmentRow(rod.segments, i, kRodStiffness, guides.strand_count, strand).y;
-                    vec3 off = scratchAt(i, 6).xyz + hold.offset;
-                    vec3 force = motion.contact -
-                                 pinMass() / mass * (heldBy(hold, motion.contact) * off);
-                    motion.contact = withinCone(hold, force, off, guides.bodies.friction);
+                    vec3 off = scratchAt(i, 6).xyz + constraint.offset;
+                    vec3 force =
+                        motion.contact -
+                        pinMass() / mass * (constraintProjection(constraint, motion.contact) * off);
+                    motion.contact =
+                        clampToFrictionCone(constraint, force, off, guides.bodies.friction);
                 }
             }
             point.xyz = held;
@@ -404,7 +412,7 @@ void finish() {
             storeVector(rod.accelerations, accelerationIndex(i, kRodTrueAcceleration), vec4(0.0));
         }
         positions.at[root + i] = point;
-        motion.misfit = vec3(0.0);
+        motion.residual = vec3(0.0);
         if (pushed != pushed_above) {
             vec3 edge = len * axis + pushed - pushed_above;
             if (unit * min(len, length(edge)) >= kShortestSegment) {
@@ -412,7 +420,7 @@ void finish() {
                 motion.orientation = normalize(multiply(turn, motion.orientation));
                 motion.angular_velocity += 2.0 * turn.xyz;
             }
-            motion.misfit = edge - len * axisOf(motion.orientation);
+            motion.residual = edge - len * axisOf(motion.orientation);
         }
         setMotion(i, motion);
         State(guides.previous).at[root + i] = vec4(before, contact);

@@ -47,7 +47,7 @@ void main() {
         }
         motion.orientation = orientation;
         motion.contact = vec3(0.0);
-        motion.misfit = edge / unit - len * axisOf(orientation);
+        motion.residual = edge / unit - len * axisOf(orientation);
         storeMotion(rod.motion, i, strands, strand, motion);
     }
     if (rod.accelerations != kNoAddress)

@@ -31,17 +31,17 @@ const uint kMostPasses = 8u;
 const float kStill = 1.0e-6;  // m: passes end below this displacement
 // Relative to a free vertex's compliance. Below it, a segment stands on the body with its strand
 // behind it.
-const float kLeastYield = 0.02;
+const float kLeastCompliance = 0.02;
 const float kMostMove = 0.5;  // relative to a segment's length in a pass
 // Relative to the compliance. It regularises directions that both a taut strand and friction hold.
-const float kSoftest = 1.0e-3;
+const float kComplianceRegularization = 1.0e-3;
 
 GuideParameters guides;
 uint root;
 vec4 points[kVerticesPerStrand];  // w: inverse mass
 vec3 forces[kVerticesPerStrand];  // of contact, on the segment that ends there
 EnteredPlane planes[kVerticesPerStrand];
-uint bodies_met[kVerticesPerStrand];
+uint contact_bodies[kVerticesPerStrand];
 float clearances[kVerticesPerStrand];  // distances of segments from bodies in the first pass, m
 float travelled;  // upper bound of the vertices' displacement since then, m
 float below[kVerticesPerStrand];  // w / (w + y) for the segment below
@@ -58,31 +58,32 @@ vec3 directionTo(uint i) {
 }
 
 // Displacement of a vertex of inverse mass w by a force, where a segment along e holds a share.
-vec3 yieldTo(vec3 force, float w, float share, vec3 e) {
+vec3 displacementBy(vec3 force, float w, float share, vec3 e) {
     return w * (force - share * dot(e, force) * e);
 }
 
 float shareOf(float w, float beyond) { return w > 0.0 ? w / (w + beyond) : 0.0; }
 
 // The contact force for the displacements so far.
-vec3 forceOf(SegmentContact contact, mat3 yields, vec3 slid, vec3 force, float friction) {
+vec3 forceOf(SegmentContact contact, mat3 compliance, vec3 slid, vec3 force, float friction) {
     vec3 normal = contact.normal;
-    float yields_out = dot(normal, yields * normal);
-    if (yields_out < kLeastYield) return force;
-    float pressed = dot(normal, yields * force) - contact.gap;
+    float normal_compliance = dot(normal, compliance * normal);
+    if (normal_compliance < kLeastCompliance) return force;
+    float pressed = dot(normal, compliance * force) - contact.gap;
     if (friction > 0.0) {
         vec3 wanted = -contact.gap * normal - (slid - dot(slid, normal) * normal);
-        vec3 sticking = force + inverse(yields + mat3(kSoftest)) * wanted;
+        vec3 sticking = force + inverse(compliance + mat3(kComplianceRegularization)) * wanted;
         float pressure = dot(sticking, normal);
         vec3 shear = sticking - pressure * normal;
         float size = length(shear);
         if (pressure > 0.0 && size <= friction * pressure) return sticking;
         if (size > 0.0) {
             vec3 rim = normal + friction / size * shear;
-            return max(pressed / max(dot(normal, yields * rim), 0.1 * yields_out), 0.0) * rim;
+            return max(pressed / max(dot(normal, compliance * rim), 0.1 * normal_compliance),
+                       0.0) * rim;
         }
     }
-    return max(pressed / yields_out, 0.0) * normal;
+    return max(pressed / normal_compliance, 0.0) * normal;
 }
 
 // Makes one pass over all contacts. Returns the greatest displacement of a vertex, m; 0 without
@@ -107,12 +108,13 @@ float pushSegments(bool by_way) {
         if (i + 1 < kVerticesPerStrand) direction_below = directionTo(i + 1);
         float w_a = points[i - 1].w;
         float w_b = points[i].w;
-        vec3 a_yields = yieldTo(direction, w_a, above[i - 1], direction_above);
-        vec3 b_yields = yieldTo(direction, w_b, below[i], direction_below);
-        float along_a = dot(direction, a_yields);
-        float along_b = dot(direction, b_yields);
+        vec3 a_compliance = displacementBy(direction, w_a, above[i - 1], direction_above);
+        vec3 b_compliance = displacementBy(direction, w_b, below[i], direction_below);
+        float along_a = dot(direction, a_compliance);
+        float along_b = dot(direction, b_compliance);
         above[i] = shareOf(w_b, along_a);
-        shifts[i] = along_b > 0.0 ? dot(direction, shifts[i - 1]) / along_b * b_yields : vec3(0.0);
+        shifts[i] = along_b > 0.0 ? dot(direction, shifts[i - 1]) / along_b * b_compliance
+                                  : vec3(0.0);
         lifts[i - 1] = vec3(0.0);
 
         vec3 a = points[i - 1].xyz + shifts[i - 1];
@@ -124,7 +126,7 @@ float pushSegments(bool by_way) {
         bool held = forces[i] != vec3(0.0);
         for (bool near = by_way || held || clearances[i] < travelled; near; near = false) {
             segment = movingSegment(guides, root + i, w_a, a, b, startOf(i - 1), startOf(i));
-            uint first = by_way ? 0u : bodies_met[i];
+            uint first = by_way ? 0u : contact_bodies[i];
             float clearance;
             contact = contactOf(
                 segment, guides.bodies, first, by_way ? bodyCount(guides.bodies) : first + 1u,
@@ -132,7 +134,7 @@ float pushSegments(bool by_way) {
                 clearance);
             if (by_way) {
                 clearances[i] = clearance;
-                bodies_met[i] = contact.body;
+                contact_bodies[i] = contact.body;
             }
         }
         for (bool touches = (contact.gap < 0.0 || held) &&
@@ -140,18 +142,20 @@ float pushSegments(bool by_way) {
              touches; touches = false) {
             float s = contact.at;
             float r = 1.0 - s;
-            mat3 yields = mat3(r * r * w_a + s * s * w_b);
-            yields -= r * r * w_a * above[i - 1] * outerProduct(direction_above, direction_above);
-            yields -= s * s * w_b * below[i] * outerProduct(direction_below, direction_below);
-            vec3 g = s * b_yields - r * a_yields;
-            yields -= outerProduct(g, g) / (along_a + along_b);
+            mat3 compliance = mat3(r * r * w_a + s * s * w_b);
+            compliance -=
+                r * r * w_a * above[i - 1] * outerProduct(direction_above, direction_above);
+            compliance -= s * s * w_b * below[i] * outerProduct(direction_below, direction_below);
+            vec3 g = s * b_compliance - r * a_compliance;
+            compliance -= outerProduct(g, g) / (along_a + along_b);
             vec3 slid = movedPast(segment, contact, push.frame, push.frame_before);
             vec3 change =
-                forceOf(contact, yields, slid, forces[i], guides.bodies.friction) - forces[i];
+                forceOf(contact, compliance, slid, forces[i], guides.bodies.friction) - forces[i];
             float tension = dot(g, change) / (along_a + along_b);
-            vec3 move_a = r * yieldTo(change, w_a, above[i - 1], direction_above) +
-                          tension * a_yields;
-            vec3 move_b = s * yieldTo(change, w_b, below[i], direction_below) - tension * b_yields;
+            vec3 move_a = r * displacementBy(change, w_a, above[i - 1], direction_above) +
+                          tension * a_compliance;
+            vec3 move_b = s * displacementBy(change, w_b, below[i], direction_below) -
+                          tension * b_compliance;
             float move = max(length(move_a), length(move_b));
             float part = min(1.0, kMostMove * distance(a, b) / max(move, 1.0e-30));
             forces[i] += part * change;
@@ -174,9 +178,9 @@ void movePoints(float lengths[kVerticesPerStrand]) {
         vec3 direction_above = vec3(0.0);
         if (i > 1) direction_above = directionTo(i - 1);
         vec3 lift = lifts[i] + lifted;
-        vec3 yields = yieldTo(direction, points[i - 1].w, above[i - 1], direction_above);
-        float along = dot(direction, yields);
-        lifted = along > 0.0 ? dot(direction, lift) / along * yields : vec3(0.0);
+        vec3 compliance = displacementBy(direction, points[i - 1].w, above[i - 1], direction_above);
+        float along = dot(direction, compliance);
+        lifted = along > 0.0 ? dot(direction, lift) / along * compliance : vec3(0.0);
         points[i].xyz += shifts[i] + lift;
     }
     for (uint i = 1; i < kVerticesPerStrand; ++i)

@@ -79,7 +79,7 @@ bool segmentExists(uint j) { return j == 0 ? chunk > 0 : vertexExists(j); }
 vec3 edge(uint j) { return points[j + 1].xyz - points[j].xyz; }
 
 // Fetches the neighbouring vertices of the previous and the next chunk.
-void meetNeighbours() {
+void syncChunks() {
     if (kChunks == 1) return;
     firsts[turn][lane] = points[1];
     lasts[turn][lane] = points[kVerticesPerChunk];
@@ -160,7 +160,7 @@ void project(uint j) {
 // Solves the energy's system. If a strand has several chunks, they walk one after the other. They
 // pass on their state through all the shared arrays.
 void bendUpChunk(vec2 stiffness, float free_mass, vec3 root_moved) {
-    BendBelow below = nothingBelow();
+    BendBelow below = noBody();
     if (kChunks > 1 && chunk < kLastChunk) {
         uint next = lane + kStrandsPerGroup;
         vec4 a = rotations[0][next];
@@ -183,13 +183,13 @@ void bendUpChunk(vec2 stiffness, float free_mass, vec3 root_moved) {
             joints[j] = addJoint(below, edge(j), goal_edges[j], axes[j], stiffness);
     }
     if (kChunks == 1) return;
-    rotations[0][lane] = vec4(below.moving.diagonal, below.push.x);
-    rotations[1][lane] = vec4(below.moving.beside, below.push.y);
-    firsts[0][lane] = vec4(below.coupling[0], below.push.z);
-    firsts[1][lane] = vec4(below.coupling[1], below.couple.x);
-    lasts[0][lane] = vec4(below.coupling[2], below.couple.y);
-    lasts[1][lane] = vec4(below.turning.diagonal, below.couple.z);
-    tangents[lane] = vec4(below.turning.beside, below.force.x);
+    rotations[0][lane] = vec4(below.hessian_move.diagonal, below.push.x);
+    rotations[1][lane] = vec4(below.hessian_move.off_diagonal, below.push.y);
+    firsts[0][lane] = vec4(below.hessian_mixed[0], below.push.z);
+    firsts[1][lane] = vec4(below.hessian_mixed[1], below.couple.x);
+    lasts[0][lane] = vec4(below.hessian_mixed[2], below.couple.y);
+    lasts[1][lane] = vec4(below.hessian_turn.diagonal, below.couple.z);
+    tangents[lane] = vec4(below.hessian_turn.off_diagonal, below.force.x);
     contacts[lane] = below.force.y;
     forces[lane] = below.force.z;
 }
@@ -226,8 +226,8 @@ void bend(vec2 stiffness, float free_mass, vec3 root_moved) {
         if (kChunks == 1 || chunk == waiting - 1) bendUpChunk(stiffness, free_mass, root_moved);
         if (kChunks > 1) barrier();
     }
-    for (uint walking = 0; walking < kChunks; ++walking) {
-        if (kChunks == 1 || chunk == walking) bendDownChunk(root_moved);
+    for (uint sweeping = 0; sweeping < kChunks; ++sweeping) {
+        if (kChunks == 1 || chunk == sweeping) bendDownChunk(root_moved);
         if (kChunks > 1) barrier();
     }
 }
@@ -237,7 +237,7 @@ void bend(vec2 stiffness, float free_mass, vec3 root_moved) {
 // through rotations[] and firsts[0], up through tangents[] and contacts[].
 LengthRow rows[kVerticesPerChunk];
 
-void walkDownChunk(bool last, bool planes) {
+void sweepDownChunk(bool last, bool planes) {
     LengthsAbove above = aboveAll(points[1].xyz);
     if (kChunks > 1 && chunk > 0) {
         vec4 place = rotations[0][lane - kStrandsPerGroup];
@@ -250,10 +250,10 @@ void walkDownChunk(bool last, bool planes) {
         if (!segmentExists(j)) continue;
         float rest_length = rest_edges[j].w;
         if (last) {
-            walkPlace(above.place, above.direction, rows[j], points[j + 1], rest_length, planes);
+            sweepPlace(above.place, above.direction, rows[j], points[j + 1], rest_length, planes);
             points[j + 1].xyz = above.place;
         } else {
-            walkDown(above, rows[j], points[j], points[j + 1], rest_length, planes);
+            sweepDown(above, rows[j], points[j], points[j + 1], rest_length, planes);
         }
     }
     if (kChunks == 1) return;
@@ -262,7 +262,7 @@ void walkDownChunk(bool last, bool planes) {
     firsts[0][lane] = vec4(above.normal, above.held);
 }
 
-void walkUpChunk() {
+void sweepUpChunk() {
     LengthsBelow below = LengthsBelow(vec3(0.0), 0.0, 0.0);
     if (kChunks > 1 && chunk < kLastChunk) {
         vec4 pull = tangents[lane + kStrandsPerGroup];
@@ -271,41 +271,41 @@ void walkUpChunk() {
     [[unroll]] for (uint up = 0; up < kVerticesPerChunk; ++up) {
         uint j = kVerticesPerChunk - 1 - up;
         if (segmentExists(j))
-            walkUp(below, rows[j], points[j], points[j + 1], rest_edges[j].w);
+            sweepUp(below, rows[j], points[j], points[j + 1], rest_edges[j].w);
     }
     if (kChunks == 1) return;
     tangents[lane] = vec4(below.pull, below.hold);
     contacts[lane] = below.tension;
 }
 
-void walkDownChunks(bool last, bool planes) {
-    for (uint walking = 0; walking < kChunks; ++walking) {
-        if (kChunks == 1 || chunk == walking) walkDownChunk(last, planes);
+void sweepDownChunks(bool last, bool planes) {
+    for (uint sweeping = 0; sweeping < kChunks; ++sweeping) {
+        if (kChunks == 1 || chunk == sweeping) sweepDownChunk(last, planes);
         if (kChunks > 1) barrier();
     }
 }
 
-void walkUpChunks() {
+void sweepUpChunks() {
     for (uint waiting = kChunks; waiting > 0; --waiting) {
-        if (kChunks == 1 || chunk == waiting - 1) walkUpChunk();
+        if (kChunks == 1 || chunk == waiting - 1) sweepUpChunk();
         if (kChunks > 1) barrier();
     }
 }
 
 // `met`: contacts with bodies; read if `planes`.
-void solveLengths(uint passes, bool planes, Met met[kVerticesPerChunk]) {
+void solveLengths(uint passes, bool planes, VertexContact met[kVerticesPerChunk]) {
     if (passes == 0) return;
-    meetNeighbours();
+    syncChunks();
     if (kChunks > 1) barrier();  // firsts[] is reused
     [[unroll]] for (uint j = 0; j < kVerticesPerChunk; ++j)
         rows[j] = lengthRow(
             points[j + 1], planes ? met[j].plane : vec4(0.0),
             planes ? heldAcross(met[j].held) : 0.0);
     for (uint pass = 0; pass < passes; ++pass) {
-        walkDownChunks(false, planes);
-        walkUpChunks();
+        sweepDownChunks(false, planes);
+        sweepUpChunks();
     }
-    walkDownChunks(true, planes);
+    sweepDownChunks(true, planes);
 }
 
 void storePositions(Address positions, uint first) {
@@ -349,9 +349,9 @@ void load(GuideParameters guides, GuideParameters from, ShapeParameters params, 
                 vec3 air = loadVector(push.air, first + j).xyz;
                 vec3 tangent = tangentAt(from, first, j);
                 vec3 velocity = (point.xyz - previous) / guides.step.sub;
-                float brake = brakeOf(push.drag, tangent, air - velocity, guides.step.sub);
-                addAir(loads[j], tangent, brake, air, velocity, guides.step.sub);
-                point.w /= 1.0 + brake;
+                float drag = dragFactor(push.drag, tangent, air - velocity, guides.step.sub);
+                addAir(loads[j], tangent, drag, air, velocity, guides.step.sub);
+                point.w /= 1.0 + drag;
             }
         }
 #else
@@ -360,11 +360,11 @@ void load(GuideParameters guides, GuideParameters from, ShapeParameters params, 
             vec3 air = loadVector(push.air, first + j).xyz;
             vec3 tangent = tangentAt(from, first, j);
             vec3 u = air - (point.xyz - previous) / guides.step.sub;
-            float brake = brakeOf(push.drag, tangent, u, guides.step.sub);
+            float drag = dragFactor(push.drag, tangent, u, guides.step.sub);
             moved = point.xyz +
-                    braked(moved - point.xyz, guides.step.sub * air, tangent, brake);
-            point.w /= 1.0 + brake;
-            stiffness = pullOn(stiffness, brake);
+                    withDrag(moved - point.xyz, guides.step.sub * air, tangent, drag);
+            point.w /= 1.0 + drag;
+            stiffness = pullOn(stiffness, drag);
         }
         if (point.w > 0.0) point.xyz = pullToRest(moved, rest, stiffness);
         if (j == 0 && chunk == 0) point.xyz = rest;
@@ -448,7 +448,7 @@ void main() {
         first_rest_tangent = firstTangent(head, Vectors(params.rest_edges).at[root + 1]);
     }
 
-    meetNeighbours();
+    syncChunks();
     bool lengths = true;  // true if lengths still need solving
 #ifdef HAIRBENCH_SHAPE_ENERGY
     findGoalEdges(first_rest_tangent);
@@ -464,26 +464,27 @@ void main() {
     for (uint iteration = 0; iteration < params.local_iterations; ++iteration) {
         findGoalEdges(first_rest_tangent);
         [[unroll]] for (uint j = 1; j < kVerticesPerChunk; j += 2) pull(j, stiffness);
-        meetNeighbours();
+        syncChunks();
         [[unroll]] for (uint j = 0; j <= kVerticesPerChunk; j += 2) pull(j, stiffness);
     }
 #endif
     if (!kTridiagonal && lengths) {
         for (uint iteration = 0; iteration < params.length_iterations; ++iteration) {
             [[unroll]] for (uint j = 1; j < kVerticesPerChunk; j += 2) project(j);
-            meetNeighbours();
+            syncChunks();
             [[unroll]] for (uint j = 0; j <= kVerticesPerChunk; j += 2) project(j);
         }
     }
 
-    Met met[kVerticesPerChunk];
+    VertexContact met[kVerticesPerChunk];
     if (kTridiagonal && lengths) solveLengths(params.length_iterations, false, met);
     if (present) storePositions(guides.positions, first);
     if (!kCollides) return;
 
     if (!present) end = first;
     float contact = 0.0;
-    [[unroll]] for (uint j = 0; j < kVerticesPerChunk; ++j) met[j] = Met(vec4(0.0), kTouchesNone);
+    [[unroll]] for (uint j = 0; j < kVerticesPerChunk; ++j)
+        met[j] = VertexContact(vec4(0.0), kTouchesNone);
     for (uint i = first; i < end; ++i)  // collisions are too long to unroll
         met[i - first] = collide(guides, push.frame, push.frame_before, i, contact);
     if (kChunks > 1) markBelow(guides, contact, first, end);
@@ -495,7 +496,7 @@ void main() {
     [[unroll]] for (uint j = 0; j < kVerticesPerChunk; ++j)
         if (present && vertexExists(j)) {
             points[j + 1].xyz = loadVector(guides.positions, first + j).xyz;
-            points[j + 1].w *= yieldAlong(met[j].held);
+            points[j + 1].w *= complianceAlong(met[j].held);
         }
     solveLengths(kContactPasses, true, met);
     if (present) storePositions(guides.positions, first);

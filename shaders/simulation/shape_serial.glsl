@@ -83,14 +83,14 @@ void main() {
                 vec3 tangent = tangentBetween(directionOf(before - above), below);
                 vec3 air = Vectors(push.air).at[root + v].xyz;
                 vec3 velocity = (before - previous_point) / guides.step.sub;
-                float brake = brakeOf(push.drag, tangent, air - velocity, guides.step.sub);
+                float drag = dragFactor(push.drag, tangent, air - velocity, guides.step.sub);
 #ifdef HAIRBENCH_SHAPE_ENERGY
-                addAir(loads[v], tangent, brake, air, velocity, guides.step.sub);
+                addAir(loads[v], tangent, drag, air, velocity, guides.step.sub);
 #endif
                 point.xyz =
-                    before + braked(point.xyz - before, guides.step.sub * air, tangent, brake);
-                inverse_mass /= 1.0 + brake;
-                stiffness = pullOn(stiffness, brake);
+                    before + withDrag(point.xyz - before, guides.step.sub * air, tangent, drag);
+                inverse_mass /= 1.0 + drag;
+                stiffness = pullOn(stiffness, drag);
             }
             point.xyz = pullToRest(point.xyz, rest, stiffness);
         }
@@ -127,7 +127,7 @@ void main() {
         axes[v] = jointAxis(tangent, frame.tangent);
     }
     float free_mass = 1.0 + pullPerMass(params.global_stiffness);
-    BendBelow below = nothingBelow();
+    BendBelow below = noBody();
     [[dont_unroll]] for (uint v = kVerticesPerStrand - 1; v > 0; --v) {
         float mass = inverse_masses[v] > 0.0 ? free_mass : kHeldMass * kVerticesPerStrand;
         addVertex(below, loads[v], mass, root_moved);
@@ -201,7 +201,7 @@ void main() {
             LengthsAbove above = aboveAll(a.xyz);
             for (uint v = 1; v < kVerticesPerStrand; ++v) {
                 vec4 b = vec4(positions.at[root + v].xyz, inverse_masses[v]);
-                walkDown(above, rows[v], a, b, rest_edges.at[root + v].w, collided);
+                sweepDown(above, rows[v], a, b, rest_edges.at[root + v].w, collided);
                 if (last) positions.at[root + v].xyz = above.place;
                 a = b;
             }
@@ -210,16 +210,16 @@ void main() {
             for (uint v = kVerticesPerStrand - 1; v > 0; --v) {
                 a = vec4(positions.at[root + v - 1].xyz, inverse_masses[v - 1]);
                 vec4 b = vec4(positions.at[root + v].xyz, inverse_masses[v]);
-                walkUp(below, rows[v], a, b, rest_edges.at[root + v].w);
+                sweepUp(below, rows[v], a, b, rest_edges.at[root + v].w);
             }
         }
         if (!kCollides || collided) break;
         collided = true;
         float contact = 0.0;
         for (uint v = 0; v < kVerticesPerStrand; ++v) {
-            Met met = collide(guides, push.frame, push.frame_before, root + v, contact);
+            VertexContact met = collide(guides, push.frame, push.frame_before, root + v, contact);
             rows[v] = lengthRow(positions.at[root + v], met.plane, heldAcross(met.held));
-            inverse_masses[v] *= yieldAlong(met.held);
+            inverse_masses[v] *= complianceAlong(met.held);
         }
         if (!kTridiagonal || passes == 0 || contact == 0.0) break;
     }

@@ -8,12 +8,12 @@
 // Rows of the scratch memory. kPredicted: a vertex's displacement without the strand's forces, and
 // w its weight against all below it. kCentre: the displacement with the least energy of all that
 // hangs on the vertex, and w its weight against the segment above. kMoved: the vertex's
-// displacement. kBrake: the tangent and the strength of the drag across it.
+// displacement. kDrag: the tangent and the strength of the drag across it.
 const uint kScratchRows = kStableCosseratScratchRows;
 const uint kPredicted = 0u;
 const uint kCentre = 1u;
 const uint kMoved = 2u;
-const uint kBrake = 3u;
+const uint kDrag = 3u;
 
 #include "simulation/rod/edges.glsl"
 #include "simulation/rod/orientation.glsl"
@@ -32,24 +32,24 @@ void predict() {
     takeRoot();
     vec3 edges = vec3(0.0);  // from the root to here
     for (uint i = 1; i < guides.vertices_per_strand; ++i) {
-        vec4 brake;
-        vec3 moved = predictedMove(i, motionAt(i), edges, brake);
+        vec4 drag;
+        vec3 moved = predictedMove(i, motionAt(i), edges, drag);
         setScratch(i, kPredicted, vec4(moved, 0.0));
         setScratch(i, kMoved, vec4(moved, 0.0));
-        setScratch(i, kBrake, brake);
+        setScratch(i, kDrag, drag);
     }
 }
 
 // Computes the weights of solveUp() and sweepDown(), as for springs and masses in series from the
 // tip up. They are the same in every iteration.
-void weigh() {
+void computeWeights() {
     float below = 0.0;  // stiffness of the spring between a vertex and all that hangs on it
     for (uint i = guides.vertices_per_strand - 1; i > 0; --i) {
         RodSegment segment = segmentAt(i);
         float spring = min(stretching / max(segment.rest_length, kLeastLength), kMostSpring);
         vec2 weights = vec2(0.0, 1.0);
         if (!isPinned(i)) {
-            float mass = segment.mass * (1.0 + scratchAt(i, kBrake).w) + below;
+            float mass = segment.mass * (1.0 + scratchAt(i, kDrag).w) + below;
             weights = vec2(below, mass) / vec2(mass, spring + mass);
         }
         setScratch(i, kPredicted, vec4(scratchAt(i, kPredicted).xyz, weights.x));
@@ -63,9 +63,9 @@ void weigh() {
 // along the hair, so that the iteration still lowers the energy.
 vec3 goalAt(uint i, vec3 predicted) {
     if (push.air == kNoAddress) return predicted;
-    vec4 brake = scratchAt(i, kBrake);
+    vec4 drag = scratchAt(i, kDrag);
     vec3 ahead = scratchAt(i, kMoved).xyz - predicted;
-    return predicted + brake.w / (1.0 + brake.w) * dot(brake.xyz, ahead) * brake.xyz;
+    return predicted + drag.w / (1.0 + drag.w) * dot(drag.xyz, ahead) * drag.xyz;
 }
 
 // First half of the positions for fixed orientations: from the tip up, finds for each vertex the
@@ -123,7 +123,7 @@ void sweepDown(bool predicted) {
 void main() {
     if (!takeStrand()) return;  // no barrier follows
     predict();
-    weigh();
+    computeWeights();
     sweepDown(true);
     for (uint i = 0; i < rod.iterations; ++i) {
         solveUp();

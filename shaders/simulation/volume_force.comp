@@ -80,7 +80,7 @@ void main() {
     vec4 kept = State(volume.kept).at[index];
     vec3 driven = kept.w == 0.0 ? vec3(0.0) : dragged - kept.xyz;  // m/s, by everything except
                                                                    // friction
-    vec3 braked = volume.settled * dragged + volume.foreseen * driven;
-    State(volume.kept).at[index] = vec4(dragged - braked, 1.0);
-    State(push.accelerations).at[index].xyz += volume.per_step * braked + repulsion;
+    vec3 friction = volume.settled * dragged + volume.predicted * driven;
+    State(volume.kept).at[index] = vec4(dragged - friction, 1.0);
+    State(push.accelerations).at[index].xyz += volume.per_step * friction + repulsion;
 }

@@ -19,55 +19,57 @@ layout(location = 3) flat in uint merged_hairs;  // set if kTellsHairs
 layout(constant_id = kLinesConstant) const uint kLines = 0;
 
 // A point of a strand as a pixel sees it.
-struct SeenStrand {
+struct VisibleStrand {
     StrandFragment fragment;
     vec4 factors;  // on colour and opacity
     float coverage;  // part of the pixel that the strand covers; with sampling 1, or 0 in a gap
 };
 
-SeenStrand seenStrand(PictureParameters picture) {
-    SeenStrand seen;
-    seen.fragment.position = position_and_across.xyz;
+VisibleStrand visibleStrand(PictureParameters picture) {
+    VisibleStrand visible;
+    visible.fragment.position = position_and_across.xyz;
     // Tangents of a quad's two ends may cancel between them.
-    seen.fragment.tangent = unitOr(tangent_and_along.xyz, vec3(0.0, 1.0, 0.0));
-    seen.fragment.to_eye = normalize(picture.eye - seen.fragment.position);
-    seen.fragment.across = position_and_across.w;
-    seen.fragment.along = tangent_and_along.w;
-    seen.fragment.width = kNeedsWidth && kLines == 0 ? 2.0 * half_width : picture.root_width;
-    seen.fragment.fiber_width = seen.fragment.width;
-    if (kMergedHairs != 0) seen.fragment.fiber_width /= mergedCount(merged_hairs);
-    seen.coverage = 1.0;
+    visible.fragment.tangent = unitOr(tangent_and_along.xyz, vec3(0.0, 1.0, 0.0));
+    visible.fragment.to_eye = normalize(picture.eye - visible.fragment.position);
+    visible.fragment.across = position_and_across.w;
+    visible.fragment.along = tangent_and_along.w;
+    visible.fragment.width = kNeedsWidth && kLines == 0 ? 2.0 * half_width : picture.root_width;
+    visible.fragment.fiber_width = visible.fragment.width;
+    if (kMergedHairs != 0) visible.fragment.fiber_width /= mergedCount(merged_hairs);
+    visible.coverage = 1.0;
     if (kLines != 0) {
-        seen.coverage = half_width;
+        visible.coverage = half_width;
     } else if (kAnalyticCoverage != 0) {
         float offset = position_and_across.w;
         PixelFilter pixel = pixelFilter(offset);
         if (kMergedHairs != 0) {
-            seen.coverage = coverMerged(merged_hairs, pixel, offset, half_width, seen.fragment);
+            visible.coverage =
+                coverMerged(merged_hairs, pixel, offset, half_width, visible.fragment);
         } else {
-            seen.coverage = pixelCoverage(pixel, offset, half_width);
-            seen.fragment.across = pixelAcross(pixel, offset, half_width);
+            visible.coverage = pixelCoverage(pixel, offset, half_width);
+            visible.fragment.across = pixelAcross(pixel, offset, half_width);
         }
     } else if (kMergedHairs != 0 && mergedCount(merged_hairs) > 1.0) {
         float half_strip = max(half_width * mergedSpread(merged_hairs), 1e-12);
-        seen.fragment.across = clamp(position_and_across.w / half_strip, -1.0, 1.0);
-        if (!toMergedHair(merged_hairs, seen.fragment)) seen.coverage = 0.0;
+        visible.fragment.across = clamp(position_and_across.w / half_strip, -1.0, 1.0);
+        if (!toMergedHair(merged_hairs, visible.fragment)) visible.coverage = 0.0;
     }
-    seen.factors = strandTexel(seen.fragment.across, seen.fragment.along);
-    seen.fragment.power = ownPower(picture, kTellsHairs ? merged_hairs : 0u, seen.fragment.along);
-    return seen;
+    visible.factors = strandTexel(visible.fragment.across, visible.fragment.along);
+    visible.fragment.power =
+        ownPower(picture, kTellsHairs ? merged_hairs : 0u, visible.fragment.along);
+    return visible;
 }
 
-vec3 strandColor(PictureParameters picture, SeenStrand seen) {
-    return shadeStrand(picture, seen.fragment, seen.factors.rgb);
+vec3 strandColor(PictureParameters picture, VisibleStrand visible) {
+    return shadeStrand(picture, visible.fragment, visible.factors.rgb);
 }
 
 // Returns colour and opacity; discards invisible fragments.
 vec4 transparentStrand(PictureParameters picture) {
-    SeenStrand seen = seenStrand(picture);
-    float alpha = seen.coverage * picture.opacity * seen.factors.a;
+    VisibleStrand visible = visibleStrand(picture);
+    float alpha = visible.coverage * picture.opacity * visible.factors.a;
     if (alpha <= 0.0) discard;
-    return vec4(strandColor(picture, seen), alpha);
+    return vec4(strandColor(picture, visible), alpha);
 }
 
 #endif

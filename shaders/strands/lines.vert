@@ -37,5 +37,5 @@ void main() {
     position_and_across = vec4(point.position, 0.0);
     tangent_and_along_out = vec4(point.tangent, point.along);
     merged_hairs = kOwnColors != 0 ? point.merged : 0u;
-    if (!drawn) gl_Position = kNowhere;
+    if (!drawn) gl_Position = kClippedPosition;
 }

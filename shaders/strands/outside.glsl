@@ -10,7 +10,8 @@
 // `last` affect it. Splines and interpolation stay within the guides' convex hull, with these
 // exceptions: roots away from their guide's root, a segment at splines' ends and bends, the margin
 // that coverage draws beside strands, and offsets and widths, which are in `beyond`, m.
-bool isOutside(PictureParameters picture, uvec3 guides, uint first, uint last, float beyond) {
+bool isOutsideFrustum(PictureParameters picture, uvec3 guides, uint first, uint last,
+                      float beyond) {
     mat4 rows = transpose(picture.view_projection);
     vec4 planes[5] = vec4[5](rows[3] + rows[0], rows[3] - rows[0], rows[3] + rows[1],
                              rows[3] - rows[1], rows[3] - rows[2]);

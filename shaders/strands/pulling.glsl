@@ -30,7 +30,7 @@ void main() {
     LineEnd line_end =
         LineEnd(point.position, point.tangent, point.width, point.along, point.merged);
     makeCorner(picture, line_end, quadEnd(picture, line_end), corner == 0u ? -1.0 : 1.0);
-    if (isoline >= strandsInPatch(picture, strand_patch)) gl_Position = kNowhere;
+    if (isoline >= strandsInPatch(picture, strand_patch)) gl_Position = kClippedPosition;
 }
 
 #endif

@@ -8,8 +8,8 @@ layout(location = 0) out vec4 color;
 
 void main() {
     PictureParameters picture = PictureReference(push.picture).parameters;
-    SeenStrand seen = seenStrand(picture);
-    if (kMergedHairs != 0 && seen.coverage == 0.0) discard;
-    if (kStrandTexture != 0 && seen.factors.a < 0.5) discard;
-    color = vec4(strandColor(picture, seen), 1.0);
+    VisibleStrand visible = visibleStrand(picture);
+    if (kMergedHairs != 0 && visible.coverage == 0.0) discard;
+    if (kStrandTexture != 0 && visible.factors.a < 0.5) discard;
+    color = vec4(strandColor(picture, visible), 1.0);
 }

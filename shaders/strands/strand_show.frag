@@ -26,7 +26,7 @@ vec3 fromDisplay(vec3 display) {
 
 void main() {
     PictureParameters picture = PictureReference(push.picture).parameters;
-    StrandFragment fragment = seenStrand(picture).fragment;
+    StrandFragment fragment = visibleStrand(picture).fragment;
     float shown = fragment.along;  // from strands/strand.glsl
     vec3 result;
     float alpha = 1.0;

@@ -11,16 +11,16 @@ layout(buffer_reference, scalar) buffer StageWatchReference { StageWatch watch; 
 
 // Sums bits. Unlike sums of floats, they cannot be simplified, and one addition per number is
 // cheap.
-uint bitSum(vec4 made) {
-    uvec4 bits = floatBitsToUint(made);
+uint bitSum(vec4 outputs) {
+    uvec4 bits = floatBitsToUint(outputs);
     return bits.x + bits.y + bits.z + bits.w;
 }
 
-// `made` must depend on all outputs of the invocation.
-void see(uint made) {
+// `outputs` must depend on all outputs of the invocation.
+void countInvocation(uint outputs) {
     StageWatchReference reference = StageWatchReference(push.watch);
-    if ((made & reference.watch.mask) != reference.watch.wanted) return;
-    atomicAdd(reference.watch.sum, made);
+    if ((outputs & reference.watch.mask) != reference.watch.wanted) return;
+    atomicAdd(reference.watch.sum, outputs);
     atomicAdd(reference.watch.count, 1u);
 }
 

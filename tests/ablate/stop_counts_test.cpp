@@ -49,7 +49,7 @@ StopCounts allRan() {
              {"geometry_primitives", 240},
              {"fragment_invocations", 77}}),
         .samples_passed = 70,
-        .seen = 120};
+        .watched_invocations = 120};
 }
 
 std::vector<std::string>
@@ -74,7 +74,7 @@ TEST(StopCounts, FindAStageThatDidNotRun) {
          {"tessellation_control_patches", 6},
          {"tessellation_evaluation_invocations", 150},
          {"geometry_primitives", 240}});
-    counts.seen = 0;
+    counts.watched_invocations = 0;
     EXPECT_THAT(
         warningsOf(Stop::geometry, counts),
         ElementsAre(
@@ -104,7 +104,7 @@ TEST(StopCounts, FindAStageThatRanTooMuch) {
 TEST(StopCounts, MayBeMoreOnGpusInStagesThatMakeVertices) {
     StopCounts counts = allRan();
     counts.samples_passed = 0;
-    counts.seen = 190;
+    counts.watched_invocations = 190;
     counts.statistics = countsWith(
         {{"vertex_invocations", 8},
          {"tessellation_control_patches", 6},
@@ -117,7 +117,7 @@ TEST(StopCounts, MayBeMoreOnGpusInStagesThatMakeVertices) {
             "tessellation: tessellation_evaluation_invocations: 190, expected 150",
             "tessellation: seen: 190, expected 150"));
 
-    counts.seen = 149;
+    counts.watched_invocations = 149;
     counts.statistics = countsWith(
         {{"vertex_invocations", 6},
          {"tessellation_control_patches", 5},
@@ -131,7 +131,7 @@ TEST(StopCounts, MayBeMoreOnGpusInStagesThatMakeVertices) {
 
     StopCounts lines = allRan();
     lines.samples_passed = 0;
-    lines.seen = 121;
+    lines.watched_invocations = 121;
     EXPECT_THAT(
         warningsOf(Stop::geometry, lines, "discrete"),
         ElementsAre("geometry: seen: 121, expected 120"));
@@ -147,7 +147,7 @@ TEST(StopCounts, MayBeMoreOnGpusInStagesThatMakeVertices) {
 TEST(StopCounts, LeaveOutStagesThatAreNotThere) {
     StopCounts counts = allRan();
     counts.samples_passed = 0;
-    counts.seen = 6;
+    counts.watched_invocations = 6;
     EXPECT_THAT(warningsOf(Stop::vertex, counts), IsEmpty());
     const StopPlan vertex = stopOf(Stop::vertex);
     for (const report::Statistic& each : stopStatistics(vertex, smallPlan(), counts, false))

@@ -49,12 +49,12 @@ protected:
 
     // Returns the sum over the invocations of the stop's watched stage.
     std::uint32_t sumOf(StopView& view) {
-        watch_->seeAll();
+        watch_->countAll();
         engine::FrameLoop loop(device(), engine::Timing::isolated);
         view.draw(loop);
         loop.finish();
         const std::uint32_t sum = watch_->seen().sum;
-        watch_->seeNone();
+        watch_->countNone();
         return sum;
     }
 
@@ -165,7 +165,7 @@ TEST_F(StopViewTest, SeesWhatStagesMake) {
 
 TEST_F(StopViewTest, WatchesAlmostNothingWhileItIsTimed) {
     auto all = views(settings_, {Stop::geometry});
-    watch_->seeNone();
+    watch_->countNone();
     engine::FrameLoop loop(device(), engine::Timing::isolated);
     EXPECT_EQ(all.at(Stop::geometry)->visit(loop, 3).size(), 3u);
     // The chance to see one of the 60,928 invocations in each of 4 frames is 6e-5.

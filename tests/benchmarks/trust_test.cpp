@@ -70,23 +70,23 @@ TEST(Trust, TakesTheMedianOfEmptySubmissionsAndHowTheyVary) {
 }
 
 TEST(Trust, BelievesTimestampsThatAgreeWithTheClock) {
-    const std::vector stamped{frame(0, 0.1, 100), frame(0, 0.1, 130)};
+    const std::vector timestamped{frame(0, 0.1, 100), frame(0, 0.1, 130)};
     const std::vector clocked{frame(0, 0.2, 105), frame(0, 0.3, 140)};
-    EXPECT_THAT(measure::timestampFaults(stamped, clocked), IsEmpty());
+    EXPECT_THAT(measure::timestampFaults(timestamped, clocked), IsEmpty());
 }
 
 // A disturbance only makes frames longer, so the fastest frames are compared.
 TEST(Trust, IsNotShakenByOneSlowFrame) {
-    const std::vector stamped{frame(0, 0.1, 100), frame(0, 0.1, 100)};
+    const std::vector timestamped{frame(0, 0.1, 100), frame(0, 0.1, 100)};
     const std::vector clocked{frame(0, 0.1, 900), frame(0, 0.1, 101)};
-    EXPECT_THAT(measure::timestampFaults(stamped, clocked), IsEmpty());
+    EXPECT_THAT(measure::timestampFaults(timestamped, clocked), IsEmpty());
 }
 
 TEST(Trust, NamesThePassThatWasChargedTooLittleAndTheOneChargedTooMuch) {
-    const std::vector stamped{frame(0, 25, 80)};
+    const std::vector timestamped{frame(0, 25, 80)};
     const std::vector clocked{frame(0, 5, 100)};
     EXPECT_THAT(
-        measure::timestampFaults(stamped, clocked),
+        measure::timestampFaults(timestamped, clocked),
         ElementsAre(
             "pass.wind: timestamps say 25.0 ms, the CPU's clock 5.00 ms",
             "pass.strands: timestamps say 80.0 ms, the CPU's clock 100 ms"));
@@ -103,9 +103,9 @@ TEST(Trust, AllowsForAShareOfTheFrame) {
 
 // A separate submission adds cost to a small pass.
 TEST(Trust, AllowsForTheCostOfASubmission) {
-    const std::vector stamped{frame(0, 0.01, 1.0)};
+    const std::vector timestamped{frame(0, 0.01, 1.0)};
     const std::vector clocked{frame(0, 0.4, 1.5)};
-    EXPECT_THAT(measure::timestampFaults(stamped, clocked), IsEmpty());
+    EXPECT_THAT(measure::timestampFaults(timestamped, clocked), IsEmpty());
 }
 
 }  // namespace

@@ -479,7 +479,7 @@ TEST(ShaderCapabilities, AreThoseThatFeaturesStandFor) {
                     return;
                 const bool is_packed = path.find("_packed.") != std::string_view::npos;
                 if (is_packed && (path.starts_with("simulation/volume_splat") ||
-                                  path.starts_with("strands/software/cover")))
+                                  path.starts_with("strands/software/raster")))
                     EXPECT_THAT(capability, testing::AnyOf(kLongIntegers, kLongAtomics)) << path;
                 else if (is_packed)
                     EXPECT_EQ(capability, kLongIntegers) << path;

@@ -43,7 +43,8 @@ protected:
 
     // Overlapped frames have a timestamp after each pass.
     std::vector<FrameRecord> play(Timing timing, int frames, std::uint32_t in_flight = 2) {
-        FrameLoop loop(device(), timing, {.frames = in_flight, .stamps = Stamps::passes});
+        FrameLoop loop(
+            device(), timing, {.frames = in_flight, .timestamps = TimestampPlacement::passes});
         slots_.clear();
         for (int i = 0; i < frames; ++i) loop.frame([&](Passes& passes) { record(passes); });
         return loop.finish();

@@ -43,10 +43,10 @@ Recorded barrier(Scope before, Scope after, const char* place = "") {
         .pass = {}, .uses = {}, .barriers = {{.before = before, .after = after, .place = place}}};
 }
 
-Recorded imageBarrier(ResourceId image, Scope before, Scope after, bool changes_layout) {
+Recorded imageBarrier(ResourceId image, Scope before, Scope after, bool transitions_layout) {
     Recorded recorded = barrier(before, after);
     recorded.barriers[0].image = image;
-    recorded.barriers[0].changes_layout = changes_layout;
+    recorded.barriers[0].transitions_layout = transitions_layout;
     return recorded;
 }
 
@@ -251,16 +251,16 @@ TEST(HazardChecker, ForgetsWhatTheHostHasWaitedFor) {
 TEST(SuperfluousBarriers, AreThoseWithoutWhichThereIsNoMoreHazard) {
     const Recording needed{
         use(1, kComputeWrite), barrier(kComputeWrite, kVertexRead, "needed"),
-        barrier(kVertexRead, kFragmentRead, "superfluous"), use(1, kVertexRead)};
-    EXPECT_THAT(superfluousBarriers(std::span(&needed, 1)), ElementsAre("superfluous"));
+        barrier(kVertexRead, kFragmentRead, "redundant"), use(1, kVertexRead)};
+    EXPECT_THAT(redundantBarriers(std::span(&needed, 1)), ElementsAre("redundant"));
     const Recording twice{
         use(1, kComputeWrite), barrier(kComputeWrite, kVertexRead, "a"),
         barrier(kComputeWrite, kVertexRead, "b"), use(1, kVertexRead)};
-    EXPECT_THAT(superfluousBarriers(std::span(&twice, 1)), ElementsAre("a", "b"));
+    EXPECT_THAT(redundantBarriers(std::span(&twice, 1)), ElementsAre("a", "b"));
     // Only the next frame needs it.
     const Recording frame{use(1, kComputeWrite), barrier(kComputeWrite, kComputeWrite, "last")};
-    EXPECT_THAT(superfluousBarriers(std::span(&frame, 1)), ElementsAre("last"));
-    EXPECT_THAT(superfluousBarriers(std::vector{frame, frame}), IsEmpty());
+    EXPECT_THAT(redundantBarriers(std::span(&frame, 1)), ElementsAre("last"));
+    EXPECT_THAT(redundantBarriers(std::vector{frame, frame}), IsEmpty());
 }
 
 // ---- On a device --------------------------------------------------------------------------------

@@ -27,7 +27,7 @@ protected:
 
     // Waits for a device that never finishes.
     [[noreturn]] static void waitForEver() {
-        waitHeeding([](std::uint64_t nanoseconds) {
+        waitInterruptibly([](std::uint64_t nanoseconds) {
             std::this_thread::sleep_for(std::chrono::nanoseconds(nanoseconds));
             return false;
         });
@@ -46,8 +46,8 @@ TEST_F(Interrupts, EndAWaitForTheDeviceWithLastWords) {
         {
             const Leftover leftover(left);
             std::ofstream(left) << "half";
-            const LastWords outer([] { std::cerr << "outer\n"; });
-            const LastWords inner([] { std::cerr << "inner\n"; });
+            const InterruptMessage outer([] { std::cerr << "outer\n"; });
+            const InterruptMessage inner([] { std::cerr << "inner\n"; });
             interrupt();
             waitForEver();
         },
@@ -60,7 +60,7 @@ TEST_F(Interrupts, LetADeviceThatIsNearlyDoneFinish) {
         {
             interrupt();
             int waits = 0;
-            waitHeeding([&](std::uint64_t) { return ++waits > 2; });
+            waitInterruptibly([&](std::uint64_t) { return ++waits > 2; });
             std::_Exit(interrupted() ? 7 : 1);
         },
         testing::ExitedWithCode(7), "");
@@ -69,7 +69,7 @@ TEST_F(Interrupts, LetADeviceThatIsNearlyDoneFinish) {
 TEST_F(Interrupts, SayWhatWentWrongWithLastWords) {
     EXPECT_EXIT(
         {
-            const LastWords words([] { throw std::runtime_error("the disk is full"); });
+            const InterruptMessage words([] { throw std::runtime_error("the disk is full"); });
             interrupt();
             waitForEver();
         },

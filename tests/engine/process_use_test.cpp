@@ -103,7 +103,7 @@ TEST(GiveWay, IsForAThreadAndThoseThatItStarts) {
     const int before = niceness();
     int of_thread = before, of_its_own = before;
     std::thread([&] {
-        giveWay();
+        lowerPriority();
         of_thread = niceness();
         std::thread([&] { of_its_own = niceness(); }).join();
     }).join();

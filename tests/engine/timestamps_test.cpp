@@ -29,32 +29,32 @@ TEST(TimestampTicks, CountAcrossTheWrapOfACounter) {
 using TimestampsTest = GpuTest;
 
 TEST_F(TimestampsTest, NeverRunBackwards) {
-    Timestamps stamps(device(), 4);
+    Timestamps timestamps(device(), 4);
     runOnce(device(), [&](Commands& commands) {
-        for (int i = 0; i < 4; ++i) stamps.write(commands);
+        for (int i = 0; i < 4; ++i) timestamps.write(commands);
     });
-    const std::span<const double> times = stamps.read();
+    const std::span<const double> times = timestamps.read();
     ASSERT_EQ(times.size(), 4u);
     EXPECT_EQ(times[0], 0.0);
     for (std::size_t i = 1; i < times.size(); ++i) EXPECT_GE(times[i], times[i - 1]);
 }
 
 TEST_F(TimestampsTest, RefuseOneMoreThanThereIsRoomFor) {
-    Timestamps stamps(device(), 2);
+    Timestamps timestamps(device(), 2);
     runOnce(device(), [&](Commands& commands) {
-        stamps.write(commands);
-        stamps.write(commands);
-        EXPECT_THROW(stamps.write(commands), Error);
+        timestamps.write(commands);
+        timestamps.write(commands);
+        EXPECT_THROW(timestamps.write(commands), Error);
     });
 }
 
 TEST_F(TimestampsTest, AreGoneAfterReset) {
-    Timestamps stamps(device(), 2);
-    runOnce(device(), [&](Commands& commands) { stamps.write(commands); });
-    EXPECT_EQ(stamps.read().size(), 1u);
-    stamps.reset();
-    EXPECT_EQ(stamps.count(), 0u);
-    EXPECT_TRUE(stamps.read().empty());
+    Timestamps timestamps(device(), 2);
+    runOnce(device(), [&](Commands& commands) { timestamps.write(commands); });
+    EXPECT_EQ(timestamps.read().size(), 1u);
+    timestamps.reset();
+    EXPECT_EQ(timestamps.count(), 0u);
+    EXPECT_TRUE(timestamps.read().empty());
 }
 
 // Frames with different numbers of timestamps follow each other. Each finds its queries reset,
@@ -64,7 +64,7 @@ TEST_F(TimestampsTest, AreResetByTheNumberWritten) {
     static std::vector<std::pair<std::uint32_t, std::uint32_t>> resets;  // first, count
     static PFN_vkResetQueryPool reset_pool = nullptr;
     resets.clear();
-    Timestamps stamps(device(), 1024);
+    Timestamps timestamps(device(), 1024);
     reset_pool = std::exchange(
         vkResetQueryPool,
         [](VkDevice device, VkQueryPool pool, std::uint32_t first, std::uint32_t count) {
@@ -72,11 +72,11 @@ TEST_F(TimestampsTest, AreResetByTheNumberWritten) {
             reset_pool(device, pool, first, count);
         });
     for (const std::size_t count : {5u, 2u, 0u, 1024u, 3u, 5u}) {
-        stamps.reset();
+        timestamps.reset();
         runOnce(device(), [&](Commands& commands) {
-            for (std::size_t i = 0; i < count; ++i) stamps.write(commands);
+            for (std::size_t i = 0; i < count; ++i) timestamps.write(commands);
         });
-        const std::span<const double> times = stamps.read();
+        const std::span<const double> times = timestamps.read();
         EXPECT_EQ(times.size(), count);
         for (const double time : times) EXPECT_GE(time, 0.0);
     }

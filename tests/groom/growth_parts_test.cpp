@@ -7,8 +7,8 @@
 #include <gmock/gmock.h>
 
 #include "hair/groom/growth/scalp.h"
-#include "hair/groom/growth/spread.h"
-#include "hair/groom/growth/surface_net.h"
+#include "hair/groom/growth/sample_elimination.h"
+#include "hair/groom/growth/scalp_triangulation.h"
 #include "hair/random.h"
 #include "tests/groom/surface_meshes.h"
 #include "tests/largest_difference.h"
@@ -62,14 +62,14 @@ TEST(Outline, ContainsWhatItGoesRound) {
     }
 }
 
-// ---- PointGrid: against all pairs.
+// ---- HashGrid: against all pairs.
 
-TEST(PointGrid, FindsAllThatAreNearAndLeft) {
+TEST(HashGrid, FindsAllThatAreNearAndLeft) {
     std::vector<glm::vec3> points;
     for (std::uint32_t i = 0; i < 400; ++i)
         points.emplace_back(random01(1, i, 0), random01(1, i, 1), 0.1f * random01(1, i, 2));
     for (const double radius : {0.03, 0.15, 3.0}) {
-        PointGrid grid(points, radius);
+        HashGrid grid(points, radius);
         std::vector<std::uint32_t> place_of(points.size());
         for (std::uint32_t i = 0; i < points.size(); ++i) place_of[grid.source(i)] = i;
         std::vector<bool> erased(points.size(), false);
@@ -94,18 +94,18 @@ TEST(PointGrid, FindsAllThatAreNearAndLeft) {
     }
 }
 
-// ---- FallingQueue: against looking at all.
+// ---- BucketQueue: against looking at all.
 
-TEST(FallingQueue, GivesTheGreatestWeightOfNow) {
+TEST(BucketQueue, GivesTheGreatestWeightOfNow) {
     for (const std::uint32_t count : {1u, 10u, 2000u}) {
         std::vector<double> weights;
-        std::vector<FallingQueue::Entry> entries;
+        std::vector<BucketQueue::Entry> entries;
         for (std::uint32_t i = 0; i < count; ++i) {
             weights.push_back(std::floor(20.0 * random01(2, i, 0)));  // many are equal
             entries.push_back({weights[i], i, i});
         }
         std::vector<bool> gone(count, false);
-        FallingQueue queue(entries);
+        BucketQueue queue(entries);
         for (std::uint32_t step = 0; step < count; ++step) {
             std::uint32_t expected = count;
             for (std::uint32_t i = 0; i < count; ++i) {
@@ -120,32 +120,32 @@ TEST(FallingQueue, GivesTheGreatestWeightOfNow) {
     }
 }
 
-// ---- TriangleNet
+// ---- CornerTable
 
 using Triangles = std::vector<std::array<std::uint32_t, 3>>;
 
 // A star round vertex 0, with the neighbours 1 to 5.
-TriangleNet star() {
-    return TriangleNet(Triangles{{0, 1, 2}, {0, 2, 3}, {0, 3, 4}, {0, 4, 5}, {0, 5, 1}});
+CornerTable star() {
+    return CornerTable(Triangles{{0, 1, 2}, {0, 2, 3}, {0, 3, 4}, {0, 4, 5}, {0, 5, 1}});
 }
 
-std::vector<std::uint32_t> around(const TriangleNet& net, std::uint32_t corner) {
+std::vector<std::uint32_t> around(const CornerTable& net, std::uint32_t corner) {
     std::vector<std::uint32_t> vertices;
     for (const std::uint32_t member : net.fan(corner).corners)
-        vertices.push_back(net.vertex(TriangleNet::after(member)));
+        vertices.push_back(net.vertex(CornerTable::after(member)));
     return vertices;
 }
 
-TEST(TriangleNet, WalksRoundAVertex) {
-    const TriangleNet net = star();
+TEST(CornerTable, WalksRoundAVertex) {
+    const CornerTable net = star();
     EXPECT_TRUE(net.fan(6).closed);
     EXPECT_THAT(around(net, 6), ElementsAre(3, 4, 5, 1, 2));
     EXPECT_FALSE(net.fan(1).closed);  // vertex 1
     EXPECT_THAT(around(net, 1), ElementsAre(2, 0));
 }
 
-TEST(TriangleNet, FlipsADiagonal) {
-    TriangleNet net(Triangles{{0, 1, 2}, {2, 1, 3}});
+TEST(CornerTable, FlipsADiagonal) {
+    CornerTable net(Triangles{{0, 1, 2}, {2, 1, 3}});
     net.flip(0);  // 1-2 becomes 0-3
     EXPECT_THAT(
         net.triangles(), UnorderedElementsAre(std::array{0u, 1u, 3u}, std::array{0u, 3u, 2u}));
@@ -155,8 +155,8 @@ TEST(TriangleNet, FlipsADiagonal) {
     EXPECT_EQ(topology.euler, 1);
 }
 
-TEST(TriangleNet, JoinsWhatItSplit) {
-    TriangleNet net(Triangles{{0, 1, 2}, {2, 1, 3}});
+TEST(CornerTable, JoinsWhatItSplit) {
+    CornerTable net(Triangles{{0, 1, 2}, {2, 1, 3}});
     const auto cells = net.split(0, 9);
     EXPECT_EQ(topologyOf(net.triangles()).vertices, 5u);
     EXPECT_EQ(topologyOf(net.triangles()).euler, 1);
@@ -168,24 +168,24 @@ TEST(TriangleNet, JoinsWhatItSplit) {
     EXPECT_EQ(net.triangles().size(), 2u);
     for (std::uint32_t i = 3 * cell; i < 3 * cell + 3; ++i) {
         if (net.vertex(i) != 0) continue;
-        EXPECT_EQ(net.vertex(net.twin(i)), 3u);
+        EXPECT_EQ(net.vertex(net.opposite(i)), 3u);
     }
 }
 
-TEST(TriangleNet, ErasesACell) {
-    TriangleNet net = star();
+TEST(CornerTable, ErasesACell) {
+    CornerTable net = star();
     net.erase(2);
     EXPECT_FALSE(net.exists(2));
     EXPECT_FALSE(net.fan(0).closed);
     EXPECT_THAT(around(net, 0), ElementsAre(4, 5, 1, 2));
 }
 
-TEST(TriangleNet, LinksOnlyWhatIsASurface) {
-    const TriangleNet three(Triangles{{0, 1, 2}, {1, 0, 3}, {0, 1, 4}});
-    const TriangleNet opposite(Triangles{{0, 1, 2}, {0, 1, 3}});
+TEST(CornerTable, LinksOnlyWhatIsASurface) {
+    const CornerTable three(Triangles{{0, 1, 2}, {1, 0, 3}, {0, 1, 4}});
+    const CornerTable opposite(Triangles{{0, 1, 2}, {0, 1, 3}});
     for (std::uint32_t corner = 0; corner < 6; ++corner) {
-        EXPECT_EQ(three.twin(corner), TriangleNet::kNone);
-        EXPECT_EQ(opposite.twin(corner), TriangleNet::kNone);
+        EXPECT_EQ(three.opposite(corner), CornerTable::kNone);
+        EXPECT_EQ(opposite.opposite(corner), CornerTable::kNone);
     }
 }
 

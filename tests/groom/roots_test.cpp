@@ -70,7 +70,8 @@ TEST(PlaceRoots, IsUniformInAreaAtRandom) {
     EXPECT_LT(high, 2);
 }
 
-// See spread_test: 1.07 sqrt(A / n) is the most; independent points have 0.66 sqrt(A) / n.
+// See sample_elimination_test: 1.07 sqrt(A / n) is the most; independent points have 0.66 sqrt(A) /
+// n.
 TEST(PlaceRoots, KeepsADistanceOnAnySurface) {
     for (const Mesh& mesh : {makeSphere(0.1, 48, 24), makeTorus(0.1, 0.04, 48, 24)}) {
         const double area = extractScalp(mesh).area();

@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "hair/groom/growth/roots.h"
-#include "hair/groom/growth/spread.h"
+#include "hair/groom/growth/sample_elimination.h"
 #include "tests/groom/surface_meshes.h"
 #include "tests/groom/test_meshes.h"
 
@@ -25,7 +25,7 @@ std::vector<SurfacePoint> spreadRoots(const Scalp& scalp, std::uint32_t count, s
     for (std::uint32_t i = 0; i < 10 * count; ++i)
         candidates.push_back(rootSample(scalp, seed, i).position);
     std::vector<SurfacePoint> roots;
-    for (const std::uint32_t i : spread(candidates, {}, count, scalp.area()))
+    for (const std::uint32_t i : eliminateSamples(candidates, {}, count, scalp.area()))
         roots.push_back(rootSample(scalp, seed, i));
     return roots;
 }

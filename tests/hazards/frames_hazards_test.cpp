@@ -17,7 +17,7 @@
 #include "tests/temporary_folder.h"
 
 // Tests the barriers of the passes: none is missing, removing any needed one is a hazard, and none
-// is superfluous.
+// is redundant.
 namespace benchmarks::measure {
 namespace {
 
@@ -111,8 +111,8 @@ protected:
         ASSERT_EQ(recordings.size(), kFrames);
         const std::set<std::string> all = engine::barrierPlaces(recordings);
         places.insert(all.begin(), all.end());
-        const std::vector<std::string> superfluous = engine::superfluousBarriers(recordings);
-        std::ranges::set_difference(all, superfluous, std::inserter(needed, needed.end()));
+        const std::vector<std::string> redundant = engine::redundantBarriers(recordings);
+        std::ranges::set_difference(all, redundant, std::inserter(needed, needed.end()));
     }
 };
 
@@ -196,9 +196,9 @@ TEST_F(FramesHazards, AreNoneInAnySceneOrFeatureAndNoBarrierIsSuperfluous) {
         for (const scene::Scene& each : scene::loadScenes(entry.path()))
             silent(entry.path().filename().string() + " " + each.name, made(each.settings));
     }
-    std::set<std::string> superfluous;
-    std::ranges::set_difference(places, needed, std::inserter(superfluous, superfluous.end()));
-    EXPECT_THAT(superfluous, testing::IsEmpty());
+    std::set<std::string> redundant;
+    std::ranges::set_difference(places, needed, std::inserter(redundant, redundant.end()));
+    EXPECT_THAT(redundant, testing::IsEmpty());
 }
 
 struct Missed {

@@ -147,8 +147,8 @@ public:
         engine::FunctionRef<void(engine::Commands&)> record) override {
         passes_.pass(name, kind, record);
     }
-    void beside(std::uint32_t frames, engine::FunctionRef<void()> record) override {
-        passes_.beside(frames + 1, record);
+    void asyncCompute(std::uint32_t frames, engine::FunctionRef<void()> record) override {
+        passes_.asyncCompute(frames + 1, record);
     }
 
 private:

@@ -71,7 +71,8 @@ protected:
     }
 
     void play(BusyPass& busy, engine::Timing timing) {
-        engine::FrameLoop loop(device(), timing, {.stamps = engine::Stamps::passes});
+        engine::FrameLoop loop(
+            device(), timing, {.timestamps = engine::TimestampPlacement::passes});
         for (int i = 0; i < 3; ++i)
             loop.frame([&](engine::Passes& passes) {
                 BusyPasses slowed(passes, busy);

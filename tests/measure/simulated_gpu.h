@@ -53,7 +53,7 @@ struct GpuModel {
     double period = 1.0;  // ns, of a timestamp's tick
     std::uint32_t valid_bits = 64;
     double stamp_rate = 1.0;
-    bool stamps_shifted = false;  // a pass's time is that of the previous pass
+    bool timestamps_shifted = false;  // a pass's time is that of the previous pass
     bool calibrated = true;  // host and device can read a common clock
     bool processor = false;  // it reports that it is a processor
     bool waits_for_all = false;  // a wait for a frame ends only when all submitted frames are done
@@ -94,7 +94,7 @@ public:
         return std::make_unique<Frames>(*this, timing, PlantedWork{"", steps}, true);
     }
     bool isProcessor() const override { return model_.processor; }
-    bool runsBesideThought() const override { return false; }
+    bool overlapsAssessment() const override { return false; }
     double seconds() override { return now_; }
     void pause(double seconds) override { now_ += seconds; }
     std::optional<double> timestampRate() override {
@@ -267,7 +267,7 @@ private:
             record.device = between(first, time);
             if (last_) record.gap = between(*last_, first);
             last_ = time;
-            if (gpu_.model_.stamps_shifted) std::ranges::rotate(times, times.end() - 1);
+            if (gpu_.model_.timestamps_shifted) std::ranges::rotate(times, times.end() - 1);
             for (std::size_t i = 0; i < times.size(); ++i)
                 record.passes.push_back({gpu_.model_.passes[i].name, times[i], {}});
             return time;

@@ -347,7 +347,7 @@ TEST(SimulatedGpu, TimestampsOfTwiceTheRateAreFound) {
 
 // The passes take 10, 40 and 150 us, so their errors are far below the time of a submission.
 TEST(SimulatedGpu, TimestampsOfTheNextPassAreFound) {
-    const std::vector<std::string> faults = faultsOf({.stamps_shifted = true});
+    const std::vector<std::string> faults = faultsOf({.timestamps_shifted = true});
     EXPECT_THAT(faults, Contains(AllOf(HasSubstr("pass.wind"), HasSubstr("work in wind"))));
     EXPECT_THAT(faults, Contains(AllOf(HasSubstr("pass.simulate"), HasSubstr("work in wind"))));
 }
@@ -440,7 +440,7 @@ TEST(SimulatedGpu, CheckingTimestampsTakesNoMoreThanItsTime) {
                 for (const bool shifted : {false, true}) {
                     GpuModel model = is_processor ? processor() : GpuModel{};
                     for (GpuModel::Pass& pass : model.passes) pass.cycles *= scale;
-                    model.stamps_shifted = shifted;
+                    model.timestamps_shifted = shifted;
                     SimulatedGpu gpu(model, 23);
                     const TimestampJudgement judgement = judged(gpu, seconds);
                     EXPECT_NE(judgement.verdict, shifted ? Verdict::right : Verdict::wrong)
@@ -453,7 +453,7 @@ TEST(SimulatedGpu, CheckingTimestampsTakesNoMoreThanItsTime) {
         SimulatedGpu gpu(model, 25);
         EXPECT_EQ(judged(gpu, 1.0).verdict, Verdict::right);
         GpuModel shifted = model;
-        shifted.stamps_shifted = true;
+        shifted.timestamps_shifted = true;
         SimulatedGpu wrong(shifted, 25);
         EXPECT_EQ(judged(wrong, 1.0).verdict, Verdict::wrong);
     }
@@ -504,7 +504,7 @@ TEST(SimulatedGpu, ReportsSayWhetherTimestampsWereChecked) {
     EXPECT_EQ(measuredOn(gpu).trust.timestamps, "right");
     EXPECT_EQ(measuredOn(gpu, {.max_time = 0.0f}).trust.timestamps, "unchecked");
     GpuModel model;
-    model.stamps_shifted = true;
+    model.timestamps_shifted = true;
     SimulatedGpu wrong(model, 33);
     EXPECT_EQ(measuredOn(wrong).trust.timestamps, "wrong");
 }

@@ -23,7 +23,7 @@ void main() {
     probe.bsdf = fiberBsdf(optics, probe.to_eye, probe.to_light, probe.h) * cos_i;
     if (optics.averages != kNoAddress) {
         LightPath path =
-            metAtRandom(kFreePath, probe.strands, passedForward(optics, probe.to_light));
+            poissonPath(kFreePath, probe.strands, forwardScattering(optics, probe.to_light));
         path.ended = vec3(probe.ended);
         path.returned = vec3(probe.returned);
         FiberView view = fiberView(optics, probe.to_eye, probe.h);

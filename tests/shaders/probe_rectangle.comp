@@ -23,7 +23,7 @@ void main() {
     vec3 whole = vectorIrradiance(wholeRectangle(corners));
     RectangleReflection reflected =
         rectangleBrdf(surface, probe.normal, probe.to_eye, normalize(whole), corners);
-    vec3 before = vectorIrradiance(cutByHorizon(corners, probe.normal));
+    vec3 before = vectorIrradiance(clipToHorizon(corners, probe.normal));
     probe.diffuse = reflected.diffuse * dot(before, probe.normal);
     probe.glossy = reflected.glossy;
     Probes(push.probes).at[index] = probe;

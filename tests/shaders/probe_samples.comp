@@ -14,10 +14,10 @@ layout(buffer_reference, scalar) buffer PlacesReference { SamplePlaces all; };
 void main() {
     PlacesReference reference = PlacesReference(push.places);
     for (uint i = 0u; i < kSamples; ++i) {
-        reference.all.places[i] = samplePlace(i);
+        reference.all.places[i] = samplePosition(i);
         reference.all.row_samples[i] = entry(rowSamples(), i);
-        reference.all.row_places[i] = float(entry(rowPlaces(), i)) / 16.0;
+        reference.all.row_places[i] = float(entry(rowPositions(), i)) / 16.0;
         reference.all.column_samples[i] = entry(columnSamples(), i);
-        reference.all.column_places[i] = float(entry(columnPlaces(), i)) / 16.0;
+        reference.all.column_places[i] = float(entry(columnPositions(), i)) / 16.0;
     }
 }

@@ -18,7 +18,9 @@ void main() {
     ShadowProbe probe = Probes(push.probes).at[column];
     LightPath found = lightPath(
         picture, probe.light,
-        Receiver(probe.position, probe.normal, probe.tangent, probe.width, passedOpaque(picture)));
+        Receiver(
+            probe.position, probe.normal, probe.tangent, probe.width,
+            opaqueTransmittance(picture)));
     path = vec4(found.meshes, found.strands, visibility(found), found.direct);
     behind = vec4(found.met, found.ended.g, found.returned.g, found.kept);
 }

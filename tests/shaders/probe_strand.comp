@@ -14,10 +14,10 @@ struct Receiver {
     vec3 normal;
     vec3 tangent;
     float width;
-    vec3 passed;
+    vec3 transmittance;
 };
 LightPath lightPath(PictureParameters picture, uint light, Receiver receiver) { return kFreePath; }
-vec3 passedOpaque(PictureParameters picture) { return vec3(0.0); }
+vec3 opaqueTransmittance(PictureParameters picture) { return vec3(0.0); }
 float visibility(LightPath path) { return path.meshes; }
 
 #include "shading/strand_shading.glsl"

@@ -43,7 +43,7 @@ inline std::vector<glm::dvec3> dragOnFree(
     std::vector<glm::dvec3> accelerations;
     for (std::size_t i = 0; i < positions.size(); ++i) {
         const glm::dvec3 pulled = velocities[i] + h * glm::dvec3(settings.gravity);
-        accelerations.push_back((reference::braked(pulled, rates[i], air[i], h) - pulled) / h);
+        accelerations.push_back((reference::withDrag(pulled, rates[i], air[i], h) - pulled) / h);
     }
     return accelerations;
 }

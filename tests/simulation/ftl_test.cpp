@@ -11,7 +11,7 @@
 namespace hair::simulation {
 namespace {
 
-reference::Pushed untouched(const glm::dvec3& position, const glm::dvec3&) {
+reference::VertexContact untouched(const glm::dvec3& position, const glm::dvec3&) {
     return {.position = position};
 }
 

@@ -88,11 +88,11 @@ TEST(LengthConstraint, PartsVerticesThatCoincide) {
 // tip up they give one tension for each segment.
 double notNearest(
     std::span<const glm::dvec3> points, std::span<const glm::dvec3> predicted,
-    std::span<const double> lightness) {
+    std::span<const double> inverse_masses) {
     Extremes errors;
     glm::dvec3 below{0.0};  // tension of the segment below
     for (std::size_t i = points.size() - 1; i > 0; --i) {
-        const glm::dvec3 needed = (predicted[i] - points[i]) / lightness[i] + below;
+        const glm::dvec3 needed = (predicted[i] - points[i]) / inverse_masses[i] + below;
         const glm::dvec3 direction = glm::normalize(points[i] - points[i - 1]);
         const double tension = glm::dot(needed, direction);
         errors.add(glm::length(needed - tension * direction));
@@ -140,12 +140,13 @@ TEST(LengthSolve, FindsTheNearestPlaces) {
         const groom::Groom groom = wavyGroom(1, vertices);
         const auto rest = toDouble(groom.points);
         const auto predicted = toDouble(disturbed(groom, 0.002f, 5));
-        std::vector<double> lightness(vertices);
-        for (std::uint32_t i = 0; i < vertices; ++i) lightness[i] = 1.0 / (1.0 + 0.3 * (i % 4));
+        std::vector<double> inverse_masses(vertices);
+        for (std::uint32_t i = 0; i < vertices; ++i)
+            inverse_masses[i] = 1.0 / (1.0 + 0.3 * (i % 4));
         auto points = predicted;
-        reference::solveLengths(points, rest, 200, lightness);
+        reference::solveLengths(points, rest, 200, inverse_masses);
         EXPECT_LT(lengthError(points, rest), 1e-12) << vertices;
-        EXPECT_LT(notNearest(points, predicted, lightness), 1e-9) << vertices;
+        EXPECT_LT(notNearest(points, predicted, inverse_masses), 1e-9) << vertices;
     }
 }
 

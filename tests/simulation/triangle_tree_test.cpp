@@ -13,14 +13,14 @@ constexpr std::size_t kMostInLeaf = 12;
 
 struct Walk {
     const groom::ClosedMesh& mesh;
-    const groom::TriangleTree& tree;
+    const groom::TriangleBvh& tree;
     std::vector<int> visits;  // [triangle]
     std::uint32_t depth = 0;
     std::size_t nodes = 0;
 
     void visit(std::uint32_t index, std::uint32_t level, glm::vec3 lower, glm::vec3 upper) {
         ASSERT_LT(index, tree.nodes.size());
-        const groom::TriangleTree::Node& node = tree.nodes[index];
+        const groom::TriangleBvh::Node& node = tree.nodes[index];
         ++nodes;
         depth = std::max(depth, level);
         for (int axis = 0; axis < 3; ++axis) {
@@ -44,18 +44,18 @@ struct Walk {
     }
 };
 
-Walk walk(const groom::ClosedMesh& mesh, const groom::TriangleTree& tree) {
+Walk walk(const groom::ClosedMesh& mesh, const groom::TriangleBvh& tree) {
     Walk result{mesh, tree, std::vector<int>(mesh.triangles.size())};
     result.visit(0, 1, glm::vec3(-1e30f), glm::vec3(1e30f));
     return result;
 }
 
-TEST(TriangleTree, HoldsEveryTriangleOnceInItsBoxes) {
+TEST(TriangleBvh, HoldsEveryTriangleOnceInItsBoxes) {
     for (const groom::Mesh& mesh :
          {makeBox({0, 0, 0}, {1, 2, 3}), makeTorus(1.0, 0.3, 40, 20), makeStar()}) {
         const groom::ClosedMesh closed = groom::closeMesh(mesh);
-        const groom::TriangleTree tree =
-            groom::buildTriangleTree(closed.positions, closed.triangles, kMostInLeaf);
+        const groom::TriangleBvh tree =
+            groom::buildTriangleBvh(closed.positions, closed.triangles, kMostInLeaf);
         const Walk seen = walk(closed, tree);
         EXPECT_EQ(seen.visits, std::vector<int>(closed.triangles.size(), 1));
         EXPECT_EQ(seen.nodes, tree.nodes.size());
@@ -64,10 +64,10 @@ TEST(TriangleTree, HoldsEveryTriangleOnceInItsBoxes) {
 }
 
 // 20 * 4^4 triangles are halved; on level 10 leaves have 10.
-TEST(TriangleTree, IsAsShallowAsHalvingMakesIt) {
+TEST(TriangleBvh, IsAsShallowAsHalvingMakesIt) {
     const groom::ClosedMesh closed = groom::closeMesh(makeSphere({0, 0, 0}, 1.0, 4));
-    const groom::TriangleTree tree =
-        groom::buildTriangleTree(closed.positions, closed.triangles, kMostInLeaf);
+    const groom::TriangleBvh tree =
+        groom::buildTriangleBvh(closed.positions, closed.triangles, kMostInLeaf);
     EXPECT_EQ(walk(closed, tree).depth, 10u);
 }
 

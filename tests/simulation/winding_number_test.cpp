@@ -93,14 +93,14 @@ TEST(WindingNumber, OnATriangleIsTheMeanOfBothSides) {
 
 // Returns the bound of winding_number.h, summed over the nodes that are taken as multipoles.
 double boundOf(const WindingNumber& winding, const glm::dvec3& p, std::uint32_t node) {
-    const groom::TriangleTree::Node& box = winding.tree().nodes[node];
+    const groom::TriangleBvh::Node& box = winding.tree().nodes[node];
     const groom::Multipole& moments = winding.multipoles()[node];
     const double distance = glm::distance(moments.centre, p);
     const double radius = moments.radius;
     if (distance > WindingNumber::kReach * radius) {
         double area = 0.0;
         const auto add = [&](const auto& self, std::uint32_t index) -> void {
-            const groom::TriangleTree::Node& below = winding.tree().nodes[index];
+            const groom::TriangleBvh::Node& below = winding.tree().nodes[index];
             for (std::uint32_t i = below.first; i < below.first + below.count; ++i) {
                 const auto& [a, b, c] = winding.corners()[i];
                 area += glm::length(glm::cross(glm::dvec3(b - a), glm::dvec3(c - a))) / 2;

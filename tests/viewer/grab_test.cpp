@@ -42,7 +42,7 @@ TEST(HandPath, IsWhereTheMouseWasAtTheNextFrame) {
     Path path = begun(9);
     for (std::uint32_t i = 0; i < 5; ++i)
         moveHand(path, after(9 + i), {0.1f * static_cast<float>(i + 1), 0, 0});
-    letGo(path, after(14));
+    release(path, after(14));
     expectAscending(path);
     for (std::uint32_t i = 0; i <= 5; ++i)
         EXPECT_NEAR(handAt(path, after(9 + i).now).x, 0.1f * static_cast<float>(i), 1e-6f) << i;
@@ -64,7 +64,7 @@ TEST(HandPath, NeverChangesWhatWasPlayed) {
             seen.emplace_back(after(frame).now, handAt(path, after(frame).now));
         }
     }
-    letGo(path, after(frame));
+    release(path, after(frame));
     expectAscending(path);
     EXPECT_EQ(path.back().time, after(frame).now);
     for (const auto& [time, position] : seen)
@@ -83,7 +83,7 @@ TEST(HandPath, NeedsFewKeysWhileTheHandRests) {
     for (std::uint32_t frame = 0; frame < 500; ++frame) moveHand(path, after(frame), {0, 1, 0});
     EXPECT_LE(path.size(), 6u);
     EXPECT_EQ(handAt(path, after(400).now), glm::vec3(0, 1, 0));
-    letGo(path, after(500));
+    release(path, after(500));
     EXPECT_EQ(path.back().time, after(500).now);
 }
 
@@ -91,7 +91,7 @@ TEST(HandPath, PullsForTheNextFrameIfNoneWasPlayed) {
     Path path = begun(20);
     moveHand(path, after(20), {0.3f, 0, 0});
     moveHand(path, after(20), {0.5f, 0, 0});
-    letGo(path, after(20));
+    release(path, after(20));
     ASSERT_EQ(path.size(), 2u);
     EXPECT_EQ(path.front().time, after(20).now);
     EXPECT_EQ(path.back().time, after(21).now);
@@ -101,7 +101,7 @@ TEST(HandPath, PullsForTheNextFrameIfNoneWasPlayed) {
 TEST(HandPath, IsGoneWhereTimeWasSetBack) {
     Path path = begun(20);
     moveHand(path, after(20), {0.3f, 0, 0});
-    letGo(path, after(4));
+    release(path, after(4));
     EXPECT_TRUE(path.empty());
 }
 
@@ -113,7 +113,7 @@ TEST(HandPath, EndsWhereThereIsNoRoom) {
         ++frame;
     }
     EXPECT_LE(path.size(), 10'000u);  // limit of the table in hair/simulation_settings.h
-    letGo(path, after(frame));
+    release(path, after(frame));
     EXPECT_LE(path.size(), 10'000u);
     expectAscending(path);
 }

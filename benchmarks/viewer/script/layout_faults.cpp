@@ -11,10 +11,10 @@
 namespace benchmarks::viewer {
 namespace {
 
-// ---- Drawn letters ------------------------------------------------------------------------------
+// ---- Drawn glyphs ------------------------------------------------------------------------------
 
-// A drawn letter, px.
-struct DrawnLetter {
+// A drawn glyph, px.
+struct DrawnGlyph {
     unsigned codepoint = 0;
     float pen = 0.0f;  // start of its advance, slightly left of it
     float left = 0.0f;
@@ -26,7 +26,7 @@ struct DrawnLetter {
 
 // Letters exceed their advance, and thus a box of their text's width, by fractions of a pixel.
 constexpr float kTolerance = 1.0f;  // px
-// Visible share of its texture rectangle above which a letter counts as whole.
+// Visible share of its texture rectangle above which a glyph counts as whole.
 constexpr float kWhole = 0.999f;
 
 struct Quad {
@@ -34,7 +34,7 @@ struct Quad {
     ImDrawVert last;  // bottom right
 };
 
-// Returns the rectangle of six indices in the order in which Dear ImGui draws letters.
+// Returns the rectangle of six indices in the order in which Dear ImGui draws glyphs.
 std::optional<Quad> quadAt(const ImDrawList& list, const ImDrawCmd& command, unsigned index) {
     const ImDrawIdx* const i = &list.IdxBuffer[static_cast<int>(command.IdxOffset + index)];
     const unsigned v = i[0];
@@ -46,7 +46,7 @@ std::optional<Quad> quadAt(const ImDrawList& list, const ImDrawCmd& command, uns
     return Quad{vertex(v), vertex(v + 2)};
 }
 
-// Returns the letter at the middle of the texture rectangle; null for a shape.
+// Returns the glyph at the middle of the texture rectangle; null for a shape.
 const ImFontGlyph* glyphOf(const Quad& quad) {
     if (quad.first.uv.x == quad.last.uv.x) return nullptr;  // single colour
     const float u = 0.5f * (quad.first.uv.x + quad.last.uv.x);
@@ -62,7 +62,7 @@ bool isSeen(const Quad& quad, const ImVec4& clip) {
            quad.last.pos.y > clip.y && quad.first.pos.x < clip.z && quad.last.pos.x > clip.x;
 }
 
-// Returns the share of the letter in its rectangle.
+// Returns the share of the glyph in its rectangle.
 float shareOf(const Quad& quad, const ImFontGlyph& glyph) {
     return (quad.last.uv.x - quad.first.uv.x) / (glyph.U1 - glyph.U0);
 }
@@ -77,10 +77,10 @@ bool isCut(const Quad& quad, const ImFontGlyph& glyph, const ImVec4& clip) {
            quad.last.pos.x > clip.z + kTolerance;
 }
 
-// Returns the letters of a draw list. Dear ImGui cuts letters in two ways: it shrinks the letter's
+// Returns the glyphs of a draw list. Dear ImGui cuts glyphs in two ways: it shrinks the glyph's
 // rectangle, or lets the device clip it. Cuts at the top or bottom come from scrolling.
-std::vector<DrawnLetter> drawnLetters(const ImDrawList& list) {
-    std::vector<DrawnLetter> letters;
+std::vector<DrawnGlyph> drawnGlyphs(const ImDrawList& list) {
+    std::vector<DrawnGlyph> glyphs;
     const ImTextureID texture = ImGui::GetIO().Fonts->TexID;
     for (const ImDrawCmd& command : list.CmdBuffer) {
         if (command.UserCallback || command.GetTexID() != texture) continue;
@@ -89,7 +89,7 @@ std::vector<DrawnLetter> drawnLetters(const ImDrawList& list) {
             index += quad ? 6 : 3;
             if (!quad || !isSeen(*quad, command.ClipRect)) continue;
             if (const ImFontGlyph* const glyph = glyphOf(*quad))
-                letters.push_back(
+                glyphs.push_back(
                     {.codepoint = glyph->Codepoint,
                      .pen = penOf(*quad, *glyph),
                      .left = quad->first.pos.x,
@@ -99,7 +99,7 @@ std::vector<DrawnLetter> drawnLetters(const ImDrawList& list) {
                      .cut = isCut(*quad, *glyph, command.ClipRect)});
         }
     }
-    return letters;
+    return glyphs;
 }
 
 // ---- Faults -------------------------------------------------------------------------------------
@@ -138,54 +138,54 @@ void addContents(const ImGuiWindow& window, std::vector<std::string>& faults) {
         faults.push_back(name + ": its contents are " + pixels(below) + " too high");
 }
 
-bool isIn(const DrawnLetter& letter, const engine::UiRect& rect) {
-    const float middle = 0.5f * (letter.top + letter.bottom);
-    return letter.left >= rect.left - kTolerance && letter.left <= rect.right &&
-           middle > rect.top && middle < rect.bottom;
+bool isIn(const DrawnGlyph& glyph, const engine::UiRect& rect) {
+    const float middle = 0.5f * (glyph.top + glyph.bottom);
+    return glyph.left >= rect.left - kTolerance && glyph.left <= rect.right && middle > rect.top &&
+           middle < rect.bottom;
 }
 
 // Whether a field's text is too long. Text normally starts one padding from the left, and a number
 // that fits is centred. Text that starts at the very left and reaches the right end is too long.
-// Scrolled text is cut at the left. Behind hidden fields, letters may come from other windows.
-bool isTooLong(const engine::UiItem& field, const std::vector<DrawnLetter>& letters) {
-    const DrawnLetter* first = nullptr;
+// Scrolled text is cut at the left. Behind hidden fields, glyphs may come from other windows.
+bool isTooLong(const engine::UiItem& field, const std::vector<DrawnGlyph>& glyphs) {
+    const DrawnGlyph* first = nullptr;
     float right = field.rect.left;
-    for (const DrawnLetter& letter : letters) {
-        if (!isIn(letter, field.rect) || !isIn(letter, field.clip)) continue;
-        if (!first || letter.left < first->left) first = &letter;
-        right = std::max(right, letter.right);
+    for (const DrawnGlyph& glyph : glyphs) {
+        if (!isIn(glyph, field.rect) || !isIn(glyph, field.clip)) continue;
+        if (!first || glyph.left < first->left) first = &glyph;
+        right = std::max(right, glyph.right);
     }
     const float narrowest = ImGui::CalcTextSize(".").x;
     return first && !first->cut && first->pen < field.rect.left + 0.5f &&
            right > field.rect.right - narrowest;
 }
 
-// The letters belong to the window; letters of fields below it do not count.
+// The glyphs belong to the window; glyphs of fields below it do not count.
 void addFields(
-    const std::string& window, const engine::UiItems& items,
-    const std::vector<DrawnLetter>& letters, std::vector<std::string>& faults) {
+    const std::string& window, const engine::UiItems& items, const std::vector<DrawnGlyph>& glyphs,
+    std::vector<std::string>& faults) {
     for (const engine::UiItem& item : items.items())
-        if (item.window == window && item.visible && item.inputable && isTooLong(item, letters))
+        if (item.window == window && item.visible && item.inputable && isTooLong(item, glyphs))
             faults.push_back(item.window + ": what \"" + item.label + "\" says is cut off");
 }
 
-bool isInField(const DrawnLetter& letter, const engine::UiItems& items) {
+bool isInField(const DrawnGlyph& glyph, const engine::UiItems& items) {
     return std::ranges::any_of(items.items(), [&](const engine::UiItem& item) {
-        return item.inputable && isIn(letter, item.rect);
+        return item.inputable && isIn(glyph, item.rect);
     });
 }
 
-void addLetters(
+void addGlyphs(
     const ImGuiWindow& window, const engine::UiItems& items, std::vector<std::string>& faults) {
-    const std::vector<DrawnLetter> letters = drawnLetters(*window.DrawList);
-    addFields(engine::windowName(window), items, letters, faults);
-    for (const DrawnLetter& letter : letters) {
-        if (!letter.cut || isInField(letter, items)) continue;
+    const std::vector<DrawnGlyph> glyphs = drawnGlyphs(*window.DrawList);
+    addFields(engine::windowName(window), items, glyphs, faults);
+    for (const DrawnGlyph& glyph : glyphs) {
+        if (!glyph.cut || isInField(glyph, items)) continue;
         char text[5] = {};
-        ImTextCharToUtf8(text, letter.codepoint);
+        ImTextCharToUtf8(text, glyph.codepoint);
         faults.push_back(
-            std::string(window.Name) + ": the letter '" + text + "' at " + pixels(letter.left) +
-            ", " + pixels(letter.top) + " is cut off");
+            std::string(window.Name) + ": the letter '" + text + "' at " + pixels(glyph.left) +
+            ", " + pixels(glyph.top) + " is cut off");
     }
 }
 
@@ -237,7 +237,7 @@ std::vector<std::string> clippedText(const engine::UiItems& items) {
     for (const ImGuiWindow* window : context.Windows) {
         if (!isShown(*window) || window->SkipItems) continue;
         addContents(*window, faults);
-        addLetters(*window, items, faults);
+        addGlyphs(*window, items, faults);
     }
     for (int i = 0; i < context.Tables.GetMapSize(); ++i)
         if (const ImGuiTable* table = context.Tables.TryGetMapData(i))

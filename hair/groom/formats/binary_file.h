@@ -24,10 +24,10 @@ static_assert(std::endian::native == std::endian::little, "files are read as the
 
 // Bounds the bytes that a file unfolds to, by shared or compressed data, in proportion to its size.
 // Counted before they are made, so that a small file can't take all memory.
-class Unfolding {
+class ExpansionLimit {
 public:
     // `file_size` is in bytes and includes the files that it names.
-    explicit Unfolding(std::uint64_t file_size) : most_(kAnyway + kTimes * file_size) {}
+    explicit ExpansionLimit(std::uint64_t file_size) : most_(kAnyway + kTimes * file_size) {}
 
     // Adds a file of this size.
     void allow(std::uint64_t file_size) { most_ += kTimes * file_size; }

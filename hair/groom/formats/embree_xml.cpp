@@ -179,7 +179,7 @@ private:
 // The arrays of a scene, which are in it or in the binary file beside it.
 class EmbreeArrays {
 public:
-    EmbreeArrays(const StrandFile& file, Unfolding& unfolding)
+    EmbreeArrays(const StrandFile& file, ExpansionLimit& unfolding)
         : path_(file.path), check_(file.check), unfolding_(unfolding) {}
 
     // Returns vectors, which may have NaNs.
@@ -295,7 +295,7 @@ private:
 
     std::filesystem::path path_;
     NamedFileCheck check_;
-    Unfolding& unfolding_;
+    ExpansionLimit& unfolding_;
     std::optional<std::string> bytes_;  // of the file beside the scene, once it is needed
 };
 
@@ -634,7 +634,7 @@ private:
     static constexpr int kMostReferences = 64;
     static constexpr std::size_t kBytesOfPoint = sizeof(glm::vec3) + sizeof(float);
 
-    Unfolding unfolding_;
+    ExpansionLimit unfolding_;
     EmbreeArrays arrays_;
     std::map<std::string_view, std::vector<const XmlElement*>> named_;
     int references_ = 0;  // references around the node

@@ -442,7 +442,7 @@ InflatedBytes inflatedOf(const ZipMember& member) {
 
 // Calls `read` with the member's array. Errors begin with the byte of the member.
 template <class Read>
-void withArray(const ZipMember& member, Unfolding& unfolding, const Read& read) {
+void withArray(const ZipMember& member, ExpansionLimit& unfolding, const Read& read) {
     try {
         unfolding.add(member.size, "the archive's arrays");
     } catch (const engine::Error& error) {
@@ -545,7 +545,7 @@ const ZipMember* memberNamed(std::span<const ZipMember> members, std::string_vie
     return at == members.end() ? nullptr : &*at;
 }
 
-bool isStrands(const ZipMember& member, Unfolding& unfolding) {
+bool isStrands(const ZipMember& member, ExpansionLimit& unfolding) {
     if (!member.name.ends_with(kNpyExtension)) return false;
     bool is_strands = false;
     withArray(member, unfolding, [&](const NpyArray& array) {
@@ -555,7 +555,7 @@ bool isStrands(const ZipMember& member, Unfolding& unfolding) {
 }
 
 // Returns the member with the positions: by its name, or the only one of their shape.
-const ZipMember& positionsOf(std::span<const ZipMember> members, Unfolding& unfolding) {
+const ZipMember& positionsOf(std::span<const ZipMember> members, ExpansionLimit& unfolding) {
     if (const ZipMember* named = memberNamed(members, kPositions)) return *named;
     std::string names;
     const ZipMember* found = nullptr;
@@ -740,7 +740,7 @@ StrandSet importNpy(const StrandFile& file) { return strandsOf(readNpy(file.byte
 
 StrandSet importNpz(const StrandFile& file) {
     const std::vector<ZipMember> members = readMembers(file.bytes);
-    Unfolding unfolding(file.bytes.size());
+    ExpansionLimit unfolding(file.bytes.size());
     const ZipMember& positions = positionsOf(members, unfolding);
     StrandSet set;
     withArray(positions, unfolding, [&](const NpyArray& array) { set = strandsOf(array); });

@@ -11,7 +11,7 @@
 #include <glm/geometric.hpp>
 
 #include "engine/error.h"
-#include "hair/groom/growth/surface_net.h"
+#include "hair/groom/growth/scalp_triangulation.h"
 
 namespace hair::groom {
 namespace {
@@ -52,9 +52,9 @@ std::size_t countPieces(const Scalp& scalp, const Edges& edges) {
     };
     std::size_t pieces = parent.size();
     for (const auto& [edge, triangle] : edges) {
-        const auto twin = edges.find({edge.second, edge.first});
-        if (twin == edges.end() || root(triangle) == root(twin->second)) continue;
-        parent[root(triangle)] = root(twin->second);
+        const auto opposite = edges.find({edge.second, edge.first});
+        if (opposite == edges.end() || root(triangle) == root(opposite->second)) continue;
+        parent[root(triangle)] = root(opposite->second);
         --pieces;
     }
     return pieces;
@@ -132,7 +132,8 @@ public:
         const MeshPoint point = at(fraction);
         for (std::uint32_t i = 0; i < 3; ++i) {
             const bool on_edge = point.weights[static_cast<glm::length_t>(i)] < 1e-9;
-            if (on_edge && net_.twin(3 * point.triangle + i) == TriangleNet::kNone) return false;
+            if (on_edge && net_.opposite(3 * point.triangle + i) == CornerTable::kNone)
+                return false;
         }
         return true;
     }
@@ -148,7 +149,7 @@ public:
 
 private:
     const NearestSurface& surface_;
-    TriangleNet net_;
+    CornerTable net_;
     glm::dvec3 from_;
     glm::dvec3 to_;
     glm::dvec3 across_{0.0};

@@ -7,7 +7,7 @@
 
 #include "engine/error.h"
 #include "engine/process.h"
-#include "hair/groom/growth/spread.h"
+#include "hair/groom/growth/sample_elimination.h"
 #include "hair/groom/growth/triangulate.h"
 
 namespace hair::groom {
@@ -85,7 +85,8 @@ spreadRoots(const Ground& ground, std::uint32_t count, const std::vector<glm::ve
     const auto most = std::min(total, static_cast<std::uint32_t>(candidates.numbers.size()));
 
     std::vector<std::pair<double, std::uint32_t>> kept;  // chance, number
-    for (const std::uint32_t i : spread(candidates.positions, fixed, most, ground.density.area())) {
+    for (const std::uint32_t i :
+         eliminateSamples(candidates.positions, fixed, most, ground.density.area())) {
         const double chance = ground.chance(candidates.numbers[i]);
         if (chance < 1.0) kept.emplace_back(chance, candidates.numbers[i]);
     }
@@ -232,7 +233,8 @@ Roots discRoots(const Scalp& scalp, const RootOptions& options, const PartingRow
         throw engine::Error("too little of the scalp lies inside its hairline");
     std::vector<glm::vec3> fixed;
     for (const SurfacePoint& point : roots.points) fixed.push_back(point.position);
-    for (const std::uint32_t i : spread(candidates.positions, fixed, inside, scalp.area()))
+    for (const std::uint32_t i :
+         eliminateSamples(candidates.positions, fixed, inside, scalp.area()))
         add(rootSample(scalp, options.seed, candidates.numbers[i]));
     roots.triangles = triangulate(flat, roots.boundary_count);
     return roots;

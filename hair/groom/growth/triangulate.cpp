@@ -12,7 +12,7 @@
 #include <glm/common.hpp>
 
 #include "engine/error.h"
-#include "hair/groom/growth/surface_net.h"
+#include "hair/groom/growth/scalp_triangulation.h"
 #include "hair/random.h"
 
 namespace hair::groom {
@@ -139,7 +139,7 @@ private:
     void makeDelaunay();
 
     std::span<const GridPoint> points_;
-    TriangleNet net_;
+    CornerTable net_;
     std::vector<std::uint32_t> suspects_;  // edges that may not be Delaunay, by opposite corner
     std::uint32_t last_ = 0;  // the cell where the last point went: the next one is near
 };
@@ -155,8 +155,8 @@ Triangulation::Triangulation(std::span<const GridPoint> points, std::uint32_t bo
 // line.
 std::int64_t Triangulation::side(std::uint32_t corner, std::uint32_t point) const {
     return orientation(
-        points_[net_.vertex(TriangleNet::after(corner))],
-        points_[net_.vertex(TriangleNet::before(corner))], points_[point]);
+        points_[net_.vertex(CornerTable::after(corner))],
+        points_[net_.vertex(CornerTable::before(corner))], points_[point]);
 }
 
 bool Triangulation::contains(std::uint32_t cell, std::uint32_t point) const {
@@ -171,11 +171,11 @@ std::uint32_t Triangulation::locate(std::uint32_t point) const {
     std::uint32_t at = last_;
     for (std::uint32_t steps = 0; steps < cells; ++steps) {
         if (contains(at, point)) return at;
-        std::uint32_t across = TriangleNet::kNone;
-        for (std::uint32_t i = 0; i < 3 && across == TriangleNet::kNone; ++i) {
-            if (side(3 * at + i, point) < 0) across = net_.twin(3 * at + i);
+        std::uint32_t across = CornerTable::kNone;
+        for (std::uint32_t i = 0; i < 3 && across == CornerTable::kNone; ++i) {
+            if (side(3 * at + i, point) < 0) across = net_.opposite(3 * at + i);
         }
-        if (across == TriangleNet::kNone) break;
+        if (across == CornerTable::kNone) break;
         at = across / 3;
     }
     for (std::uint32_t cell = 0; cell < cells; ++cell) {
@@ -189,7 +189,7 @@ void Triangulation::makeDelaunay() {
         const std::uint32_t first = corner / 3 * 3;
         return inCircle(
             points_[net_.vertex(first)], points_[net_.vertex(first + 1)],
-            points_[net_.vertex(first + 2)], points_[net_.vertex(net_.twin(corner))]);
+            points_[net_.vertex(first + 2)], points_[net_.vertex(net_.opposite(corner))]);
     };
     constexpr auto no_limit = std::numeric_limits<std::size_t>::max();
     flipEdges(net_, suspects_, no_limit, isBad, [](std::uint32_t) {});
@@ -201,7 +201,7 @@ void Triangulation::insert(std::uint32_t point) {
         const std::uint32_t corner = 3 * cell + 2;
         if (side(corner, point) > 0) {
             suspects_.push_back(corner);
-        } else if (net_.twin(corner) != TriangleNet::kNone) {
+        } else if (net_.opposite(corner) != CornerTable::kNone) {
             // The point lies on this edge: a flip removes the flat cell.
             for (const std::uint32_t flipped : net_.flip(corner)) suspects_.push_back(flipped);
         } else {
@@ -236,9 +236,9 @@ void checkDistinct(std::span<const GridPoint> points) {
     std::iota(order.begin(), order.end(), 0u);
     const auto key = [&](std::uint32_t i) { return std::pair(points[i].x, points[i].y); };
     std::ranges::sort(order, {}, key);
-    const auto twin = std::ranges::adjacent_find(order, {}, key);
-    if (twin == order.end()) return;
-    const auto [first, second] = std::minmax(twin[0], twin[1]);
+    const auto opposite = std::ranges::adjacent_find(order, {}, key);
+    if (opposite == order.end()) return;
+    const auto [first, second] = std::minmax(opposite[0], opposite[1]);
     throw engine::Error(
         "points " + std::to_string(first) + " and " + std::to_string(second) + " coincide");
 }
@@ -340,7 +340,7 @@ namespace {
 // Returns the piece of each triangle of the scalp: a number that triangles have in common if edges
 // connect them.
 std::vector<std::uint32_t> pieces(const Scalp& scalp) {
-    const TriangleNet net(scalp.triangles);
+    const CornerTable net(scalp.triangles);
     std::vector<std::uint32_t> parent(scalp.triangles.size());
     std::iota(parent.begin(), parent.end(), 0u);
     const auto root = [&](std::uint32_t i) {
@@ -348,8 +348,8 @@ std::vector<std::uint32_t> pieces(const Scalp& scalp) {
         return i;
     };
     for (std::uint32_t corner = 0; corner < net.cornerCount(); ++corner) {
-        if (net.twin(corner) != TriangleNet::kNone)
-            parent[root(corner / 3)] = root(net.twin(corner) / 3);
+        if (net.opposite(corner) != CornerTable::kNone)
+            parent[root(corner / 3)] = root(net.opposite(corner) / 3);
     }
     for (std::uint32_t i = 0; i < parent.size(); ++i) parent[i] = root(i);
     return parent;
@@ -378,7 +378,7 @@ void joinLonely(
 
 std::vector<std::array<std::uint32_t, 3>>
 surfaceTriangles(const Scalp& scalp, std::span<const SurfacePoint> roots) {
-    SurfaceNet net(scalp, roots, cutAtRoots(scalp, roots));
+    ScalpTriangulation net(scalp, roots, cutAtRoots(scalp, roots));
     net.makeDelaunay();
     net.removeScalpVertices();
     net.makeDelaunay();

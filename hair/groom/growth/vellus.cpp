@@ -98,7 +98,7 @@ private:
     std::vector<glm::vec3> places_;
     const NearestSurface& surface_;
     double width_;
-    std::optional<RootTree> tree_;
+    std::optional<RootKdTree> tree_;
     Scalp whole_;
 };
 

@@ -29,7 +29,7 @@ constexpr double kFlat = 1e-12;
 
 class Search {
 public:
-    explicit Search(const Products& products) : products_(products) {}
+    explicit Search(const GramMatrix& gram) : gram_(gram) {}
 
     void tryPoint(std::size_t i) { offer({i, i, i}, {1.0, 0.0, 0.0}); }
 
@@ -61,21 +61,19 @@ public:
 private:
     // (j - i) . (k - i)
     double edges(std::size_t i, std::size_t j, std::size_t k) const {
-        const auto& of = products_.of;
+        const auto& of = gram_.of;
         return of[j][k] - of[i][j] - of[i][k] + of[i][i];
     }
     // (j - i) . i
-    double fromFirst(std::size_t i, std::size_t j) const {
-        return products_.of[i][j] - products_.of[i][i];
-    }
+    double fromFirst(std::size_t i, std::size_t j) const { return gram_.of[i][j] - gram_.of[i][i]; }
 
     void offer(const std::array<std::size_t, 3>& members, const std::array<double, 3>& weights) {
         double square = 0.0;
         double squares = 0.0;
         for (std::size_t a = 0; a < 3; ++a) {
             for (std::size_t b = 0; b < 3; ++b)
-                square += weights[a] * weights[b] * products_.of[members[a]][members[b]];
-            squares += weights[a] * products_.of[members[a]][members[a]];
+                square += weights[a] * weights[b] * gram_.of[members[a]][members[b]];
+            squares += weights[a] * gram_.of[members[a]][members[a]];
         }
         const double cost = square + kNearness * squares;
         if (cost >= cost_) return;
@@ -83,7 +81,7 @@ private:
         best_ = {members, weights};
     }
 
-    const Products& products_;
+    const GramMatrix& gram_;
     Mean best_;
     double cost_ = std::numeric_limits<double>::infinity();
 };
@@ -138,13 +136,13 @@ public:
     StrandBinding operator()(std::uint32_t strand) {
         std::array<std::uint32_t, kMostCandidates> near{};
         const auto points = dense_.strand(strand);
-        Products products{.count = tree_.find(points[0], near)};
-        for (std::size_t i = 0; i < products.count; ++i) {
+        GramMatrix gram{.count = tree_.find(points[0], near)};
+        for (std::size_t i = 0; i < gram.count; ++i) {
             differences(guide(near[i]), points, apart(i));
             for (std::size_t j = 0; j <= i; ++j)
-                products.of[i][j] = products.of[j][i] = product(apart(i), apart(j));
+                gram.of[i][j] = gram.of[j][i] = product(apart(i), apart(j));
         }
-        const Mean mean = nearestMean(products);
+        const Mean mean = nearestMean(gram);
         StrandBinding binding;
         for (std::size_t i = 0; i < 3; ++i) binding.guides[i] = near[mean.members[i]];
         binding.weights.y = static_cast<float>(mean.weights[1]);
@@ -177,7 +175,7 @@ private:
 
     const Groom& dense_;
     const std::vector<std::uint32_t>& guides_;
-    RootTree tree_;
+    RootKdTree tree_;
     std::vector<glm::dvec3> apart_;  // [candidate][vertex]
 };
 
@@ -192,9 +190,9 @@ double lengthOf(std::span<const glm::vec3> strand) {
 
 // ---- The nearest mean ---------------------------------------------------------------------------
 
-Mean nearestMean(const Products& products) {
-    Search search(products);
-    for (std::size_t i = 0; i < products.count; ++i) {
+Mean nearestMean(const GramMatrix& gram) {
+    Search search(gram);
+    for (std::size_t i = 0; i < gram.count; ++i) {
         search.tryPoint(i);
         for (std::size_t j = 0; j < i; ++j) {
             search.tryEdge(i, j);
@@ -215,7 +213,7 @@ Mean nearestMean(const Products& products) {
 
 // ---- The tree of roots --------------------------------------------------------------------------
 
-RootTree::RootTree(std::span<const glm::vec3> points) {
+RootKdTree::RootKdTree(std::span<const glm::vec3> points) {
     nodes_.reserve(points.size());
     for (const glm::vec3& point : points)
         nodes_.push_back({point, static_cast<std::uint32_t>(nodes_.size()), 0});
@@ -242,7 +240,7 @@ RootTree::RootTree(std::span<const glm::vec3> points) {
     }
 }
 
-std::size_t RootTree::find(const glm::vec3& place, std::span<std::uint32_t> nearest) const {
+std::size_t RootKdTree::find(const glm::vec3& place, std::span<std::uint32_t> nearest) const {
     struct Found {
         double square;
         std::uint32_t source;
@@ -262,21 +260,21 @@ std::size_t RootTree::find(const glm::vec3& place, std::span<std::uint32_t> near
         found[slot] = one;
     };
 
-    struct Waiting {
+    struct StackEntry {
         Range range;
         double least;  // no point in the range is nearer, squared
     };
-    std::array<Waiting, 64> waiting;  // one for each level: every split halves
+    std::array<StackEntry, 64> stack;  // one for each level: every split halves
     std::size_t open = 0;
-    waiting[open++] = {{0, nodes_.size()}, 0.0};
+    stack[open++] = {{0, nodes_.size()}, 0.0};
     while (open > 0) {
-        auto [range, least] = waiting[--open];
+        auto [range, least] = stack[--open];
         while (range.count > 0 && (count < nearest.size() || least <= found[count - 1].square)) {
             const Node& node = nodes_[range.middle()];
             offer(node);
             const double across = double{place[node.axis]} - double{node.point[node.axis]};
             const Range far = across < 0.0 ? range.after() : range.before();
-            waiting[open++] = {far, std::max(least, across * across)};
+            stack[open++] = {far, std::max(least, across * across)};
             range = across < 0.0 ? range.before() : range.after();
         }
     }

@@ -35,12 +35,12 @@ ReconstructionError reconstructionError(
 inline constexpr std::size_t kMostCandidates = 8;
 
 // The inner products of the vectors from one point to several others, in any number of dimensions.
-struct Products {
+struct GramMatrix {
     std::size_t count = 0;  // at least 1
     std::array<std::array<double, kMostCandidates>, kMostCandidates> of{};
 };
 
-// A weighted mean of three points of Products, heaviest first. Where fewer have a weight, the
+// A weighted mean of three points of a GramMatrix, heaviest first. Where fewer have a weight, the
 // first stands in for the rest.
 struct Mean {
     std::array<std::size_t, 3> members{};
@@ -50,13 +50,13 @@ struct Mean {
 // Returns the mean of at most three points that comes nearest to the one point. If several are
 // about as near, it takes the mean of points that are near themselves. In a plane where several
 // triangles hold the point, this is the Delaunay triangle.
-Mean nearestMean(const Products& products);
+Mean nearestMean(const GramMatrix& gram);
 
 // Finds the points nearest to a place. Bentley 1975, Multidimensional binary search trees used for
 // associative searching.
-class RootTree {
+class RootKdTree {
 public:
-    explicit RootTree(std::span<const glm::vec3> points);
+    explicit RootKdTree(std::span<const glm::vec3> points);
 
     // Fills `nearest` with the indices of the nearest points, nearest first; of equally far
     // points, the lower index comes first. Returns their number, which is smaller only if there

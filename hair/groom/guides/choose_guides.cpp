@@ -58,7 +58,7 @@ float squareDistance(const Feature& a, const Feature& b) {
 }
 
 // Strands that show how hair lies: those with a length, or all where none has.
-std::vector<std::uint32_t> telling(const Groom& dense) {
+std::vector<std::uint32_t> strandsWithLength(const Groom& dense) {
     std::vector<std::uint32_t> strands;
     for (std::uint32_t i = 0; i < dense.strand_count; ++i) {
         const auto points = dense.strand(i);
@@ -81,7 +81,7 @@ public:
         features_.reserve(dense.strand_count);
         for (std::uint32_t i = 0; i < dense.strand_count; ++i)
             features_.push_back(featureOf(dense.strand(i)));
-        const std::vector<std::uint32_t> strands = telling(dense);
+        const std::vector<std::uint32_t> strands = strandsWithLength(dense);
         const Feature& any = features_[strands[random % strands.size()]];
         const std::uint32_t first = *std::ranges::max_element(
             strands, {}, [&](std::uint32_t i) { return squareDistance(any, features_[i]); });

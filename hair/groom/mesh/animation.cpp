@@ -131,17 +131,17 @@ private:
             }
         }
         places_.assign(count, count);
-        std::vector<std::size_t> waiting;
+        std::vector<std::size_t> queue;
         for (std::size_t i = 0; i < count; ++i)
-            if (parents[i] < 0) waiting.push_back(i);
-        for (std::size_t next = 0; next < waiting.size(); ++next) {
-            const std::size_t number = waiting[next];
+            if (parents[i] < 0) queue.push_back(i);
+        for (std::size_t next = 0; next < queue.size(); ++next) {
+            const std::size_t number = queue[next];
             places_[number] = to_.nodes_.size();
             addNode(static_cast<int>(number), parents[number]);
             for (const int child : model_.nodes[number].children)
-                waiting.push_back(static_cast<std::size_t>(child));
+                queue.push_back(static_cast<std::size_t>(child));
         }
-        if (waiting.size() != count) throw engine::Error("its nodes do not form trees");
+        if (queue.size() != count) throw engine::Error("its nodes do not form trees");
     }
 
     void addNode(int number, int parent) {

@@ -36,8 +36,8 @@ double volume(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c, con
     return glm::dot(glm::cross(b - a, c - a), d - a);
 }
 
-// Whether a segment meets a triangle, if the segment's ends are on either side of its plane.
-bool meets(const glm::dvec3& from, const glm::dvec3& to, const FacePoints& triangle) {
+// Whether a segment crosses a triangle, if the segment's ends are on either side of its plane.
+bool crosses(const glm::dvec3& from, const glm::dvec3& to, const FacePoints& triangle) {
     const double ab = volume(from, to, triangle[0], triangle[1]);
     const double bc = volume(from, to, triangle[1], triangle[2]);
     const double ca = volume(from, to, triangle[2], triangle[0]);
@@ -45,13 +45,14 @@ bool meets(const glm::dvec3& from, const glm::dvec3& to, const FacePoints& trian
 }
 
 // Whether an edge of `other` goes through `triangle`.
-bool pierces(const FacePoints& other, const FacePoints& triangle) {
+bool intersects(const FacePoints& other, const FacePoints& triangle) {
     std::array<double, 3> heights;
     for (std::size_t i = 0; i < 3; ++i)
         heights[i] = volume(triangle[0], triangle[1], triangle[2], other[i]);
     for (std::size_t i = 0; i < 3; ++i) {
         const std::size_t next = (i + 1) % 3;
-        if (heights[i] * heights[next] < 0.0 && meets(other[i], other[next], triangle)) return true;
+        if (heights[i] * heights[next] < 0.0 && crosses(other[i], other[next], triangle))
+            return true;
     }
     return false;
 }
@@ -63,7 +64,7 @@ bool contains(const auto& values, const auto& value) {
 struct Bounds {
     glm::vec3 low, high;
 
-    bool meet(const glm::vec3& other_low, const glm::vec3& other_high) const {
+    bool overlaps(const glm::vec3& other_low, const glm::vec3& other_high) const {
         return glm::all(glm::lessThanEqual(other_low, high)) &&
                glm::all(glm::greaterThanEqual(other_high, low));
     }
@@ -74,9 +75,9 @@ bool shareACorner(const Face& a, const Face& b) {
 }
 
 // [triangle]: whether a triangle without a common corner goes through it.
-std::vector<bool> crossedTriangles(
+std::vector<bool> intersectingTriangles(
     const std::vector<glm::vec3>& positions, const std::vector<Face>& triangles,
-    const TriangleTree& tree) {
+    const TriangleBvh& tree) {
     std::vector<Bounds> bounds;  // [slot in the leaves]
     bounds.reserve(triangles.size());
     for (const std::uint32_t triangle : tree.order) {
@@ -87,25 +88,25 @@ std::vector<bool> crossedTriangles(
     }
     std::vector<bool> crossed(triangles.size());
     const auto compare = [&](std::uint32_t one_slot, std::uint32_t two_slot) {
-        if (!bounds[one_slot].meet(bounds[two_slot].low, bounds[two_slot].high)) return;
+        if (!bounds[one_slot].overlaps(bounds[two_slot].low, bounds[two_slot].high)) return;
         const std::uint32_t one = tree.order[one_slot], two = tree.order[two_slot];
         if (shareACorner(triangles[one], triangles[two])) return;
         const FacePoints a = pointsOfFace(positions, triangles[one]);
         const FacePoints b = pointsOfFace(positions, triangles[two]);
-        if (pierces(a, b) || pierces(b, a)) crossed[one] = crossed[two] = true;
+        if (intersects(a, b) || intersects(b, a)) crossed[one] = crossed[two] = true;
     };
-    std::vector<std::uint32_t> waiting;
-    for (const TriangleTree::Node& leaf : tree.nodes) {
+    std::vector<std::uint32_t> stack;
+    for (const TriangleBvh::Node& leaf : tree.nodes) {
         if (leaf.count == 0) continue;
         const Bounds box{leaf.low, leaf.high};
-        waiting.assign(1, 0);
-        while (!waiting.empty()) {
-            const TriangleTree::Node& node = tree.nodes[waiting.back()];
-            waiting.pop_back();
-            if (!box.meet(node.low, node.high)) continue;
+        stack.assign(1, 0);
+        while (!stack.empty()) {
+            const TriangleBvh::Node& node = tree.nodes[stack.back()];
+            stack.pop_back();
+            if (!box.overlaps(node.low, node.high)) continue;
             if (node.count == 0) {
-                waiting.push_back(node.first);
-                waiting.push_back(node.first + 1);
+                stack.push_back(node.first);
+                stack.push_back(node.first + 1);
                 continue;
             }
             for (std::uint32_t one = leaf.first; one < leaf.first + leaf.count; ++one)
@@ -180,12 +181,12 @@ class Beside {
 public:
     Beside(const std::vector<glm::vec3>& positions, const std::vector<Face>& triangles)
         : positions_(positions), triangles_(triangles), winding_(positions, triangles) {
-        const TriangleTree::Node& root = tree().nodes.front();
+        const TriangleBvh::Node& root = tree().nodes.front();
         // Much more than a rounding and much less than a cell of any grid.
         offset_ = 1e-5 * glm::distance(glm::dvec3(root.low), glm::dvec3(root.high));
     }
 
-    const TriangleTree& tree() const { return winding_.tree(); }
+    const TriangleBvh& tree() const { return winding_.tree(); }
 
     Sides operator()(std::uint32_t triangle) const {
         const auto [a, b, c] = pointsOfFace(positions_, triangles_[triangle]);
@@ -289,8 +290,9 @@ faultsOf(const MeshEdges& edges, std::size_t crossed, std::size_t inner, std::si
 // Whether the sign of the nearest triangle is right everywhere: no triangle goes through another,
 // and the outside of each part is the outside of all.
 bool boundsABody(const ClosedMesh& closed) {
-    const TriangleTree tree = buildTriangleTree(closed.positions, closed.triangles, 4);
-    const std::vector<bool> crossed = crossedTriangles(closed.positions, closed.triangles, tree);
+    const TriangleBvh tree = buildTriangleBvh(closed.positions, closed.triangles, 4);
+    const std::vector<bool> crossed =
+        intersectingTriangles(closed.positions, closed.triangles, tree);
     if (contains(crossed, true)) return false;
     const auto parts = partsOf(closed);
     if (parts.size() == 1) return true;
@@ -320,7 +322,7 @@ OpenMesh openMesh(const Mesh& mesh) {
         throw engine::Error("the surface faces both ways", edges.faults + kTurnOutward);
 
     const Beside beside(joined.positions, joined.triangles);
-    const auto crossed = crossedTriangles(joined.positions, joined.triangles, beside.tree());
+    const auto crossed = intersectingTriangles(joined.positions, joined.triangles, beside.tree());
     std::erase_if(
         edges.pairs, [&](const auto& pair) { return crossed[pair[0]] || crossed[pair[1]]; });
     double greatest = -1e30;

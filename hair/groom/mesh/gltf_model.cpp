@@ -769,7 +769,7 @@ void checkUnfolding(const tinygltf::Model& model) {
         for (const tinygltf::Primitive& primitive : mesh.primitives)
             sizes.back() += unfoldedSize(model, primitive, available);
     }
-    Unfolding unfolding(size);
+    ExpansionLimit unfolding(size);
     const std::string what = std::to_string(model.nodes.size()) + " nodes with " +
                              std::to_string(model.meshes.size()) + " meshes";
     for (const tinygltf::Node& node : model.nodes)

@@ -162,22 +162,23 @@ void appendScene(Mesh& mesh, const aiScene& scene) {
 
 // Opens only regular files, because a pipe would wait for its writer. With links resolved, they
 // must be in the folders; without folders they may be anywhere.
-class Door : public Assimp::DefaultIOSystem {
+class FileSandbox : public Assimp::DefaultIOSystem {
 public:
-    explicit Door(std::vector<std::filesystem::path> folders) : folders_(std::move(folders)) {}
+    explicit FileSandbox(std::vector<std::filesystem::path> folders)
+        : folders_(std::move(folders)) {}
 
     Assimp::IOStream* Open(const char* file, const char* mode = "rb") override {
-        if (mode[0] != 'r' || !lets(file)) return nullptr;
+        if (mode[0] != 'r' || !allows(file)) return nullptr;
         return DefaultIOSystem::Open(file, mode);
     }
 
     // The default opens the file.
-    bool Exists(const char* file) const override { return lets(file); }
+    bool Exists(const char* file) const override { return allows(file); }
 
     const std::string& refused() const { return refused_; }  // the first; empty: none
 
 private:
-    bool lets(const std::filesystem::path& file) const {
+    bool allows(const std::filesystem::path& file) const {
         std::error_code error;
         const std::filesystem::path place = std::filesystem::canonical(file, error);
         if (error) return false;
@@ -249,13 +250,13 @@ void checkSizes(const aiScene& scene, std::uintmax_t file_size) {
 ReadMesh
 read(const std::filesystem::path& path, const std::vector<std::filesystem::path>& folders) {
     Assimp::Importer importer;
-    auto* const door = new Door(folders);
-    importer.SetIOHandler(door);  // takes ownership
+    auto* const sandbox = new FileSandbox(folders);
+    importer.SetIOHandler(sandbox);  // takes ownership
     importer.SetPropertyInteger(
         AI_CONFIG_PP_SBP_REMOVE, aiPrimitiveType_POINT | aiPrimitiveType_LINE);
     importer.SetPropertyInteger(AI_CONFIG_PP_RVC_FLAGS, static_cast<int>(kIgnored));
     const aiScene* scene = importer.ReadFile(path.string(), 0);
-    if (!door->refused().empty()) throw engine::Error(door->refused());
+    if (!sandbox->refused().empty()) throw engine::Error(sandbox->refused());
     if (!scene) fail(importer);
     checkSizes(*scene, std::filesystem::file_size(path));
     scene = importer.ApplyPostProcessing(kSteps);

@@ -337,7 +337,7 @@ struct Box {
 
 }  // namespace
 
-TriangleTree buildTriangleTree(
+TriangleBvh buildTriangleBvh(
     std::span<const glm::vec3> positions, std::span<const std::array<std::uint32_t, 3>> triangles,
     std::size_t most_in_leaf) {
     assert(!triangles.empty() && most_in_leaf > 0);
@@ -345,7 +345,7 @@ TriangleTree buildTriangleTree(
     centroids.reserve(triangles.size());
     for (const auto& [a, b, c] : triangles)
         centroids.push_back((positions[a] + positions[b] + positions[c]) / 3.0f);
-    TriangleTree tree;
+    TriangleBvh tree;
     tree.order.resize(triangles.size());
     std::iota(tree.order.begin(), tree.order.end(), 0u);
 
@@ -393,7 +393,7 @@ namespace {
 // ---- Nearest surface ----------------------------------------------------------------------------
 
 constexpr std::size_t kMostInLeaf = 4;
-constexpr std::size_t kMostLevels = 64;  // every split halves, and counts have 32 bits
+constexpr std::size_t kNearestStackSize = 64;  // every split halves, and counts have 32 bits
 
 using CornerPoints = std::array<glm::vec3, 3>;
 
@@ -445,7 +445,7 @@ void compare(const glm::dvec3& p, const CornerPoints& corners, std::size_t slot,
 
 NearestSurface::NearestSurface(
     std::span<const glm::vec3> positions, std::span<const std::array<std::uint32_t, 3>> triangles)
-    : tree_(buildTriangleTree(positions, triangles, kMostInLeaf)) {
+    : tree_(buildTriangleBvh(positions, triangles, kMostInLeaf)) {
     corners_.reserve(triangles.size());
     for (const std::uint32_t triangle : tree_.order) {
         const auto& [a, b, c] = triangles[triangle];
@@ -464,29 +464,29 @@ std::optional<MeshPoint> NearestSurface::within(const glm::dvec3& point, double 
 }
 
 Candidate NearestSurface::nearest(const glm::dvec3& point, double square) const {
-    struct Waiting {
+    struct StackEntry {
         std::uint32_t node;
         double square;  // of its box's distance
     };
-    std::array<Waiting, kMostLevels> waiting;
+    std::array<StackEntry, kNearestStackSize> stack;
     std::size_t count = 0;
-    const auto wait = [&](std::uint32_t node) {
-        const TriangleTree::Node& box = tree_.nodes[node];
-        waiting[count++] = {node, squareDistance(point, box.low, box.high)};
+    const auto push = [&](std::uint32_t node) {
+        const TriangleBvh::Node& box = tree_.nodes[node];
+        stack[count++] = {node, squareDistance(point, box.low, box.high)};
     };
     Candidate best{.square = square};
-    wait(0);
+    push(0);
     while (count > 0) {
-        const Waiting next = waiting[--count];
+        const StackEntry next = stack[--count];
         if (next.square >= best.square) continue;
-        const TriangleTree::Node& node = tree_.nodes[next.node];
+        const TriangleBvh::Node& node = tree_.nodes[next.node];
         for (std::size_t i = 0; i < node.count; ++i)
             compare(point, corners_[node.first + i], node.first + i, best);
         if (node.count > 0) continue;
-        wait(node.first);
-        wait(node.first + 1);
-        if (waiting[count - 2].square < waiting[count - 1].square)
-            std::swap(waiting[count - 2], waiting[count - 1]);
+        push(node.first);
+        push(node.first + 1);
+        if (stack[count - 2].square < stack[count - 1].square)
+            std::swap(stack[count - 2], stack[count - 1]);
     }
 
     return best;

@@ -62,7 +62,7 @@ MeshEdges meshEdges(const JoinedMesh& mesh);
 
 // A bounding volume hierarchy of triangles, for nearest neighbours. Every split halves the
 // triangles, so no path from the root is longer than halving makes it.
-struct TriangleTree {
+struct TriangleBvh {
     struct Node {
         glm::vec3 low;
         glm::vec3 high;
@@ -74,7 +74,7 @@ struct TriangleTree {
 };
 
 // Needs at least one triangle; triangles without area count, too.
-TriangleTree buildTriangleTree(
+TriangleBvh buildTriangleBvh(
     std::span<const glm::vec3> positions, std::span<const std::array<std::uint32_t, 3>> triangles,
     std::size_t most_in_leaf);
 
@@ -109,7 +109,7 @@ private:
     NearestCandidate nearest(const glm::dvec3& point, double square) const;
     MeshPoint meshPoint(const NearestCandidate& best, const glm::dvec3& point) const;
 
-    TriangleTree tree_;
+    TriangleBvh tree_;
     std::vector<std::array<glm::vec3, 3>> corners_;  // in the order of the leaves
 };
 

@@ -16,7 +16,7 @@ namespace {
 
 // The leaves are small, because the solid angle of a triangle costs more than that of a multipole.
 constexpr std::size_t kMostInWindingLeaf = 4;
-constexpr std::size_t kMostWaiting = 64;  // every split halves, and counts have 32 bits
+constexpr std::size_t kWindingStackSize = 64;  // every split halves, and counts have 32 bits
 
 using TriangleCorners = std::array<glm::dvec3, 3>;
 
@@ -26,7 +26,7 @@ TriangleCorners inDouble(const std::array<glm::vec3, 3>& corners) {
 
 // The solid angle of a triangle over 4 pi, positive behind it: van Oosterom and Strackee 1983, The
 // solid angle of a plane triangle, eq. 8. In the plane of the triangle it has no sign and is 0.
-double turnsRound(const TriangleCorners& corners, const glm::dvec3& point) {
+double windingOf(const TriangleCorners& corners, const glm::dvec3& point) {
     const glm::dvec3 a = corners[0] - point, b = corners[1] - point, c = corners[2] - point;
     const double la = glm::length(a), lb = glm::length(b), lc = glm::length(c);
     const double volume = glm::dot(a, glm::cross(b, c));
@@ -110,7 +110,7 @@ double solidAngle(const Multipole& moments, const glm::dvec3& away) {
 
 WindingNumber::WindingNumber(
     std::span<const glm::vec3> positions, std::span<const std::array<std::uint32_t, 3>> triangles)
-    : tree_(buildTriangleTree(positions, triangles, kMostInWindingLeaf)),
+    : tree_(buildTriangleBvh(positions, triangles, kMostInWindingLeaf)),
       multipoles_(tree_.nodes.size()) {
     corners_.reserve(triangles.size());
     for (const std::uint32_t triangle : tree_.order) {
@@ -123,7 +123,7 @@ WindingNumber::WindingNumber(
     };
     std::vector<Range> ranges(tree_.nodes.size());
     for (std::size_t i = tree_.nodes.size(); i-- > 0;) {
-        const TriangleTree::Node& node = tree_.nodes[i];
+        const TriangleBvh::Node& node = tree_.nodes[i];
         ranges[i] = node.count > 0 ? Range{node.first, node.count}
                                    : Range{
                                          ranges[node.first].first,
@@ -133,24 +133,24 @@ WindingNumber::WindingNumber(
 }
 
 double WindingNumber::operator()(const glm::dvec3& point, double reach) const {
-    std::array<std::uint32_t, kMostWaiting> waiting;
+    std::array<std::uint32_t, kWindingStackSize> stack;
     std::size_t count = 0;
-    waiting[count++] = 0;
+    stack[count++] = 0;
     double sum = 0.0;
     while (count > 0) {
-        const std::uint32_t index = waiting[--count];
-        const TriangleTree::Node& node = tree_.nodes[index];
+        const std::uint32_t index = stack[--count];
+        const TriangleBvh::Node& node = tree_.nodes[index];
         const Multipole& moments = multipoles_[index];
         const glm::dvec3 away = moments.centre - point;
         if (glm::length(away) > reach * moments.radius) {
             sum += solidAngle(moments, away) / (4.0 * std::numbers::pi);
         } else if (node.count > 0) {
             for (std::size_t i = node.first; i < node.first + node.count; ++i)
-                sum += turnsRound(inDouble(corners_[i]), point);
+                sum += windingOf(inDouble(corners_[i]), point);
         } else {
-            assert(count + 2 <= kMostWaiting);
-            waiting[count++] = node.first + 1;
-            waiting[count++] = node.first;
+            assert(count + 2 <= kWindingStackSize);
+            stack[count++] = node.first + 1;
+            stack[count++] = node.first;
         }
     }
     return sum;

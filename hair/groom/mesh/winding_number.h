@@ -46,12 +46,12 @@ public:
 
     // The data of the evaluation: a multipole for each node, and the corners of the leaves'
     // triangles.
-    const TriangleTree& tree() const { return tree_; }
+    const TriangleBvh& tree() const { return tree_; }
     const std::vector<Multipole>& multipoles() const { return multipoles_; }
     const std::vector<std::array<glm::vec3, 3>>& corners() const { return corners_; }
 
 private:
-    TriangleTree tree_;
+    TriangleBvh tree_;
     std::vector<Multipole> multipoles_;  // [node]
     std::vector<std::array<glm::vec3, 3>> corners_;  // in the order of the leaves
 };

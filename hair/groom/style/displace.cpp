@@ -274,23 +274,23 @@ Groom wave(Groom groom, const WaveSettings& settings, std::uint32_t seed) {
 
 namespace {
 
-// Centre strands by the place of their root, in cubes as wide as the distance between centres.
+// Centre strands by the place of their root, in cells as wide as the distance between centres.
 class Centres {
 public:
     Centres(const Groom& groom, double spacing) : groom_(groom), spacing_(spacing) {}
 
-    void add(std::uint32_t strand) { cubes_[cube(strand)].push_back(strand); }
+    void add(std::uint32_t strand) { cells_[cell(strand)].push_back(strand); }
 
     // The centre nearest to a strand's root, if one is nearer than the spacing.
     std::optional<std::uint32_t> nearest(std::uint32_t strand) const {
         std::optional<std::uint32_t> found;
         double least = spacing_;
-        const Cube home = cube(strand);
+        const Cell home = cell(strand);
         for (int neighbour = 0; neighbour < 27; ++neighbour) {
-            const auto at = cubes_.find(
+            const auto at = cells_.find(
                 {home.x + neighbour % 3 - 1, home.y + neighbour / 3 % 3 - 1,
                  home.z + neighbour / 9 - 1});
-            if (at == cubes_.end()) continue;
+            if (at == cells_.end()) continue;
             for (const std::uint32_t centre : at->second) {
                 const double distance = glm::distance(root(centre), root(strand));
                 if (distance >= least) continue;
@@ -302,22 +302,22 @@ public:
     }
 
 private:
-    struct Cube {
+    struct Cell {
         int x, y, z;
-        friend bool operator==(const Cube&, const Cube&) = default;
+        friend bool operator==(const Cell&, const Cell&) = default;
     };
-    struct CubeHash {
-        std::size_t operator()(const Cube& cube) const {
+    struct CellHash {
+        std::size_t operator()(const Cell& cell) const {
             return hash(
-                static_cast<std::uint32_t>(cube.x), static_cast<std::uint32_t>(cube.y),
-                static_cast<std::uint32_t>(cube.z));
+                static_cast<std::uint32_t>(cell.x), static_cast<std::uint32_t>(cell.y),
+                static_cast<std::uint32_t>(cell.z));
         }
     };
 
     glm::dvec3 root(std::uint32_t strand) const { return groom_.strand(strand).front(); }
 
-    Cube cube(std::uint32_t strand) const {
-        static constexpr double kLimit = 1e9;  // points farther out share the last cube
+    Cell cell(std::uint32_t strand) const {
+        static constexpr double kLimit = 1e9;  // points farther out share the last cell
         const glm::dvec3 place = glm::floor(root(strand) / spacing_);
         const auto whole = [](double x) {
             return static_cast<int>(std::clamp(x, -kLimit, kLimit));
@@ -327,7 +327,7 @@ private:
 
     const Groom& groom_;
     double spacing_;
-    std::unordered_map<Cube, std::vector<std::uint32_t>, CubeHash> cubes_;
+    std::unordered_map<Cell, std::vector<std::uint32_t>, CellHash> cells_;
 };
 
 }  // namespace

@@ -40,19 +40,19 @@ const float kLeastSize = 1.0e-37;  // of a determinant
 // A symmetric matrix: its diagonal, and the entries yz, xz, xy.
 struct Symmetric {
     vec3 diagonal;
-    vec3 beside;
+    vec3 off_diagonal;
 };
 
 vec3 times(Symmetric m, vec3 v) {
-    return m.diagonal * v + m.beside.zxy * v.yzx + m.beside.yzx * v.zxy;
+    return m.diagonal * v + m.off_diagonal.zxy * v.yzx + m.off_diagonal.yzx * v.zxy;
 }
 
 Symmetric plus(Symmetric a, Symmetric b) {
-    return Symmetric(a.diagonal + b.diagonal, a.beside + b.beside);
+    return Symmetric(a.diagonal + b.diagonal, a.off_diagonal + b.off_diagonal);
 }
 
 Symmetric scaled(float factor, Symmetric m) {
-    return Symmetric(factor * m.diagonal, factor * m.beside);
+    return Symmetric(factor * m.diagonal, factor * m.off_diagonal);
 }
 
 // a b^T + b a^T.
@@ -61,46 +61,47 @@ Symmetric symmetricProduct(vec3 a, vec3 b) {
 }
 
 // factor v v^T.
-Symmetric squareOf(float factor, vec3 v) {
+Symmetric outerSquare(float factor, vec3 v) {
     return Symmetric(factor * v * v, factor * v.yzx * v.zxy);
 }
 
 // factor (1 - v v^T) for a unit vector.
-Symmetric acrossOf(float factor, vec3 v) {
-    Symmetric square = squareOf(-factor, v);
-    return Symmetric(square.diagonal + factor, square.beside);
+Symmetric perpendicularProjection(float factor, vec3 v) {
+    Symmetric square = outerSquare(-factor, v);
+    return Symmetric(square.diagonal + factor, square.off_diagonal);
 }
 
 // m + transpose(m).
-Symmetric twiceSymmetric(mat3 m) {
+Symmetric plusTranspose(mat3 m) {
     return Symmetric(
         2.0 * vec3(m[0].x, m[1].y, m[2].z),
         vec3(m[1].z + m[2].y, m[2].x + m[0].z, m[0].y + m[1].x));
 }
 
 // The minimum over all below a vertex, as a function of the vertex's displacement d and the
-// rotation w of the segment that ends there: d moving d / 2 + d coupling w + w turning w / 2 - push
-// d - couple w. `force` is the sum of the forces on the vertices, times h^2.
+// rotation w of the segment that ends there: d hessian_move d / 2 + d hessian_mixed w + w
+// hessian_turn w / 2 - push d - couple w. `force` is the sum of the forces on the vertices, times
+// h^2.
 struct BendBelow {
-    Symmetric moving;
-    mat3 coupling;
-    Symmetric turning;
+    Symmetric hessian_move;
+    mat3 hessian_mixed;
+    Symmetric hessian_turn;
     vec3 push;
     vec3 couple;
     vec3 force;
 };
 
-BendBelow nothingBelow() {
+BendBelow noBody() {
     Symmetric none = Symmetric(vec3(0.0), vec3(0.0));
     return BendBelow(none, mat3(0.0), none, vec3(0.0), vec3(0.0), vec3(0.0));
 }
 
-// Rotation of the segment below a joint: kept w + past (axis w) - by_move d + by_itself, with d and
-// w of the vertex and the segment above.
+// Rotation of the segment below a joint: kept w + past (axis w) - move_response d + constant_term,
+// with d and w of the vertex and the segment above.
 struct BendJoint {
     Symmetric kept;
-    mat3 by_move;
-    vec3 by_itself;
+    mat3 move_response;
+    vec3 constant_term;
     vec3 past;  // the part of a rotation about the axis that passes the joint
 };
 
@@ -109,7 +110,7 @@ struct BendLoad {
     vec3 push;     // b, m
     float along;   // what air would pull along the strand; it turns with the strand, m
     vec3 tangent;  // air brakes the vertex across this tangent
-    float brake;
+    float drag;
 };
 
 const BendLoad kNoLoad = BendLoad(vec3(0.0), 0.0, vec3(0.0), 0.0);
@@ -122,20 +123,20 @@ BendLoad freeLoad(vec3 moved, vec3 pull) { return BendLoad(moved + pull, 0.0, ve
 // The drag stays perpendicular to a turning strand. This is equivalent to an additional force of
 // air along it.
 void addAir(
-    inout BendLoad load, vec3 tangent, float brake, vec3 air, vec3 velocity, float substep) {
-    load.push += brake * substep * (air - dot(tangent, air) * tangent);
-    load.along = brake * substep * dot(tangent, air - velocity);
+    inout BendLoad load, vec3 tangent, float drag, vec3 air, vec3 velocity, float substep) {
+    load.push += drag * substep * (air - dot(tangent, air) * tangent);
+    load.along = drag * substep * dot(tangent, air - velocity);
     load.tangent = tangent;
-    load.brake = brake;
+    load.drag = drag;
 }
 
 // `mass`: relative to a vertex's own, without air. `root_moved`: displacement of the root.
 void addVertex(inout BendBelow below, BendLoad load, float mass, vec3 root_moved) {
-    Symmetric heavy = acrossOf(load.brake, load.tangent);
-    heavy.diagonal += mass;
-    below.moving = plus(below.moving, heavy);
+    Symmetric mass_matrix = perpendicularProjection(load.drag, load.tangent);
+    mass_matrix.diagonal += mass;
+    below.hessian_move = plus(below.hessian_move, mass_matrix);
     below.push += load.push;
-    below.force += load.push + load.along * load.tangent - times(heavy, root_moved);
+    below.force += load.push + load.along * load.tangent - times(mass_matrix, root_moved);
 }
 
 // Continues to the vertex above. `edge` is the segment's edge, `goal` its target edge and `axis`
@@ -144,55 +145,62 @@ BendJoint addJoint(inout BendBelow below, vec3 edge, vec3 goal, vec3 axis, vec2 
     float square = dot(edge, edge);
     float len = sqrt(square);
     vec3 direction = edge / len;
-    below.turning =
-        plus(below.turning, acrossOf(len * max(dot(below.force, direction), 0.0), direction));
+    below.hessian_turn =
+        plus(below.hessian_turn,
+             perpendicularProjection(len * max(dot(below.force, direction), 0.0), direction));
 
     // Moves the reference from the vertex at the segment's end to that at its start: d = d_above -
     // edge x w.
     mat3 lever =
         mat3(vec3(0.0, edge.z, -edge.y), vec3(-edge.z, 0.0, edge.x), vec3(edge.y, -edge.x, 0.0));
-    mat3 coupling = below.coupling;
-    [[unroll]] for (uint k = 0; k < 3; ++k) coupling[k] -= times(below.moving, lever[k]);
+    mat3 hessian_mixed = below.hessian_mixed;
+    [[unroll]] for (uint k = 0; k < 3; ++k) hessian_mixed[k] -= times(below.hessian_move, lever[k]);
     mat3 raised;
-    [[unroll]] for (uint k = 0; k < 3; ++k) raised[k] = cross(edge, 0.5 * (below.coupling[k] + coupling[k]));
-    Symmetric turning = plus(below.turning, twiceSymmetric(raised));
+    [[unroll]] for (uint k = 0; k < 3; ++k)
+        raised[k] = cross(edge, 0.5 * (below.hessian_mixed[k] + hessian_mixed[k]));
+    Symmetric hessian_turn = plus(below.hessian_turn, plusTranspose(raised));
     vec3 couple = below.couple + cross(edge, below.push);
 
-    // The inverse of k + turning for rotations perpendicular to the axis: [s] H [s]^T / (s adj(H)
-    // s).
+    // The inverse of k + hessian_turn for rotations perpendicular to the axis: [s] H [s]^T / (s
+    // adj(H) s).
     float joint = stiffness.y * square;
-    Symmetric held = Symmetric(turning.diagonal + joint, turning.beside);
+    Symmetric held = Symmetric(hessian_turn.diagonal + joint, hessian_turn.off_diagonal);
     vec3 d = held.diagonal;
-    vec3 o = held.beside;
+    vec3 o = held.off_diagonal;
     Symmetric cofactors = Symmetric(d.yzx * d.zxy - o * o, o.yzx * o.zxy - d * o);
     float size = dot(axis, times(cofactors, axis));
     mat3 turned = mat3(
         times(held, vec3(0.0, -axis.z, axis.y)), times(held, vec3(axis.z, 0.0, -axis.x)),
         times(held, vec3(-axis.y, axis.x, 0.0)));
     [[unroll]] for (uint k = 0; k < 3; ++k) turned[k] = cross(axis, turned[k]) / max(size, kLeastSize);
-    Symmetric yields = Symmetric(
+    Symmetric compliance = Symmetric(
         vec3(turned[0].x, turned[1].y, turned[2].z), vec3(turned[1].z, turned[0].z, turned[0].y));
 
     vec3 moment = stiffness.x * cross(edge, goal);
     vec3 drive = couple + moment;
-    vec3 about = times(turning, axis);
-    vec3 past = axis - times(yields, about);
-    mat3 by_turn = transpose(coupling);
-    mat3 by_move =
-        mat3(times(yields, by_turn[0]), times(yields, by_turn[1]), times(yields, by_turn[2]));
-    BendJoint answer = BendJoint(scaled(joint, yields), by_move, times(yields, drive), past);
+    vec3 about = times(hessian_turn, axis);
+    vec3 past = axis - times(compliance, about);
+    mat3 turn_response = transpose(hessian_mixed);
+    mat3 move_response =
+        mat3(times(compliance, turn_response[0]), times(compliance, turn_response[1]),
+             times(compliance, turn_response[2]));
+    BendJoint answer =
+        BendJoint(scaled(joint, compliance), move_response, times(compliance, drive), past);
 
     // The remainder for the vertex above.
-    below.moving.diagonal -=
-        vec3(dot(by_move[0], by_turn[0]), dot(by_move[1], by_turn[1]), dot(by_move[2], by_turn[2]));
-    below.moving.beside -=
-        vec3(dot(by_move[1], by_turn[2]), dot(by_move[0], by_turn[2]), dot(by_move[0], by_turn[1]));
-    below.push -= drive * by_move;
-    below.coupling = joint * transpose(by_move) + outerProduct(coupling * past, axis);
-    below.couple = joint * answer.by_itself + dot(past, drive) * axis - moment;
-    below.turning = plus(
-        plus(acrossOf(joint, axis), scaled(-joint, answer.kept)),
-        plus(symmetricProduct(joint * (axis - past), axis), squareOf(dot(past, about), axis)));
+    below.hessian_move.diagonal -=
+        vec3(dot(move_response[0], turn_response[0]), dot(move_response[1], turn_response[1]),
+             dot(move_response[2], turn_response[2]));
+    below.hessian_move.off_diagonal -=
+        vec3(dot(move_response[1], turn_response[2]), dot(move_response[0], turn_response[2]),
+             dot(move_response[0], turn_response[1]));
+    below.push -= drive * move_response;
+    below.hessian_mixed =
+        joint * transpose(move_response) + outerProduct(hessian_mixed * past, axis);
+    below.couple = joint * answer.constant_term + dot(past, drive) * axis - moment;
+    below.hessian_turn = plus(
+        plus(perpendicularProjection(joint, axis), scaled(-joint, answer.kept)),
+        plus(symmetricProduct(joint * (axis - past), axis), outerSquare(dot(past, about), axis)));
     return answer;
 }
 
@@ -205,8 +213,8 @@ struct BendAbove {
 
 // Moves the vertex with the rotation of its segment.
 void turnSegment(inout BendAbove above, BendJoint joint, vec3 edge, vec3 axis, float rest_length) {
-    vec3 by_move = joint.by_move * above.moved;
-    above.turned = times(joint.kept, above.turned) - by_move + joint.by_itself +
+    vec3 move_response = joint.move_response * above.moved;
+    above.turned = times(joint.kept, above.turned) - move_response + joint.constant_term +
                    dot(axis, above.turned) * joint.past;
     above.moved += cross(above.turned, edge);
     // Second order, so that a free hair continues its rotation.

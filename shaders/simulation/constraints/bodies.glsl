@@ -16,7 +16,7 @@ const float kTouchesNone = -1.0;
 
 // The contact of a vertex. `plane`: the tangent plane of the last body that it touches, otherwise
 // of the nearest body. dot(plane.xyz, x) >= plane.w outside; 0 if there is no body.
-struct Met {
+struct VertexContact {
     vec4 plane;
     float held;  // share of its motion along the body that friction cancels, or kTouchesNone
 };
@@ -70,8 +70,8 @@ bool entersBody(Bodies bodies, uint body, vec3 from, vec3 to, float end_gap, out
 // stops at the entry point, however thin the body and however long the path.
 //
 // `gap`, `normal`: of the vertex, in the body's frame, including the margin.
-void meet(inout MovingVertex vertex, Bodies bodies, uint body, float gap, vec3 normal, bool on_head,
-          RigidFrame frame) {
+void collideWithBody(inout MovingVertex vertex, Bodies bodies, uint body, float gap, vec3 normal,
+                     bool on_head, RigidFrame frame) {
     vec3 here = on_head ? vertex.position_on_head : vertex.position;
     vec3 there = on_head ? vertex.before_on_head : vertex.before;
     float held_back = 0.0;
@@ -112,7 +112,7 @@ Bodies bodiesAt(GuideParameters guides, uint vertex) {
 // Returns its new position.
 vec3 pushOutOfBodies(
     vec3 position, vec3 before, Bodies bodies, RigidFrame frame, RigidFrame frame_before,
-    out Met met) {
+    out VertexContact met) {
     MovingVertex vertex = MovingVertex(
         position, before, fromWorld(frame, position), fromWorld(frame_before, before), vec4(0.0),
         kFar, 0.0);
@@ -123,16 +123,16 @@ vec3 pushOutOfBodies(
         bool on_head = capsule.follows == kFollowsHead;
         vec3 here = on_head ? vertex.position_on_head : vertex.position;
         float gap = gapTo(capsule, bodies.margin, here, normal);
-        meet(vertex, bodies, i, gap, normal, on_head, frame);
+        collideWithBody(vertex, bodies, i, gap, normal, on_head, frame);
     }
     for (uint i = 0; i < bodies.field_count; ++i) {
         BodyField body = BodyFields(bodies.fields).at[i];
         bool on_head = body.follows == kFollowsHead;
         vec3 here = on_head ? vertex.position_on_head : vertex.position;
         float gap = gapTo(body.field, bodies.margin, here, normal);
-        meet(vertex, bodies, bodies.capsule_count + i, gap, normal, on_head, frame);
+        collideWithBody(vertex, bodies, bodies.capsule_count + i, gap, normal, on_head, frame);
     }
-    met = Met(vertex.plane, vertex.gap > 0.0 ? kTouchesNone : vertex.share);
+    met = VertexContact(vertex.plane, vertex.gap > 0.0 ? kTouchesNone : vertex.share);
     return vertex.position;
 }
 

@@ -75,9 +75,9 @@ LengthRow lengthRow(vec4 predicted, vec4 plane, float held) {
 
 // Compliance of a vertex along a body where friction cancels `share` of the motion, and its
 // reduction across the body; both relative to 1.
-float yieldAlong(float share) { return 1.0 - kHeld * max(share, 0.0); }
+float complianceAlong(float share) { return 1.0 - kHeld * max(share, 0.0); }
 float heldAcross(float share) {
-    return share < 0.0 ? 0.0 : kHeld * (1.0 - share) / yieldAlong(share);
+    return share < 0.0 ? 0.0 : kHeld * (1.0 - share) / complianceAlong(share);
 }
 
 LengthsAbove aboveAll(vec3 root) {
@@ -96,7 +96,7 @@ vec3 towardPlane(vec3 direction, vec3 normal, float height) {
 
 // Places the vertex at the segment's length, outside of its plane if there is one. A segment
 // without a rest length takes the direction of the segment above. w of points are inverse masses.
-void walkPlace(
+void sweepPlace(
     inout vec3 place, inout vec3 direction, LengthRow row, vec4 point, float rest_length,
     bool planes) {
     vec3 solved = row.solved.xyz + row.solved.w * place;
@@ -114,11 +114,11 @@ void walkPlace(
 }
 
 // Places the vertex and eliminates the segment's tension.
-void walkDown(
+void sweepDown(
     inout LengthsAbove above, inout LengthRow row, vec4 point_above, vec4 point, float rest_length,
     bool planes) {
     vec3 direction = above.direction;
-    walkPlace(above.place, direction, row, point, rest_length, planes);
+    sweepPlace(above.place, direction, row, point, rest_length, planes);
     float coupling = dot(above.direction, direction);
     float pivot = point_above.w + point.w;
     if (planes) {
@@ -141,7 +141,7 @@ void walkDown(
 }
 
 // Solves for the segment's tension and eliminates the vertex's position.
-void walkUp(
+void sweepUp(
     inout LengthsBelow below, inout LengthRow row, vec4 point_above, vec4 point,
     float rest_length) {
     float tension = row.tension.x - below.tension;

@@ -129,9 +129,9 @@ float halfThickness(Bodies bodies, uint body) {
 
 // The first quarter of a segment that starts at a root, or at another held vertex, is ignored: it
 // lies in the skin.
-const float kInSkin = 0.25;
+const float kSkinShare = 0.25;
 const uint kMostAdvances = 16u;
-const float kSameSide = 0.7;  // cosine between normals of the same side of a body
+const float kSameSideCosine = 0.7;  // cosine between normals of the same side of a body
 
 // The segment that ends in a vertex of [strand][vertex].
 MovingSegment movingSegment(
@@ -140,7 +140,7 @@ MovingSegment movingSegment(
     Vectors rest = Vectors(guides.rest_positions);
     return MovingSegment(
         a, b, a_before, b_before, rest.at[vertex - 1], rest.at[vertex],
-        inverse_mass_above > 0.0 ? 0.0 : kInSkin);
+        inverse_mass_above > 0.0 ? 0.0 : kSkinShare);
 }
 
 // Follows a segment's path from p_before, q_before to p, q in the body's frame, in steps within
@@ -225,7 +225,7 @@ SegmentContact contactOf(
         }
     }
     // A segment that has passed the middle of a body, or all of it, is moved back the way it came.
-    if (entered.plane.xyz == vec3(0.0) || dot(nearest.normal, entered.plane.xyz) > kSameSide)
+    if (entered.plane.xyz == vec3(0.0) || dot(nearest.normal, entered.plane.xyz) > kSameSideCosine)
         return nearest;
     vec3 place = mix(segment.a, segment.b, entered.at);
     return SegmentContact(

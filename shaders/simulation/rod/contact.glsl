@@ -15,32 +15,33 @@ const float kSlides = 0.999;
 const float kRests = 0.99;
 
 // The part of a vertex's motion that a body holds back.
-const float kHeldWhole = 1.0;
-const float kHeldAcross = 0.0;  // everything but the direction of friction: it slides
-const float kHeldOut = -1.0;    // only along the normal
+const float kSticking = 1.0;
+const float kSliding = 0.0;  // everything but the direction of friction: it slides
+const float kNormalOnly = -1.0;  // only along the normal
 
 // How a body holds a vertex.
-struct Hold {
+struct ContactConstraint {
     vec3 normal;  // 0: not held
-    float what;
+    float state;
     vec3 offset;  // from the held position to the predicted one
 };
 
-const Hold kNoHold = Hold(vec3(0.0), 0.0, vec3(0.0));
+const ContactConstraint kNoConstraint = ContactConstraint(vec3(0.0), 0.0, vec3(0.0));
 
-vec3 along(vec3 normal, vec3 force) { return force - dot(force, normal) * normal; }
+vec3 tangential(vec3 normal, vec3 force) { return force - dot(force, normal) * normal; }
 
 // The projection onto the held directions of a vertex with this contact force.
-mat3 heldBy(Hold hold, vec3 contact) {
-    if (hold.what == kHeldOut) return outerProduct(hold.normal, hold.normal);
-    if (hold.what == kHeldWhole) return mat3(1.0);
-    vec3 slides = normalize(along(hold.normal, contact));
+mat3 constraintProjection(ContactConstraint constraint, vec3 contact) {
+    if (constraint.state == kNormalOnly)
+        return outerProduct(constraint.normal, constraint.normal);
+    if (constraint.state == kSticking) return mat3(1.0);
+    vec3 slides = normalize(tangential(constraint.normal, contact));
     return mat3(1.0) - outerProduct(slides, slides);
 }
 
 // How the nearest body holds a vertex that was at `before` and was pressed with `contact`.
 // `predicted`: its predicted displacement, in the strand's unit.
-Hold holdOf(uint i, vec3 before, vec3 contact, vec3 predicted) {
+ContactConstraint constraintOf(uint i, vec3 before, vec3 contact, vec3 predicted) {
     Bodies bodies = bodiesAt(guides, root + i);
     float nearest = kFar;
     vec3 facing = vec3(0.0);
@@ -56,28 +57,28 @@ Hold holdOf(uint i, vec3 before, vec3 contact, vec3 predicted) {
         carried = on_head ? toWorld(push.frame, there) : there;
     }
     float pressure = dot(contact, facing);
-    if (pressure <= 0.0) return kNoHold;
-    float shear = length(along(facing, contact));
-    float what = shear < kSlides * bodies.friction * pressure ? kHeldWhole
-                 : shear > 0.0                                ? kHeldAcross
-                                                              : kHeldOut;
+    if (pressure <= 0.0) return kNoConstraint;
+    float shear = length(tangential(facing, contact));
+    float state = shear < kSlides * bodies.friction * pressure ? kSticking
+                  : shear > 0.0                                ? kSliding
+                                                               : kNormalOnly;
     vec3 anchor = (carried - nearest * facing - before) / unit;
-    return Hold(facing, what, predicted - anchor);
+    return ContactConstraint(facing, state, predicted - anchor);
 }
 
 // The force on a vertex after a substep, within the friction cone. `slid`: its displacement from
 // the held position. A vertex that slides in the direction of its friction has come to rest.
-vec3 withinCone(Hold hold, vec3 force, vec3 slid, float friction) {
-    float pressure = dot(force, hold.normal);
+vec3 clampToFrictionCone(ContactConstraint constraint, vec3 force, vec3 slid, float friction) {
+    float pressure = dot(force, constraint.normal);
     if (pressure <= 0.0) return vec3(0.0);
-    vec3 shear = along(hold.normal, force);
+    vec3 shear = tangential(constraint.normal, force);
     float size = length(shear);
     float most = friction * pressure;
-    if (hold.what == kHeldAcross)
+    if (constraint.state == kSliding)
         shear *= (dot(slid, shear) > 0.0 ? kRests : 1.0) * most / max(size, 1.0e-30);
     else if (size > most)
         shear *= most / size;
-    return pressure * hold.normal + shear;
+    return pressure * constraint.normal + shear;
 }
 
 #endif

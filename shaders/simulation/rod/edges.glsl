@@ -1,5 +1,5 @@
 // Rods with segments that stretch and shear, so that vertices and orientations move independently.
-// Until finish(), the misfits of the strand are whole edges at the start of the substep. Include
+// Until finish(), the residuals of the strand are whole edges at the start of the substep. Include
 // common/vectors.glsl or common/packed_vectors.glsl first, and define kScratchRows and kMoved, the
 // row of a vertex's displacement in the substep.
 #ifndef HAIRBENCH_SIMULATION_ROD_EDGES_GLSL
@@ -12,7 +12,7 @@ const float kMostSpring = 1.0e15;  // rigid compared with any mass; its square i
 vec3 root_moved;
 float stretching;  // stiffness against stretch and shear
 
-uint edgeIndex(uint i) { return motionIndex(i, kRodMisfit, guides.strand_count, strand); }
+uint edgeIndex(uint i) { return motionIndex(i, kRodResidual, guides.strand_count, strand); }
 
 // A segment's edge at the start of the substep.
 vec3 edgeAt(uint i) { return loadVector(rod.motion, edgeIndex(i)).xyz; }
@@ -28,31 +28,31 @@ void takeRoot() {
 }
 
 // The displacement of a vertex by everything except the forces of the strand. Time is counted in
-// substeps, so a velocity is also a displacement. `brake`: drag as from brakeAt(), 0 if the vertex
+// substeps, so a velocity is also a displacement. `drag`: drag as from dragAt(), 0 if the vertex
 // is pinned. Adds the segment's edge to `edges`, the sum from the root to here.
-vec3 predictedMove(uint i, RodMotion motion, inout vec3 edges, out vec4 brake) {
+vec3 predictedMove(uint i, RodMotion motion, inout vec3 edges, out vec4 drag) {
     vec3 acceleration = guides.gravity;
     if (push.accelerations != kNoAddress) acceleration += Vectors(push.accelerations).at[root + i].xyz;
     float scale = guides.step.sub * guides.step.sub / unit;
     vec3 moved = guides.velocity_kept * motion.velocity + scale * acceleration;
-    brake = vec4(0.0);
+    drag = vec4(0.0);
     if (push.air != kNoAddress) {
-        brake = brakeAt(i, motion);
+        drag = dragAt(i, motion);
         vec3 air = guides.step.sub / unit * Vectors(push.air).at[root + i].xyz;
-        moved = braked(moved, air, brake.xyz, brake.w);
+        moved = withDrag(moved, air, drag.xyz, drag.w);
     }
-    vec3 edge = restLength(i) * axisOf(motion.orientation) + motion.misfit;
+    vec3 edge = restLength(i) * axisOf(motion.orientation) + motion.residual;
     storeVector(rod.motion, edgeIndex(i), vec4(edge, 0.0));
     edges += edge;
     if (isPinned(i)) {
         vec3 follicle = root_now - unit * root_moved;
         moved = (State(from.positions).at[root + i].xyz - follicle) / unit - edges;
-        brake = vec4(0.0);
+        drag = vec4(0.0);
     }
     return moved;
 }
 
-// Updates velocities and positions, and collides, which leaves misfits.
+// Updates velocities and positions, and collides, which leaves residuals.
 void finish() {
     State positions = State(guides.positions);
     vec3 moved_above = root_moved;
@@ -62,7 +62,7 @@ void finish() {
     for (uint i = 1; i < guides.vertices_per_strand; ++i) {
         RodMotion motion = motionAt(i);
         vec3 moved = scratchAt(i, kMoved).xyz;
-        vec3 edge = motion.misfit + (moved - moved_above);
+        vec3 edge = motion.residual + (moved - moved_above);
         edges += edge;
         vec4 point = State(from.positions).at[root + i];
         vec3 before = point.xyz;
@@ -70,12 +70,12 @@ void finish() {
         motion.velocity = vec3(0.0);
         if (!isPinned(i)) {
             vec3 free = root_now + unit * edges;
-            vec3 held = heldByBodies(i, free, before, contact, pushed);
+            vec3 held = collideVertex(i, free, before, contact, pushed);
             motion.velocity = moved + pushed;
             point.xyz = held;
         }
         positions.at[root + i] = point;
-        motion.misfit = edge + (pushed - pushed_above) -
+        motion.residual = edge + (pushed - pushed_above) -
                         restLength(i) * axisOf(motion.orientation);
         setMotion(i, motion);
         State(guides.previous).at[root + i] = vec4(before, contact);

@@ -22,7 +22,7 @@ struct RodMotion {
     vec4 orientation;
     vec3 angular_velocity;
     vec3 velocity;
-    vec3 misfit;
+    vec3 residual;
     vec3 contact;  // the force of bodies on the vertex, if it is carried
 };
 
@@ -50,9 +50,9 @@ RodMotion loadMotion(Address motion, uint i, uint strands, uint strand) {
     vec4 orientation = loadVector(motion, motionIndex(i, kRodOrientation, strands, strand));
     vec4 turns = loadVector(motion, motionIndex(i, kRodAngularVelocity, strands, strand));
     vec4 moves = loadVector(motion, motionIndex(i, kRodVelocity, strands, strand));
-    vec4 misfit = loadVector(motion, motionIndex(i, kRodMisfit, strands, strand));
+    vec4 residual = loadVector(motion, motionIndex(i, kRodResidual, strands, strand));
     return RodMotion(
-        orientation, turns.xyz, moves.xyz, misfit.xyz, vec3(turns.w, moves.w, misfit.w));
+        orientation, turns.xyz, moves.xyz, residual.xyz, vec3(turns.w, moves.w, residual.w));
 }
 
 void storeMotion(Address motion, uint i, uint strands, uint strand, RodMotion moves) {
@@ -64,7 +64,8 @@ void storeMotion(Address motion, uint i, uint strands, uint strand, RodMotion mo
         motion, motionIndex(i, kRodVelocity, strands, strand),
         vec4(moves.velocity, moves.contact.y));
     storeVector(
-        motion, motionIndex(i, kRodMisfit, strands, strand), vec4(moves.misfit, moves.contact.z));
+        motion, motionIndex(i, kRodResidual, strands, strand),
+        vec4(moves.residual, moves.contact.z));
 }
 
 // The third axis of the frame of a unit quaternion.

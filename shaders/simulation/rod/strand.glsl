@@ -62,21 +62,21 @@ vec4 orientationAt(uint i) {
         segmentRow(rod.segments, 0, kRodHalfRotation, guides.strand_count, strand));
 }
 
-// Drag on a vertex with this motion: the tangent, and brakeOf(). Call it before the prediction
+// Drag on a vertex with this motion: the tangent, and dragFactor(). Call it before the prediction
 // turns the segment that ends there, or the segment below.
-vec4 brakeAt(uint i, RodMotion motion) {
+vec4 dragAt(uint i, RodMotion motion) {
     vec3 tangent = axisOf(motion.orientation);
     if (i + 1 < guides.vertices_per_strand)
         tangent = tangentBetween(tangent, axisOf(orientationAt(i + 1)));
     vec3 air = Vectors(push.air).at[root + i].xyz;
     vec3 u = air - unit / guides.step.sub * motion.velocity;
-    return vec4(tangent, brakeOf(push.drag, tangent, u, guides.step.sub));
+    return vec4(tangent, dragFactor(push.drag, tangent, u, guides.step.sub));
 }
 
 // Moves a vertex out of bodies from `free`. `pushed` is its displacement from there, in the
 // strand's unit. `contact` is 1 from the first vertex on that touches a body.
-vec3 heldByBodies(uint i, vec3 free, vec3 before, inout float contact, inout vec3 pushed) {
-    Met met;
+vec3 collideVertex(uint i, vec3 free, vec3 before, inout float contact, inout vec3 pushed) {
+    VertexContact met;
     vec3 held = pushOutOfBodies(
         free, before, bodiesAt(guides, root + i), push.frame, push.frame_before, met);
     if (met.held != kTouchesNone) {

@@ -82,7 +82,7 @@ void makePoint(PictureParameters picture, StrandBlock block, uint number) {
     QuadEnd quad = quadEnd(picture, end);
     for (uint side = 0u; side < 2u; ++side) {
         QuadCorner corner = quadCorner(picture, end, quad, side == 0u ? -1.0 : 1.0);
-        if (block_strand.drawn == 0u) corner.clip = kNowhere;
+        if (block_strand.drawn == 0u) corner.clip = kClippedPosition;
         putCorner(2u * number + side, corner);
     }
 }

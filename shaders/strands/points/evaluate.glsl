@@ -26,8 +26,8 @@ void widen(inout Extent extent, PieceEnd end) {
         extent = Extent(vec2(0.0), vec2(push.width, push.height));
         return;
     }
-    extent.low = min(extent.low, end.seen.place - abs(end.seen.side));
-    extent.high = max(extent.high, end.seen.place + abs(end.seen.side));
+    extent.low = min(extent.low, end.projected.place - abs(end.projected.side));
+    extent.high = max(extent.high, end.projected.place + abs(end.projected.side));
 }
 
 // Bounds rarely grow, so most strands only read them.
@@ -68,7 +68,7 @@ void main() {
         if (kSource == kSourceGroom) offset = boundReach(picture, begin);
         float beyond =
             push.reach + offset + push.greatest_width * strand_patch.lod.width_scale;
-        if (isOutside(picture, guides, 0u, kSegments, beyond)) drawn = begin;
+        if (isOutsideFrustum(picture, guides, 0u, kSegments, beyond)) drawn = begin;
     }
     for (uint index = begin; index < end; ++index) {
         uint word = pieces;

@@ -11,7 +11,7 @@
 
 layout(push_constant, scalar) uniform Push { ExpandedPush push; };
 
-layout(buffer_reference, scalar) readonly buffer SeenStrands { uint at[]; };
+layout(buffer_reference, scalar) readonly buffer VisibleStrands { uint at[]; };
 
 // The value that replaces the position along a strand when the picture does not show shading.
 float shownAlong(PictureParameters picture, uint strand, float along) {
@@ -34,10 +34,10 @@ void main() {
     uint corner = vertex % 2u;
     uint place = vertex / 2u % kPointsPerStrand;
     uint strand = vertex / 2u / kPointsPerStrand;
-    if (push.seen != kNoAddress) strand = SeenStrands(push.seen).at[strand];
+    if (push.visible != kNoAddress) strand = VisibleStrands(push.visible).at[strand];
     uint stored = StrandPieces(push.pieces).at[strand];
     uint pieces = piecesOf(stored);
-    gl_Position = kNowhere;
+    gl_Position = kClippedPosition;
     if (pieces == 0u) return;
 
     // Pieces beyond those that are drawn have no length.

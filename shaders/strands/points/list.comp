@@ -8,7 +8,7 @@ layout(local_size_x = kPointsGroup) in;
 
 layout(push_constant, scalar) uniform Push { ExpandedPush push; };
 
-layout(buffer_reference, scalar) writeonly buffer SeenStrands { uint at[]; };
+layout(buffer_reference, scalar) writeonly buffer VisibleStrands { uint at[]; };
 layout(buffer_reference, scalar) writeonly buffer Arguments { IndexedCommand at[]; };
 
 void main() {
@@ -17,12 +17,12 @@ void main() {
     uint begin = draw * kExpandedStrands;
     if (begin >= push.strands) return;  // no barrier follows
     uint end = min(begin + kExpandedStrands, push.strands);
-    uint seen = begin;
+    uint next = begin;
     for (uint strand = begin; strand < end; ++strand) {
         if (StrandPieces(push.pieces).at[strand] == 0u) continue;
-        SeenStrands(push.seen).at[seen++] = strand;
+        VisibleStrands(push.visible).at[next++] = strand;
     }
     Arguments(push.arguments).at[draw] =
-        IndexedCommand(6u * kPiecesPerStrand * (seen - begin), seen > begin ? 1u : 0u, 0u,
+        IndexedCommand(6u * kPiecesPerStrand * (next - begin), next > begin ? 1u : 0u, 0u,
                        2u * kPointsPerStrand * begin, 0u);
 }

@@ -23,8 +23,8 @@ struct PieceEnd {
     vec3 tangent;  // unit length
     vec4 middle_clip;
     vec4 side_clip;
-    float beyond;  // distance of the nearer corner beyond the near plane, by beyondNear()
-    ScreenEnd seen;  // valid if both corners are beyond the near plane
+    float beyond;  // distance of the nearer corner beyond the near plane, by pastNearPlane()
+    ScreenEnd projected;  // valid if both corners are beyond the near plane
 };
 
 // Projects a middle and an edge from clip space.
@@ -51,8 +51,8 @@ PieceEnd pieceEnd(PictureParameters picture, PackedPoint point) {
     end.side *= 0.5 * point.width * inversesqrt(max(dot(end.side, end.side), 1e-30));
     end.middle_clip = picture.view_projection * vec4(end.position, 1.0);
     end.side_clip = picture.view_projection * vec4(end.side, 0.0);
-    end.beyond = beyondNear(end.middle_clip) - abs(beyondNear(end.side_clip));
-    end.seen = screenEnd(end.middle_clip, end.side_clip);
+    end.beyond = pastNearPlane(end.middle_clip) - abs(pastNearPlane(end.side_clip));
+    end.projected = screenEnd(end.middle_clip, end.side_clip);
     return end;
 }
 
@@ -61,13 +61,13 @@ struct PieceQuad {
     ScreenEnd from;
     ScreenEnd to;
     vec2 part;  // of the piece at `from` and `to`, 0 to 1
-    bool seen;
+    bool visible;
 };
 
 PieceQuad pieceQuad(PieceEnd from, PieceEnd to) {
-    PieceQuad quad = PieceQuad(from.seen, to.seen, vec2(0.0, 1.0), true);
+    PieceQuad quad = PieceQuad(from.projected, to.projected, vec2(0.0, 1.0), true);
     if (min(from.beyond, to.beyond) > 0.0) return quad;
-    quad.seen = max(from.beyond, to.beyond) > 0.0;
+    quad.visible = max(from.beyond, to.beyond) > 0.0;
     float crossing = from.beyond / (from.beyond - to.beyond);
     vec4 middle = mix(from.middle_clip, to.middle_clip, crossing);
     vec4 side = mix(from.side_clip, to.side_clip, crossing);

@@ -25,7 +25,7 @@ void main() {
     for (pixel.x += gl_LocalInvocationID.x; pixel.x < high.x; pixel.x += gl_WorkGroupSize.x) {
         for (uint i = 0u; i < kSamples; ++i) {
             float depth = sceneDepth(pixel, i);
-            storePair(push.samples, sampleIndex(pixel, i), uvec2(kNoPiece, nearness(depth)));
+            storePair(push.visibility, sampleIndex(pixel, i), uvec2(kNoPiece, nearness(depth)));
         }
     }
 }

@@ -14,14 +14,14 @@ uint bySamples(uint of_1, uint of_2, uint of_4, uint of_8) {
 uint entry(uint table, uint index) { return table >> (4u * index) & 15u; }
 
 // The position along a row of its sample, and the sample's index.
-uint rowPlaces() { return bySamples(0x8u, 0xC4u, 0xA2E6u, 0xB37D195Fu); }
+uint rowPositions() { return bySamples(0x8u, 0xC4u, 0xA2E6u, 0xB37D195Fu); }
 uint rowSamples() { return bySamples(0x0u, 0x01u, 0x3210u, 0x64125037u); }
 // The same for columns.
-uint columnPlaces() { return bySamples(0x8u, 0xC4u, 0x6E2Au, 0x19F5B3D7u); }
+uint columnPositions() { return bySamples(0x8u, 0xC4u, 0x6E2Au, 0x19F5B3D7u); }
 uint columnSamples() { return bySamples(0x0u, 0x01u, 0x1302u, 0x72601345u); }
 
 // The position of a sample in its pixel, px.
-vec2 samplePlace(uint index) {
+vec2 samplePosition(uint index) {
     uint x = bySamples(0x8u, 0x4Cu, 0xA2E6u, 0xFB135D79u);
     uint y = bySamples(0x8u, 0x4Cu, 0xEA62u, 0x1F7D39B5u);
     return vec2(entry(x, index), entry(y, index)) / 16.0;

@@ -1,38 +1,38 @@
 // Shades each sample that shows a strand. One or several work groups per row of pixels.
 #include "shading/strand_shading.glsl"
-#include "strands/software/seen.glsl"
+#include "strands/software/visibility.glsl"
 
-#include "strands/software/place.glsl"
+#include "strands/software/piece_coordinates.glsl"
 #include "strands/software/samples.glsl"
 #include "strands/merged_fragment.glsl"
 
 layout(local_size_x_id = kPixelGroupConstant) in;
 
 // Returns the point of a piece that is seen at a screen position, px.
-StrandFragment seenPoint(PictureParameters picture, uint number, vec2 place, out uint merged) {
+StrandFragment visiblePoint(PictureParameters picture, uint number, vec2 place, out uint merged) {
     Piece piece = pieceOf(picture, number);
-    PiecePlace seen = piecePlace(piece, place);
+    PieceCoordinates at = pieceCoordinates(piece, place);
     vec3 narrowing = piece.from.side - piece.to.side;
 
     StrandFragment fragment;
-    fragment.across = seen.across;
-    fragment.position = mix(piece.from.position, piece.to.position, seen.t);
-    fragment.position += seen.second ? fragment.across * piece.to.side + (1.0 - seen.t) * narrowing
-                                : fragment.across * piece.from.side + seen.t * narrowing;
-    vec3 tangent = mix(piece.from.tangent, piece.to.tangent, seen.t);
+    fragment.across = at.across;
+    fragment.position = mix(piece.from.position, piece.to.position, at.t);
+    fragment.position += at.second ? fragment.across * piece.to.side + (1.0 - at.t) * narrowing
+                                : fragment.across * piece.from.side + at.t * narrowing;
+    vec3 tangent = mix(piece.from.tangent, piece.to.tangent, at.t);
     fragment.tangent = tangent * inversesqrt(max(dot(tangent, tangent), 1e-30));
     fragment.to_eye = normalize(picture.eye - fragment.position);
     fragment.along = 0.0;  // only a strand's texture would need it
-    fragment.width = 2.0 * length(mix(piece.from.side, piece.to.side, seen.t));
+    fragment.width = 2.0 * length(mix(piece.from.side, piece.to.side, at.t));
     fragment.fiber_width = fragment.width;
     merged = 0u;
     if (kTellsHairs) {
-        PlaceOnStrand on_strand = placeOnStrand(picture, number, seen.t);
+        PlaceOnStrand on_strand = placeOnStrand(picture, number, at.t);
         fragment.along = on_strand.along;
         merged = on_strand.merged;
         if (kMergedHairs != 0) fragment.fiber_width /= mergedCount(merged);
         if (kMergedHairs != 0 && mergedCount(merged) > 1.0) {
-            fragment.across = straightAcross(piece, seen);
+            fragment.across = perspectiveAcross(piece, at);
             toMergedHair(merged, fragment);
         }
     }
@@ -51,18 +51,18 @@ void main() {
     for (; pixel.x < high.x; pixel.x += stride) {
         for (uint i = 0u; i < kSamples; ++i) {
             uint index = sampleIndex(pixel, i);
-            uvec2 seen = fetchSample(index);
-            if (seen.x == kNoPiece) continue;
+            uvec2 visible = fetchVisibility(index);
+            if (visible.x == kNoPiece) continue;
             uint merged;
             StrandFragment fragment =
-                seenPoint(picture, seen.x, vec2(pixel) + samplePlace(i), merged);
+                visiblePoint(picture, visible.x, vec2(pixel) + samplePosition(i), merged);
             fragment.power = ownPower(picture, merged, fragment.along);
             vec3 color = shadeStrand(picture, fragment, vec3(1.0));
             if (kLinearLight == 1u)
                 storePair(push.colors, index,
                           uvec2(packHalf2x16(color.rg), packHalf2x16(vec2(color.b, 1.0))));
             else
-                storePair(push.samples, index, uvec2(packUnorm4x8(vec4(color, 0.0)), seen.y));
+                storePair(push.visibility, index, uvec2(packUnorm4x8(vec4(color, 0.0)), visible.y));
         }
     }
 }

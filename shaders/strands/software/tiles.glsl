@@ -1,6 +1,6 @@
 // Computes the nearness of the farthest sample of each tile: anything farther is hidden there. One
 // work group per row of tiles.
-#include "strands/software/seen.glsl"
+#include "strands/software/visibility.glsl"
 
 layout(local_size_x_id = kPixelGroupConstant) in;
 
@@ -9,7 +9,7 @@ uint farthest(uvec2 begin, uvec2 end) {
     for (uint y = begin.y; y < end.y; ++y) {
         uint last = sampleIndex(uvec2(end.x, y), 0u);
         for (uint i = sampleIndex(uvec2(begin.x, y), 0u); i < last; ++i)
-            far = max(far, fetchSample(i).y);
+            far = max(far, fetchVisibility(i).y);
     }
     return far;
 }
@@ -21,6 +21,6 @@ void main() {
     uvec2 tile = uvec2(low.x / kTile, gl_WorkGroupID.x);
     if (tile.y * kTile + kTile <= low.y || tile.y * kTile >= high.y) return;
     for (tile.x += gl_LocalInvocationID.x; tile.x * kTile < high.x; tile.x += gl_WorkGroupSize.x)
-        TileDepths(push.tiles).at[tileIndex(tile)] =
+        TileDepths(push.tile_depths).at[tileIndex(tile)] =
             farthest(max(tile * kTile, low), min((tile + 1u) * kTile, high));
 }

@@ -8,17 +8,17 @@
 void main() {
     if (position_and_width[0].w < 0.0) return;
     PictureParameters picture = PictureReference(push.picture).parameters;
-    uint made = 0;
+    uint outputs = 0;
     for (int i = 0; i < 2; ++i) {
         LineEnd end = lineEnd(i);
         QuadEnd quad = quadEnd(picture, end);
         for (float across = -1.0; across <= 1.0; across += 2.0) {
             makeCorner(picture, end, quad, across);
-            made += bitSum(gl_Position) + bitSum(position_and_across) +
+            outputs += bitSum(gl_Position) + bitSum(position_and_across) +
                     bitSum(tangent_and_along_out);
-            if (kAnalyticCoverage != 0) made += floatBitsToUint(half_width);
+            if (kAnalyticCoverage != 0) outputs += floatBitsToUint(half_width);
             EmitVertex();
         }
     }
-    see(made);
+    countInvocation(outputs);
 }

@@ -13,5 +13,5 @@ void main() {
     position_and_width = vec4(point.position, point.width);
     tangent_and_along = vec4(point.tangent, point.along);
     if (kTellsHairs) merged_hairs = point.merged;
-    see(bitSum(position_and_width) + bitSum(tangent_and_along));
+    countInvocation(bitSum(position_and_width) + bitSum(tangent_and_along));
 }

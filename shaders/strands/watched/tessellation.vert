@@ -9,5 +9,5 @@ layout(location = 0) out uint patch_index;
 void main() {
     patch_index = patchNumber(PictureReference(push.picture).parameters);
     gl_PointSize = 1.0;  // if it is the last stage, vertices are points
-    see(patch_index);
+    countInvocation(patch_index);
 }

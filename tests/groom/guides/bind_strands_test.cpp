@@ -215,11 +215,11 @@ TEST(NearestMean, IsTheNearestOfAll) {
                             random01(seed, i, 1), random01(seed, i, 2),
                             seed % 3 == 0 ? 0.0 : random01(seed, i, 3)) -
                         glm::dvec3(0.3);
-        Products products{.count = points.size()};
+        GramMatrix gram{.count = points.size()};
         Extremes squares;
         for (std::size_t i = 0; i < 5; ++i) {
             squares.add(glm::dot(points[i], points[i]));
-            for (std::size_t j = 0; j < 5; ++j) products.of[i][j] = glm::dot(points[i], points[j]);
+            for (std::size_t j = 0; j < 5; ++j) gram.of[i][j] = glm::dot(points[i], points[j]);
         }
         Extremes tried;
         constexpr int steps = 20;
@@ -233,7 +233,7 @@ TEST(NearestMean, IsTheNearestOfAll) {
                                                     double(steps);
                             tried.add(glm::dot(mean, mean));
                         }
-        const Mean mean = nearestMean(products);
+        const Mean mean = nearestMean(gram);
         glm::dvec3 found(0.0);
         for (std::size_t i = 0; i < 3; ++i) found += mean.weights[i] * points[mean.members[i]];
         EXPECT_LE(glm::dot(found, found), tried.least() + 1e-6 * squares.greatest());

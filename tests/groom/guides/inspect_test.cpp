@@ -16,7 +16,7 @@ namespace {
 
 using testing::HasSubstr;
 
-void expectSpread(const Spread& spread, const std::array<double, 6>& expected) {
+void expectSummary(const Summary& spread, const std::array<double, 6>& expected) {
     EXPECT_DOUBLE_EQ(spread.minimum, expected[0]);
     EXPECT_DOUBLE_EQ(spread.quartile1, expected[1]);
     EXPECT_DOUBLE_EQ(spread.median, expected[2]);
@@ -25,22 +25,22 @@ void expectSpread(const Spread& spread, const std::array<double, 6>& expected) {
     EXPECT_DOUBLE_EQ(spread.mean, expected[5]);
 }
 
-TEST(SpreadOf, InterpolatesBetweenRanks) {
-    const auto of = [](std::vector<float> numbers) { return spreadOf(numbers); };
-    expectSpread(of({7, 1, 4, 3, 9}), {1, 3, 4, 7, 9, 4.8});
-    expectSpread(of({4, 1, 3, 2}), {1, 1.75, 2.5, 3.25, 4, 2.5});
-    expectSpread(of({5}), {5, 5, 5, 5, 5, 5});
-    expectSpread(of({}), {0, 0, 0, 0, 0, 0});
+TEST(SummaryOf, InterpolatesBetweenRanks) {
+    const auto of = [](std::vector<float> numbers) { return summaryOf(numbers); };
+    expectSummary(of({7, 1, 4, 3, 9}), {1, 3, 4, 7, 9, 4.8});
+    expectSummary(of({4, 1, 3, 2}), {1, 1.75, 2.5, 3.25, 4, 2.5});
+    expectSummary(of({5}), {5, 5, 5, 5, 5, 5});
+    expectSummary(of({}), {0, 0, 0, 0, 0, 0});
 }
 
 TEST(Inspect, CountsAndMeasures) {
     const StrandFindings found = inspect(sampleStrandSet(), nullptr, {});
     EXPECT_EQ(found.strands, 3u);
     EXPECT_EQ(found.points, 6u);
-    expectSpread(found.points_per_strand, {1, 1.5, 2, 2.5, 3, 2});
-    expectSpread(found.lengths, {0, 0.5, 1, 2, 3, 4.0 / 3.0});
-    expectSpread(found.segment_lengths, {1, 1, 1, 1.5, 2, 4.0 / 3.0});
-    expectSpread(found.widths, {1, 2.25, 3.5, 4.75, 6, 3.5});
+    expectSummary(found.points_per_strand, {1, 1.5, 2, 2.5, 3, 2});
+    expectSummary(found.lengths, {0, 0.5, 1, 2, 3, 4.0 / 3.0});
+    expectSummary(found.segment_lengths, {1, 1, 1, 1.5, 2, 4.0 / 3.0});
+    expectSummary(found.widths, {1, 2.25, 3.5, 4.75, 6, 3.5});
     EXPECT_EQ(found.minimum, glm::vec3(0, 0, 0));
     EXPECT_EQ(found.maximum, glm::vec3(5, 5, 5));
     EXPECT_EQ(found.single_point_strands, 1u);
@@ -60,7 +60,7 @@ TEST(Inspect, CountsWhatHasNoLength) {
     EXPECT_EQ(found.single_point_strands, 1u);
     EXPECT_EQ(found.zero_length_strands, 1u);
     EXPECT_EQ(found.zero_length_segments, 2u);
-    expectSpread(found.widths, {0.5, 0.5, 0.5, 0.5, 0.5, 0.5});
+    expectSummary(found.widths, {0.5, 0.5, 0.5, 0.5, 0.5, 0.5});
 }
 
 TEST(Inspect, CountsStrandsAndRootsThatWereThereBefore) {

@@ -25,7 +25,7 @@ nearestByAll(const std::vector<glm::vec3>& points, const glm::vec3& place, std::
 }
 
 void expectNearest(const std::vector<glm::vec3>& points, std::size_t count) {
-    const RootTree tree(points);
+    const RootKdTree tree(points);
     for (std::uint32_t i = 0; i < 100; ++i) {
         const glm::vec3 place(random01(9, i, 1), random01(9, i, 2), random01(9, i, 3));
         std::vector<std::uint32_t> nearest(count);
@@ -34,7 +34,7 @@ void expectNearest(const std::vector<glm::vec3>& points, std::size_t count) {
     }
 }
 
-TEST(RootTree, FindsTheNearest) {
+TEST(RootKdTree, FindsTheNearest) {
     std::vector<glm::vec3> points;
     for (std::uint32_t i = 0; i < 1000; ++i)
         points.emplace_back(random01(1, i, 1), random01(1, i, 2), random01(1, i, 3));
@@ -43,14 +43,14 @@ TEST(RootTree, FindsTheNearest) {
 }
 
 // A lattice has equal distances, and coordinates that are equal.
-TEST(RootTree, BreaksTiesByIndex) {
+TEST(RootKdTree, BreaksTiesByIndex) {
     std::vector<glm::vec3> points;
     for (int i = 0; i < 400; ++i) points.emplace_back(0.1f * (i % 10), 0.0f, 0.1f * (i / 20));
     expectNearest(points, 8);
     expectNearest(std::vector<glm::vec3>(50, glm::vec3(0.5f)), 8);
 }
 
-TEST(RootTree, FindsFewerWhereThereAreFewer) {
+TEST(RootKdTree, FindsFewerWhereThereAreFewer) {
     expectNearest({{0.1f, 0.2f, 0.3f}}, 8);
     expectNearest({{0.1f, 0.2f, 0.3f}, {0.9f, 0.8f, 0.7f}, {0.5f, 0.5f, 0.5f}}, 8);
 }

@@ -1,6 +1,0 @@
-#version 460
-// Computes the depths of windows.
-#extension GL_GOOGLE_include_directive : require
-#include "common/vectors.glsl"
-
-#include "strands/software/windows.glsl"
