@@ -107,8 +107,8 @@ constexpr std::array kVulkan13Features{
 
 // Source of a feature: a member of VkPhysicalDeviceFeatures, an extension, a format of colour
 // attachments that can be blended, or a member of VkPhysicalDeviceVulkan12Features. A queue feature
-// has none, because it depends on the queue families, nor has mesh_statistics, a member of an
-// extension's struct.
+// has no source, because it depends on the queue families. Neither does mesh_statistics, a member
+// of an extension's struct.
 struct FeatureRow {
     Feature feature;
     std::string_view name;
