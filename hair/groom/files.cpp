@@ -60,11 +60,11 @@ constexpr StrandImporter kImporters[] = {
     {"OBJ", kObj, "", importObj},
     {"glTF", kGltf, "", importGltfStrands},
     {"binary glTF", kGlb, "glTF", importGltfStrands},
-    // USD has three magics, but its library goes by the extension.
+    // USD has three magics, but its library recognises files by their extension.
     {"USD", kUsd, "", importUsd, false},
     {"USC-HairSalon's strands", kData, "", importHairData},
     {"NumPy's array", kNpy, "\x93NUMPY", importNpy},
-    // It has no magic here, because .usdz is a zip archive, too.
+    // It has no magic here, because .usdz is a zip archive too.
     {"NumPy's archive", kNpz, "", importNpz},
     {"Embree's scene", kXml, "", importEmbreeXml},
     {"CT2Hair's strands", kBin, "", importCt2Hair},

@@ -34,7 +34,7 @@ constexpr std::array kOnGraphicsProcessors{Backend::software,     Backend::expan
                                            Backend::pulling,      Backend::mesh,
                                            Backend::tessellation, Backend::pulling_geometry};
 
-// The reason why the back end can't draw the case; absent where it can.
+// The reason why the back end can't draw the case; absent if it can.
 std::optional<std::string> obstacle(
     Backend backend, const engine::Device& device, const Settings& settings,
     const StrandPlan& plan) {

@@ -33,13 +33,13 @@ struct HairHeader {
     std::uint32_t hair_count = 0;
     std::uint32_t point_count = 0;
     std::uint32_t arrays = 0;
-    // Values that hold where there is no array. The defaults of transparency and colour are those
-    // of the format's author.
+    // Values that apply if there is no array. The defaults of transparency and colour are those of
+    // the format's author.
     std::uint32_t default_segments = 0;
     float default_thickness = 0.0f;  // 0: not known
     float default_transparency = 0.0f;
     glm::vec3 default_color{1.0f, 1.0f, 1.0f};
-    std::array<char, 88> info{};  // text, ended by a 0 where it is shorter
+    std::array<char, 88> info{};  // text, ended by a 0 if it is shorter
 
     bool has(HairArray array) const { return (arrays & static_cast<std::uint32_t>(array)) != 0; }
     void add(HairArray array) { arrays |= static_cast<std::uint32_t>(array); }

@@ -472,7 +472,7 @@ private:
                               ", expected linear, bezier, bspline, hermite or catmull_rom");
     }
 
-    // Returns an array of curves; for moving curves, the first one. Null where there is none.
+    // Returns an array of curves; for moving curves, the first one. Null if there is none.
     const XmlElement*
     arrayOf(const XmlElement& element, std::string_view name, std::string_view moving) {
         const XmlElement* const animated = element.child(moving);
@@ -512,7 +512,7 @@ private:
         return all;
     }
 
-    // Returns strands of consecutive segments, each within one curve where curves have numbers.
+    // Returns strands of consecutive segments, each within one curve if curves have numbers.
     std::vector<EmbreeStrand> strandsOf(
         const XmlElement& element, const EmbreeBasis& basis, bool has_pairs, std::size_t vertices) {
         const XmlElement* const indices = element.child("indices");

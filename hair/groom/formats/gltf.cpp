@@ -178,8 +178,8 @@ Polylines chainsOf(const std::vector<std::uint32_t>& indices, std::size_t vertex
 }
 
 // Lines without indices share no vertices. Programs that know strips write a strip as lines that
-// each begin where the previous one ended. There, the first vertex of a line becomes the second of
-// the previous.
+// each begin where the previous one ended. There, the second vertex of the previous line is used as
+// the first vertex of a line.
 void weld(std::vector<std::uint32_t>& indices, const std::vector<glm::vec3>& points) {
     for (std::size_t i = 2; i < indices.size(); i += 2)
         if (points[i] == points[i - 1]) indices[i] = indices[i - 1];
@@ -253,7 +253,7 @@ private:
         }
         for (const float width : set.widths.values)
             if (width < 0.0f) throw engine::Error("_WIDTH is negative: " + std::to_string(width));
-        // Even the identity would make 0 of -0.
+        // Even the identity would turn -0 into 0.
         if (transform != glm::dmat4(1.0)) place(set, transform);
         checkFinite(set);
         return set;

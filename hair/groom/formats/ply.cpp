@@ -201,7 +201,7 @@ class PlyText {
 public:
     PlyText(std::string_view body, std::size_t lines_before) : rest_(body), line_(lines_before) {}
 
-    // Throw where the file is too short for the element's values, or for the list's.
+    // Throw if the file is too short for the element's values, or for the list's.
     void expect(const PlyElement& element) const;
     void expectList(double length, PlyType type) const;
 
@@ -259,7 +259,7 @@ private:
     std::size_t position_;
 };
 
-// Takes a list's length. Throws where the file is too short for the list.
+// Takes a list's length. Throws if the file is too short for the list.
 template <class Source>
 std::size_t takeLength(Source& source, const PlyProperty& list) {
     const double length = source.take(*list.count_type);
@@ -273,7 +273,7 @@ void skipProperty(Source& source, const PlyProperty& property) {
     for (std::size_t i = 0; i < values; ++i) source.take(property.type);
 }
 
-// Throws where the value that was taken last is not the index of a vertex.
+// Throws if the value that was taken last is not the index of a vertex.
 template <class Source>
 void checkVertex(const Source& source, double index, std::uint64_t vertices) {
     if (index >= 0.0 && index < static_cast<double>(vertices)) return;
@@ -425,7 +425,7 @@ enum Slot : std::size_t { x, y, z, width, transparency, red, green, blue, slot_c
 struct VertexRow {
     std::string_view property;
     Slot slot;
-    double unit = 1.0;  // value that is a width, or a transparency, of 1
+    double unit = 1.0;  // value that stands for a width, or a transparency, of 1
     bool is_share = false;  // integers stand for 0 to 1
     std::string_view better = "";  // a property that is read instead
 };
@@ -499,7 +499,7 @@ void reserve(const Plan& plan, std::size_t count, StrandSet& set) {
     if (plan.known[red]) set.colors.values.reserve(count);
 }
 
-// Returns the element `vertex`. Throws engine::Error "line N: reason" where it isn't there, has no
+// Returns the element `vertex`. Throws engine::Error "line N: reason" if it isn't there, has no
 // coordinates, or more vertices than 32 bits can number.
 const PlyElement& plyVertices(const PlyHeader& header) {
     const std::string place = "line " + std::to_string(header.lines);
@@ -583,8 +583,8 @@ bool isEdge(const PlyElement& element) {
         "follow one another, give their number (--points-per-strand, /groom/points_per_strand)");
 }
 
-// Returns the element that lists the vertices of strands; null where strands are runs of
-// consecutive vertices.
+// Returns the element that lists the vertices of strands; null if strands are runs of consecutive
+// vertices.
 const PlyElement* strandElement(const PlyHeader& header, std::uint32_t points_per_strand) {
     for (const std::string_view name : kListElements) {
         const PlyElement* element = header.find(name);
@@ -621,7 +621,7 @@ public:
             }
         }
         source_.finish();
-        if (!edges_.empty()) {  // only once the file is known to hold
+        if (!edges_.empty()) {  // only once the whole file is known to be valid
             lines_ = chainEdges(
                 edges_, vertex_count_, [this](std::size_t edge) { return placeOf(edge); });
         }
@@ -737,7 +737,7 @@ private:
     std::vector<Edge> edges_;
     std::size_t edges_start_ = 0;  // position of the first edge
     std::size_t edges_step_ = 0;  // from one edge to the next
-    std::vector<std::size_t> edge_positions_;  // [edge], where distances differ
+    std::vector<std::size_t> edge_positions_;  // [edge], if distances differ
     std::uint64_t polygons_ = 0;
     Polylines lines_;
     StrandSet set_;

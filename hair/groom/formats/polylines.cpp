@@ -37,7 +37,7 @@ class Neighbours {
 public:
     explicit Neighbours(std::size_t vertex_count) : of_(vertex_count, {kNone, kNone}) {}
 
-    // False where the vertex has two already.
+    // False if the vertex has two already.
     bool add(std::uint32_t vertex, std::uint32_t neighbour) {
         for (std::uint32_t& slot : of_[vertex]) {
             if (slot != kNone) continue;

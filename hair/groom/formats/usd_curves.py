@@ -2,7 +2,7 @@
 
 Every BasisCurves prim is read, in the stage's order, including instances, in world space, +Y up, in
 the stage's unit. Data without a place in USD is read under Unreal Engine's names:
-primvars:groom_group_id, groom_guide and, where the curves have none themselves, groom_width,
+primvars:groom_group_id, groom_guide and, if the curves have none themselves, groom_width,
 groom_color, groom_root_uv. Linear curves are their points; cubic ones are sampled (usd_cubic.py).
 Animated curves are taken at the default time, or else at their points' first sample. A stage that
 can't be read ends the program with one line on stderr.
@@ -26,9 +26,10 @@ except ImportError as error:
 # A stage may have as many prims, plus one for each 64 bytes of its files: 40,000 prims take 2 s, and
 # a prim with points is longer than 64 bytes.
 MOST_PRIMS = 20_000
-# USD looks for inherited values in all prims around a prim, and in all that these are composed of.
+# USD looks for inherited values in all prims around a prim, and in all prims that these are
+# composed of.
 MOST_NESTED = 128  # prims within each other
-MOST_COMPOSED = 256  # variants and prims that one prim refers to, and they in turn
+MOST_COMPOSED = 256  # variants and prims that one prim refers to, directly or through others
 MOST_SUBLAYERS = 256  # of a layer and its sublayers together, each as often as it is named
 MOST_UNFOLDED = 32 << 20  # bytes of points and triangles, plus 16 times the size of its files
 
@@ -214,7 +215,7 @@ class Xforms:
 def metres_per_unit_of(stage):
     try:
         return UsdGeom.GetStageMetersPerUnit(stage)
-    except Tf.ErrorException:  # no double
+    except Tf.ErrorException:  # the value is no double
         unit = stage.GetMetadata(UsdGeom.Tokens.metersPerUnit)
     if isinstance(unit, bool) or not isinstance(unit, (int, float)):
         raise Refused(f"metersPerUnit is not a number: {unit!r}")
@@ -301,7 +302,7 @@ def read(path, below=()):
 def words_of(error, path):
     try:
         words = " ".join(error.args[0].commentary.split())
-    except (AttributeError, UnicodeDecodeError):  # USD's words quote the file
+    except (AttributeError, UnicodeDecodeError):  # USD's messages quote the file
         return "its texts are not UTF-8"
     return words.replace(os.path.realpath(path) + ":", "line ")
 

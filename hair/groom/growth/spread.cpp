@@ -119,8 +119,8 @@ std::uint32_t PointGrid::key(const Cube& cube) {
     return along(cube.x) | along(cube.y) << kCubeBits | along(cube.z) << 2 * kCubeBits;
 }
 
-// Prefetches all buckets before the first is needed, and then the points, because memory takes the
-// time.
+// Prefetches all buckets before the first is needed, and then the points, because most of the time
+// goes into reading memory.
 std::size_t PointGrid::findNear(const glm::vec3& point, Neighbours& neighbours) const {
     const Cube centre = cube(point);
     std::array<const Bucket*, 27> buckets;

@@ -29,7 +29,7 @@ namespace {
 // Node transforms are applied, polygons triangulated, points and lines left out. Parts are the
 // nodes that hold triangles, by their names or those of their meshes: objects and groups in most
 // formats. Vertex groups are the bones. Texture coordinates are the first set, 0 for parts without.
-// Materials have the diffuse colour, and its texture where that is a file.
+// Materials have the diffuse colour, and its texture if that is a file.
 constexpr unsigned kSteps = aiProcess_Triangulate | aiProcess_JoinIdenticalVertices |
                             aiProcess_GenSmoothNormals | aiProcess_SortByPType |
                             aiProcess_GlobalScale | aiProcess_RemoveComponent;
@@ -51,7 +51,7 @@ Material toMaterial(const aiMaterial& source) {
     return material;
 }
 
-// The file of the diffuse texture, relative to the mesh's folder; empty where there is none.
+// The file of the diffuse texture, relative to the mesh's folder; empty if there is none.
 std::string textureOf(const aiMaterial& source) {
     aiString name;
     unsigned coordinates = 0;
