@@ -23,12 +23,12 @@ enum Axis { kHorizontal, kVertical };
 
 glm::vec2 middleOf(const PictureRect& rect) { return rect.corner + rect.size * 0.5f; }
 
-// Returns the largest scale at which a picture fits a room.
+// Returns the largest scale at which a picture fits the available space.
 float fittingScale(glm::vec2 room, glm::vec2 picture) {
     return glm::max(glm::min(room.x / picture.x, room.y / picture.y), 0.0f);
 }
 
-// Returns the room for two adjacent pictures along an axis, without a gap.
+// Returns the space that two adjacent pictures take along an axis, without a gap.
 glm::vec2 sizeOfBoth(const std::array<glm::vec2, 2>& sizes, Axis along) {
     glm::vec2 size = glm::max(sizes[0], sizes[1]);
     size[along] = sizes[0][along] + sizes[1][along];
@@ -186,8 +186,8 @@ void zoomBar(std::optional<int>& zoom) {
 // Thickness of a scroll bar.
 float scrollBarWidth() { return ImGui::GetStyle().ScrollbarSize; }
 
-// Shows scroll bars below and right of `room` for the axes along which only part of a picture is
-// visible. They move the point in the middle.
+// Shows scroll bars below and to the right of `room` for the axes along which only part of a
+// picture is visible. They move the point in the middle.
 void pictureScrollBars(const PictureRect& room, glm::vec2 visible_share, glm::vec2& focus) {
     const ImVec2 from{room.corner.x, room.corner.y};
     const ImVec2 to{from.x + room.size.x, from.y + room.size.y};
@@ -306,7 +306,7 @@ bool PictureArea::copy(engine::Commands& commands, const viewer::Shown& a, const
             commands, shown.number, shown.picture, {shown.width, shown.height},
             {render.width, render.height});
     };
-    // A new picture has no widget yet.
+    // No widget shows a new picture yet.
     bool all = a_.isThere() || !a.isThere();
     all &= copyOf(a_, a);
     if (b) all &= copyOf(b_, *b);

@@ -36,7 +36,7 @@ struct Share {
 
 // Returns a distinct colour for each of the first eight, for dark and light backgrounds.
 ImU32 seriesColor(std::size_t index) {
-    // Okabe and Ito 2008, Color universal design, without black: distinct for people with any
+    // Okabe and Ito 2008, Color universal design, without black: distinguishable with any kind of
     // colour vision.
     static constexpr std::array<ImU32, 8> kColors{
         IM_COL32(86, 180, 233, 255), IM_COL32(230, 159, 0, 255),   IM_COL32(0, 158, 115, 255),

@@ -164,7 +164,7 @@ std::optional<engine::UiItem> findItem(const engine::UiItems& items, const ItemN
     for (const engine::UiItem& item : items.items()) {
         if (!item.visible || !isCalled(item, name)) continue;
         if (found && !name.item.empty()) {
-            // A panel's tab and a button may have the same name as the panel.
+            // A panel, its tab and a button may have the same name.
             if (item.is_window) continue;
             if (!found->is_window)
                 throw engine::Error(

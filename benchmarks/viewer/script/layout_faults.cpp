@@ -24,7 +24,8 @@ struct DrawnLetter {
     bool cut = false;  // on the left or right
 };
 
-// Letters exceed their advance, and thus a box of their text's width, by fractions of a pixel.
+// Letters extend beyond their advance, and thus beyond a box of their text's width, by fractions of
+// a pixel.
 constexpr float kTolerance = 1.0f;  // px
 // Visible share of its texture rectangle above which a letter counts as whole.
 constexpr float kWhole = 0.999f;
@@ -216,7 +217,7 @@ void addLabel(const engine::UiItem& item, std::vector<std::string>& faults) {
 bool isOutside(const engine::UiItem& item) {
     const engine::UiRect &rect = item.rect, &clip = item.clip;
     if (rect.width() <= 0.0f || rect.height() <= 0.0f) return false;
-    // The highlight in a list exceeds its row by half of the gap between rows.
+    // The highlight in a list extends beyond its row by half of the gap between rows.
     const ImVec2 gap = ImGui::GetStyle().ItemSpacing;
     const float x = 0.5f * gap.x + kTolerance, y = 0.5f * gap.y + kTolerance;
     return rect.left < clip.left - x || rect.right > clip.right + x || rect.top < clip.top - y ||
