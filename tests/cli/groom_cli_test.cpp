@@ -139,7 +139,7 @@ TEST_P(GroomRefusal, IsOneLineWithStatus2AndWritesNothing) {
 INSTANTIATE_TEST_SUITE_P(
     , GroomRefusal,
     testing::Values(
-        // Refused before IN is read: none.hair does not exist either.
+        // In some pixels, hair may have the colour of the surface that it hides.
         RefusedGroom{
             "UnknownExtension", "none.hair", "out.foo", "",
             "can't be written as '.foo'; known: .hair"},

@@ -122,7 +122,7 @@ TEST_F(GltfMaterials, FindPicturesBesideTheFile) {
     EXPECT_EQ(mesh.pictures.at(0).rgba, rgba);
 }
 
-// The 36 bytes of the positions are no picture, and the file has no others.
+// The 36 bytes of the positions are not a picture, and the file contains no others.
 TEST_F(GltfMaterials, FindPicturesInBuffers) {
     EXPECT_EQ(
         error({.material = kPainted, .images = R"([{"name":"skin","bufferView":0}])"}),

@@ -197,7 +197,8 @@ TEST(ImportGltf, ReadsItsOwnScalarsAsVertexGroups) {
          .more_accessors = R"(,{"bufferView":1,"componentType":5126,"count":3,"type":"SCALAR"})"
                            R"(,{"bufferView":0,"byteOffset":20,"componentType":5126,"count":3,)"
                            R"("type":"SCALAR"})"});
-    ASSERT_EQ(mesh.vertex_groups.size(), 1u);  // the values of the other ones aren't 0 to 1
+    ASSERT_EQ(mesh.vertex_groups.size(), 1u);  // the values of the other attributes are not between
+                                               // 0 and 1
     EXPECT_EQ(mesh.vertex_groups[0].name, "scalp");
     EXPECT_THAT(mesh.vertex_groups[0].weights, ElementsAre(0, 1, 0));
     EXPECT_THAT(

@@ -56,8 +56,8 @@ TEST(Start, IsSilentWhereNothingIsWrong) {
     EXPECT_THAT(judgeStart(fine, nullptr, settledSettings()).warnings, IsEmpty());
 }
 
-// The thesis's iterations stretch hair, and so do lengths without a constraint: the settings
-// request it.
+// The thesis's iterations stretch hair, and so do lengths without a constraint. The settings
+// request this.
 TEST(Start, GivesTheFigureAloneWhereLengthsAreNotKept) {
     const GuideCondition stretched{.stretch = {.value = 1.5, .guide = 1, .guides = 9}};
     hair::Settings settings = settledSettings();

@@ -113,7 +113,7 @@ TEST_F(Record, GoesOnAsIfNothingHadHappened) {
     }
 }
 
-// A damaged line costs its case.
+// A damaged line loses only its case.
 TEST_F(Record, PlaysAgainWhatIsDamaged) {
     std::string whole;
     {

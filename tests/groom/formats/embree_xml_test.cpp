@@ -79,7 +79,7 @@ TEST(EmbreeXml, SamplesBezierCurves) {
 }
 
 // Both bases have linear precision: the points are evenly spaced on a line, from the second vertex
-// to the last but one. Catmull and Rom's curve passes through them in any case.
+// to the last but one. Catmull and Rom's curve always passes through them.
 TEST(EmbreeXml, SamplesSplines) {
     const std::string even = "0 0 0 1 2 0 0 1 4 0 0 1 6 0 0 1 8 0 0 1";
     for (const char* basis : {"bspline", "catmull_rom"}) {
@@ -129,7 +129,8 @@ TEST(EmbreeXml, FollowsGroupsAndTransforms) {
     const StrandSet set = readXml(text);
     EXPECT_EQ(set.points[2], glm::vec3(2 * 0.5f + 1, 2, 2 * 2 + 3));
     EXPECT_EQ(set.points[3], glm::vec3(1, 2 * 4 + 2, 3));
-    for (const float width : set.widths.values) EXPECT_FLOAT_EQ(width, 1.0f);  // by a cube root
+    // a cube root's rounding
+    for (const float width : set.widths.values) EXPECT_FLOAT_EQ(width, 1.0f);
     EXPECT_THAT(set.warnings, ElementsAre("the scene's 'PointLight' are left out"));
     EXPECT_THAT(
         errorOfXml(replaced(text, "<AffineSpace>", "<AffineSpace rotate=\"1 2 3\">")),
@@ -153,7 +154,7 @@ TEST(EmbreeXml, FollowsShortTransforms) {
         EXPECT_THAT(errorOfXml(placed(wrong)), StartsWith("line 3: ")) << wrong;
 }
 
-// The nodes of an `assign` appear only where the file refers to them, each time.
+// The nodes of an `assign` appear only at references, and at each of them.
 TEST(EmbreeXml, FollowsReferences) {
     std::string text = replaced(kLinear, "<scene>", "<scene><assign type=\"scene\" id=\"hair\">");
     text = replaced(text, "</scene>", "</assign><Group><ref id=\"hair\"/></Group></scene>");
@@ -165,7 +166,7 @@ TEST(EmbreeXml, FollowsReferences) {
     ASSERT_THAT(set.ends, ElementsAre(3, 5, 8, 10));
     EXPECT_EQ(set.points[0], glm::vec3(9, 0, 0));
     EXPECT_EQ(set.points[5], glm::vec3(0));
-    // A reference to an element's own id; the element itself is drawn, too.
+    // A reference to an element's own id. The element itself is drawn too.
     std::string own = replaced(kLinear, "<Curves", "<Curves id=\"own\"");
     own = replaced(own, "</scene>", "<ref id=\"own\"/></scene>");
     EXPECT_THAT(readXml(own).ends, ElementsAre(3, 5, 8, 10));
@@ -176,7 +177,7 @@ TEST(EmbreeXml, FollowsReferences) {
         errorOfXml(replaced(text, "<ref id=\"hair\"/>", "")), "line 3: the scene has no curves");
 }
 
-// A few lines that make 2^40 groups, and a group within itself.
+// A few lines that make 2^40 groups, and a group that contains itself.
 TEST(EmbreeXml, RefusesEndlessReferences) {
     std::string text = "<scene><assign id=\"0\"><Group/></assign>";
     for (int i = 0; i < 40; ++i) {

@@ -147,7 +147,7 @@ TEST(ImportGltfStrands, RefusesWhatIsNoStrand) {
              .indices = R"("componentType":5123,"count":1,"type":"SCALAR")"}),
         StartsWith(place + "a strip of 1 points"));
     Document document;
-    document.data[104] = 0;  // lines 0 1, 1 2 become 0 1, 0 2, whose root is vertex 1
+    document.data[104] = 0;  // lines 0 1, 1 2 become 0 1, 0 2 with the root at vertex 1
     EXPECT_EQ(read(document).points[0], glm::vec3(0, 1, 0));
     document.data[106] = 0;
     EXPECT_THAT(error(document), StartsWith(place + "line 1: the edge joins vertex 0 to itself"));
@@ -201,7 +201,7 @@ TEST(ImportGltfStrands, NamesTheByteOfWhatIsNoGltf) {
     EXPECT_THAT(errorOf(bytes), StartsWith("byte 12: truncated: the chunk has"));
 }
 
-// A stack overflow in a reader that calls itself, and images that lie outside their buffers.
+// A reader that recurses until the stack overflows, and images that lie outside their buffers.
 TEST(ImportGltfStrands, SurvivesWhatItDoesNotRead) {
     const std::string deep = std::string(200000, '[') + std::string(200000, ']');
     EXPECT_THAT(error({.extra = R"(,"extras":)" + deep}), HasSubstr("more than 64 levels"));

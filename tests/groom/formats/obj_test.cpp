@@ -34,7 +34,7 @@ TEST(ImportObj, ReadsWhatEditorsWrite) {
 
 TEST(ImportObj, JoinsSegmentsThatContinueEachOther) {
     expectTheStrands(readObj(kVertices + "l 1 2\nl 2 3\nl 4 5\n"));
-    // Lines of more points, and lines on both sides of a group's beginning, are not joined.
+    // Lines with more points are not joined, nor are lines on both sides of a group's beginning.
     EXPECT_THAT(readObj(kVertices + "l 1 2 3\nl 3 4\n").ends, ElementsAre(3, 5));
     EXPECT_THAT(readObj(kVertices + "l 1 2\ng other\nl 2 3\n").ends, ElementsAre(2, 4));
     EXPECT_THAT(readObj(kVertices + "l 1 2\nl 3 2\n").ends, ElementsAre(2, 4));

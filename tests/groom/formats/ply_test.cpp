@@ -289,7 +289,7 @@ TEST(ImportPly, MakesStrandsOfSoManyPointsEach) {
         HasSubstr("do not divide into strands"));
 }
 
-// The file's own strands come first; a mesh beside the points gives no strands.
+// The file's own strands take precedence. A mesh beside the points gives no strands.
 TEST(ImportPly, TakesTheNumberOfPointsWhereTheFileHasNoStrandsAlone) {
     expectTheStrands(
         readPlyOf(5, ascii(vertexElement() + kEdges, kVertexRows + "1 2\n0 1\n3 4\n")));

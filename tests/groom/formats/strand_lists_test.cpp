@@ -5,7 +5,7 @@
 #include "tests/groom/formats/bytes.h"
 #include "tests/groom/formats/strand_files.h"
 
-// The bytes are spelt as the public readers of the two formats take them.
+// The bytes are written as the public readers of the two formats read them.
 namespace hair::groom {
 namespace {
 
@@ -124,7 +124,7 @@ TEST(Ct2Hair, LeavesOutShortStrandsAndThoseThatAreNoNumbers) {
     addCt2Strand(bytes, 5, 0.5f);
     addCt2Strand(bytes, 0);
     addCt2Strand(bytes, 6);
-    // The last strand's second position, after 4 + 116 + 144 + 4 + 4 + 28 bytes.
+    // Place of the last strand's second position: after 4 + 116 + 144 + 4 + 4 + 28 bytes.
     const std::string damaged = patched(bytes.str(), 300, std::numeric_limits<float>::quiet_NaN());
     const StrandSet set = readText(importCt2Hair, damaged);
     EXPECT_THAT(set.ends, ElementsAre(5));

@@ -329,7 +329,7 @@ TEST(ImportTfx2, NamesTheLineOfWhatIsWrong) {
 
 TEST(ImportTfx2, IsRefusedWhereverItEnds) {
     const std::string whole = kTfx2Header + kTfx2Strands;
-    // A file without the last line's end is whole, and so is one with its last number cut.
+    // A file is complete even without the end of its last line, and even with its last number cut.
     for (std::size_t size = 7; size + 2 < whole.size(); ++size)
         EXPECT_THAT(errorOfTfx(whole.substr(0, size)), StartsWith("line ")) << size;
 }
