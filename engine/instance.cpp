@@ -508,7 +508,7 @@ Instance::Instance(Validation validation, const std::vector<std::string>& window
         .pDisabledValidationFeatures = nullptr};
     if (validates) {
         if (!hasLayer(kValidationLayer)) {
-            throw Error("validation was asked for, but the layer is not installed "
+            throw Error("validation was requested, but the layer is not installed "
                         "(package vulkan-validationlayers)");
         }
         layers.push_back(kValidationLayer);

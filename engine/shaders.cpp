@@ -67,7 +67,7 @@ GlslIncluder::includeSystem(const char* header_name, const char*, std::size_t) {
     // has no guard and never ends.
     const auto within = std::ranges::count_if(
         open_, [&](const auto& open) { return open->result->headerName == name; });
-    if (within > 1) return open("", "the file includes itself without end");
+    if (within > 1) return open("", "the file includes itself endlessly");
     std::optional<std::string> text = read_(file);
     if (!text) return open("", "there is no such file in the folder of shaders");
     return open(name, std::move(*text));

@@ -71,7 +71,7 @@ void Gate::add(std::vector<double> medians) {
     const Step step = next();
     assert(step != Step::decided);
     if (medians.size() != metrics_.size())
-        throw engine::Error("gate", "a process measured other metrics than the others");
+        throw engine::Error("gate", "one process measured different metrics from the others");
     if (!waiting_) {
         waiting_ = std::move(medians);
         return;

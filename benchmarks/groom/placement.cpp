@@ -255,7 +255,7 @@ void guessApart(
         hints.metres_per_unit ? "The unit is stated by --scale." : findings.unit_reason;
     if (hints.up) {
         guess.hair.up = *hints.up;
-        guess.hair_reason += std::string(" +") + axisName(*hints.up) + " is up by --up.";
+        guess.hair_reason += std::string(" +") + axisName(*hints.up) + " is up, as --up states.";
         return;
     }
     const auto [up, lead] = upOf(strands);

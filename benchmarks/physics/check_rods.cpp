@@ -88,7 +88,7 @@ void checkBoundary(
             "distance from its plane / length", -kBoundaryBracket, below.extent, kStays,
             below.still);
         report(
-            "distance from its plane / length, missing of 0.05", kBoundaryBracket,
+            "distance from its plane / length, short of 0.05", kBoundaryBracket,
             worst(kLeaves - above.extent, 0.0), 0.0, above.still);
     }
 }

@@ -154,11 +154,11 @@ void pictureTag(const std::string& text, const PictureRect& rect, Corner corner)
 using Zoom = std::optional<int>;
 
 constexpr std::array kZooms{
-    Choice<Zoom>{"Fit", {}, "Pictures are as large as there is room."},
-    Choice<Zoom>{"1:1", 1, "A pixel of the picture is one of the screen."},
-    Choice<Zoom>{"2x", 2, "A pixel of the picture is 2 x 2 of the screen's."},
-    Choice<Zoom>{"4x", 4, "A pixel of the picture is 4 x 4 of the screen's."},
-    Choice<Zoom>{"8x", 8, "A pixel of the picture is 8 x 8 of the screen's."}};
+    Choice<Zoom>{"Fit", {}, "Pictures are as large as possible."},
+    Choice<Zoom>{"1:1", 1, "A pixel of the picture covers one pixel of the screen."},
+    Choice<Zoom>{"2x", 2, "A pixel of the picture covers 2 x 2 pixels of the screen."},
+    Choice<Zoom>{"4x", 4, "A pixel of the picture covers 4 x 4 pixels of the screen."},
+    Choice<Zoom>{"8x", 8, "A pixel of the picture covers 8 x 8 pixels of the screen."}};
 
 constexpr double kSteps = 1e6;  // resolution of a scroll bar
 

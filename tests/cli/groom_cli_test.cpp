@@ -75,7 +75,7 @@ TEST_F(GroomCli, ConvertChoosesGuidesAndSaysHowGoodTheyAre) {
             "chose: 20 guides of 400 strands\nerror: .* nm in the mean .* % of the mean length"));
     EXPECT_THAT(
         outcome.output, ContainsRegex("left: of the file's strands as /strands/source groom draws "
-                                      "them with these guides .* in the mean, .* at most"));
+                                      "them with these guides .* on average, .* at most"));
     EXPECT_EQ(json("guides.hgl")["strands"], 20);
 }
 

@@ -211,7 +211,7 @@ TEST(Gate, RefusesOtherMetrics) {
     gate::Gate gate(kOneMetric);
     EXPECT_EQ(
         errorText([&] { gate.add({1.0, 2.0}); }),
-        "gate: a process measured other metrics than the others");
+        "gate: one process measured different metrics from the others");
 }
 
 TEST(Gate, KnowsNothingBeforeThePairs) {

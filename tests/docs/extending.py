@@ -115,7 +115,7 @@ def check_shading_model(folder: pathlib.Path) -> None:
     expect(all(abs(value - wanted) < 0.03 * wanted for value in matt), f"{matt} is not {wanted}")
     expect(max(phong) > 230, f"phong is {max(phong)} at most")
     mean = sum(phong) / len(matt)
-    expect(abs(mean - wanted) < 0.02 * wanted, f"phong is {mean} in the mean, not {wanted}")
+    expect(abs(mean - wanted) < 0.02 * wanted, f"phong is {mean} on average, not {wanted}")
 
 
 def check_backend(folder: pathlib.Path) -> None:

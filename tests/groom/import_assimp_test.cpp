@@ -423,8 +423,8 @@ TEST(ImportAssimp, RefusesCornersOfAPlyThatAreNoVertices) {
     };
     EXPECT_EQ(importMesh(text("3 1 3 2")).triangles.size(), 2u);
     for (const auto& [row, reason] :
-         {std::pair{"3 1 4 2", "line 15: vertex 4 is named, there are 4"},
-          {"3 1 -1 2", "line 15: vertex -1 is named, there are 4"},
+         {std::pair{"3 1 4 2", "line 15: vertex 4 is named, but there are 4"},
+          {"3 1 -1 2", "line 15: vertex -1 is named, but there are 4"},
           {"0", "line 15: a face has no corners"}}) {
         const auto path = text(row);
         EXPECT_EQ(errorText([&] { importMesh(path); }), path.string() + ": " + reason);
@@ -454,7 +454,7 @@ TEST(ImportAssimp, RefusesCornersOfAPlyThatAreNoVertices) {
         errorText([&] { importMesh(path); }),
         testing::AllOf(
             StartsWith(path.string() + ": byte "),
-            testing::EndsWith(": vertex 4 is named, there are 4")));
+            testing::EndsWith(": vertex 4 is named, but there are 4")));
 }
 
 // A stream from a program that a file has taken over.

@@ -241,7 +241,7 @@ TEST(ImportGltf, RefusesWrongIndicesAndPositions) {
     document.data[72] = 3;
     EXPECT_THAT(
         importError(document),
-        HasSubstr("mesh 0, primitive 0: index 0 names vertex 3, there are 3"));
+        HasSubstr("mesh 0, primitive 0: index 0 names vertex 3, but there are 3"));
     document = {};
     const float nan = std::numeric_limits<float>::quiet_NaN();
     std::memcpy(document.data.data() + 16, &nan, 4);

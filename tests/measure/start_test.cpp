@@ -88,7 +88,7 @@ TEST(Start, SaysWhatBalanceTook) {
     settings.simulation.solver = hair::Solver::shape;
     EXPECT_THAT(
         judgeStart({}, &balance, settings).warnings,
-        ElementsAre("hair sags: guide 4 can't be balanced where nothing pulls it to its place "
+        ElementsAre("hair sags: guide 4 can't be balanced if nothing pulls it to its place "
                     "(/simulation/global/stiffness is 0); 2 guides in all"));
 }
 

@@ -49,7 +49,7 @@ TEST_F(SoftwareSamples, AreWhereVulkanHasThem) {
     }
 }
 
-// Of n rows, row k lies k + 1/2 of n parts down the pixel; columns are alike.
+// With n rows, row k lies k + 1/2 of n parts down the pixel; columns are alike.
 TEST_F(SoftwareSamples, AreOneInEachRowAndColumn) {
     for (const std::vector<glm::vec2>& standard : kStandard) {
         const gpu::SamplePlaces found = placesOf(standard.size());

@@ -201,7 +201,7 @@ TEST_F(Record, DoesNotThrowAwayWhatIsUnfinished) {
     }
     EXPECT_EQ(
         error(false), "r.json.journal: there are 3 of 4 cases of a run that was not finished: "
-                      "--resume goes on with it, removing the file starts anew");
+                      "--resume continues it; remove the file to start anew");
     EXPECT_EQ(open(true).done(), 3u);
 }
 

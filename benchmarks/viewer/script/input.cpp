@@ -189,7 +189,7 @@ engine::UiItem itemNamed(const engine::UiItems& items, const ItemName& name) {
         if (!text.empty() && std::ranges::find(known, text) == known.end()) known.push_back(text);
     }
     throw engine::Error(scene::unknownName(
-        "no " + described(name) + " is seen", wants_window ? name.window : name.item, known));
+        "no " + described(name) + " is visible", wants_window ? name.window : name.item, known));
 }
 
 // ---- Values in a script -------------------------------------------------------------------------

@@ -167,7 +167,7 @@ void addFields(
     const std::vector<DrawnLetter>& letters, std::vector<std::string>& faults) {
     for (const engine::UiItem& item : items.items())
         if (item.window == window && item.visible && item.inputable && isTooLong(item, letters))
-            faults.push_back(item.window + ": what \"" + item.label + "\" says is cut off");
+            faults.push_back(item.window + ": the text of \"" + item.label + "\" is cut off");
 }
 
 bool isInField(const DrawnLetter& letter, const engine::UiItems& items) {
@@ -266,13 +266,12 @@ std::vector<std::string> outsideItems(const engine::UiItems& items) {
             const ImRect shared = overlap(*panels[i], *panels[j]);
             if (shared.GetWidth() > kTolerance && shared.GetHeight() > kTolerance)
                 faults.push_back(
-                    std::string(panels[i]->Name) + " and " + panels[j]->Name +
-                    " lie on one another");
+                    std::string(panels[i]->Name) + " and " + panels[j]->Name + " overlap");
         }
     for (const engine::UiItem& item : items.items())
         if (!item.is_window && !item.scrolls && isOutside(item))
             faults.push_back(
-                item.window + ": the item \"" + item.label + "\" is not all inside of it");
+                item.window + ": the item \"" + item.label + "\" is not completely inside it");
     return faults;
 }
 

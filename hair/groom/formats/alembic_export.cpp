@@ -293,7 +293,7 @@ AlembicArrays arraysOf(const StrandSet& strands) {
     arrays.sizes.reserve(strands.ends.size());
     for (std::uint32_t i = 0; i < strands.strandCount(); ++i) {
         if (strands.size(i) > std::numeric_limits<std::int32_t>::max())
-            throw engine::Error("a strand has more points than an int32 counts");
+            throw engine::Error("a strand has more points than an int32 can hold");
         arrays.sizes.push_back(static_cast<std::int32_t>(strands.size(i)));
     }
     arrays.guides.assign(strands.guides.begin(), strands.guides.end());

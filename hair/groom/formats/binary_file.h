@@ -37,7 +37,7 @@ public:
         bytes_ += std::min(bytes, most_ + 1);
         if (bytes_ <= most_) return;
         throw engine::Error(
-            std::string(what) + " unfold to more than " + std::to_string(most_ >> 20) +
+            std::string(what) + " expand to more than " + std::to_string(most_ >> 20) +
             " MiB, the limit of " + std::to_string(kTimes) + " times the file's size plus " +
             std::to_string(kAnyway >> 20) + " MiB");
     }

@@ -278,9 +278,9 @@ template <class Source>
 void checkVertex(const Source& source, double index, std::uint64_t vertices) {
     if (index >= 0.0 && index < static_cast<double>(vertices)) return;
     throw engine::Error(
-        Source::place(source.position()), "vertex " +
-                                              std::to_string(static_cast<std::int64_t>(index)) +
-                                              " is named, there are " + std::to_string(vertices));
+        Source::place(source.position()),
+        "vertex " + std::to_string(static_cast<std::int64_t>(index)) + " is named, but there are " +
+            std::to_string(vertices));
 }
 
 std::string truncated(const PlyElement& element, std::size_t room) {
@@ -337,7 +337,8 @@ double PlyText::take(PlyType type) {
     const std::string_view word = takeWord(line_rest_);
     const auto value = valueFrom(word, type);
     if (value) return *value;
-    if (word.empty()) throw engine::Error(place(line_), "the line ends, more numbers are expected");
+    if (word.empty())
+        throw engine::Error(place(line_), "the line ends, but more numbers are expected");
     throw engine::Error(
         place(line_), inQuotes(word) + " is not " + (isInteger(type) ? "an integer" : "a number"));
 }
@@ -357,7 +358,7 @@ void PlyText::finish() const {
     const std::string_view word = takeWord(rest);
     if (word.empty()) return;
     throw engine::Error(
-        place(line_ + 1), inQuotes(word) + " after the last element, the file is expected to end");
+        place(line_ + 1), inQuotes(word) + " after the last element; the file should end there");
 }
 
 template <std::endian order>
@@ -512,7 +513,7 @@ const PlyElement& plyVertices(const PlyHeader& header) {
     }
     if (element->count > std::numeric_limits<std::uint32_t>::max()) {
         throw engine::Error(
-            place, std::to_string(element->count) + " vertices, at most 2^32 - 1 are expected");
+            place, std::to_string(element->count) + " vertices; at most 2^32 - 1 are expected");
     }
     return *element;
 }

@@ -179,15 +179,15 @@ TfxHeader readHeader(std::span<const std::byte> bytes, const TfxForm& form) {
         .vertex_uvs = offsetAt(form.vertex_uvs),
         .strand_thickness = offsetAt(form.strand_thickness),
         .vertex_colors = offsetAt(form.vertex_colors)};
-    if (header.strands == 0) failAt(4, "0 strands, at least 1 is needed");
+    if (header.strands == 0) failAt(4, "0 strands; at least 1 is needed");
     if (header.vertices_per_strand < 2) {
         failAt(
             8, std::to_string(header.vertices_per_strand) +
-                   " vertices per strand, at least 2 are needed");
+                   " vertices per strand; at least 2 are needed");
     }
     const std::uint64_t vertices = std::uint64_t{header.strands} * header.vertices_per_strand;
     if (vertices > std::numeric_limits<std::uint32_t>::max())
-        failAt(4, std::to_string(vertices) + " vertices, at most 2^32 - 1 are read");
+        failAt(4, std::to_string(vertices) + " vertices; at most 2^32 - 1 are read");
     if (header.positions == 0) failAt(form.positions, "there are no positions");
     return header;
 }

@@ -148,8 +148,8 @@ GlbChunks glbChunks(std::string_view file) {
     if (version != 2) fail(4, "version " + std::to_string(version) + " of glTF, expected 2");
     if (length != file.size()) {
         fail(
-            8, "the header says that there are " + std::to_string(length) + " bytes, there are " +
-                   std::to_string(file.size()));
+            8, "the header says that there are " + std::to_string(length) +
+                   " bytes, but there are " + std::to_string(file.size()));
     }
     const std::string_view json = chunkAt(file, kHeaderSize, kJsonChunk);
     const std::size_t end = kHeaderSize + kChunkHeaderSize + json.size();
@@ -696,7 +696,7 @@ std::vector<std::uint32_t> readIndices(
         if (indices[i] < vertex_count) continue;
         throw engine::Error(
             "index " + std::to_string(i) + " names vertex " + std::to_string(indices[i]) +
-            ", there are " + std::to_string(vertex_count));
+            ", but there are " + std::to_string(vertex_count));
     }
     return indices;
 }

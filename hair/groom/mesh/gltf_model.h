@@ -71,7 +71,7 @@ template <class Element>
 const Element& at(const std::vector<Element>& elements, int index, const char* kind) {
     if (index < 0 || static_cast<std::size_t>(index) >= elements.size()) {
         throw engine::Error(
-            "the file names " + numbered(kind, index) + ", it has " +
+            "the file names " + numbered(kind, index) + ", but it has " +
             std::to_string(elements.size()));
     }
     return elements[static_cast<std::size_t>(index)];

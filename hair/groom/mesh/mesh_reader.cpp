@@ -68,7 +68,7 @@ void checkVertex(unsigned vertex, const aiMesh& part, const std::string& what) {
     if (vertex < part.mNumVertices) return;
     throw engine::Error(
         what + " of mesh '" + part.mName.C_Str() + "' names vertex " + std::to_string(vertex) +
-        ", there are " + std::to_string(part.mNumVertices));
+        ", but there are " + std::to_string(part.mNumVertices));
 }
 
 // Positions, normals and texture coordinates.
@@ -231,7 +231,7 @@ void checkSizes(const aiScene& scene, std::uintmax_t file_size) {
         if (bytes > most)
             throw engine::Error(
                 std::to_string(scene.mNumMeshes) + " meshes at " + std::to_string(count) +
-                " nodes unfold to more than " + std::to_string(most >> 20) +
+                " nodes expand to more than " + std::to_string(most >> 20) +
                 " MiB, the limit of 16 times the file's size plus 32 MiB");
         nodes.insert(nodes.end(), node.mChildren, node.mChildren + node.mNumChildren);
     }

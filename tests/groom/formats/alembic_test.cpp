@@ -544,7 +544,7 @@ TEST(Ogawa, RefusesCountsThatTheFileDoesNotBearOut) {
     const std::uint64_t data = archive.data(Bytes().u32(4).text("abcd").u8(0).zeros(32).str());
     EXPECT_THAT(
         readError(importAlembic, archive.finish(archive.group({0, data}))),
-        HasSubstr("headers of more objects than the 0 there"));
+        HasSubstr("more headers than the 0 objects"));
 
     MadeProperty half = madeFloats("P", 3, kFivePoints);
     half.samples[0].pop_back();

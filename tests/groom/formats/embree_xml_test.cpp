@@ -109,8 +109,9 @@ TEST(EmbreeXml, SamplesHermiteCurves) {
     }
     EXPECT_THAT(
         errorOfXml(replaced(text, "0 1</indices>", "2</indices>")),
-        HasSubstr("a segment of vertices 7 to 10, there are 9"));
-    EXPECT_THAT(errorOfXml(replaced(text, "12 1 0 0", "")), HasSubstr("2 tangents, there are 3"));
+        HasSubstr("a segment of vertices 7 to 10, but there are 9"));
+    EXPECT_THAT(
+        errorOfXml(replaced(text, "12 1 0 0", "")), HasSubstr("2 tangents, but there are 3"));
     // For moving curves the first shape counts.
     std::string moving = replaced(text, "<tangents>", "<animated_tangents><tangents>");
     moving = replaced(
@@ -187,11 +188,11 @@ TEST(EmbreeXml, RefusesEndlessReferences) {
     }
     EXPECT_THAT(
         errorOfXml(text + "<ref id=\"40\"/></scene>"),
-        HasSubstr("the scene's references unfold to more than 32 MiB"));
+        HasSubstr("the scene's references expand to more than 32 MiB"));
     EXPECT_THAT(
         errorOfXml("<scene><assign id=\"a\"><Group><ref id=\"a\"/></Group></assign>"
                    "<ref id=\"a\"/></scene>"),
-        HasSubstr("one to itself?"));
+        HasSubstr("does one refer to itself?"));
 }
 
 // 16,000 bytes of points, 20,000 times: 320 MB from a file of 0.5 MB.
@@ -203,7 +204,7 @@ TEST(EmbreeXml, HoldsWhatIsReferredToAgainstTheFile) {
     for (int i = 0; i < 999; ++i) text += std::to_string(i) + ' ';
     text += "</indices></Curves></assign>";
     for (int i = 0; i < 20000; ++i) text += "<ref id=\"a\"/>";
-    EXPECT_THAT(errorOfXml(text + "</scene>"), HasSubstr("references unfold to more than"));
+    EXPECT_THAT(errorOfXml(text + "</scene>"), HasSubstr("references expand to more than"));
 }
 
 // All arrays read the same bytes of the file beside the scene.
@@ -217,7 +218,7 @@ TEST(EmbreeXml, HoldsArraysOfTheFileBesideItAgainstItsSize) {
     const auto path = folder.write("scene.xml", text + "</scene>");
     EXPECT_THAT(
         errorText([&] { importStrands(path); }),
-        HasSubstr("arrays in the file of bytes unfold to more than"));
+        HasSubstr("arrays in the file of bytes expand to more than"));
 }
 
 TEST(EmbreeXml, AsksBeforeItOpensTheFileBesideIt) {
@@ -285,7 +286,7 @@ TEST(EmbreeXml, NamesTheLineOfWhatIsWrong) {
     EXPECT_EQ(error("4 1 0", "4 inf 0"), "line 10: 'inf' is not a finite number");
     EXPECT_THAT(error("4 1 0", "4 1"), StartsWith("line 5: 'positions' is not made of groups"));
     EXPECT_THAT(error("0 1 0 0.25", "0 1 0 -1"), StartsWith("line 5: radius 1 is negative"));
-    EXPECT_EQ(error("0 1 3", "0 1 4"), "line 12: a segment of vertices 4 to 5, there are 5");
+    EXPECT_EQ(error("0 1 3", "0 1 4"), "line 12: a segment of vertices 4 to 5, but there are 5");
     EXPECT_EQ(error("0 1 3", "0 1 -3"), "line 12: '-3' is not an index");
     EXPECT_EQ(error("0 1 3", ""), "line 3: the scene has no curves");
     EXPECT_THAT(error("\"linear\"", "\"nurbs\""), StartsWith("line 4: curves of basis 'nurbs'"));

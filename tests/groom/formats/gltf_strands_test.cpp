@@ -113,7 +113,7 @@ TEST(ImportGltfStrands, ReadsWidthsAndColours) {
     EXPECT_EQ(strands.transparencies.at(4), 1.0f - 0.8f);
 }
 
-// A scale by 2, 2 and 16 changes volumes by 64 and so lengths, in the mean, by 4.
+// A scale by 2, 2 and 16 changes volumes by 64 and so lengths, on average, by 4.
 TEST(ImportGltfStrands, PlacesStrandsAsTheNodeSays) {
     const StrandSet strands = read(
         {.node = R"("mesh":0,"scale":[2,2,16],"translation":[10,0,0])",
@@ -152,7 +152,7 @@ TEST(ImportGltfStrands, RefusesWhatIsNoStrand) {
     document.data[106] = 0;
     EXPECT_THAT(error(document), StartsWith(place + "line 1: the edge joins vertex 0 to itself"));
     document.data[106] = 5;
-    EXPECT_THAT(error(document), StartsWith(place + "index 3 names vertex 5, there are 5"));
+    EXPECT_THAT(error(document), StartsWith(place + "index 3 names vertex 5, but there are 5"));
 }
 
 TEST(ImportGltfStrands, RefusesWrongAttributes) {
@@ -234,7 +234,7 @@ TEST(ImportGltfStrands, HoldsWhatNodesShareAgainstTheFile) {
     };
     for (const std::string& text : {file(20000, 1, 1000), file(1500, 1500, 3)})
         EXPECT_THAT(
-            readError(importGltfStrands, text), HasSubstr(" nodes with 1 meshes unfold to"));
+            readError(importGltfStrands, text), HasSubstr(" nodes with 1 meshes expand to"));
     EXPECT_EQ(readText(importGltfStrands, file(100, 1, 1000)).ends.size(), 100u);
 }
 

@@ -120,7 +120,7 @@ TEST(ImportHair, RefusesWrongHeaders) {
             EXPECT_THAT(errorOfHair(patched(bytes, count, right ^ 1u << bit)), StartsWith("byte "));
         }
     }
-    EXPECT_EQ(errorOfHair(patched(bytes, 4, 0)), "byte 4: 0 strands, at least 1 is needed");
+    EXPECT_EQ(errorOfHair(patched(bytes, 4, 0)), "byte 4: 0 strands; at least 1 is needed");
     EXPECT_EQ(
         errorOfHair(patched(bytes, 4, -1)),
         "byte 292: truncated: 4294967295 strands and 5 points with arrays 31 are 8589934878 bytes");
@@ -142,10 +142,10 @@ TEST(ImportHair, RefusesSegmentsThatAreNotThePoints) {
         "byte 8: 5 points, but the strands' segments make 4");
     EXPECT_EQ(
         errorOfHair(patched<std::uint16_t>(bytes, 128, 65535)),
-        "byte 128: strand 0 ends after point 65536, there are 5");
+        "byte 128: strand 0 ends after point 65536, but there are 5");
     EXPECT_EQ(
         errorOfHair(patched<std::uint16_t>(bytes, 130, 2)),
-        "byte 130: strand 1 ends after point 6, there are 5");
+        "byte 130: strand 1 ends after point 6, but there are 5");
 }
 
 TEST(ImportHair, RefusesNumbersThatAreNotFinite) {

@@ -55,7 +55,7 @@ TEST(Npz, RefusesMembersThatShareTheirBytes) {
 TEST(Npz, HoldsWhatIsInflatedAgainstTheFile) {
     EXPECT_THAT(
         readError(importNpz, zipOf(1, 8, 1'000'000'000, std::string(1'000'000, '\0'))),
-        HasSubstr("the archive's arrays unfold to more than"));
+        HasSubstr("the archive's arrays expand to more than"));
 }
 
 // `positions` of make_npy.py.

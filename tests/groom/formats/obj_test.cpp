@@ -84,10 +84,11 @@ TEST(ImportObj, NamesTheLineOfWhatIsWrong) {
         errorOfObj(kVertices + "l 1 x\n"), StartsWith("line 6: 'x' is not the index of a vertex"));
     EXPECT_THAT(errorOfObj(kVertices + "l 0 1\n"), StartsWith("line 6: vertex 0 is named"));
     EXPECT_THAT(
-        errorOfObj(kVertices + "l -6 1\n"), StartsWith("line 6: vertex -6 is named, there are 5"));
+        errorOfObj(kVertices + "l -6 1\n"),
+        StartsWith("line 6: vertex -6 is named, but there are 5"));
     EXPECT_THAT(
         errorOfObj(kVertices + "l 1 2\nl 1 6\nl 3 4\n"),
-        StartsWith("line 7: vertex 6 is named, there are 5"));
+        StartsWith("line 7: vertex 6 is named, but there are 5"));
     EXPECT_THAT(
         errorOfObj(kVertices + "l 1 4294967297\n"),
         StartsWith("line 6: vertex 4294967297 is named"));
@@ -124,7 +125,8 @@ TEST(ExportObj, LeavesOutSinglePoints) {
     const Written written = writeText(exportObj, strands);
     EXPECT_THAT(written.warnings, ElementsAre(HasSubstr("1 strands of a single point")));
     EXPECT_THAT(readObj(written.bytes).ends, ElementsAre(2));
-    EXPECT_THAT(errorText([] { writeText(exportObj, {}); }), HasSubstr("no strand has two points"));
+    EXPECT_THAT(
+        errorText([] { writeText(exportObj, {}); }), HasSubstr("no strand has the two points"));
 }
 
 }  // namespace

@@ -87,7 +87,7 @@ TEST(HairData, RefusesCountsThatTheFileDoesNotBearOut) {
     }
     EXPECT_EQ(
         readError(importHairData, patched(dataFile(), 0, 0u)),
-        "byte 0: 0 strands, at least 1 is needed");
+        "byte 0: 0 strands; at least 1 is needed");
     EXPECT_EQ(
         readError(importHairData, patched(dataFile(), 4, 0x80000000u)),
         "byte 4: the number of points of strand 0 is negative: -2147483648");

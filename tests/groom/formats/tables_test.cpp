@@ -94,12 +94,11 @@ TEST(ImportStrands, NamesWhatItDoesNotRead) {
     using namespace std::string_literals;
     const TemporaryFolder folder;
     const std::pair<std::string, const char*> kOthers[] = {
-        {"\x89HDF\r\n\x1a\n"s,
-         "an HDF5 file, such as an Alembic of before 2013, which is not read: convert it by "
-         "Alembic's \"abcconvert -toOgawa\""},
+        {"\x89HDF\r\n\x1a\n"s, "an HDF5 file, such as an Alembic file from before 2013, which is "
+                               "not read: convert it with Alembic's \"abcconvert -toOgawa\""},
         {"Kaydara FBX Binary  \0\x1a\0"s, "an FBX file"},
         {"BLENDER-v405"s, "a Blender file, which is not read: export"},
-        {"\x28\xb5\x2f\xfd"s, "compressed by Zstandard"},
+        {"\x28\xb5\x2f\xfd"s, "compressed with Zstandard"},
         {"//Maya ASCII 2024 scene\n"s, "a Maya scene (ASCII)"},
         {"FOR4\0\0\0\x28"s
          "CACH"s,

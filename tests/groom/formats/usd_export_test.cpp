@@ -161,7 +161,7 @@ TEST_F(UsdExportTest, SaysWhatItCannotHold) {
     EXPECT_THAT(
         warnings_, ElementsAre(
                        "the comment is not UTF-8: taken as Latin-1",
-                       "the unit of length is not known, the file says metres",
+                       "the unit of length is not known; the file says metres",
                        "the transparencies are rounded: USD holds opacities"));
     EXPECT_THAT(text, HasSubstr("doc b'br\\xc3\\xa4un'"));
 }

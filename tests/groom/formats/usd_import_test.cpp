@@ -200,7 +200,7 @@ TEST_F(UsdImportTest, OpensFilesOfItsFoldersAlone) {
     EXPECT_THAT(
         errorOf("(expressionVariables = { string A = \"li\" }\nsubLayers = "
                 "[@`\"./${A}nk.usda\"`@])\n"),
-        HasSubstr("names of layers by expressions are not read"));
+        HasSubstr("layer names given by expressions are not read"));
 }
 
 // USD opens the layers of value clips when values are read.
@@ -235,8 +235,8 @@ TEST_F(UsdImportTest, OpensClipsOfItsFoldersAlone) {
     EXPECT_THAT(
         errorOf("asset manifestAssetPath = @../private.usda@"),
         twice("is outside the scene's folder"));
-    EXPECT_THAT(errorOf("string templateAssetPath = \"p.#.usda\""), twice("by a template"));
-    EXPECT_THAT(errorOf("string[] assetPaths = [\"x\"]"), twice("its value clips are no assets"));
+    EXPECT_THAT(errorOf("string templateAssetPath = \"p.#.usda\""), twice("from a template"));
+    EXPECT_THAT(errorOf("string[] assetPaths = [\"x\"]"), twice("its value clips are not assets"));
 }
 
 // 8^9 curves in about 3 kB, and 1,000 prims that share 100,000 points.
@@ -258,7 +258,7 @@ TEST_F(UsdImportTest, HoldsReferencesAgainstTheFile) {
         large += "def \"c" + std::to_string(i) + "\" (references = </l>) {}\n";
     EXPECT_THAT(
         errorText([&] { importStrands(files.write("large.usda", large)); }),
-        HasSubstr("its instances unfold to more than"));
+        HasSubstr("its instances expand to more than"));
     // 1,000 prims that share a face of 3,000 corners, whose points are few.
     std::string corners = "0";
     for (int i = 1; i < 3000; ++i) corners += ", " + std::to_string(i % 3);
@@ -269,7 +269,7 @@ TEST_F(UsdImportTest, HoldsReferencesAgainstTheFile) {
         faces += "def \"c" + std::to_string(i) + "\" (references = </m>) {}\n";
     EXPECT_THAT(
         errorText([&] { importMesh(files.write("faces.usda", faces)); }),
-        HasSubstr("its instances unfold to more than"));
+        HasSubstr("its instances expand to more than"));
 }
 
 // 20 pairs of layers. Each layer contains both layers of the next pair, which makes 2^20 paths.
@@ -298,7 +298,7 @@ TEST_F(UsdImportTest, RefusesDeepNestsAndManyVariants) {
     for (int i = 0; i < 150; ++i) deep += "}\n";
     EXPECT_THAT(
         errorText([&] { importStrands(files.write("deep.usda", deep)); }),
-        HasSubstr("more than 128 prims within each other"));
+        HasSubstr("more than 128 nested prims"));
     for (int i = 0; i < 300; ++i) {
         const std::string name = "\"s" + std::to_string(i) + "\"";
         names += (i > 0 ? ", " : "") + name;
