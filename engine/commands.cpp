@@ -73,7 +73,8 @@ bool isGraphics(const Scope& scope) {
     return (scope.stages & kGraphics) != 0;
 }
 
-// Stages and accesses of a use. An attachment has only the stages of its own aspect.
+// Stages and accesses of a use. An attachment has only the stages of its own aspect, colour or
+// depth.
 Scope scopeOf(const Use& use) {
     if (use.access != Access::attachment) return scope(use.access);
     return use.image->aspect() == VK_IMAGE_ASPECT_DEPTH_BIT ? kDepthAttachment : kColorAttachment;

@@ -21,7 +21,7 @@ class GraphicsPipeline;
 // Stages and memory accesses of a command, or of one side of a barrier.
 enum class Access {
     compute_read,
-    compute_write,  // reads too
+    compute_write,  // also reads
     graphics_read,  // buffers and images read by any graphics stage
     indirect_read,  // arguments of an indirect draw
     vertex_read,  // buffers read by the stages before the rasteriser: vertex to geometry, or task
@@ -67,7 +67,7 @@ struct IndexedDraw {
     std::uint32_t first_instance = 0;
 };
 
-// An image in SHADER_READ_ONLY_OPTIMAL, and how it is sampled.
+// An image in SHADER_READ_ONLY_OPTIMAL, and the sampler to read it with.
 struct SampledImage {
     const Image* image;
     const Sampler* sampler;
@@ -130,10 +130,10 @@ public:
         const std::source_location& place = std::source_location::current());
 
     // Declares what the next dispatch or draws touch, for the hazard checker (engine/hazards.h):
-    // all buffers that a frame's commands write and that these read or write. Buffers that only the
-    // host writes need no declaration. Images bound by images() or rendered to, and operands of
-    // copies and fills, are known. Every dispatch of a pass needs a declaration. Its uses don't
-    // depend on one another.
+    // all buffers that a frame's commands write and that this dispatch or these draws read or
+    // write. Buffers that only the host writes need no declaration. Images bound by images() or
+    // rendered to, and operands of copies and fills, are known. Every dispatch of a pass needs a
+    // declaration. Its uses don't depend on one another.
     void uses(std::initializer_list<Use> uses) {
         if (hazards_) declare(uses);
     }
@@ -218,7 +218,8 @@ private:
     Recording recording_;
     std::string pass_;
     std::vector<ResourceId> declared_;  // since the last dispatch
-    std::vector<ResourceId> pushed_;  // frame-written buffers in the last push constants
+    std::vector<ResourceId> pushed_;  // buffers written by the frame that the last push constants
+                                      // lead to
 };
 
 }  // namespace engine

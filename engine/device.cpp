@@ -111,10 +111,11 @@ struct ByVolk<kPlace, Result (*)(Arguments...)> {
     }
 };
 
-// Returns the most bytes of each heap, where a limit on the size of files is one on device memory.
-// Lavapipe of Mesa 23 and later keeps all of it in one file and ignores that the file cannot grow,
-// so memory past RLIMIT_FSIZE ends the process by SIGBUS. Half of the limit is left for the gaps
-// between blocks and for what the driver takes itself. Throws Error where the rest is too little.
+// Returns the most bytes that each heap may take, if a limit on the size of files also limits
+// device memory. Lavapipe of Mesa 23 and later keeps all of it in one file and ignores that the
+// file cannot grow, so memory past RLIMIT_FSIZE ends the process by SIGBUS. Half of the limit is
+// left for the gaps between blocks and for what the driver takes itself. Throws Error if the rest
+// is too little.
 std::optional<VkDeviceSize> fileMemoryLimit(const DeviceInfo& info) {
     if (info.driver_id != VK_DRIVER_ID_MESA_LLVMPIPE || info.driver_version.starts_with("Mesa 22"))
         return std::nullopt;
@@ -245,7 +246,7 @@ Device::Device(const DeviceOptions& options)
     if (!options.window_extensions.empty()) extensions.push_back(VK_KHR_SWAPCHAIN_EXTENSION_NAME);
     fileMemoryLimit(info_);  // before the driver takes any memory
     device_.reset(createDevice(info_, extensions));
-    // With one device, its functions can be called without the loader in between. With several
+    // With one device, its functions can be called directly, without the loader. With several
     // devices, calls must go through the loader, which dispatches by handle; Instance has just
     // loaded those functions.
     if (devices_alive++ == 0) volkLoadDevice(get());

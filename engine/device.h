@@ -101,9 +101,9 @@ struct PipelineObjects {
     VkShaderStageFlags push_stages = 0;  // stages that have the push constants
 };
 
-// LRU cache of the device's pipelines. Its key is everything that a pipeline is made of: stage
-// code, constants and state. Equal pipelines are made once, because a driver would compile each of
-// them again, sometimes only at its first draw. Thread-safe.
+// LRU cache of the device's pipelines. Its key consists of all parts of a pipeline: stage code,
+// constants and state. Equal pipelines are made once, because a driver would compile each of them
+// again, sometimes only at its first draw. Thread-safe.
 class PipelineStore {
 public:
     using Objects = std::shared_ptr<const PipelineObjects>;
@@ -122,8 +122,8 @@ struct DeviceOptions {
     Validation validation = Validation::off;
     // Window::instanceExtensions() to show pictures in a window; empty: no window.
     std::vector<std::string> window_extensions{};
-    // Removes features from the device's description before the device is made. Only the rest is
-    // enabled and known. Tests imitate lesser devices with it.
+    // Removes features from the device's description before the device is made. Only the remaining
+    // features are enabled and known. Tests use this to imitate devices with fewer features.
     std::function<void(DeviceInfo&)> mask{};
     // Longest wait for one submission. Absent: ten minutes, or an hour for a software device, which
     // may need many minutes for a large frame.
@@ -156,7 +156,7 @@ public:
     // The hazard log; null if validation is off.
     HazardLog* hazards() const { return hazards_.get(); }
 
-    // Largest number of vertices that one tessellated draw (one instance of it) can correctly make.
+    // Largest number of vertices that one instance of a tessellated draw can correctly make.
     // lavapipe's tessellator has 16-bit indices and fails silently above that.
     std::uint32_t maxTessellatedVertices() const;
 

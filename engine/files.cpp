@@ -280,7 +280,7 @@ void checkWritable(const fs::path& path) {
     const fs::path folder = path.has_parent_path() ? path.parent_path() : fs::path(".");
     const fs::path probe = fs::exists(path, error) ? path : folder;
     if (access(probe.c_str(), W_OK) != 0) fail(path, errno);
-    // A name that is too long, also with the longest suffix, or broken links.
+    // A name that is too long, by itself or with the longest suffix, or broken links.
     error.clear();
     if (!fs::status_known(fs::status(path, error))) fail(path, error.value());
     if (path.filename().string().size() > kLongestName - kLongestSuffix) fail(path, ENAMETOOLONG);

@@ -31,7 +31,7 @@ private:
     std::uintmax_t size_ = 0;
 };
 
-// Bytes. Image decoders count in 32-bit signed integers.
+// Maximum file size, in bytes. Image decoders count in 32-bit signed integers.
 inline constexpr std::size_t kLargestFile = 0x7fffffff;
 
 // Returns the bytes of a file of at most `largest` bytes, or of standard input up to its end.

@@ -71,7 +71,7 @@ VkSemaphoreSubmitInfo submitInfo(const TimelinePoint& point) {
     return info;
 }
 
-// `after`: the point to wait for; value 0: none.
+// `after`: the point to wait for; none if its value is 0.
 void submit(
     VkQueue queue, VkCommandBuffer commands, const TimelinePoint& reached,
     const TimelinePoint& after = {}) {

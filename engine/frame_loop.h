@@ -46,14 +46,15 @@ private:
 
 // How the passes of a frame are timed. Figures of different modes are never compared.
 enum class Timing {
-    overlapped,  // as the Overlap says, several frames in flight: the frame as it is used
+    overlapped,  // as set by Overlap, with several frames in flight: the frame as it is normally
+                 // used
     isolated,  // timestamp, full barrier, pass, full barrier, timestamp; one frame at a time
     wall_clock,  // every pass submitted and waited for by itself, timed by the CPU
     statistics,  // untimed, with pipeline statistics of the graphics passes
 };
 
 // Places of timestamps in overlapped frames. A timestamp after a pass is extra work for the device,
-// and the driver may stop there work that would overlap the next pass.
+// and the driver may wait there for work that would otherwise overlap the next pass.
 enum class TimestampPlacement {
     frame,  // at both ends of a frame: pass times are unknown
     passes,  // after each pass too
@@ -64,8 +65,8 @@ struct Overlap {
     std::uint32_t frames = 2;  // in flight at most; from 1 to FrameLoop::kMaxSlots
     TimestampPlacement timestamps = TimestampPlacement::frame;
     // Sends passes recorded by Passes::asyncCompute() to the device's second queue, or to the first
-    // in a submission of their own if there is no second. Only with TimestampPlacement::frame; then
-    // the timestamps are those of the remaining passes.
+    // in a submission of their own if there is no second. Only with TimestampPlacement::frame; the
+    // timestamps then cover only the remaining passes.
     bool async = false;
 };
 

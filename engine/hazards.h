@@ -15,9 +15,10 @@
 #include "engine/instance.h"
 
 // Checks that recorded commands are synchronised. The validation layer doesn't see memory that
-// shaders reach by address, and a device that runs commands one after the other works without any
-// barrier. So commands declare what they touch (Commands::uses). The declared uses are checked
-// against the barriers between them by the rules of chapter 7 of the Vulkan specification.
+// shaders reach by address, and on a device that runs commands one after the other, missing
+// barriers have no effect. So commands declare what they touch (Commands::uses). The declared uses
+// are checked against the barriers between them by the rules of chapter 7 of the Vulkan
+// specification.
 namespace engine {
 
 class MessageLog;
@@ -44,7 +45,7 @@ struct RecordedBarrier {
     Scope after;
     std::optional<ResourceId> image;
     bool transitions_layout = false;
-    std::string place;  // in the source: "hair_hair.cpp:187"
+    std::string place;  // in the source code: "hair_hair.cpp:187"
 };
 
 struct Recorded {
@@ -87,7 +88,7 @@ private:
         Scope scope;
         std::string pass;
         std::uint64_t submission = 0;
-        VkPipelineStageFlags2 ordered = 0;  // stages with all later commands after it
+        VkPipelineStageFlags2 ordered = 0;  // stages in which all later commands come after it
         bool available = false;  // a write: a barrier has made it available
         std::vector<Scope> visible;  // for a write: the scopes it is visible to
     };
@@ -167,7 +168,7 @@ public:
     // Returns the host-written buffers that addresses in `bytes` point into, directly or through
     // one another.
     std::vector<ResourceId> hostBuffersIn(std::span<const std::byte> bytes) const;
-    // Returns the buffers that passes have written and that addresses in `bytes` point into.
+    // Returns the buffers that passes have written and that addresses in `bytes` point to.
     std::vector<ResourceId> writtenBuffersIn(std::span<const std::byte> bytes) const;
 
     // Takes a recording that is submitted next. Hazards become messages.
@@ -179,12 +180,13 @@ public:
     // Later submissions wait on the device for this submission.
     void waitFor(std::uint64_t submission) { checker_.waitFor(submission); }
 
-    // Reports a dispatch of a pass that doesn't declare its uses, or not all buffers it is handed.
+    // Reports a dispatch of a pass that doesn't declare its uses, or doesn't declare all buffers in
+    // its push constants.
     void complain(const std::string& pass, const std::string& what);
     std::string name(ResourceId id) const;
 
-    // For tests. The barrier or layout change recorded as number `index` from now on orders
-    // nothing. Absent: none is dropped.
+    // For tests. The barrier or layout change with the number `index`, counted from now on, orders
+    // nothing. If `index` is absent, none is dropped.
     void drop(std::optional<std::uint32_t> index);
     // Place of the dropped barrier, once it was recorded.
     const std::optional<std::string>& dropped() const { return dropped_; }

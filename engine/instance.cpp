@@ -107,8 +107,8 @@ constexpr std::array kVulkan13Features{
 
 // Source of a feature: a member of VkPhysicalDeviceFeatures, an extension, a format of colour
 // attachments that can be blended, or a member of VkPhysicalDeviceVulkan12Features. A queue feature
-// has none, because it depends on the queue families, nor has mesh_statistics, a member of an
-// extension's struct.
+// has no source, because it depends on the queue families. Neither does mesh_statistics, a member
+// of an extension's struct.
 struct FeatureRow {
     Feature feature;
     std::string_view name;
@@ -508,7 +508,7 @@ Instance::Instance(Validation validation, const std::vector<std::string>& window
         .pDisabledValidationFeatures = nullptr};
     if (validates) {
         if (!hasLayer(kValidationLayer)) {
-            throw Error("validation was asked for, but the layer is not installed "
+            throw Error("validation was requested, but the layer is not installed "
                         "(package vulkan-validationlayers)");
         }
         layers.push_back(kValidationLayer);

@@ -187,8 +187,8 @@ struct DeviceInfo {
     std::uint64_t local_bytes = 0;  // of the largest device-local memory heap
     std::uint32_t queue_family = 0;  // graphics, compute and transfer
     // Family of the second queue: another family with compute, preferably without graphics, or the
-    // first queue's family if it has several queues. Without a second queue, the first queue's
-    // family.
+    // first queue's family if it has several queues. Without a second queue, it is the first
+    // queue's family.
     std::uint32_t compute_family = 0;
     std::uint32_t timestamp_valid_bits = 0;  // of the queue family
     std::vector<std::string> missing;  // required features that are missing; empty: suitable

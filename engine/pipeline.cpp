@@ -476,7 +476,7 @@ private:
     int descriptor_;
 };
 
-// Lets a child make the pipeline if it has functions of a scene. Throws Error if that fails.
+// Lets a child make the pipeline if it contains functions of a scene. Throws Error if that fails.
 template <class Description>
 void tryApart(const Device& device, const Description& description) {
     if (description.extensions.empty()) return;

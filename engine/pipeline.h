@@ -51,7 +51,8 @@ public:
 
     VkPipeline get() const { return objects_->pipeline.get(); }
     VkPipelineLayout layout() const { return objects_->layout.get(); }
-    VkDescriptorSetLayout imagesLayout() const { return objects_->images.get(); }  // null: none
+    // null if there are no images
+    VkDescriptorSetLayout imagesLayout() const { return objects_->images.get(); }
 
 private:
     PipelineStore::Objects objects_;
@@ -61,7 +62,7 @@ private:
 enum class Blend {
     replace,
     add,  // all channels
-    over,  // colour: by the fragment's alpha; alpha: coverage
+    over,  // colour: blended by the fragment's alpha; alpha: coverage
     attenuate,  // attachment x (1 - fragment), channel by channel
     keep,  // the attachment stays unchanged
 };
@@ -110,7 +111,8 @@ public:
 
     VkPipeline get() const { return objects_->pipeline.get(); }
     VkPipelineLayout layout() const { return objects_->layout.get(); }
-    VkDescriptorSetLayout imagesLayout() const { return objects_->images.get(); }  // null: none
+    // null if there are no images
+    VkDescriptorSetLayout imagesLayout() const { return objects_->images.get(); }
     VkShaderStageFlags pushStages() const { return objects_->push_stages; }
 
 private:
@@ -118,8 +120,9 @@ private:
 };
 
 // The helper program (helperProgram()) that makes each pipeline with functions of a scene before
-// this program does, in a child with limits (pipeline_trial.cpp): a driver's compiler may run for
-// ever, exhaust memory or crash. A driver with a cache then has the pipeline ready.
+// this program does, in a child with limits (pipeline_trial.cpp): the compiler of a driver may
+// never end, exhaust memory or crash on such functions. A driver with a cache then has the pipeline
+// ready.
 inline constexpr const char* kPipelineTrial = "hairbench_pipeline_trial";
 
 // Reads the description that the helper program gets from its parent. The device uses the code in

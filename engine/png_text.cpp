@@ -115,7 +115,7 @@ std::string textOf(std::string_view type, std::string_view data, std::size_t at)
         takeUpToZero(data, at);  // the translated keyword
     }
     if (!compressed) return std::string(data);
-    if (method != 0) fail(at, "the text is compressed by an unknown method");
+    if (method != 0) fail(at, "the text is compressed with an unknown method");
     return inflated(data, at);
 }
 

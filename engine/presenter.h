@@ -34,7 +34,7 @@ public:
         const Swapchain* old = nullptr);
 
     // Returns the index of the next image and signals `acquired` for it; none if the swap chain no
-    // longer fits the window. The image's last present no longer uses it.
+    // longer fits the window. The last present of the image is over by then.
     std::optional<std::uint32_t> acquire(VkSemaphore acquired);
 
     // Copies a picture in TRANSFER_SRC_OPTIMAL into an acquired image, scaled to its size, and

@@ -31,15 +31,15 @@
 namespace engine {
 namespace {
 
-// Share of the time that may be missing from a count: threads can switch counters between two reads
-// of the clock.
+// Share of the time that a counter may miss: threads can switch counters between two reads of the
+// clock.
 constexpr double kMissedShare = 1e-3;
 
 // Data of a counter with PERF_FORMAT_TOTAL_TIME_ENABLED and _RUNNING.
 struct Reading {
     std::uint64_t count;
     std::uint64_t enabled;  // ns that the counter was enabled, over all threads
-    std::uint64_t running;  // ns of these that it counted
+    std::uint64_t running;  // ns of these in which it counted
 };
 
 template <class Operation>
@@ -96,7 +96,7 @@ Ending& ending() {
 constexpr Clock::rep kNoEnd = std::numeric_limits<Clock::rep>::max();
 struct {
     std::atomic<Clock::rep> end = kNoEnd;  // on Clock
-    std::string reason;  // guarded by Ending's mutex
+    std::string reason;  // guarded by the mutex of Ending
 } time_limit;
 
 void sayInterrupted() {
@@ -375,7 +375,7 @@ ProcessUse processUse() {
 }
 
 void lowerPriority() {
-    // Per thread on Linux. Gives about a third of a normal thread's share.
+    // Linux sets it per thread. The thread gets about a third of a normal thread's share.
     constexpr int kNice = 5;
     const auto thread = static_cast<id_t>(syscall(SYS_gettid));
     setpriority(PRIO_PROCESS, thread, getpriority(PRIO_PROCESS, thread) + kNice);

@@ -53,9 +53,9 @@ public:
 
 inline constexpr int kInterruptedStatus = 130;  // shell convention: 128 + SIGINT
 
-// A function that speaks and writes before endInterrupted() ends the program, during this object's
-// lifetime. The newest object speaks first. The thread that waits for the device calls it, so it
-// must not wait for a device itself.
+// A function that prints messages and writes files before endInterrupted() ends the program, as
+// long as this object lives. The newest object's function runs first. The thread that waits for the
+// device calls it, so it must not wait for a device itself.
 class InterruptMessage {
 public:
     explicit InterruptMessage(std::function<void()> speak);

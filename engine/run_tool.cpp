@@ -147,8 +147,8 @@ File rulesFor(const ChildLimits& limits) {
 #endif
 #endif
 
-// Calls that a reader of files has no use for: to the network, to other processes, and to parts of
-// the kernel that files have no part in.
+// Calls that a reader of files has no use for: those to the network, to other processes, and to
+// parts of the kernel that have nothing to do with files.
 constexpr int kRefusedCalls[] = {
     SCMP_SYS(socket),
     SCMP_SYS(socketpair),
@@ -174,7 +174,7 @@ constexpr int kRefusedCalls[] = {
     SCMP_SYS(semget),
     SCMP_SYS(mq_open),
 };
-// Calls that a fork of this process, which only computes, has no use for either.
+// Calls that a fork of this process doesn't need either, because it only computes.
 constexpr int kRefusedToForks[] = {
     SCMP_SYS(execve), SCMP_SYS(execveat), SCMP_SYS(open),      SCMP_SYS(creat),
     SCMP_SYS(openat), SCMP_SYS(openat2),  SCMP_SYS(unlink),    SCMP_SYS(unlinkat),
@@ -196,7 +196,7 @@ std::vector<sock_filter> filterFor(Runs runs) {
     if (runs == Runs::fork)
         for (const int call : kRefusedToForks) refuse(call, EPERM);
 #ifndef HAIRBENCH_SANITIZED
-    // The sanitizer for leaks traces its own process, from a process of its own.
+    // The leak sanitizer traces this process from a process of its own.
     refuse(SCMP_SYS(ptrace), EPERM);
     refuse(SCMP_SYS(fork), EPERM);
     refuse(SCMP_SYS(vfork), EPERM);

@@ -32,9 +32,9 @@ struct ChildLimits {
 void limitSelf(const ChildLimits& limits);
 
 // Runs a program without a shell and with empty input, and returns its stdout. Throws Error if it
-// fails, with the first 300 bytes of its last line on stderr, or with its name and exit status if
-// it wrote none. Throws std::system_error with std::errc::no_such_file_or_directory if there is no
-// such program. Output over the limit ends the program and is an error too. An interrupt of this
+// fails, with the first 300 bytes of its last line on stderr, or without such a line with its name
+// and exit status. Throws std::system_error with std::errc::no_such_file_or_directory if there is
+// no such program. Output over the limit ends the program and is an error too. An interrupt of this
 // process ends the program and throws Interrupted.
 std::vector<std::byte>
 runTool(const std::vector<std::string>& arguments, const ChildLimits& limits = {});

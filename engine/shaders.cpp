@@ -63,11 +63,11 @@ GlslIncluder::includeSystem(const char* header_name, const char*, std::size_t) {
     const std::string file = header_name;
     if (std::ranges::find(files_, file) == files_.end()) files_.push_back(file);
     const std::string name = nameForGlslang(file);
-    // A file with an include guard is within itself at most once. A file that is there twice has no
-    // guard and never ends.
+    // A file with an include guard is open within itself at most once. A file that is open twice
+    // has no guard and never ends.
     const auto within = std::ranges::count_if(
         open_, [&](const auto& open) { return open->result->headerName == name; });
-    if (within > 1) return open("", "the file includes itself without end");
+    if (within > 1) return open("", "the file includes itself endlessly");
     std::optional<std::string> text = read_(file);
     if (!text) return open("", "there is no such file in the folder of shaders");
     return open(name, std::move(*text));
@@ -250,7 +250,7 @@ std::string bytesOf(const CompiledShader& compiled) {
                      compiled.code.size() * sizeof(std::uint32_t));
 }
 
-// Throws an error that the bytes hold.
+// Throws the error that the bytes contain.
 ShaderCode codeOf(const std::string& bytes) {
     if (bytes.starts_with('E')) {
         const std::size_t line = bytes.find('\n');

@@ -22,8 +22,8 @@ namespace engine {
 using ShaderCode = std::vector<std::uint32_t>;  // SPIR-V
 
 // GLSL functions from outside the program, called by an entry point. They are a separate
-// compilation unit, so of the program's shaders they see only `interface`, which declares the
-// functions of both sides: no other names, buffers or extensions.
+// compilation unit, so they see only `interface` of the program's shaders, which declares the
+// functions of both sides, and no other names, buffers or extensions.
 struct ShaderExtension {
     std::string interface;  // "extension/shading.glsl": included by the entry points that call it
     std::string macro;  // defined for those entry points
@@ -67,7 +67,7 @@ private:
 
     Replacements replacements_;
     mutable std::mutex mutex_;
-    // By everything that the code was compiled from.
+    // by a text of everything that the code was compiled from
     mutable std::map<std::string, std::shared_ptr<const ShaderCode>> extended_;
 };
 

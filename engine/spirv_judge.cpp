@@ -218,8 +218,9 @@ private:
         return fault(what + " is not permitted in a file that a scene names");
     }
 
-    // Keeps a fault outside of functions until an instruction uses it, for the line of that
-    // instruction. A fault without an id, such as a capability, gives way to one with an id.
+    // Keeps a fault outside of functions until an instruction uses the faulty id, because only the
+    // instruction has a line. A fault without an id, such as a capability, gives way to one with an
+    // id.
     std::optional<SpirvFault>
     declared(std::optional<SpirvFault> found, std::optional<std::uint32_t> id = {}) {
         if (!pending_ || (id && refused_.empty())) pending_ = std::move(found);

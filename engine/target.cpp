@@ -11,7 +11,7 @@
 namespace engine {
 namespace {
 
-constexpr std::size_t kMostColors = 4;  // every device has as many
+constexpr std::size_t kMostColors = 4;  // every device supports at least this many
 
 VkRenderingAttachmentInfo attachmentInfo(const Attachment& attachment) {
     const bool is_depth = attachment.image->aspect() == VK_IMAGE_ASPECT_DEPTH_BIT;

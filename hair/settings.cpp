@@ -103,7 +103,7 @@ const Table& tableOf(const RenderSettings*) {
          number("background", &S::background, 0, 1, "1", "background colour, display RGB"),
          fileName(
              "environment", &S::environment,
-             "light from all around and background: latitude-longitude picture (.exr, .hdr), "
+             "environment light and background: latitude-longitude picture (.exr, .hdr), "
              "relative to the scene file; empty: none"),
          number(
              "environment_strength", &S::environment_strength, 0, 1000, "1",

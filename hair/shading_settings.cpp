@@ -89,7 +89,7 @@ const Table& tableOf(const ShadingSettings*) {
              "docs/extending.md"),
          parameters(
              "model_parameters", &S::model_parameters,
-             "parameters of the file that model names, by the names, ranges and units that it "
+             "parameters of the file that model names, with the names, ranges and units that it "
              "declares"),
          choice(
              "color_from", &S::color_from,
@@ -104,11 +104,12 @@ const Table& tableOf(const ShadingSettings*) {
              "red pigment; absorption (0.187, 0.4, 1.05) per fibre radius"),
          number(
              "strand_variation", &S::strand_variation, 0, 0.9, "1",
-             "strands differ in colour: each has the hair's to a random power, 1 more or less by "
-             "up to this part"),
+             "strands differ in colour: each has the hair's colour to a random power, which "
+             "differs from 1 by up to this"),
          number(
              "tip_lightening", &S::tip_lightening, 0, 0.9, "1",
-             "tips have the hair's colour to a power lower than at the root by this part"),
+             "tips have the hair's colour to a power that is smaller than at the root by this "
+             "fraction"),
          number("ambient", &S::ambient, 0, 10, "1", "ambient factor"),
          number("diffuse", &S::diffuse, 0, 10, "1", "k_d of phong and kajiya_kay"),
          number("specular", &S::specular, 0, 10, "1", "k_s of phong and kajiya_kay"),
@@ -137,8 +138,9 @@ const Table& tableOf(const ShadingSettings*) {
          list("lights", &S::lights, 16, "the lights"),
          number(
              "environment_lights", &S::environment_lights, 0, 48, "count",
-             "most lights that stand for /render/environment on hair, each for a part of the "
-             "directions and with shadows of hair; 0: the irradiance of a matt surface, times "
+             "largest number of lights that replace /render/environment for hair, each for a part "
+             "of the directions and with shadows of hair; 0: the irradiance of a matt surface, "
+             "times "
              "ambient"),
          group("shadows", &S::shadows, "shadows of meshes and hair")});
     return table;

@@ -24,10 +24,10 @@ const Table& tableOf(const LocalSettings*) {
          number(
              "stiffness", &S::stiffness, 0, 1, "1",
              "k_L per iteration at 10 iterations, 1/60 s and segments of 21.4285 mm; used up to "
-             "0.95. energy: as stiff against its weight as such hair of 7 segments"),
+             "0.95. energy: hair sags under its weight as much as such hair of 7 segments"),
          number(
              "iterations", &S::iterations, 0, 64, "count",
-             "iterations per step; energy: one solve, 0 switches it off")});
+             "iterations per step; energy: one solve; 0 switches it off")});
     return table;
 }
 
@@ -80,7 +80,7 @@ const Table& tableOf(const StableCosseratSettings*) {
          number(
              "stretch_modulus", &S::stretch_modulus, 1, 1e12, "Pa",
              "replaces youngs_modulus against stretch and shear; a greater value keeps lengths "
-             "better, and hair needs more iterations to move correctly")});
+             "better, but hair then needs more iterations to move correctly")});
     return table;
 }
 
@@ -327,7 +327,8 @@ const Table& tableOf(const SimulationSettings*) {
               {Solver::augmented_mass_spring, "augmented_mass_spring"}},
              "none: frozen at rest; shape: the thesis's Verlet with shape constraints; ftl: follow "
              "the leader; rod: Cosserat rods with SI material; stable_cosserat: such rods by Hsu "
-             "et al. 2025, positions and orientations in turns; position_based_rod: such rods by "
+             "et al. 2025, solved for positions and orientations alternately; position_based_rod: "
+             "such rods by "
              "Kugelstadt and Schoemer 2016, with XPBD's compliances; augmented_mass_spring: "
              "springs and a ghost of the rest shape, by Amador Herrera et al. 2024"),
          choice(
@@ -378,7 +379,7 @@ const Table& tableOf(const SimulationSettings*) {
              "not while they settle; relative to the scene file: docs/extending.md; empty: none"),
          parameters(
              "force_parameters", &S::force_parameters,
-             "parameters of the file that force names, by the names, ranges and units that it "
+             "parameters of the file that force names, with the names, ranges and units that it "
              "declares"),
          group("collision", &S::collision, "contact with bodies"),
          list("colliders", &S::colliders, 65536, "capsules that push guides out"),

@@ -117,9 +117,8 @@ const Table& tableOf(const StrandSettings*) {
              "docs/extending.md; empty: none"),
          parameters(
              "offset_parameters", &S::offset_parameters,
-             "parameters of the file that offset_function names, by the names, ranges and units "
-             "that it "
-             "declares"),
+             "parameters of the file that offset_function names, with the names, ranges and units "
+             "that it declares"),
          number(
              "opacity", &S::opacity, 0, 1, "1",
              "opacity of a strand, as used by /render/transparency"),

@@ -44,7 +44,7 @@ struct Made<kPlace, VkResult(VKAPI_PTR*)(Arguments...)> {
     static VKAPI_ATTR VkResult VKAPI_CALL call(Arguments... arguments) {
         const std::size_t index = calls++;
         if (name == plan.call && index >= plan.after && index - plan.after < plan.times) {
-            // A lost device executes nothing: this one first finishes what it was given.
+            // A lost device executes nothing, so this one first finishes its submitted work.
             if (plan.result == VK_ERROR_DEVICE_LOST && name.starts_with("vkWait")) {
                 const VkResult result = real(arguments...);
                 if (result != VK_SUCCESS) {

@@ -19,7 +19,7 @@ struct StopRecord {
     StopTimes times;
     std::uint32_t tessellation = 0;  // most drawn segments per guide segment
     std::uint32_t samples = 1;  // per rendered pixel
-    std::vector<report::Statistic> statistics;  // of the strands pass, in untimed frames
+    std::vector<report::Statistic> statistics;  // counts in the strands pass, in untimed frames
 };
 
 // The results of one case.
@@ -35,7 +35,7 @@ struct CaseAblation {
                                              // complete
     std::vector<UnitCost> unit_costs;
     std::vector<std::pair<std::string, std::uint64_t>> counts;
-    std::string image_hash;  // of the unmodified pass
+    std::string image_hash;  // of the picture that the unmodified pass draws
     std::vector<std::string> warnings;
 };
 

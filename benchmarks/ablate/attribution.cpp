@@ -90,11 +90,12 @@ namespace {
 
 // ---- Warnings -----------------------------------------------------------------------------------
 
-constexpr double kDiscardTolerance = 0.1;  // of the geometry rung
-constexpr double kClosureTolerance = 0.02;  // of the pass; a smaller change is irrelevant
-constexpr double kWatchTolerance = 0.1;  // of the cost of the stage
-constexpr double kWatchShare = 0.01;  // of the pass: with many comparisons, some exceed the limit
-                                      // by chance
+constexpr double kDiscardTolerance = 0.1;  // share of the geometry rung's time
+constexpr double kClosureTolerance = 0.02;  // share of the pass's time; a smaller change is
+                                            // irrelevant
+constexpr double kWatchTolerance = 0.1;  // share of the stage's cost
+constexpr double kWatchShare = 0.01;  // share of the pass's time: with many comparisons, some
+                                      // exceed the limit by chance
 
 // True if the whole interval is outside -limit ... limit; false with too few laps for an interval.
 bool isBeyond(const Cost& cost, double limit) {

@@ -43,7 +43,7 @@ struct Residual {
 
 struct Attribution {
     std::vector<RungCost> rungs;  // from the bottom up
-    double pass_time = 0.0;  // ms, median, of the renderer's own
+    double pass_time = 0.0;  // ms, median of the renderer's own pass
     double clipped_time = 0.0;
     Residual residual;
     std::vector<std::pair<Stop, Cost>> watching;  // cost of watching a stage

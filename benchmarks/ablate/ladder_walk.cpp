@@ -182,7 +182,7 @@ trustedTiming(const engine::Device& device, StopView& pass, std::vector<std::str
     const std::vector<std::string> faults =
         measure::checkTimestamps(played(timestamped), played(clocked));
     if (faults.empty()) return engine::Timing::isolated;
-    warnings.push_back("timestamps are not trusted: times are by the CPU's clock");
+    warnings.push_back("timestamps are not trusted: times come from the CPU's clock");
     warnings.insert(warnings.end(), faults.begin(), faults.end());
     return engine::Timing::wall_clock;
 }

@@ -27,7 +27,7 @@ largest share of a strand of A that is found in one strand of B, averaged over s
 defines every figure.)";
 
 constexpr const char* kGroomSceneNotes =
-    R"(If a file states no unit or upward axis, those are chosen with which the most roots lie on the head. The
+    R"(If a file states no unit or upward axis, the choice with the most roots on the head is used. The
 share of roots, the share of the second-best choice and every other choice are printed. A head that is
 not in metres with +y up is converted and written beside OUT as .head.obj, without its materials.
 Then: hairbench render OUT -o x.png)";

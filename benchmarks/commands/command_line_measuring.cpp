@@ -131,8 +131,8 @@ void addGateOptions(CLI::App& command, gate::GateOptions& options) {
     command
         .add_option(
             "--calibrate", options.calibration,
-            "pairs of A with itself that run first; changes as large as between those count as "
-            "none (default 0)")
+            "pairs of A with itself that run first; changes no larger than theirs count as none "
+            "(default 0)")
         ->check(CLI::Range(0, 256));
     addVerdictOptions(command, options.verdict);
     addFailOnInconclusive(command, options.verdict);
@@ -226,7 +226,7 @@ void addMeasuringCommands(const CommandLine& line) {
     addCommand<AblateOptions>(
         line, line.app,
         {.name = "ablate",
-         .description = "measures the cost of each stage of the strands, by frames without it",
+         .description = "measures the cost of each stage of the strands, from frames without it",
          .examples = {"hairbench ablate rest"}},
         ablateScene, addAblateOptions);
     addCommand<DoctorOptions>(

@@ -78,7 +78,7 @@ void addDeviceOptions(CLI::App& command, engine::DeviceOptions& options) {
             [&options](double seconds) {
                 options.patience = std::chrono::duration<double>(seconds);
             },
-            "time without an answer after which the device is taken for lost (default 600, for a "
+            "time without an answer after which the device counts as lost (default 600, for a "
             "software device 3600)")
         ->type_name("SECONDS")
         ->check(CLI::PositiveNumber);
@@ -104,7 +104,8 @@ void addSceneOptions(CLI::App& command, scene::SceneOptions& options) {
         "replaces or adds an axis of the sweep: /strands/density=16,32, /groom/guides=pow2:6:12")
         ->type_name("POINTER=V1,V2");
     addRepeated(
-        command, "--set", options.sets, "sets a field of every case; it is not in their names")
+        command, "--set", options.sets,
+        "sets a field of every case; the cases' names don't show it")
         ->type_name("POINTER=VALUE");
     addDeviceOptions(command, options.device);
     addCacheOption(command, options);

@@ -62,7 +62,7 @@ void print(
 
 namespace {
 
-// Says how many changes can't be known, which must not look as if they were none.
+// Says how many changes can't be known. They must not look like unchanged times.
 void tellUnknown(const report::ReportComparison& comparison) {
     const auto unknown = std::ranges::count_if(comparison.changes, [](const report::Change& each) {
         return !std::isfinite(each.comparison.upper);

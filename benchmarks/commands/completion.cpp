@@ -25,7 +25,8 @@ std::string shellQuoted(std::string_view text) {
     return result + '\'';
 }
 
-// Returns the kind of a command's first positional argument, which all of them complete to.
+// Returns the kind of a command's first positional argument. All positional arguments complete to
+// it.
 ValueKind argumentKind(const CommandHelp& command) {
     for (const OptionHelp& option : command.options)
         if (option.names.empty()) return kindOf(option);

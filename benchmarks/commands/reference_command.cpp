@@ -37,7 +37,7 @@ int renderReference(const ReferenceOptions& options) {
     }
     std::cout << options.out.string() << ": frame " << options.frame << " of " << scene.name << ", "
               << settings.render.width << " x " << settings.render.height << " px, "
-              << options.samples << " samples a pixel\n";
+              << options.samples << " samples per pixel\n";
     return report::kOk;
 }
 

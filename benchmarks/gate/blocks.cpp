@@ -185,10 +185,10 @@ private:
     int error_ = 0;
 };
 
-// Runs a program, found like the shell finds it, to its end. It has no input; its output goes to
-// the file `output` and its temporary files to the folder `temporary`. It has its own process
-// group. If this program is interrupted, the group is interrupted, killed if it runs for 1.7 s
-// more, and Interrupted is thrown. The status is 127 if there is no such program.
+// Runs a program, found as a shell finds it, to its end. It has no input; its output goes to the
+// file `output` and its temporary files to the folder `temporary`. It has its own process group. If
+// this program is interrupted, the group is interrupted, killed if it runs for 1.7 s more, and
+// Interrupted is thrown. The status is 127 if there is no such program.
 ChildEnd runChild(
     const std::vector<std::string>& command, const std::filesystem::path& output,
     const std::filesystem::path& temporary) {

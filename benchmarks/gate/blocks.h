@@ -67,7 +67,7 @@ struct Side {
     // A shell command with {scene}, {out} and optionally {seed}; empty: `program` is used.
     std::string pattern;
     std::vector<std::string> program;  // "run SCENE --out OUT ..." is appended to it
-    std::vector<std::string> options;  // of this side's runs, appended after those
+    std::vector<std::string> options;  // for this side's runs, appended last
 };
 
 // The side of --a or --b: a build folder, a program, a shell command line, or a pattern with places

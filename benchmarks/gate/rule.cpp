@@ -72,7 +72,7 @@ void Gate::add(std::vector<double> medians, const std::vector<char>& capped) {
     const Step step = next();
     assert(step != Step::decided);
     if (medians.size() != metrics_.size())
-        throw engine::Error("gate", "a process measured other metrics than the others");
+        throw engine::Error("gate", "one process measured different metrics from the others");
     assert(capped.empty() || capped.size() == metrics_.size());
     std::vector<char>& always = step == Step::run_a ? a_capped_ : b_capped_;
     for (std::size_t i = 0; i < always.size(); ++i) always[i] &= !capped.empty() && capped[i];

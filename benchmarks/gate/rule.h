@@ -55,9 +55,9 @@ public:
 
     // One comparison per metric, as of decidedAt(), so that stopping at a lucky moment decides
     // nothing. A metric with an earlier verdict keeps the comparison of that time. Before the first
-    // verdicts, the current knowledge, all inconclusive. A metric with a median that is not above 0
-    // in some block cannot be compared: it is inconclusive, requests no more pairs and does not
-    // affect the others.
+    // verdicts, all comparisons are inconclusive and show the current knowledge. A metric with a
+    // median that is not above 0 in some block cannot be compared: it is inconclusive, requests no
+    // more pairs and does not affect the others.
     std::vector<report::Comparison> comparisons() const;
 
 private:

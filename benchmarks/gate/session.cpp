@@ -102,8 +102,9 @@ double medianOfBlocks(const GateRun& run, char side, std::size_t time) {
     return medians.empty() ? kNotMeasured : report::summarize(medians).median;
 }
 
-// Times that a block is run again in which a case failed that had not failed before, as by heat or
-// a lost device. A case that fails every time differs, which ends the gate.
+// Number of reruns of a block in which a case failed that had not failed before, for example
+// because of heat or a lost device. A case that fails every time counts as a difference, which ends
+// the gate.
 constexpr int kMostRepeats = 2;
 
 bool isLost(const BlockReport& first, const BlockReport& block) {

@@ -35,7 +35,7 @@ struct BlockRecord {
     char side = 'A';
     std::size_t pair = 0;  // in its phase
     std::uint32_t seed = 0;  // for the order of its cases
-    std::vector<double> medians;  // of each GateTime, in its unit; NaN if missing
+    std::vector<double> medians;  // one per GateTime, in its unit; NaN if missing
 };
 
 // Everything that a gate did; its verdicts can be recomputed from it.
@@ -53,7 +53,7 @@ struct GateRun {
     std::vector<GateTime> too_short;  // see kShortestTime
     std::vector<BlockRecord> blocks;  // in the order in which they ran
     std::vector<report::Mismatch> mismatches;
-    std::size_t repeated_blocks = 0;  // that were lost, to heat for example, and run again
+    std::size_t repeated_blocks = 0;  // blocks that were lost, for example to heat, and run again
     char unstable = 0;  // the side whose own blocks differ, 'A' or 'B'; else 0
     std::size_t pairs = 0;  // number of compared pairs
     std::size_t decided_at = 0;  // number of pairs at the verdicts; 0: none yet

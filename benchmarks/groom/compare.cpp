@@ -233,7 +233,7 @@ std::string penetrationText(char name, const PenetrationFindings& found) {
     std::string text = std::string("  ") + name + " inside the mesh: " + percentText(found.share) +
                        " of its length, " + report::countText(found.strands_inside, "strand");
     if (found.samples_inside > 0)
-        text += ", " + report::lengthText(found.mean_depth) + " deep in the mean, " +
+        text += ", " + report::lengthText(found.mean_depth) + " deep on average, " +
                 report::lengthText(found.deepest) + " at most";
     return text + '\n';
 }

@@ -110,7 +110,7 @@ void chooseStrands(const StrandSet& strands, GroomScene& scene) {
     scene.choices.push_back(
         {"guides", report::countText(settings.groom.guides) + " of " +
                        report::countText(count, "strand") +
-                       ": a tenth, at least 400 and at most 2,000, which two cores simulate"});
+                       ": a tenth, at least 400 and at most 2,000, which two cores can simulate"});
 
     const VertexChoice choice = vertexChoice(strands);
     settings.groom.vertices = choice.vertices;

@@ -33,7 +33,7 @@ std::string fileLength(double length, std::optional<double> metres_per_unit) {
 std::string
 errorText(const hair::groom::ReconstructionError& error, std::optional<double> metres_per_unit) {
     const auto length = [&](double value) { return fileLength(value, metres_per_unit); };
-    return length(error.mean) + " in the mean (" + report::shortNumber(100.0 * error.relative) +
+    return length(error.mean) + " on average (" + report::shortNumber(100.0 * error.relative) +
            " % of the mean length), " + length(error.rms) + " rms, " + length(error.percentile95) +
            " for 95 % of the strands, " + length(error.maximum) + " at most";
 }
@@ -60,7 +60,7 @@ chooseGuides(const hair::groom::StrandSet& strands, std::uint32_t count, std::ui
         .error = errorText(
             hair::groom::reconstructionError(dense, guides, guides.bindings),
             strands.metres_per_unit),
-        .left = fileLength(mean, strands.metres_per_unit) + " in the mean, " +
+        .left = fileLength(mean, strands.metres_per_unit) + " on average, " +
                 fileLength(greatest, strands.metres_per_unit) + " at most"};
 }
 
@@ -121,7 +121,8 @@ void findInStrands(const hair::groom::StrandFindings& found, Oddities& odd) {
         odd.add(
             "duplicate_roots", more,
             report::countText(more, "strand") + " with the root of another, but not its shape",
-            "no harm to drawing; of guides only one of them can be a corner of root triangles");
+            "harmless for drawing; among guides, only one of them can be a corner of root "
+            "triangles");
     }
     const auto most = static_cast<std::uint64_t>(found.points_per_strand.maximum);
     odd.add(
@@ -420,7 +421,7 @@ std::string summaries(const GroomInfo& info) {
 }
 
 std::string insideText(const hair::groom::MeshFindings& mesh) {
-    if (!mesh.strands_inside) return "not known, the mesh is not closed";
+    if (!mesh.strands_inside) return "not known, because the mesh is not closed";
     std::string text = report::countText(*mesh.strands_inside, "strand");
     if (mesh.points_inside) text += ", " + report::countText(*mesh.points_inside, "point");
     if (mesh.deepest && *mesh.deepest > 0.0)

@@ -62,8 +62,8 @@ Box boxOf(const hair::groom::Mesh& mesh) {
     return box;
 }
 
-// A head is 0.2 to 0.3 m high, a bust 0.5 m, a whole figure 1.8 m. The scatter is a factor. It is
-// chosen so that a figure in metres, and a head alone in any unit, are recognised.
+// A head is 0.2 to 0.3 m high, a bust 0.5 m, a whole figure 1.8 m. The scatter is a factor on the
+// size, chosen so that a figure in metres, and a head alone in any unit, are recognised.
 constexpr double kHeadSize = 0.35;
 constexpr double kHeadScatter = 1.8;
 constexpr double kSmallestHead = 0.12;
@@ -235,8 +235,8 @@ const LayAttempt& bestOf(const std::vector<LayAttempt>& attempts, const Roots& r
         if (each.fit.share < first->fit.share - kEqualShare ||
             each.fit.median > first->fit.median + kEqualMedian)
             continue;
-        // In steps of a tenth of the head's size: smaller differences say nothing about the upward
-        // axis.
+        // Rounded to tenths of the head's size, because smaller differences say nothing about the
+        // upward axis.
         const std::tuple worth{
             -std::round(10.0 * roots.above(each.hair, each.head)), suppositions(each)};
         if (best && worth >= least) continue;
@@ -255,7 +255,7 @@ void guessApart(
         hints.metres_per_unit ? "The unit is stated by --scale." : findings.unit_reason;
     if (hints.up) {
         guess.hair.up = *hints.up;
-        guess.hair_reason += std::string(" +") + axisName(*hints.up) + " is up by --up.";
+        guess.hair_reason += std::string(" +") + axisName(*hints.up) + " is up, as --up states.";
         return;
     }
     const auto [up, lead] = upOf(strands);

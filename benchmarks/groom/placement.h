@@ -41,7 +41,7 @@ inline constexpr double kFitTolerance = 5e-3;
 
 // Fit of the roots to a head.
 struct RootFit {
-    double share = 0.0;  // of the roots, within kFitTolerance of its surface
+    double share = 0.0;  // share of the roots within kFitTolerance of its surface
     double median = 0.0;  // distance from its surface, m
 };
 

@@ -83,9 +83,10 @@ Recorded Recording::everyFrame() {
             if (now.ends != recorded.strands.ends ||
                 now.widths.values != recorded.strands.widths.values) {
                 throw engine::Error(
-                    "/lod/mode", "frame " + std::to_string(frame) +
-                                     " draws other strands than frame 0, and .usda holds one set: "
-                                     "'forced' draws the same in all");
+                    "/lod/mode",
+                    "frame " + std::to_string(frame) +
+                        " draws different strands from frame 0, and .usda holds one set: "
+                        "'forced' draws the same in all");
             }
             animation->frame(now.points);
         });

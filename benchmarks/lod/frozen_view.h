@@ -26,7 +26,7 @@ double popping(
     std::span<const std::uint8_t> a, std::span<const std::uint8_t> b,
     std::span<const std::uint8_t> full_a, std::span<const std::uint8_t> full_b);
 
-// The mean red: what white things cover of a black picture.
+// The mean red of a picture with a black background: the share that white hair covers.
 double whiteShare(std::span<const std::uint8_t> picture);
 
 // Medians of isolated frames, ms.

@@ -166,7 +166,7 @@ std::string truthTable(const LodTruth& truth) {
         }
     }
     std::string text = "\nagainst level 0 path-traced with " + std::to_string(truth.samples) +
-                       " samples a pixel:\n";
+                       " samples per pixel:\n";
     for (std::size_t row = 0; row <= rows; ++row) text += report::columnsLine(columns, row);
     return text;
 }

@@ -35,7 +35,7 @@ struct LightErrors {
 struct LevelErrors {
     double level = 0.0;
     std::uint64_t strands = 0;  // drawn
-    double coverage = 0.0;  // part of a square round the hair that it covers
+    double coverage = 0.0;  // share of a square round the hair that the hair covers
     double full_coverage = 0.0;
     std::optional<double> popping;  // relative to the level finer by kLevelStep; absent at level
                                     // 0

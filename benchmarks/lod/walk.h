@@ -25,7 +25,7 @@ struct LodStep {
     std::uint64_t full_strands = 0;
     double error = 0.0;  // rootMeanSquare of the two pictures
     std::optional<double> popping;  // since the previous step
-    double coverage = 0.0;  // part of a square round the hair that it covers
+    double coverage = 0.0;  // share of a square round the hair that the hair covers
     double full_coverage = 0.0;
     LodTimes time;
     LodTimes full_time;

@@ -79,7 +79,7 @@ public:
     // The strands of the last frame as they are drawn. Waits for the device.
     hair::rendering::StrandPoints strands() const;
     // The guides of the last frame, [guide][vertex], m. Waits for the device. Throws engine::Error
-    // where the simulation has failed: a position is not finite or a guide is longer than
+    // if the simulation has failed: a position is not finite or a guide is longer than
     // mostStretch(). So do picture(), radiance(), stateHash() and strands(): a wrong outcome is
     // neither measured nor written. strands() also refuses a drawn point that is not finite.
     std::vector<glm::vec3> guides() const;

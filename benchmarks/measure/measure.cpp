@@ -49,7 +49,7 @@ void tellJudgement(const TimestampJudgement& judgement, report::CaseResult& resu
                                                              : "unchecked";
     if (judgement.verdict == Verdict::wrong)
         trust.warnings.push_back(
-            "timestamps are not trusted: the passes' times are by the CPU's clock");
+            "timestamps are not trusted: the passes' times come from the CPU's clock");
     else if (!judgement.faults.empty())
         trust.warnings.push_back(
             "timestamps and the CPU's clock disagree, and a tenth of /run/max_time is too short to "

@@ -62,13 +62,13 @@ EmptySubmission emptySubmission(std::span<const engine::FrameRecord> empty) {
 PassSum passSums(std::span<const engine::FrameRecord> isolated, const EmptySubmission& empty) {
     std::vector<double> device;
     std::vector<double> work;
-    std::vector<double> missing;  // ms of the wall clock that no pass has
+    std::vector<double> missing;  // ms of the wall clock outside all passes
     for (const engine::FrameRecord& frame : isolated) {
         if (!frame.device || frame.passes.empty()) continue;
         const double sum = passSum(frame);
         const double at_work = frame.wall - empty.median;
         if (*frame.device > 0.0) device.push_back(sum / *frame.device);
-        // A frame of nothing but its submission leaves nothing to compare with.
+        // If a frame consists only of its submission, no time is left to compare with.
         if (at_work > empty.spread) work.push_back(sum / at_work);
         missing.push_back(std::abs(at_work - sum) / frame.wall);
     }

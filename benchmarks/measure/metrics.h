@@ -19,7 +19,7 @@ namespace benchmarks::measure {
 // The names of all passes, in the order of their first appearance: not every frame runs every pass.
 std::vector<std::string> passNames(std::span<const engine::FrameRecord> frames);
 
-// The times of one pass, of the frames that ran it, ms.
+// The times of one pass in the frames that ran it, ms.
 std::vector<double> passTimes(std::span<const engine::FrameRecord> frames, const std::string& pass);
 
 // The sum of a frame's pass times, ms.
@@ -29,22 +29,24 @@ double passSum(const engine::FrameRecord& frame);
 // passes are all of the frame, the timestamps are right, and submitting takes no time.
 double passSumOverWall(std::span<const engine::FrameRecord> isolated);
 
-// Time of submitting and waiting beside the work, from isolated frames of known work or without
-// work.
+// Time for submission and waiting in addition to the work, from isolated frames with known work or
+// without work.
 struct EmptySubmission {
     double median = 0.0;  // ms
     double spread = 0.0;  // ms, from the median to the 95th percentile
 };
 EmptySubmission emptySubmission(std::span<const engine::FrameRecord> empty);
 
-// The sum of the passes of isolated frames against two clocks that know nothing of each other. Each
-// is a median over frames, and absent where the frames have no timestamps.
+// The sum of the passes of isolated frames, compared with two independent clocks. Each ratio is a
+// median over frames, and absent if the frames have no timestamps.
 struct PassSum {
     std::optional<double> over_wall;
-    std::optional<double> over_device;  // over the device's own first-to-last stamp
-    std::optional<double> over_work;  // over the wall clock less what a submission takes
-    // Whether the passes are not the whole of the frame: by more than report::kTrustTolerance of
-    // the device's time, or of the wall clock by more than that and what submissions vary by.
+    std::optional<double> over_device;  // over the device's own time from the first to the last
+                                        // timestamp
+    std::optional<double> over_work;  // over the wall clock less the time of a submission
+    // Whether the passes do not make up the whole frame: they differ from the device's time by more
+    // than report::kTrustTolerance, or from the wall clock by more than that and the variation of
+    // submissions.
     bool incomplete = false;
 };
 PassSum passSums(std::span<const engine::FrameRecord> isolated, const EmptySubmission& empty);

@@ -306,8 +306,8 @@ report::Mode modeOf(engine::Timing timing) {
 constexpr double kMostWarmUp = 0.25;
 constexpr double kMostRound = 0.125;
 
-// Plays that measure for /run/round_time, and a little longer because the device's clock may still
-// rise.
+// Returns the number of plays that measure for /run/round_time, and a little longer because the
+// device's clock may still rise.
 std::uint32_t playsOfRound(const WarmUp& found, const hair::RunSettings& run) {
     const double measured = found.counted * 1e-3;
     const double wanted = 1.05 * double{run.round_time} / std::max(measured, 1e-9);

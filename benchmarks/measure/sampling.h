@@ -69,9 +69,11 @@ private:
 
 struct SamplingRule {
     std::string mode;  // "overlapped", "isolated", "wall_clock"
-    double engine::FrameRecord::* time = nullptr;  // time of a frame, ms, that has to be known
-    double precision = 0.01;  // of half the median's interval, relative to it; 0: until max_time
-    double max_time = 10.0;  // s, after which no new round begins; 0: one round
+    double engine::FrameRecord::* time = nullptr;  // the time of a frame, ms, that is to be
+                                                   // determined
+    double precision = 0.01;  // target for half of the median's interval, relative to the median;
+                              // 0: until max_time
+    double max_time = 10.0;  // s; no new round begins after it; 0: one round
     std::uint32_t most_rounds = std::numeric_limits<std::uint32_t>::max();
     // True if the first round's last frame is used for counting.
     bool counts = false;
@@ -85,7 +87,7 @@ struct SamplingTools {
     std::function<std::vector<engine::FrameRecord>()> play;  // plays a round; the number of frames
                                                              // is the same each time
     std::function<void()> begin{};  // before the first round and after a pause; may be empty
-    std::function<report::Conditions()> conditions;  // of the round just played
+    std::function<report::Conditions()> conditions;  // returns those of the round just played
     std::function<double()> seconds;  // reads a clock
     std::function<void(double)> pause;  // s
     std::function<void(const SamplingState&)> progress{};  // after each round; may be empty

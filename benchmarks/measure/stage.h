@@ -21,14 +21,14 @@
 // both.
 namespace benchmarks::measure {
 
-// How far a mode of a case is, for who waits.
+// Progress of a mode of a case, to show while it is measured.
 struct SamplingState {
     std::string mode;
     std::uint32_t rounds = 0;
     double median = 0.0;                    // ms, of the frames so far
     std::optional<double> relative_half_width;  // of its 95 % interval; absent: too few samples
     double seconds = 0.0;                   // since the mode began
-    double max_seconds = 0.0;               // when its last round begins at the latest
+    double max_seconds = 0.0;               // s at which its last round begins at the latest
 };
 
 // Facts about its device that a run has learnt in earlier cases.
@@ -40,13 +40,14 @@ struct DeviceKnowledge {
     // For frames with these passes: the number of passes in which planted work was found so far.
     std::map<std::vector<std::string>, std::size_t> checked_passes;
     std::uint32_t planted_steps = 0;  // length of the planted work; 0: not known yet
-    // Stage::timestampRate(), once it was asked for.
+    // The result of Stage::timestampRate(), once it is known.
     std::optional<std::optional<double>> timestamp_rate;
 };
 
 struct MeasureHooks {
-    std::function<bool()> stop;  // asked between frames; true ends all with Interrupted
-    std::function<void(const SamplingState&)> progress{};  // told after each round; may be empty
+    std::function<bool()> stop;  // called between frames; true ends the measurement with
+                                 // Interrupted
+    std::function<void(const SamplingState&)> progress{};  // called after each round; may be empty
     DeviceKnowledge* known = nullptr;  // of the run; null: each case learns for itself
 };
 

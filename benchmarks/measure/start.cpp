@@ -78,7 +78,7 @@ StartInspection judgeStart(
         warnings.push_back(
             "hair sags: guide " + std::to_string(balance->unbalanced.front()) +
             (simulation.solver == hair::Solver::shape
-                 ? " can't be balanced where nothing pulls it to its place "
+                 ? " can't be balanced if nothing pulls it to its place "
                    "(/simulation/global/stiffness is 0)"
                  : " can't be balanced by a stiffening of " + number(simulation.most_stiffening) +
                        " (/simulation/most_stiffening)") +

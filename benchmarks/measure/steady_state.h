@@ -25,8 +25,8 @@ Trend trend(std::span<const double> samples);
 double medianSlope(std::span<const double> samples);
 
 struct SteadyRule {
-    std::size_t window = 32;    // number of last samples that are tested
-    double level = 0.01;  // of white noise, at most this share of windows is judged to drift
+    std::size_t window = 32;    // number of samples at the end that are tested
+    double level = 0.01;  // at most this share of windows of white noise is judged to drift
     double tolerance = 0.01;  // a drift over the window below this share of its median is ignored
 };
 
@@ -68,7 +68,7 @@ Assessment assess(const RoundTimes& rounds);
 bool isEnough(const Assessment& assessment, double precision);
 
 struct SettlingRule {
-    double level = 0.01;  // of series of independent levels without a trend, at most this share
+    double level = 0.01;  // at most this share of series of independent levels without a trend
                           // loses a round
     double tolerance = 0.01;  // as a share; smaller changes are ignored
 };

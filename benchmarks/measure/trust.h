@@ -42,10 +42,10 @@ std::vector<std::string> checkTimestamps(
     const PlayedFrames& timestamped, const PlayedFrames& clocked,
     const std::function<bool()>& is_time = {});
 
-// The same for a case, plus faults of the timestamps' rate (trust.timestamp_rate), without a time
-// limit. Passes of some microseconds are shorter than their submission. On a GPU, work of 10 ms is
-// therefore planted in one pass after another, and both clocks must find all of it there and
-// nowhere else.
+// Checks the timestamps of a case in the same way, and their rate too (trust.timestamp_rate),
+// without a time limit. Passes of some microseconds are shorter than their submission. On a GPU,
+// work of 10 ms is therefore planted in one pass after another, and both clocks must find all of it
+// there and nowhere else.
 std::vector<std::string> checkTimestamps(Stage& stage, report::CaseResult& result);
 
 // The verdict on a case's timestamps.

@@ -164,10 +164,11 @@ namespace {
 
 constexpr std::uint32_t kSinkingSegments = 32;
 constexpr double kSinkingLength = 0.1;  // m
-constexpr double kSinkingInterval = 0.1;  // of keyframes; the head accelerates during the first, s
+constexpr double kSinkingInterval = 0.1;  // s between keyframes; the head accelerates during the
+                                          // first
 constexpr int kSinkingKeyframes = 6;
 constexpr double kSinkingTime = 0.2;  // s
-constexpr double kSinkingBracket = 0.01;  // of the speed, to both sides
+constexpr double kSinkingBracket = 0.01;  // share of the speed, to either side
 // The secant's error is a fraction of the bracket's square; the rest is rounding of positions.
 constexpr double kSinkingTolerance = 1e-3;
 

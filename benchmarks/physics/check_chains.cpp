@@ -172,7 +172,8 @@ namespace {
 
 // ---- Length -------------------------------------------------------------------------------------
 
-constexpr double kStretchTolerance = 0.01;  // of the worst segment, promised for all but `ftl`
+constexpr double kStretchTolerance = 0.01;  // share of the worst segment's length, promised for all
+                                            // solvers except `ftl`
 
 }  // namespace
 
@@ -217,7 +218,7 @@ constexpr double kPendulumLink = 0.05;  // m
 // smaller step would measure single precision instead. For a hanging link, the part of a correction
 // along the link is lost below the rounding of the position, while the part across it still counts.
 constexpr double kPhasePerStep = 0.05;
-// The above, the amplitude (6e-5), and about as much again for rounding.
+// The effect of projection above, the amplitude's (6e-5), and about as much again for rounding.
 constexpr double kPendulumTolerance = 0.005;
 
 constexpr glm::dvec3 kPendulumDown{0.0, -1.0, 0.0};

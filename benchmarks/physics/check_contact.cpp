@@ -126,7 +126,7 @@ constexpr std::uint32_t kPressedSegments = 32;
 constexpr double kPressedLength = 0.05;  // m
 constexpr double kGroundRadius = 0.5;  // m
 constexpr double kGroundLength = 0.2;  // m
-constexpr double kPressingSpeed = 0.12;  // of the length per second; its slowest period is 1/30 s
+constexpr double kPressingSpeed = 0.12;  // lengths per second; the hair's slowest period is 1/30 s
 // Amplitude of the initial shape, rad. It is Euler's shape of the buckling column, because a
 // straight hair has no preferred direction. The ground's force is then 0.033 off the vertical.
 constexpr double kBuckledBy = 0.15;

@@ -26,14 +26,14 @@ constexpr std::uint32_t kBendTwistSegments = 64;
 constexpr double kBendTwistGamma = 100.0;
 constexpr double kBendTwistPush = 0.05;  // out of the plane at the tip, m/s
 constexpr double kBoundaryGammas[] = {10.0, 100.0};
-// As a share of the boundary's curvature, to both sides; promised for `rod`.
+// Distance from the boundary's curvature, as a share of it, to both sides; promised for `rod`.
 constexpr double kBoundaryBracket = 0.02;
 // At the boundary the slowest mode has zero frequency. This friction lets it settle soon on both
 // sides.
 constexpr double kBoundaryFriction = 4.0;  // 1/s
 // Beyond the boundary the distance grows like a square root, to at least a sixth of the length
 // within 2 %.
-constexpr double kStays = 0.01;  // of the length
+constexpr double kStays = 0.01;  // share of the length
 constexpr double kLeaves = 0.05;
 
 struct Wound {
@@ -88,7 +88,7 @@ void checkBoundary(
             "distance from its plane / length", -kBoundaryBracket, below.extent, kStays,
             below.still);
         report(
-            "distance from its plane / length, missing of 0.05", kBoundaryBracket,
+            "distance from its plane / length, short of 0.05", kBoundaryBracket,
             worst(kLeaves - above.extent, 0.0), 0.0, above.still);
     }
 }

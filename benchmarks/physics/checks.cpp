@@ -124,8 +124,8 @@ namespace {
 
 // ---- Energy -------------------------------------------------------------------------------------
 
-// A hair released from the horizontal. Its energy is relative to the weight's at half its length,
-// which it loses from there to hanging down.
+// A hair released from the horizontal. Energies are relative to weight times half the length, which
+// is released between the horizontal and hanging down.
 
 constexpr std::uint32_t kEnergySegments = 16;
 constexpr double kEnergyLength = 0.15;  // m

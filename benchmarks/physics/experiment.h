@@ -112,7 +112,7 @@ double lineDensity(const hair::MaterialSettings& material);  // kg/m
 enum class Need {
     free_vertices,  // that fly freely without constraints
     pinned_tip,
-    equal_masses,  // in vertices
+    equal_masses,  // all vertices have the same mass
     bending,  // bending stiffness
     material,  // bending stiffness from a modulus
     sections,  // non-circular sections

@@ -361,7 +361,7 @@ void writeMaterialPly(
     const hair::simulation::RigidMotion& pose) {
     constexpr std::uint32_t kUnused = ~0u;
     std::vector<std::uint32_t> numbers(mesh.positions.size(), kUnused);  // index in the file
-    std::vector<std::uint32_t> vertices;  // of the file
+    std::vector<std::uint32_t> vertices;  // as numbered in the file
     std::vector<std::array<std::uint32_t, 3>> triangles;
     for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
         if (mesh.triangle_materials[i] != material) continue;

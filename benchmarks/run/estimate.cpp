@@ -306,7 +306,7 @@ void Trials::play() {
         if (isSmall(settings(place), speed_) || (is_over() && !trials_.empty())) continue;
         try_case(place, Size::smaller);
     }
-    std::set<CaseKind> kinds;  // a trial of which succeeded or failed
+    std::set<CaseKind> kinds;  // kinds with a trial that succeeded or failed
     for (const Trial& trial : trials_) kinds.insert(trial.kind);
     for (const std::size_t place : order) {
         if (kinds.insert(kindOf(settings(place))).second)

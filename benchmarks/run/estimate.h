@@ -26,7 +26,7 @@ bool isSmall(const hair::Settings& settings, double speed);
 // lights, no settling, coarse distance fields and shadows.
 hair::Settings smaller(const hair::Settings& settings);
 
-// Costs of work differ between cases of two kinds: a trial tells nothing of another kind.
+// Costs differ between kinds of cases: a trial of one kind tells nothing about another.
 struct CaseKind {
     hair::Backend backend{};
     hair::ShadingModel shading{};
@@ -36,7 +36,7 @@ struct CaseKind {
 };
 CaseKind kindOf(const hair::Settings& settings);
 
-// Returns an upper bound of a frame's time of `of` over that of `tried`, if times grow at most
+// Returns an upper bound of the ratio of frame times, `of` over `tried`, if times grow at most
 // linearly with each part of the work: the sum of the parts then grows at most as much as the part
 // that grows most.
 double mostTimesLonger(const FrameWork& of, const FrameWork& tried);

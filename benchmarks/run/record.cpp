@@ -288,8 +288,8 @@ bool goesOn(
     if (!difference)
         throw engine::Error(
             name, "there are " + done +
-                      " of a run that was not finished: --resume goes on with it, removing the "
-                      "file starts anew");
+                      " of a run that was not finished: --resume continues it; remove the file to "
+                      "start anew");
     std::cerr << engine::shownText(name + ": replaces " + done + " of another run: " + *difference)
               << '\n';
     return false;
@@ -409,7 +409,7 @@ void RunRecord::add(const report::CaseResult& result) {
         throw engine::WriteFailed(
             std::string(error.what()) + "; " + std::to_string(done_.size()) +
             (done_.size() == 1 ? " case is" : " cases are") +
-            " kept there: --resume goes on with them");
+            " kept there: --resume continues with them");
     }
 }
 

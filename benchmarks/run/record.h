@@ -31,7 +31,7 @@ std::optional<std::string> identityDifference(const scene::Json& a, const scene:
 // Only one process can have it open at a time.
 class Journal {
 public:
-    // The failure that a line survives once append() has returned.
+    // The kind of failure that a line survives once append() has returned.
     enum class Lasts { crash, process };
 
     // Opens the file, or creates it and its folder. Throws engine::Error "<path>: <reason>" if

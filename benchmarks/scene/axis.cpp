@@ -143,8 +143,8 @@ Axis echoedAxis(const Axis& axis, const Json& resolved) {
     if (axis.values.empty()) throw engine::Error(axis.pointer, "an axis needs at least one value");
     requireFew(axis.pointer, axis.values.size());
     Axis echoed{.pointer = axis.pointer, .values = {}, .tied = {}};
-    // Copies only the scene's member that contains the field, because values can be many and scenes
-    // large.
+    // Copies only the scene's member that contains the field, because an axis can have many values
+    // and a scene can be large.
     Json part = resolved;
     if (const std::string member = pointerTokens(axis.pointer).front(); resolved.contains(member))
         part = {{member, resolved[member]}};

@@ -17,7 +17,8 @@ inline constexpr std::size_t kMaximumCases = 100000;  // of a sweep, and values 
 struct Axis {
     std::string pointer;  // JSON pointer of a field, such as /strands/density
     std::vector<Document> values;  // 64, "lines", [0,0,1]
-    std::vector<Axis> tied{};  // each with as many values; the i-th values of all go together
+    std::vector<Axis> tied{};  // each with the same number of values; the i-th values of all belong
+                               // together
 };
 
 // The value of one axis in one case.

@@ -18,10 +18,9 @@ namespace {
 
 constexpr const char* kHead = R"(# Every field of a scene
 
-Written by `hairbench schema --markdown > docs/fields.md`; a test holds it. A field's pointer is its place in a scene
-file (`/strands/density` is `{"strands": {"density": …}}`), an axis (`-a /strands/density=16,64`), what `--set` takes, and a widget of the
-viewer. How fields of a scene change together, and what a base is: [scenes.md](scenes.md#writing-a-scene). In a list `N`
-stands for the element's place, from 0.
+`hairbench schema --markdown > docs/fields.md` writes this page, and a test compares the two. A field's pointer is its place in a scene file
+(`/strands/density` is `{"strands": {"density": …}}`). It also names an axis (`-a /strands/density=16,64`), a field for `--set`, and a
+widget of the viewer. [scenes.md](scenes.md#writing-a-scene) explains bases. In a list, `N` stands for an element's index, from 0.
 
 )";
 

@@ -34,11 +34,11 @@ inline constexpr std::size_t kLargestSceneFile = std::size_t{256} << 20;
 struct Scene {
     std::filesystem::path path;  // as given
     std::filesystem::path directory;  // file names in the scene are relative to this
-    Reach reach;  // where the files that it names may lie
+    Reach reach;  // folders that the files it names may lie in
     std::string name;  // file name without its extension
     Document document;  // as written, with bases merged, without the three members above
     Document resolved;  // every field, with defaults for absent ones
-    hair::Settings settings;  // of `resolved`, without any axis applied
+    hair::Settings settings;  // read from `resolved`, without any axis applied
     std::vector<Axis> axes;
     std::vector<Exclusion> exclusions;  // from combinations of the axes; ignored without axes
 };

@@ -403,8 +403,8 @@ Json sweepSchema(const Json& members) {
     };
     const Json values = {{"type", "array"}, {"minItems", 1}};
     axes["zip"] = rows(
-        "fields that change together: each object is one axis, whose fields have as many values "
-        "each",
+        "fields that change together: each object is one axis, and its fields all have the same "
+        "number of values",
         values);
     axes["cases"] =
         rows("one axis, given by rows: each object holds the values of all its fields", true);
@@ -433,7 +433,7 @@ std::string sceneSchema() {
     members["base"] = {
         {"description",
          "scene file, relative to this one, to which this document is applied as a JSON merge "
-         "patch (RFC 7386): null takes a member of the base away"},
+         "patch (RFC 7386): null removes a member of the base"},
         {"type", "string"}};
     members["sweep"] = std::move(sweep);
     members["suite"] = {

@@ -56,10 +56,10 @@ struct SceneOptions {
     std::optional<double> max_time;  // s
     std::vector<std::string> sets;  // "POINTER=VALUE": fields of every case
     engine::DeviceOptions device;
-    bool reads_assets = true;  // before anything is made from them
+    bool reads_assets = true;  // check every file before anything is made from them
     bool cache = true;  // cache slow results on disk
-    Outside outside =
-        Outside::refused;  // for files that the scene names, not those in `sets` and `axes`
+    Outside outside = Outside::refused;  // applies to files that the scene names, not to those in
+                                         // `sets` and `axes`
 };
 
 // Returns the scene's cases, changed by the command line. Reads every asset of the cases once if
@@ -70,7 +70,7 @@ std::vector<CaseSpec> selectCases(
     std::vector<std::string>* warnings = nullptr);
 
 // Returns the scene's own settings, changed by the command line, with no axis applied except the
-// command line's. For commands that play one case.
+// command line's. This is for commands that play one case.
 CaseSpec singleCase(Scene& scene, const SceneOptions& options, AssetStore* assets = nullptr);
 
 }  // namespace benchmarks::scene

@@ -102,9 +102,7 @@ constexpr std::array kActions{
     ActionRow{
         Action::smaller, "View", "Smaller", kCtrl | ImGuiKey_Minus, "Ctrl+-",
         "smaller text and widgets"},
-    ActionRow{
-        Action::reset_layout, "View", "Reset layout", 0, "",
-        "columns and text as they were at first"},
+    ActionRow{Action::reset_layout, "View", "Reset layout", 0, "", "resets columns and text size"},
     ActionRow{
         Action::preview, "View", "Preview what moves", ImGuiKey_P, "P",
         "draws fewer strands and pixels while something moves, if the whole picture takes too "

@@ -66,7 +66,7 @@ public:
         const Pointer& pointer, Left left, bool held, hair::Settings& settings,
         const Shown& played);
 
-    // Whether keys or the wheel move the camera, or did a moment ago. Until then, all moves are one
+    // Whether keys or the wheel move the camera, or moved it a moment ago. All these moves are one
     // edit.
     bool isMoving() const;
 

@@ -57,11 +57,10 @@ void compare(
 constexpr std::array kViews{
     Choice<Views>{
         "Side by side", Views::side_by_side,
-        "Both pictures at one scale: beside each other, or one above the other where that is "
-        "larger."},
+        "Both pictures at one scale: beside each other, or one above the other if that is larger."},
     Choice<Views>{
         "Slider", Views::slider,
-        "One picture over the other: A left of a line that is dragged, B right."},
+        "One picture over the other: A to the left of a line that you drag, B to the right."},
     Choice<Views>{
         "Difference", Views::difference,
         "The difference of the colours of each pixel, brightened: black where they are the same."},
@@ -69,7 +68,7 @@ constexpr std::array kViews{
     Choice<Views>{"Only B", Views::b, "The second picture alone."}};
 
 constexpr std::array kGains{
-    Choice<std::uint32_t>{"x 1", 1, "The difference as it is."},
+    Choice<std::uint32_t>{"x 1", 1, "The difference, unchanged."},
     Choice<std::uint32_t>{"x 2", 2, "A step of 255 is shown as 2."},
     Choice<std::uint32_t>{"x 4", 4, "A step of 255 is shown as 4."},
     Choice<std::uint32_t>{"x 8", 8, "A step of 255 is shown as 8."},

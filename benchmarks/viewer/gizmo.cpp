@@ -16,7 +16,8 @@ namespace {
 // ---- Gizmo --------------------------------------------------------------------------------------
 
 constexpr int kArcSegments = 48;
-constexpr float kArrow = 0.8f;  // of the rings' radius; leaves the ring free to grab beyond the tip
+constexpr float kArrow = 0.8f;  // share of the rings' radius; leaves the ring free to grab beyond
+                                // the tip
 constexpr float kFacing = 0.85f;  // cosine between a ring's axis and the view
 // Below this cosine between a ring's plane and the view, the ring is seen edge-on. The mouse then
 // drags along it, not around it.
@@ -36,7 +37,7 @@ Plane planeOf(const PictureView& view, const Gizmo& gizmo, int axis) {
     return {u, glm::cross(normal, u)};
 }
 
-// Returns the distance, m, along a line through `from` to its nearest point to a ray.
+// Returns the distance, m, from `from` along a line to the point nearest to a ray.
 double nearestAlong(const Ray& ray, const glm::dvec3& from, const glm::dvec3& axis) {
     const glm::dvec3 arm = ray.from - from;
     const double cosine = glm::dot(axis, ray.direction);
@@ -254,8 +255,8 @@ void OptionsLine::place(float width) {
     if (!is_empty_) {
         const float bar = separates_ ? ImGui::CalcTextSize(kBar).x + spacing() : 0.0f;
         const float end = ImGui::GetCursorScreenPos().x + ImGui::GetContentRegionAvail().x;
-        // The cursor is already on the next line. Going back and then finding no room would add
-        // contents to it.
+        // The cursor is already on the next line. Moving it back without enough room there would
+        // add contents to the line.
         if (ImGui::GetItemRectMax().x + spacing() + bar + width <= end) {
             ImGui::SameLine();
             if (separates_) {

@@ -77,12 +77,12 @@ public:
 
     void line(glm::vec2 a, glm::vec2 b, Color color);
     void path(std::span<const glm::vec2> points, Color color);
-    // A path without an outline, for when there are many.
+    // A path without an outline, for use when there are many paths.
     void thinPath(std::span<const glm::vec2> points, Color color);
     void circle(glm::vec2 center, float radius, Color color);
     void dot(glm::vec2 center, Color color);
     void arrow(glm::vec2 from, glm::vec2 tip, Color color);
-    // Text beside a point, moved to where the picture has room.
+    // Text beside a point, moved to a place with enough room in the picture.
     void label(glm::vec2 beside, const std::string& text);
     // A message at the top of the picture.
     void hint(const std::string& text);

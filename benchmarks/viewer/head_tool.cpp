@@ -30,7 +30,7 @@ std::size_t mostKeys() { return mostOf(&hair::MotionSettings::keyframes); }
 
 bool same(const hair::Keyframe& a, const hair::Keyframe& b) {
     for (int i = 0; i < 3; ++i) {
-        // Whole turns apart are the same pose.
+        // Angles that differ by whole turns are the same pose.
         if (std::abs(std::remainder(a.rotation[i] - b.rotation[i], 360.0f)) > kDegrees)
             return false;
         if (std::abs(a.translation[i] - b.translation[i]) > kMetres) return false;

@@ -25,7 +25,7 @@ HeadPose headAt(const hair::MotionSettings& motion, double time);
 
 // Returns a motion that is equal up to now, rests from then on and does not repeat. It keeps the
 // existing keyframes if they give the same motion without those after now. Otherwise it has one per
-// past frame of `frame_time` s, as far as the settings allow that many.
+// past frame of `frame_time` s, if the settings allow that many.
 hair::MotionSettings
 motionUntil(const hair::MotionSettings& motion, const Moment& moment, double frame_time);
 

@@ -211,7 +211,7 @@ void OpenScene::savedAs(const std::filesystem::path& path, const hair::Settings&
 // ---- The widgets of time ------------------------------------------------------------------------
 
 void playPanel(PlayState& state, const Shown& shown) {
-    // Wide enough for both of its names, so that nothing moves when it is pressed.
+    // Wide enough for both of its names, so that nothing moves when the button is pressed.
     if (ImGui::Button(state.playing ? "Pause###play" : "Play###play", {ems(4.5f), 0.0f}))
         state.playing = !state.playing;
     tip("plays or pauses: Space");

@@ -23,12 +23,12 @@ enum Axis { kHorizontal, kVertical };
 
 glm::vec2 middleOf(const PictureRect& rect) { return rect.corner + rect.size * 0.5f; }
 
-// Returns the largest scale at which a picture fits a room.
+// Returns the largest scale at which a picture fits the available space.
 float fittingScale(glm::vec2 room, glm::vec2 picture) {
     return glm::max(glm::min(room.x / picture.x, room.y / picture.y), 0.0f);
 }
 
-// Returns the room for two adjacent pictures along an axis, without a gap.
+// Returns the space that two adjacent pictures take along an axis, without a gap.
 glm::vec2 sizeOfBoth(const std::array<glm::vec2, 2>& sizes, Axis along) {
     glm::vec2 size = glm::max(sizes[0], sizes[1]);
     size[along] = sizes[0][along] + sizes[1][along];
@@ -154,11 +154,11 @@ void pictureTag(const std::string& text, const PictureRect& rect, Corner corner)
 using Zoom = std::optional<int>;
 
 constexpr std::array kZooms{
-    Choice<Zoom>{"Fit", {}, "Pictures are as large as there is room."},
-    Choice<Zoom>{"1:1", 1, "A pixel of the picture is one of the screen."},
-    Choice<Zoom>{"2x", 2, "A pixel of the picture is 2 x 2 of the screen's."},
-    Choice<Zoom>{"4x", 4, "A pixel of the picture is 4 x 4 of the screen's."},
-    Choice<Zoom>{"8x", 8, "A pixel of the picture is 8 x 8 of the screen's."}};
+    Choice<Zoom>{"Fit", {}, "Pictures are as large as possible."},
+    Choice<Zoom>{"1:1", 1, "A pixel of the picture covers one pixel of the screen."},
+    Choice<Zoom>{"2x", 2, "A pixel of the picture covers 2 x 2 pixels of the screen."},
+    Choice<Zoom>{"4x", 4, "A pixel of the picture covers 4 x 4 pixels of the screen."},
+    Choice<Zoom>{"8x", 8, "A pixel of the picture covers 8 x 8 pixels of the screen."}};
 
 constexpr double kSteps = 1e6;  // resolution of a scroll bar
 
@@ -186,8 +186,8 @@ void zoomBar(std::optional<int>& zoom) {
 // Thickness of a scroll bar.
 float scrollBarWidth() { return ImGui::GetStyle().ScrollbarSize; }
 
-// Shows scroll bars below and right of `room` for the axes along which only part of a picture is
-// visible. They move the point in the middle.
+// Shows scroll bars below and to the right of `room` for the axes along which only part of a
+// picture is visible. They move the point in the middle.
 void pictureScrollBars(const PictureRect& room, glm::vec2 visible_share, glm::vec2& focus) {
     const ImVec2 from{room.corner.x, room.corner.y};
     const ImVec2 to{from.x + room.size.x, from.y + room.size.y};
@@ -306,7 +306,7 @@ bool PictureArea::copy(engine::Commands& commands, const viewer::Shown& a, const
             commands, shown.number, shown.picture, {shown.width, shown.height},
             {render.width, render.height});
     };
-    // A new picture has no widget yet.
+    // No widget shows a new picture yet.
     bool all = a_.isThere() || !a.isThere();
     all &= copyOf(a_, a);
     if (b) all &= copyOf(b_, *b);

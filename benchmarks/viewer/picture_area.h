@@ -56,7 +56,7 @@ enum class Views {
     a,
     b,
     side_by_side,
-    slider,  // a left of a line and b right of it
+    slider,  // a to the left of a line and b to the right of it
     difference,  // difference of display colours, multiplied by the gain
 };
 

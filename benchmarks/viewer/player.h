@@ -32,7 +32,8 @@ namespace benchmarks::viewer {
 // Decides how many frames to play per picture of the window.
 class Pacer {
 public:
-    static constexpr std::uint32_t kMostFrames = 16;  // per picture: a slow device falls behind
+    static constexpr std::uint32_t kMostFrames = 16;  // of pictures: a slow device falls behind the
+                                                      // clock
 
     // `seconds` since the last picture; `frame_time` in simulated s per frame; `speed` in simulated
     // seconds per second, absent: always one frame. Returns 0 for a time or speed of 0.
@@ -246,7 +247,7 @@ struct SideOrder {
     std::optional<std::uint64_t> beside;
 };
 
-// A frame that was timed while the machine had no other work from us.
+// A frame that was timed while this program gave the machine no other work.
 struct TimedFrame {
     engine::FrameRecord record;
     engine::Timing timing = engine::Timing::isolated;

@@ -88,8 +88,8 @@ inline constexpr float kSmallestZoom = 0.5f;
 inline constexpr float kLargestZoom = 4.0f;
 inline constexpr std::size_t kMostRecent = 10;
 
-// Returns $XDG_CONFIG_HOME/hairbench/viewer.json, otherwise ~/.config/hairbench/viewer.json;
-// nothing if neither folder is known.
+// Returns $XDG_CONFIG_HOME/hairbench/viewer.json or, without that variable,
+// ~/.config/hairbench/viewer.json; nothing if neither folder is known.
 std::optional<std::filesystem::path> usersPreferences();
 
 // Convert preferences to and from JSON text. Missing or out-of-range values are as in

@@ -70,8 +70,7 @@ bool reset(const FieldText& text, float end) {
     ImGui::SameLine(end - resetWidth());
     const std::string label = std::string(resetLabel()) + "##" + text.pointer + "/reset";
     const bool pressed = ImGui::Button(label.c_str(), {resetWidth(), 0.0f});
-    if (ImGui::IsItemHovered(ImGuiHoveredFlags_DelayShort))
-        ImGui::SetTooltip("sets the value back");
+    if (ImGui::IsItemHovered(ImGuiHoveredFlags_DelayShort)) ImGui::SetTooltip("resets the value");
     return pressed;
 }
 

@@ -107,7 +107,7 @@ void showReloaded(const ReloadedShaders& reloaded) {
     ImGui::TextDisabled(
         "%s, %.1f s", report::countText(reloaded.paths.size(), "shader").c_str(), reloaded.seconds);
     if (ImGui::IsItemHovered())
-        ImGui::SetTooltip("From the change of a file to the picture with it.");
+        ImGui::SetTooltip("Time from the change of a file to the first picture with it.");
     std::string paths;
     for (const std::string& path : reloaded.paths) paths += (paths.empty() ? "" : "\n") + path;
     selectableText("##paths", paths, textColor());
@@ -148,7 +148,8 @@ void showChanged(const std::vector<std::string>& changed) {
         const bool needs_rebuild = ShaderReload::needsRebuild(changed[i]);
         selectableText(
             "##changed",
-            changed[i] + (needs_rebuild ? " is shared with C++: not reloaded, build anew" : ""),
+            changed[i] +
+                (needs_rebuild ? " is shared with C++: not reloaded; rebuild the program" : ""),
             needs_rebuild ? problemColor() : textColor());
         ImGui::PopID();
     }
@@ -299,7 +300,7 @@ void ShaderReload::Parts::compile(
         addProblem(compiled.error->file, compiled.error->line, compiled.error->text);
     for (const std::string& file : compiled.files)
         if (needsRebuild(file) && !built.contains(file))
-            addProblem(file, 0, "is shared with C++ and new: build the program anew");
+            addProblem(file, 0, "is shared with C++ and new: rebuild the program");
     attempt->files[path] = {compiled.files.begin(), compiled.files.end()};
     // Any of these files may contain the fix of an error.
     now_files[path].insert(compiled.files.begin(), compiled.files.end());

@@ -31,7 +31,7 @@ constexpr double kMovingBeside = 1.0 / 15.0;
 constexpr double kHolding = 0.02;  // s between checks of events during a measurement
 constexpr double kLooking = 0.25;  // s between checks of shader files
 
-// Waits up to this long for a picture of the scene without drawing meanwhile, because so short a
+// Waits this long for a picture of the scene before it draws the window again, because so short a
 // delay is not noticed.
 constexpr std::chrono::milliseconds kSoon{8};
 constexpr double kOfLate = 2.0;  // s in which pictures of the scene are counted
@@ -47,7 +47,8 @@ bool computesOnProcessors(const engine::DeviceOptions& options) {
     return engine::chooseDevice(instance, options.wanted).type == "cpu";
 }
 
-// A software device inherits the priority of the thread that creates it, so a new thread does that.
+// A software device inherits the priority of the thread that creates it, so a new thread creates
+// it.
 std::unique_ptr<engine::Device>
 makeSceneDevice(const engine::DeviceOptions& options, bool gives_way) {
     std::packaged_task<std::unique_ptr<engine::Device>()> make([&] {
@@ -243,8 +244,8 @@ unsigned Shell::levelFor(const Order& order) {
                  : control.still(scene.side(0).shown().level, seconds() - moved_at);
 }
 
-// Orders the window's next request, if any. Only one order runs at a time; later wishes go into the
-// next order in their then current state.
+// Orders the window's next request, if any. Only one order runs at a time; later requests go into
+// the next order, in their latest state.
 void Shell::orderWork() {
     if (drawing.busy() || stopped) return;
     MeasurePanel& measuring = timings.measuring();
@@ -325,7 +326,7 @@ void Shell::takeWork() {
     try {
         reply = drawing.take();
     } catch (const std::exception& error) {
-        // If a user is there, the changes can still be saved.
+        // If a user is present, the changes can still be saved.
         if (driven || !scene.side(0).shown().isThere()) throw;
         stopDrawing(error.what());
         return;

@@ -182,7 +182,8 @@ Reply Studio::perform(const Order& order, const Stop& stop) {
         const auto found = played_.find(side.side);
         if (found == played_.end()) continue;
         Played& played = *found->second;
-        // Many guides come late, with the first order without frames to play.
+        // If there are many guides, they are sent late, with the first order without frames to
+        // play.
         const bool moves = order.frames > 0;
         if (played.pictures == played.player.pictures() && (moves || !played.lacks_guides))
             continue;

@@ -43,8 +43,8 @@ struct Order {
 struct Reply {
     std::vector<SideReply> sides;
     unsigned level = 0;  // drawn level
-    // Time of playing and drawing. For frames on the way to another one, as after a seek, only the
-    // last one's time. 0: nothing was drawn.
+    // Time of playing and drawing. For frames on the way to another one, as after a seek, it is
+    // only the time of the last one. 0: nothing was drawn.
     double milliseconds = 0.0;
     ShaderStatus shaders;
     engine::MemoryLedger memory;  // the device's memory by owner

@@ -114,8 +114,8 @@ std::optional<std::pair<std::uint32_t, std::uint32_t>> rangeOf(const TimingHisto
 
 // ---- Memory of one owner ------------------------------------------------------------------------
 
-// Memory of one owner on a device that others also use: all growth since the start, except growth
-// caused by others.
+// Memory of one owner on a device that others also use: all growth since the start that others did
+// not cause.
 class OwnMemory {
 public:
     explicit OwnMemory(const engine::MemoryLedger& all) : all_(all), others_(all.bytes()) {}

@@ -25,7 +25,7 @@ namespace benchmarks::viewer {
 // Returns a report's metrics of frames that the viewer drew: the runner's metrics by its own
 // functions, and the sum of the passes over the frame. The viewer draws one frame at a time, so
 // metrics that need two frames in flight are absent: fps, fps.low_*, frame.time, cpu.wait.time,
-// gpu.wait.time. `device_type` as in DeviceRecord.
+// gpu.wait.time. `device_type` is as in DeviceRecord.
 report::CaseResult frameMetrics(const TimingHistory& history, std::string_view device_type);
 
 // Returns a metric with samples, or null.

@@ -36,7 +36,7 @@ struct Share {
 
 // Returns a distinct colour for each of the first eight, for dark and light backgrounds.
 ImU32 seriesColor(std::size_t index) {
-    // Okabe and Ito 2008, Color universal design, without black: distinct for people with any
+    // Okabe and Ito 2008, Color universal design, without black: distinguishable with any kind of
     // colour vision.
     static constexpr std::array<ImU32, 8> kColors{
         IM_COL32(86, 180, 233, 255), IM_COL32(230, 159, 0, 255),   IM_COL32(0, 158, 115, 255),
@@ -114,8 +114,8 @@ std::string lowHelp(const ShownSide& side) {
 void trustFigure(const ShownSide& side, const ShownSide* compared, FigureTable& table) {
     table.row(
         "Passes / frame",
-        "The isolated passes' sum over the frame by the CPU's clock: 1 where the device's "
-        "timestamps are right and nothing else is at work. 10 % off is a warning",
+        "The isolated passes' sum over the frame by the CPU's clock: 1 if the device's timestamps "
+        "are right and nothing else is running. A deviation of 10 % gives a warning",
         side.metrics.trust.pass_sum_over_wall,
         compared ? compared->metrics.trust.pass_sum_over_wall : std::nullopt);
 }
@@ -217,7 +217,7 @@ void memoryTable(const engine::MemoryLedger& ledger, double window) {
         line(metric.id.part, "", bytesOf(metric), bytesOf(metric) / scene);
     line(
         "all of these",
-        "Device memory that buffers and images hold, of both sides where two are compared", scene);
+        "Device memory that buffers and images hold, of both sides if two are compared", scene);
     line(
         "window",
         "Device memory that the window itself holds: its picture, and copies of the pictures in it",
@@ -504,9 +504,8 @@ void TimingsPanel::show(
 
     frameFigures(a, other);
     if (side.shown().level > 0 && !frozen_)
-        ImGui::TextWrapped(
-            "Pictures of a preview are not timed. Without View > Preview what moves (P) all are "
-            "drawn whole.");
+        ImGui::TextWrapped("Pictures of a preview are not timed. With View > Preview what moves "
+                           "(P) switched off, all pictures are complete.");
     if (section("Passes") && a.passes) {
         std::optional<TimeSeries> ui;
         if (!ui_.empty()) ui = timeSeries("ui", ui_, {});

@@ -14,7 +14,7 @@ namespace benchmarks::viewer {
 
 // Figures of the window itself.
 struct WindowFigures {
-    double device = 0.0;  // ms, device time of its last picture; in no other figure
+    double device = 0.0;  // ms, device time of its last picture; included in no other figure
     double slowest_answer = 0.0;  // ms, maximum from input to the picture that shows it
     double pictures_per_second = 0.0;  // of the scene; 0: none recently
     std::uint64_t memory = 0;          // B of its device

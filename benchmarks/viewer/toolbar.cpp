@@ -19,7 +19,7 @@ constexpr ToolRow kTools[] = {
     {Tool::camera, "Camera",
      "Drag: orbit. Shift+drag, or right or middle button: pan. Wheel, Ctrl+drag, + and -: zoom.\n"
      "W A S D Q E: fly, with Shift faster. Double click: look at what is under the mouse.\n"
-     "The other tools do the same where the mouse is on no handle."},
+     "The other tools do the same if the mouse is not on a handle."},
     {Tool::wind, "Wind", "The wind's arrow: drag its tip to turn and to stretch it"},
     {Tool::grab, "Grab", "Drag hair: a hand pulls at it, and is kept in the scene"},
     {Tool::brush, "Brush", "Drag over hair: combs, cuts, lengthens, pushes or clumps it"},

@@ -265,7 +265,7 @@ void Viewer::Parts::showStatus() {
         .device = scene_device->info().name,
         .picture = std::to_string(render.width) + " × " + std::to_string(render.height) +
                    " px, frame " + std::to_string(shown.frame)};
-    if (shown.previews) status.picture += ", goes on from what was";
+    if (shown.previews) status.picture += ", continues from the previous state";
     if (shown.level > 0) status.picture += ", preview";
     if (!shaders.replaced.empty()) status.picture += ", shaders changed";
     if (recorder.records()) {

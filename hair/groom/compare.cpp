@@ -224,7 +224,7 @@ public:
         const Segment* segment = nullptr;
     };
 
-    // The nearest segment, or none where it is not nearer than `bound`.
+    // The nearest segment, or none if it is not nearer than `bound`.
     Nearest nearest(const glm::dvec3& point, double bound) const {
         struct StackEntry {
             std::uint32_t node;
@@ -256,7 +256,8 @@ public:
     }
 
 private:
-    static constexpr std::size_t kStackSize = 64;  // every split halves, and counts have 32 bits
+    static constexpr std::size_t kStackSize = 64;  // enough: every split halves, and counts have
+                                                   // 32 bits
 
     static double squareDistanceOf(const glm::dvec3& point, const TriangleBvh::Node& box) {
         const glm::dvec3 off = point - glm::clamp(point, glm::dvec3(box.low), glm::dvec3(box.high));
@@ -282,12 +283,12 @@ private:
 struct Found {
     std::vector<float> distances;  // [sample], m
     std::vector<std::vector<std::uint32_t>> matched;  // [threshold][strand], matched samples
-    // The most of those in one strand of the other.
+    // the most matched samples that one strand of the other groom has
     std::vector<std::vector<std::uint32_t>> together;
 };
 
-// Whether matches are counted for each strand of the other groom, which takes all matches of a
-// sample and not one.
+// Whether matches are counted for each strand of the other groom. This takes all matches of a
+// sample, not just one.
 enum class MatchedStrands { counted, any };
 
 // A threshold in the form that is compared.
@@ -357,7 +358,8 @@ public:
     }
 
     void operator()(std::uint32_t strand) {
-        // A distance is at most that of the sample before, plus the way between both samples.
+        // A distance is at most that of the previous sample plus the distance between the two
+        // samples.
         glm::dvec3 before(0.0);
         double bound = std::numeric_limits<double>::infinity();
         forEachSample(strands_, strand, [&](std::size_t k, const StrandSample& sample) {
@@ -513,7 +515,7 @@ std::vector<double> sharesOf(std::span<const float> ascending, std::span<const d
     return shares;
 }
 
-// The numbers must not be negative. The bins reach to the greater one of both 99th percentiles.
+// The numbers must not be negative. The bins reach to the greater of the two 99th percentiles.
 DistributionFindings distributionsOf(std::vector<float> first, std::vector<float> second) {
     DistributionFindings findings{.first = summaryOf(first), .second = summaryOf(second)};
     double top = std::max(quantileOf(first, 0.99), quantileOf(second, 0.99));

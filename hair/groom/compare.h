@@ -55,7 +55,7 @@ struct MatchScores {
     MatchThreshold threshold;
     double precision = 0.0;  // share of the second groom's samples found in the reference
     double recall = 0.0;  // share of the reference's samples found in the second groom
-    double f1 = 0.0;  // their harmonic mean; 0 where both are 0
+    double f1 = 0.0;  // their harmonic mean; 0 if both are 0
     // Mean over the reference's strands of the greatest share of a strand's consistency_samples
     // that a single strand of the other groom has. Pan, Niessner and Kirschstein 2025, HairGS.
     double strand_consistency = 0.0;
@@ -104,7 +104,7 @@ struct StrandComparison {
     DistanceFindings second_to_first;
     DistributionFindings lengths;  // of strands, m
     DistributionFindings curvatures;  // along strands, 1/m
-    std::optional<PenetrationFindings> first_inside;  // where a mesh is given
+    std::optional<PenetrationFindings> first_inside;  // if a mesh is given
     std::optional<PenetrationFindings> second_inside;
 };
 

@@ -257,7 +257,7 @@ StrandSet smoothStrands(StrandSet strands, double length) {
         for (std::size_t k = 0; k + 1 < points.size(); ++k) {
             if (next < count && segments[next] == k) {
                 const double size = glm::length(directions[next]);
-                // Where directions cancel out, the strand keeps its own.
+                // If directions cancel out, the strand keeps its own.
                 const glm::dvec3 along = size > 1e-12 ? directions[next] / size : rough[next];
                 place += lengths[next++] * along;
             }

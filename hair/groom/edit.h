@@ -35,8 +35,7 @@ struct FilterSettings {
 
 // Keeps the strands that pass all tests, in their order, with the root triangles that keep all of
 // their corners. A note for each test counts the strands that fail it but no test before it. The
-// last two tests need `mesh`, in metres. Throws engine::Error without it, and where no strand is
-// left.
+// last two tests need `mesh`, in metres. Throws engine::Error without it, and if no strand is left.
 EditedStrands filterStrands(
     const StrandSet& strands, const FilterSettings& settings, const BodyMesh* mesh,
     double metres_per_unit);
@@ -54,12 +53,12 @@ StrandSet smoothStrands(StrandSet strands, double length);
 // Attributes of points are interpolated. Strands without length stay as they are.
 StrandSet resampleBySpacing(StrandSet strands, double spacing);
 
-// Repairs findings of inspect() that leave no choice. Strands of a single point or without length,
-// strands equal to an earlier one, and points at the place of the point before them are left out.
-// Strands of more than 256 points get 256. With a mesh, in metres: a strand with its root off the
-// surface, but no farther than `farthest_root` (m), is translated until its root is there. Points
-// that are deeper inside than kSurfaceTolerance are put onto the surface, which changes lengths
-// there. Throws engine::Error where no strand is left.
+// Repairs those findings of inspect() that have a single remedy. Strands of a single point or
+// without length, strands equal to an earlier one, and points at the place of the point before them
+// are left out. Strands of more than 256 points get 256. With a mesh, in metres: a strand with its
+// root off the surface, but no farther than `farthest_root` (m), is translated until its root is
+// there. Points that are deeper inside than kSurfaceTolerance are put onto the surface, which
+// changes lengths there. Throws engine::Error if no strand is left.
 EditedStrands fixStrands(
     const StrandSet& strands, const BodyMesh* mesh, double metres_per_unit, double farthest_root);
 

@@ -53,18 +53,18 @@ constexpr auto kTfx3Version = "\0\0\x40\x40"sv;  // 3.0f
 constexpr StrandImporter kImporters[] = {
     {"Cem Yuksel's HAIR", kHair, "HAIR", importHair},
     {"TressFX", kTfx, kTfxVersion, importTfx},
-    {"TressFX of version 3", kTfx, kTfx3Version, importTfx},
-    {"TressFX of version 2", kTfx, "version ", importTfx},
+    {"TressFX version 3", kTfx, kTfx3Version, importTfx},
+    {"TressFX version 2", kTfx, "version ", importTfx},
     {"thesis guides", kHgl, "", importHgl},
     {"PLY", kPly, "ply", importPly},
     {"OBJ", kObj, "", importObj},
     {"glTF", kGltf, "", importGltfStrands},
     {"binary glTF", kGlb, "glTF", importGltfStrands},
-    // USD has three magics, but its library goes by the extension.
+    // USD has three magics, but its library recognises files by their extension.
     {"USD", kUsd, "", importUsd, false},
     {"USC-HairSalon's strands", kData, "", importHairData},
     {"NumPy's array", kNpy, "\x93NUMPY", importNpy},
-    // It has no magic here, because .usdz is a zip archive, too.
+    // It has no magic here, because .usdz is a zip archive too.
     {"NumPy's archive", kNpz, "", importNpz},
     {"Embree's scene", kXml, "", importEmbreeXml},
     {"CT2Hair's strands", kBin, "", importCt2Hair},
@@ -85,11 +85,11 @@ constexpr std::string_view kFromMaya = "export its curves as USD from Maya";
 constexpr std::string_view kUnpack = "unpack it and give its contents";
 
 constexpr OtherFormat kOtherFormats[] = {
-    {"\x89HDF\r\n\x1a\n", "an HDF5 file, such as an Alembic of before 2013",
-     "convert it by Alembic's \"abcconvert -toOgawa\""},
+    {"\x89HDF\r\n\x1a\n", "an HDF5 file, such as an Alembic file from before 2013",
+     "convert it with Alembic's \"abcconvert -toOgawa\""},
     {"Kaydara FBX Binary", "an FBX file", kToUsd},
     {"BLENDER", "a Blender file", "export its curves as USD from Blender"},
-    {"\x28\xb5\x2f\xfd", "a file compressed by Zstandard, as Blender's are",
+    {"\x28\xb5\x2f\xfd", "a file compressed with Zstandard, as Blender's are",
      "export its curves as USD from Blender, or decompress it"},
     {"//Maya ASCII", "a Maya scene (ASCII)", kFromMaya},
     {"FOR4", "a Maya scene or cache (binary)", kFromMaya},
@@ -97,8 +97,8 @@ constexpr OtherFormat kOtherFormats[] = {
     {"PK\x03\x04", "a zip archive", kUnpack, {".npz", ".usdz"}},
     {"#usda", "a USD file", "name it .usda", {".usd", ".usda", ".usdc"}},
     {"PXR-USDC", "a USD file", "name it .usdc", {".usd", ".usda", ".usdc"}},
-    {"\x1f\x8b\x08", "a file compressed by gzip", kUnpack},
-    {"\x80\x04\x95", "a Python pickle", "write its arrays by numpy.savez"},
+    {"\x1f\x8b\x08", "a file compressed with gzip", kUnpack},
+    {"\x80\x04\x95", "a Python pickle", "write its arrays with numpy.savez"},
 };
 
 // Returns the row with the magic that the file begins with; null if there is none.

@@ -47,9 +47,9 @@ std::span<const StrandImporter> strandImporters();
 // Returns the extensions of formats that can be read: ".hair, .tfx, ...".
 std::string readExtensions();
 
-// Returns the importer of a file: by its first bytes where they are a format's magic, otherwise by
-// its extension, in upper or lower case. Throws engine::Error "path: reason". For some formats that
-// are not read, the reason names the format and says what to do.
+// Returns the importer of a file: by its first bytes if they are a format's magic, otherwise by its
+// extension, in upper or lower case. Throws engine::Error "path: reason". For some formats that are
+// not read, the reason names the format and says what to do.
 const StrandImporter& strandImporterOf(const std::filesystem::path& path);
 
 // `points_per_strand`: see StrandFile. Formats that state it themselves ignore it. Throws

@@ -61,11 +61,11 @@ struct Groom {
 // An attribute of strands: none, one value everywhere, or a value for each point.
 template <class Value>
 struct PointAttribute {
-    std::optional<Value> everywhere;  // counts where `values` is empty
+    std::optional<Value> everywhere;  // counts if `values` is empty
     std::vector<Value> values;  // [point], or empty
 
     bool known() const { return everywhere.has_value() || !values.empty(); }
-    // The value at a point, where known() holds.
+    // The value at a point; requires known().
     const Value& at(std::size_t point) const {
         return values.empty() ? *everywhere : values[point];
     }
@@ -85,7 +85,7 @@ struct StrandSet {
     std::vector<std::int32_t> groups;  // [strand], number of the group that it belongs to
     std::vector<std::uint8_t> guides;  // [strand], 1 for those that the file calls guides, or 0
     std::vector<std::array<std::uint32_t, 3>> root_triangles;  // strand indices
-    std::optional<double> metres_per_unit;  // where the format or the file states it
+    std::optional<double> metres_per_unit;  // if the format or the file states it
     std::string comment;  // the file's own description
     std::vector<std::string> warnings;  // data of the file that this can't hold
 
@@ -98,7 +98,7 @@ struct StrandSet {
     std::span<const glm::vec3> strand(std::uint32_t) const&& = delete;
 };
 
-// The number of points that every strand has; absent where they differ or there are no strands.
+// The number of points that every strand has; absent if they differ or there are no strands.
 std::optional<std::uint32_t> commonSize(const StrandSet& strands);
 
 // The greatest number of points of a strand; 0 without strands.
@@ -110,7 +110,7 @@ std::uint32_t greatestSize(const StrandSet& strands);
 // place. Throws engine::Error if the result has 2^32 points or more.
 StrandSet resample(StrandSet strands, std::uint32_t vertices);
 
-// The same with a number of points for each strand: at least 2, or its present number.
+// Resamples each strand to a number of points of its own: at least 2, or its present number.
 StrandSet resample(StrandSet strands, std::span<const std::uint32_t> sizes);
 
 }  // namespace hair::groom

@@ -35,7 +35,7 @@ struct MeshFindings {
     Summary root_distances;  // of roots from the surface, unsigned
     std::uint32_t roots_off_surface = 0;  // further than `tolerance`
     double tolerance = 0.0;  // m
-    // Absent where the mesh is not closed: then nothing is inside it.
+    // Absent if the mesh is not closed: then nothing is inside it.
     std::optional<std::uint32_t> strands_inside;  // with a vertex deeper than `tolerance`
     std::optional<std::size_t> points_inside;  // deeper than `tolerance`
     std::optional<double> deepest;  // m
@@ -51,7 +51,7 @@ struct StrandFindings {
     Summary segment_lengths;
     glm::vec3 minimum{0.0f};  // bounding box
     glm::vec3 maximum{0.0f};
-    Summary widths;  // all 0 where not known
+    Summary widths;  // all 0 if not known
 
     std::uint32_t single_point_strands = 0;
     std::size_t zero_length_segments = 0;
@@ -66,8 +66,8 @@ struct StrandFindings {
     std::optional<MeshFindings> mesh;
 };
 
-// `mesh` is in metres and may be null. The strands are scaled to metres by `metres_per_unit` or,
-// where that is absent, by the unit of the findings.
+// `mesh` is in metres and may be null. The strands are scaled to metres by `metres_per_unit` or, if
+// that is absent, by the unit of the findings.
 StrandFindings
 inspect(const StrandSet& strands, const Mesh* mesh, std::optional<double> metres_per_unit);
 
@@ -85,9 +85,9 @@ struct Unit {
 
 Unit statedUnit(double metres);
 
-// Returns the quantile at a share from 0 to 1, interpolated between two numbers where its rank
-// isn't whole (Hyndman and Fan 1996, Sample quantiles in statistical packages, definition 7). Needs
-// at least one number. Reorders the numbers, because a copy would take too much memory.
+// Returns the quantile at a share from 0 to 1, interpolated between two numbers if its rank isn't
+// whole (Hyndman and Fan 1996, Sample quantiles in statistical packages, definition 7). Needs at
+// least one number. Reorders the numbers, because a copy would take too much memory.
 double quantileOf(std::span<float> numbers, double share);
 
 // Quartiles by quantileOf(), so it also reorders the numbers. All 0 without numbers.

@@ -15,9 +15,9 @@
 // The interface of formats of strands. The tables of all formats are in files.h.
 namespace hair::groom {
 
-// A writer of strands. `write` returns a sentence for each kind of data that the format can't hold
-// of these strands; everything else reads back equal to the last bit. Throws engine::Error where
-// the format can't hold the strands at all.
+// A writer of strands. `write` returns a sentence for each kind of data in these strands that the
+// format can't hold; everything else reads back equal to the last bit. Throws engine::Error if the
+// format can't hold the strands at all.
 struct StrandExporter {
     std::string_view extension;  // lower case, with the dot
     std::vector<std::string> (*write)(const StrandSet& strands, std::ostream& out);

@@ -293,7 +293,8 @@ double localFactor(const SimulationSettings& settings, const Step& step, double 
     if (settings.stiffness_scaling == StiffnessScaling::thesis || k == 0.0) return k;
     if (segment_length == 0.0) return 0.95;
     const double steps = step.sub * 60.0;
-    const double left = std::pow(1.0 - k, 10.0);  // of an error after a reference step
+    const double left = std::pow(1.0 - k, 10.0);  // fraction of an error that is left after a
+                                                  // reference step
     const double left_by_step =
         std::pow(left, steps * steps * std::pow(0.15 / 7.0 / segment_length, 4.0));
     return std::min(1.0 - std::pow(left_by_step, 1.0 / settings.local.iterations), 0.95);

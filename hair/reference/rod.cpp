@@ -57,8 +57,8 @@ constexpr double kAlphaForces = 1.0 / 3.0;
 constexpr double kGamma = 5.0 / 6.0;
 constexpr double kBeta = 4.0 / 9.0;
 constexpr double kForceShare = kBeta * (1.0 - kAlphaForces);
-// Over the strand's mean segment: a segment that collisions stretch by more returns at once, and
-// says nothing about the acceleration.
+// Relative to the strand's mean segment. A segment that collisions stretch by more returns at once,
+// and says nothing about the acceleration.
 constexpr double kLeastResidual = 1e-4;
 
 const glm::dmat3 kIdentity(1.0);

@@ -26,7 +26,7 @@ struct Substep {
     ConstPoints accelerations;  // gravity and everything constant over a whole step, m/s^2
     ConstPoints air;  // air velocity at the vertices, m/s; empty: no drag
     simulation::RigidMotion frame;  // of the head at the substep's end
-    simulation::RigidMotion frame_before;  // and at its start
+    simulation::RigidMotion frame_before;  // of the head at the substep's start
     // Returns the contact of a vertex that the substep moved from `before` to `position`.
     PushOut push_out;
 };

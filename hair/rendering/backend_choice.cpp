@@ -15,10 +15,11 @@ constexpr std::array kBackendLimits{
         Backend::lines, "`/render/coverage` `analytic`", "its lines are a pixel wide",
         [](const Settings& s) { return s.render.coverage == Coverage::analytic; }},
     BackendLimit{
-        Backend::software, "a `/render/transparency` but `none`", "it keeps one strand a sample",
+        Backend::software, "a `/render/transparency` other than `none`",
+        "it keeps one strand per sample",
         [](const Settings& s) { return s.render.transparency != Transparency::none; }},
     BackendLimit{
-        Backend::software, "a `/render/show` but `shading`", "it only shades",
+        Backend::software, "a `/render/show` other than `shading`", "it only shades",
         [](const Settings& s) { return s.render.show != Show::shading; }},
     BackendLimit{
         Backend::software, "`/strands/texture`", "its strands have no holes",
@@ -34,7 +35,7 @@ constexpr std::array kOnGraphicsProcessors{Backend::software,     Backend::expan
                                            Backend::pulling,      Backend::mesh,
                                            Backend::tessellation, Backend::pulling_geometry};
 
-// The reason why the back end can't draw the case; absent where it can.
+// The reason why the back end can't draw the case; absent if it can.
 std::optional<std::string> obstacle(
     Backend backend, const engine::Device& device, const Settings& settings,
     const StrandPlan& plan) {

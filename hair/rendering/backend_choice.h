@@ -34,9 +34,9 @@ struct BackendChoice {
     std::string reason;
 };
 
-// Returns the case's own back end or, where that is `automatic`, the first of backendOrder() that
-// can draw the case on the device. Throws engine::Unsupported where the case's own back end can't
-// draw it, or where none can.
+// Returns the case's own back end or, if that is `automatic`, the first of backendOrder() that can
+// draw the case on the device. Throws engine::Unsupported if the case's own back end can't draw it,
+// or if none can.
 BackendChoice chooseBackend(
     const engine::Device& device, const Settings& settings, const StrandPlan& plan,
     const StrandStages& stages);

@@ -284,7 +284,7 @@ private:
             .strands = points_.strandCount()};
     }
 
-    // Where segments have end points of their own, a line is a segment; otherwise it is a strand.
+    // If segments have end points of their own, a line is a segment; otherwise it is a strand.
     static PieceLines strandLines(const BackendContext& context) {
         const StrandPlan& plan = context.plan;
         if (context.strands.taper == Taper::segment)

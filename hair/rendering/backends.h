@@ -10,17 +10,17 @@
 #include "hair/rendering/strand_plan.h"
 #include "hair/settings.h"
 
-// The list of back ends, for those who choose one, and what only some of them have.
+// The list of back ends, for code that chooses one, and features that only some of them have.
 namespace hair::rendering {
 
 // Throws engine::Unsupported for stages that the back end or the device lacks. Quads that face a
 // light are drawn by mapBackend().
 std::unique_ptr<StrandBackend> makeBackend(Backend backend, const BackendContext& context);
 
-// Returns the back end that draws shadow maps for this one: itself, or another where it draws none.
+// Returns the back end that draws shadow maps for this one: itself, or another if it draws none.
 Backend mapBackend(Backend backend);
 
-// Throws engine::Unsupported where the device can't draw the case's strands by the back end: the
+// Throws engine::Unsupported if the device can't draw the case's strands by the back end: the
 // device lacks stages, or there are more strands than shaders can number.
 void checkDevice(
     Backend backend, const engine::Device& device, const Settings& settings,
@@ -37,7 +37,7 @@ bool readsSceneDepth(const Settings& settings);
 // additions are atomic and need no order, so Commands::uses() need not know of them.
 class StageWatch {
 public:
-    // Starts in the state of countNone(). Throws engine::Unsupported where stages before the
+    // Starts in the state of countNone(). Throws engine::Unsupported if stages before the
     // rasteriser can't write to buffers.
     explicit StageWatch(const engine::Device& device);
 

@@ -26,7 +26,7 @@ public:
     EnvironmentPass(
         const engine::Device& device, const Settings& settings, const RenderAssets& assets);
 
-    // Address of gpu::EnvironmentParameters; 0 where there is no environment.
+    // Address of gpu::EnvironmentParameters; 0 if there is no environment.
     std::uint64_t address() const { return parameters_.address(); }
 
     // Draws the background into the target that is being rendered to, where nothing is drawn yet.
@@ -47,9 +47,9 @@ std::array<glm::dvec3, 9> irradianceHarmonics(const engine::FloatPixels& picture
 
 // Returns at most `count` directional lights that stand for a picture of light, turned and scaled
 // as the settings say, the strongest first. Each is a disc with all light of some directions: in
-// the direction that their irradiance comes from, and as wide as gives the same irradiance. The
-// parts are chosen so that light is as near as can be to the middle of its part; fewer lights are
-// returned where all of it is. A black picture has none.
+// the direction that their irradiance comes from, and just wide enough to give the same irradiance.
+// The parts are chosen so that light is as near as possible to the middle of its part. If all of it
+// is near enough, fewer lights are returned. A black picture has none.
 std::vector<LightSettings> environmentLights(
     const engine::FloatPixels& picture, const RenderSettings& render, std::uint32_t count);
 

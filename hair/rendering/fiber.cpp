@@ -24,10 +24,10 @@ double square(double x) { return x * x; }
 
 double logistic(double x, double scale) { return 1 / (1 + std::exp(-x / scale)); }
 
-// The way of a ray in a fibre, without its absorption.
+// The path of a ray in a fibre, without its absorption.
 struct FiberWay {
     double fresnel = 0;
-    double length = 0;  // of a way through the fibre, in radii
+    double length = 0;  // of a path through the fibre, in radii
     std::array<double, 3> azimuths{};  // FiberPath::azimuths
 };
 
@@ -47,7 +47,7 @@ FiberWay fiberWay(const Fiber& fiber, double theta_o, double h) {
     return way;
 }
 
-// A_p, with the part of light that a way through the fibre leaves.
+// A_p, with the part of light that is left after a path through the fibre.
 PerLobe<glm::dvec3> lobeAttenuations(double fresnel, const glm::dvec3& transmitted) {
     PerLobe<glm::dvec3> attenuations;
     attenuations[0] = glm::dvec3(fresnel);
@@ -117,11 +117,11 @@ gpu::HairOptics makeHairOptics(const ShadingSettings& shading) {
 struct FiberSlice {
     double width = 0;
     double fresnel = 0;
-    double length = 0;  // of a way through the fibre, in radii
+    double length = 0;  // of a path through the fibre, in radii
     PerLobe<double> forward{};  // the part of each lobe that goes on forward
 };
 
-// Strands of one absorption, and the part of all strands that they are.
+// Strands of one absorption, and their share of all strands.
 struct AbsorptionShare {
     glm::dvec3 absorption{0};
     double share = 1;
@@ -308,8 +308,7 @@ LocalScattering localScattering(const FiberAverages& averages) {
             3 * averages.backward_variance + passes_thrice * averages.forward_variance);
     }
     local.shift = means.meanShift();
-    // Where nothing comes back, the variance is that of one scattering, because shaders divide by
-    // it.
+    // If nothing comes back, the variance is that of one scattering, because shaders divide by it.
     local.variance = means.weight > 0 ? means.meanVariance() : averages.backward_variance;
     return local;
 }

@@ -13,7 +13,7 @@
 // Light scattering of one fibre and of many fibres, and the buffers of both that shaders read.
 namespace hair::rendering {
 
-// HairOptics and FiberAverages on the device; the averages only where the model needs them.
+// HairOptics and FiberAverages on the device; the averages only if the model needs them.
 class HairOpticsBuffers {
 public:
     HairOpticsBuffers(const engine::Device& device, const Settings& settings);
@@ -106,9 +106,9 @@ OwnPowers ownPowers(const ShadingSettings& shading);
 // Light that passes fibres forward, is scattered backward behind them once or three times and
 // passes fibres forward again, which adds to a fibre's own scattering. The light leaves through the
 // i fibres in front of the fibre that turns it back, which let a_f^i through. It arrives by another
-// way, on which it meets a random number of fibres with mean i, so exp(-i (1 - a_f)) gets there.
+// path, on which it meets a random number of fibres with mean i, so exp(-i (1 - a_f)) gets there.
 // (In the paper both factors are a_f^i, as if light and eye were in one place. The paper's result
-// is a fifth too dark where a_f is 0.6, and a third where it is 0.4.)
+// is a fifth too dark if a_f is 0.6, and a third if it is 0.4.)
 struct LocalScattering {
     glm::dvec3 albedo{0};  // A_b, equations (13) to (15) with these factors
     double shift = 0;  // mean of theta_i + theta_o, rad

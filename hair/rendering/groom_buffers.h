@@ -16,7 +16,7 @@ namespace hair::rendering {
 class GroomBuffers {
 public:
     // `model` is the file that settings.strands.offsets names, null if that is empty. `deforming`
-    // is the mesh under the hair where an animation deforms it; it must outlive the buffers. Throws
+    // is the mesh under the hair if an animation deforms it; it must outlive the buffers. Throws
     // engine::Error as checkStrands and makeStrandOffsets do.
     GroomBuffers(
         const engine::Device& device, const groom::Groom& groom, const Settings& settings,

@@ -32,7 +32,7 @@ RectangleFace rectangleFace(const LightSettings& light);
 // Radiation Heat Transfer).
 double rectangleFormFactor(const LightSettings& light);
 
-// Number of shadow maps of each kind that a light has, where there are shadows. 1 without a size.
+// Number of shadow maps of each kind that a light has, if there are shadows. 1 without a size.
 std::uint32_t shadowMaps(const LightSettings& light);
 
 // The value of kLightKinds in shading/options.glsl.

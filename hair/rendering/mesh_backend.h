@@ -22,8 +22,8 @@ struct MeshSizes {
 };
 
 // Returns the largest sizes that the device supports and prefers. On a processor, groups are no
-// larger than the vector of invocations that it runs at a time. Throws engine::Unsupported where
-// the device's limits are too small for the shaders.
+// larger than the vector of invocations that it runs at a time. Throws engine::Unsupported if the
+// device's limits are too small for the shaders.
 MeshSizes meshSizes(const engine::DeviceInfo& device);
 
 // Returns the number of blocks of strands that mesh work groups draw at the finest level of detail.

@@ -16,7 +16,7 @@
 namespace hair::rendering {
 
 // The wire frame of a capsule: a ring at each end of its axis, four lines between them and two
-// great half-circles over each end; of a sphere, where a == b, three great circles.
+// great half-circles over each end; of a sphere (a == b), three great circles.
 std::vector<gpu::BodyLine> capsuleLines(const Collider& capsule);
 
 // The edges of a mesh, each once.

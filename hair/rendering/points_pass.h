@@ -38,7 +38,7 @@ public:
     const engine::Buffer& pieces() const { return pieces_; }  // gpu::PointsPush::pieces
     // Gpu::HairBounds in the camera's picture.
     const engine::Buffer& bounds() const { return bounds_; }
-    // The points as a texel buffer; null where the device reads them by address.
+    // The points as a texel buffer; null if the device reads them by address.
     const engine::TexelView* texels() const { return texels_ ? &*texels_ : nullptr; }
     std::uint32_t strandCount() const { return push_.strands; }
     std::uint64_t bytes() const { return points_.size() + pieces_.size(); }
@@ -62,11 +62,10 @@ engine::Constants pointsConstants(const StrandSettings& strands, const StrandPla
 // invocation at a time reads 64 bits as fast as 32.
 bool readsPairs(const engine::Device& device);
 
-// Returns the number of strands per invocation, where each piece of a strand takes `turns`
-// iterations of loops. On a processor, an invocation reads once what its strands share. Other
-// devices need many invocations and get 1. Strands of a groom have guides of their own, share
-// nothing and get 1, too. Mesa's lavapipe ends an invocation's loops after 65,535 iterations in
-// all.
+// Returns the number of strands per invocation, if each piece of a strand takes `turns` iterations
+// of loops. On a processor, an invocation reads once what its strands share. Other devices need
+// many invocations and get 1. Strands of a groom have guides of their own, share nothing and get 1,
+// too. Mesa's lavapipe ends an invocation's loops after 65,535 iterations in all.
 std::uint32_t strandBlock(
     const engine::Device& device, const StrandSettings& strands, const StrandPlan& plan,
     std::uint32_t turns);

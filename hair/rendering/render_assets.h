@@ -19,7 +19,7 @@ namespace hair::rendering {
 struct RenderAssets {
     const groom::Mesh* head = nullptr;  // the mesh that the hair grows on; null: none
     std::vector<groom::Mesh> meshes;  // of /render/meshes, in their order
-    // The meshes of /simulation/distance_fields, where bodies are drawn.
+    // The meshes of /simulation/distance_fields, if bodies are drawn.
     std::vector<groom::Mesh> field_meshes;
     std::optional<engine::Pixels> strand_texture;  // of /strands/texture
     std::optional<engine::FloatPixels> environment;  // of /render/environment

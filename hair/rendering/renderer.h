@@ -29,12 +29,11 @@ namespace hair::rendering {
 // settings must name the back end that draws them.
 std::uint64_t rendererBytes(const Settings& settings, const StrandPlan& plan);
 
-// Draws pictures of a head of hair, in these passes: frames (where strands have offsets or
-// residuals), skin (where the mesh under the hair deforms), points (where a back end draws from
-// them), mesh_shadow and hair_shadow (where asked for), scene, strands, composite (where fragments
-// are blended at the end), overlay (where asked for) and resolve (where the picture is not the
-// rendered image). Where passes may join, scene, strands and overlay are one rendering, which
-// resolves samples at its end.
+// Draws pictures of a head of hair, in these passes: frames (if strands have offsets or residuals),
+// skin (if the mesh under the hair deforms), points (if a back end draws from them), mesh_shadow
+// and hair_shadow (if asked for), scene, strands, composite (if fragments are blended at the end),
+// overlay (if asked for) and resolve (if the picture is not the rendered image). If passes may
+// join, scene, strands and overlay are one rendering, which resolves samples at its end.
 class Renderer {
 public:
     // `view` gives the counts, which must not change. `stages` applies to the camera's picture of

@@ -11,7 +11,7 @@ namespace hair::rendering {
 
 // Resolves the rendered samples to the picture where they differ (engine::Resolve): the mean over
 // MSAA samples and SSAA pixels (thesis 2.3.7). In linear light, the target's radiance() keeps the
-// mean, and the tone map makes the picture from it. Where an attachment resolves at the end of
+// mean, and the tone map makes the picture from it. If an attachment resolves at the end of
 // rendering, this pass is an empty rendering, so its time is that of the resolve.
 class ResolvePass {
 public:

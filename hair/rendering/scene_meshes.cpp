@@ -78,7 +78,7 @@ engine::GraphicsDescription pipeline(const MeshLook& look, const Settings& setti
         .sampled_images = kMaterialImages + kShadowImages};
 }
 
-// The part of a look that depth depends on.
+// The properties of a look that affect depth.
 MeshLook depthLook(const MeshLook& look) {
     return {.base_color_texture = look.mask && look.base_color_texture, .mask = look.mask};
 }

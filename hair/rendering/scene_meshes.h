@@ -22,7 +22,7 @@
 // The head and other meshes of a picture.
 namespace hair::rendering {
 
-// Returns the mesh where the settings place it.
+// Returns the mesh at the place that the settings give it.
 groom::Mesh placed(groom::Mesh mesh, const MeshSettings& settings);
 
 // A mesh's triangles on the device, sorted by material.
@@ -38,7 +38,7 @@ struct MeshGeometry {
 
     engine::Buffer positions;  // vec3
     engine::Buffer normals;  // vec3
-    engine::Buffer texture_coordinates;  // vec2; empty where the mesh has none
+    engine::Buffer texture_coordinates;  // vec2; empty if the mesh has none
     engine::Buffer indices;
     std::vector<Part> parts;
 };
@@ -77,7 +77,7 @@ struct MeshMaterial {
 // coordinates are left out.
 class MeshMaterials {
 public:
-    // `blank` is bound where a material has no texture.
+    // `blank` is bound if a material has no texture.
     MeshMaterials(
         const engine::Device& device, const RenderSettings& settings, const groom::Mesh& mesh,
         const engine::SampledImage& blank);

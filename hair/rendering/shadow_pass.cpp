@@ -63,7 +63,7 @@ struct LightView {
 
 constexpr float kMostHalfAngle = 75.0f;  // degrees
 constexpr float kNearest = 0.01f;  // as a fraction of the far end's distance
-constexpr float kLeastRadius = 0.001f;  // m: gives a view even where there is nothing to see
+constexpr float kLeastRadius = 0.001f;  // m: gives a view even if there is nothing to see
 // Strands face a directional light as if it were a point this many radii of the map away: at most
 // 0.001 rad off.
 constexpr float kFarAway = 1000.0f;
@@ -108,10 +108,10 @@ LightView perspectiveView(
         .texel_slope = 2.0f * slope / texels};
 }
 
-// A map of side x side texels shows bounds.receivers and `margin` texels round it. Where the light
-// is inside bounds.receivers, or sees it under more than 150 degrees, the map shows 150 degrees
-// round its centre, and nothing beyond casts a shadow. Nor does anything nearer to a point light
-// than a hundredth of the far end of bounds.range, because depth would be too coarse.
+// A map of side x side texels shows bounds.receivers and `margin` texels round it. If the light
+// is inside bounds.receivers, or sees it at an angle of more than 150 degrees, the map shows 150
+// degrees round its centre, and nothing beyond casts a shadow. Nor does anything nearer to a point
+// light than a hundredth of the far end of bounds.range, because depth would be too coarse.
 LightView lightView(
     const LightSettings& light, const ShadowBounds& bounds, std::uint32_t side, float margin) {
     const auto texels = static_cast<float>(side);
@@ -206,7 +206,7 @@ engine::ImageDescription atlasImage(
         .name = name};
 }
 
-// `atlas` is null where there are no such maps.
+// `atlas` is null if there are no such maps.
 engine::ImageDescription depthOfMeshes(const ShadowAtlas* atlas) {
     return atlasImage(
         atlas, engine::Target::kDepthFormat, VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT,

@@ -46,7 +46,7 @@ class ShadowScene {
 public:
     ShadowScene(const Settings& settings, const RenderAssets& assets);
 
-    // Returns the bounds with the head and the hair where `view` has them.
+    // Returns the bounds with the head and the hair at their places in `view`.
     ShadowBounds bounds(const StrandView& view) const;
 
 private:
@@ -70,9 +70,10 @@ struct MapOfLight {
     std::uint32_t sample = 0;
 };
 
-// Returns the light moved to one point of its face or, where it is a disc at infinity, turned to
-// one direction of its disc, as seen from `receiver`. Returns the light itself where it has one
-// map. `index` is below shadowMaps(); each index stands for an equal part of the light.
+// Returns the light moved to one point of its face or, if it is a disc at infinity, turned to one
+// direction of its disc, as seen from `receiver`. Returns the light itself if it has one
+// map. `index`
+// is below shadowMaps(); each index stands for an equal part of the light.
 LightSettings
 lightSample(const LightSettings& light, const glm::vec3& receiver, std::uint32_t index);
 
@@ -82,7 +83,7 @@ bool hasHairMaps(const Settings& settings);
 // Returns the bytes of all shadow maps, including those of an environment's lights.
 std::uint64_t shadowMapBytes(const Settings& settings);
 
-// Throws engine::Unsupported where the device has no images of this size.
+// Throws engine::Unsupported if the device has no images of this size.
 void checkAtlas(const engine::Device& device, const ShadowAtlas& atlas);
 
 // Draws shadow maps: the depth of meshes and, for hair, its depth and opacity in layers (Yuksel and
@@ -92,14 +93,14 @@ void checkAtlas(const engine::Device& device, const ShadowAtlas& atlas);
 // (LightSettings::shadow_samples).
 class ShadowPass {
 public:
-    // `points` must be set where readsPoints(). Throws engine::Unsupported where the device lacks
-    // the images.
+    // `points` must be set if readsPoints(). Throws engine::Unsupported if the device lacks the
+    // images.
     ShadowPass(
         const engine::Device& device, const Settings& settings, const StrandPlan& plan,
         const RenderAssets& assets, const PointsPass* points = nullptr);
 
-    // Records the passes "mesh_shadow" and "hair_shadow", where asked for. `picture` is the
-    // camera's: levels of detail are those of its lod_eye.
+    // Records the passes "mesh_shadow" and "hair_shadow", if asked for. `picture` is the camera's:
+    // levels of detail are those of its lod_eye.
     void record(
         engine::Passes& passes, const SceneMeshes& meshes, const StrandView& view,
         const gpu::PictureParameters& picture);
@@ -108,7 +109,7 @@ public:
     std::uint64_t address(std::uint32_t slot) const { return parameters_[slot].address(); }
 
     // Depth of meshes, depth of hair, opacity of hair, in this order; in SHADER_READ_ONLY_OPTIMAL
-    // once recorded. Images of one pixel where there are no such shadows.
+    // once recorded. If there are no such shadows, images have one pixel.
     std::span<const engine::SampledImage> images() const { return images_; }
 
 private:

@@ -18,8 +18,8 @@
 
 namespace hair::rendering {
 
-// The mesh under the hair where an animation deforms it, and the roots of drawn strands, each bound
-// to the triangle of the mesh that was nearest to it at rest. The simulation moves the roots of
+// The mesh under the hair if an animation deforms it, and the roots of drawn strands, each bound to
+// the triangle of the mesh that was nearest to it at rest. The simulation moves the roots of
 // guides. The roots of strands between guides follow their guides and are then corrected here.
 class SkinnedHead {
 public:

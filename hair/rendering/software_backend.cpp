@@ -80,7 +80,7 @@ engine::Constants softwareConstants(const BackendContext& context, std::uint32_t
 }
 
 // The points as a texel buffer, for the stages that have a variant for it: those with 64-bit
-// atomics. Null where the device can't fetch so many points or samples as texels.
+// atomics. Null if the device can't fetch so many points or samples as texels.
 const engine::TexelView* texelsOf(const BackendContext& context) {
     const std::size_t samples = sampleCount(context.target->description());
     const bool fits = samples <= context.device.info().limits.maxTexelBufferElements;
@@ -100,7 +100,7 @@ softwareStage(const BackendContext& context, const std::string& name, std::uint3
         .push_size = sizeof(gpu::SoftwarePush)};
 }
 
-// A stage that fetches from `buffers` texel buffers, where texelsOf() is set.
+// A stage that fetches from `buffers` texel buffers if texelsOf() is set.
 engine::ComputeDescription texelStage(
     const BackendContext& context, const std::string& name, std::uint32_t buffers,
     std::uint32_t block = 1) {

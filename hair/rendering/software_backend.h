@@ -35,7 +35,7 @@ SoftwareSizes softwareSizes(const engine::TargetDescription& target, std::uint64
 // depth to the samples that they cover, by atomic minima. Each sample that shows a strand is shaded
 // once, and two triangles bring colour and depth into the target. Clearing, shading and drawing are
 // limited to the hair's bounds on the screen. Some strands are drawn first; pieces of the others
-// are culled where they lie behind those or the scene.
+// are culled if they lie behind those or the scene.
 //
 // Pieces are the quads that the other back ends draw, and samples lie at Vulkan's standard
 // positions, so the picture matches theirs up to rounding. With several samples, each is shaded by
@@ -43,7 +43,7 @@ SoftwareSizes softwareSizes(const engine::TargetDescription& target, std::uint64
 class SoftwareBackend : public StrandBackend {
 public:
     // Needs context.target, with sampled_depth, and context.points. Throws engine::Unsupported for
-    // what the device or the back end can't do.
+    // anything that the device or the back end can't do.
     explicit SoftwareBackend(const BackendContext& context);
 
     // Throws as the constructor does, without making the back end.
@@ -79,7 +79,7 @@ private:
     std::uint32_t blocks_;
     std::uint32_t pieces_per_strand_;
     bool is_packed_;  // with 64-bit integers and atomics
-    const engine::TexelView* texels_;  // the points; null where shaders read by address alone
+    const engine::TexelView* texels_;  // the points; null if shaders read by address alone
     engine::Buffer visibility_;
     engine::Buffer colors_;  // empty without linear light
     engine::Buffer counts_;  // gpu::PieceCounts
@@ -90,7 +90,7 @@ private:
     engine::Buffer large_;  // pieces that cover many samples
     engine::Buffer tile_depths_;
     engine::Buffer pyramid_;
-    // Only where texels_ is set.
+    // Only if texels_ is set.
     engine::TexelView visibility_texels_;
     engine::TexelView tile_texels_;
     engine::TexelView pyramid_texels_;

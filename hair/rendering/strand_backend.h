@@ -26,7 +26,7 @@ class PointsPass;
 // stage goes with the evaluation.
 enum class StrandStage { vertex, evaluation, geometry, raster, fragment };
 
-// The stages that a picture's strands go through: all of them, except where the cost of a stage is
+// The stages that a picture's strands go through: all of them, except when the cost of a stage is
 // measured. Then the picture shows less of the strands, or nothing.
 struct StrandStages {
     // The last stage. Absent: no strand is drawn. Before raster, primitives are discarded. With
@@ -35,7 +35,7 @@ struct StrandStages {
     // A vertex, evaluation or geometry stage with all of its outputs watched, so that drivers can't
     // leave out work with unused results.
     std::optional<StrandStage> watched{};
-    std::uint64_t watch = 0;  // StageWatch::address(), where a stage is watched
+    std::uint64_t watch = 0;  // StageWatch::address(), if a stage is watched
 
     bool operator==(const StrandStages&) const = default;
 };
@@ -65,10 +65,10 @@ public:
     // Records the draws; within rendering, after prepare() of the same picture.
     virtual void draw(engine::Commands& commands, const StrandPicture& picture) const = 0;
 
-    // Says which variant the device has, where devices differ; may be empty.
+    // Says which variant the device has, if devices differ; may be empty.
     virtual std::string variant() const { return {}; }
 
-    // Expected pipeline statistics of draw(); absent where the back end has no such stages.
+    // Expected pipeline statistics of draw(); absent if the back end has no such stages.
     virtual std::optional<ExpectedCounts> expected() const = 0;
 };
 
@@ -100,10 +100,10 @@ struct BackendContext {
     StrandOutput output;
     StrandStages stages{};
     const engine::Target* target = nullptr;  // of the camera's picture
-    const PointsPass* points = nullptr;  // where readsPoints()
+    const PointsPass* points = nullptr;  // if readsPoints()
 };
 
-// Addresses of other buffers that shaders read; 0 where they don't.
+// Addresses of other buffers that shaders read; 0 if they don't.
 struct PictureBuffers {
     std::uint64_t guide_normals = 0;  // FramesPass::normals()
     std::uint64_t guide_turns = 0;  // FramesPass::turns()

@@ -74,8 +74,8 @@ bool hasFrames(const StrandSettings& settings);
 // Greatest offset that the function makes, m: its parameter `reach`. 0 without a function.
 float functionReach(const StrandSettings& settings);
 
-// Estimates the bytes of a table of offsets where the groom is not known yet. `length` is the
-// guides' mean length, m; a model is taken to have kMostProfiles strands of 64 points.
+// Estimates the bytes of a table of offsets if the groom is not known yet. `length` is the guides'
+// mean length, m; a model is taken to have kMostProfiles strands of 64 points.
 std::uint64_t offsetBytes(const StrandSettings& settings, double length);
 
 // Adds up curls, variation and the offsets of `model`. Frequencies are per metre of the guides'

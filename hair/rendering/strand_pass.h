@@ -42,7 +42,7 @@ public:
     // The outputs of a back end's pipeline, without the shading of strands.
     virtual StrandOutput output() const = 0;
 
-    // Records the pass "strands", which draws them, and "composite", where there is one.
+    // Records the pass "strands", which draws them, and "composite", if there is one.
     virtual void record(
         engine::Passes& passes, const engine::Target& target,
         const RecordedStrands& strands) const = 0;
@@ -57,7 +57,7 @@ public:
     // Bytes of memory that transparency takes beside the target.
     virtual std::uint64_t bytes() const { return 0; }
 
-    // Counts the fragments of the last picture; waits for the device. Absent where they are not
+    // Counts the fragments of the last picture; waits for the device. Absent if they are not
     // listed.
     virtual std::optional<ListedFragments> listed() const { return std::nullopt; }
 };
@@ -73,7 +73,7 @@ engine::Constants shadingConstants(const Settings& settings);
 inline constexpr std::uint32_t kStrandImages = 4;
 
 // The texture of strands on the device, for strands/texture.glsl. Its colours become working
-// colours. One white pixel where there is none.
+// colours. If there is none, it is one white pixel.
 class StrandTexture {
 public:
     StrandTexture(
@@ -87,12 +87,12 @@ private:
     engine::Sampler sampler_;
 };
 
-// Draws a picture's strands with the transparency of the settings: the pass "strands" and, where
+// Draws a picture's strands with the transparency of the settings: the pass "strands" and, if
 // fragments are blended after all of them are known, "composite".
 class StrandPass {
 public:
-    // weighted_blended uses the bounding sphere of the strands in `view`. `points` must be set
-    // where readsPoints(). Throws engine::Unsupported for features that the device lacks.
+    // weighted_blended uses the bounding sphere of the strands in `view`. `points` must be set if
+    // readsPoints(). Throws engine::Unsupported for features that the device lacks.
     StrandPass(
         const engine::Device& device, const Settings& settings, const StrandPlan& plan,
         const engine::Target& target, const StrandView& view, const PointsPass* points,

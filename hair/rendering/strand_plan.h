@@ -72,11 +72,11 @@ StrandPlan planStrands(
     const LodSettings& lod, std::uint32_t isoline_limit);
 
 // Returns the plan of the strands that the settings ask for. Throws engine::Error "<JSON pointer>:
-// <reason>" where the view lacks data for it.
+// <reason>" if the view lacks data for it.
 StrandPlan
 planStrands(const StrandView& view, const Settings& settings, std::uint32_t isoline_limit);
 
-// Expected pipeline statistics of the strands' draws. Absent where only the device knows them.
+// Expected pipeline statistics of the strands' draws. Absent if only the device knows them.
 struct ExpectedCounts {
     std::uint64_t tessellation_control_patches = 0;
     std::optional<std::uint64_t> tessellation_evaluation_invocations;
@@ -94,7 +94,7 @@ planDraws(const StrandPlan& plan, Submission submission, std::uint32_t max_verti
 //
 // Strands at random places cover 1 - exp(-a) of the area behind them, where a is the sum of their
 // areas over that area. Fewer and wider strands with the same sum cover as much, but they stick
-// out. Hair of area A and outline P grows to A + P (s - 1) w / 2 where strands of width w become s
+// out. Hair of area A and outline P grows to A + P (s - 1) w / 2 if strands of width w become s
 // times as wide (Steiner's formula, without its quadratic term). A disc as large as the hair has P
 // / A = 2 / R, so the relative growth is (s - 1) w / R. It may be up to kOutlineGrowth.
 float greatestWidthScale(const groom::Groom& groom, const StrandSettings& settings);
@@ -104,7 +104,7 @@ inline constexpr float kOutlineGrowth = 0.03f;
 // Level of detail of a head of hair in LodMode::distance, seen from /camera/position.
 struct DistanceLod {
     double mean_level = 0.0;  // over root triangles, or over the strands of a groom
-    std::optional<std::uint64_t> strands;  // drawn; absent where the device orders them
+    std::optional<std::uint64_t> strands;  // drawn; absent if the device orders them
 };
 
 // `guides` are the current points of the guides, [guide][vertex], m; `view` is of the same moment.

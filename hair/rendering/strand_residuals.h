@@ -35,7 +35,7 @@ struct Lengths {
 struct StrandResiduals {
     std::vector<StrandResidual> strands;  // in the requested order
     // Layout of shaders/strands/residuals.glsl. The first is {h, 0}: h steps of bisection find a
-    // place among a strand's samples; 0 where the samples of all strands are evenly spaced. The
+    // place among a strand's samples; 0 if the samples of all strands are evenly spaced. The
     // samples follow, strand after strand.
     std::vector<glm::uvec2> samples;
     Lengths kept;  // of all residuals

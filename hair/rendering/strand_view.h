@@ -19,8 +19,8 @@ struct StrandView {
     std::uint64_t guide_widths = 0;  // float [guide][vertex], m; 0: not known
     std::uint64_t bound_strands = 0;  // gpu::BoundStrand [strand], in the order in which levels of
                                       // detail keep them; 0: not drawn
-    std::uint64_t contacts = 0;  // vec4 [guide][vertex]: w > 0 where in contact with a body and
-                                 // at all vertices below; 0: not known
+    std::uint64_t contacts = 0;  // vec4 [guide][vertex]: w > 0 from the first vertex in contact
+                                 // with a body on; 0: not known
     std::uint64_t bodies = 0;  // gpu::Bodies: what hair collides with; 0: not known
     std::uint64_t root_pattern = 0;  // vec2 [strand]; 0: root triangles have patterns of their own
     std::uint64_t root_frames = 0;  // gpu::RootFrame [guide]; 0: strands are not offset
@@ -33,7 +33,7 @@ struct StrandView {
     float greatest_width = 0.0f;  // m, of strands at level 0 of detail
     float greatest_width_scale = 0.0f;  // greatestWidthScale(); 0: any
     glm::mat4 head{1.0f};  // rigid motion of the root normals and of the mesh under the hair, or,
-                           // where that deforms, of the scalp on average
+                           // if that deforms, of the scalp on average
     // The mesh under the hair, if it deforms; null: it keeps its shape.
     const groom::DeformingMesh* deforming = nullptr;
     double time = 0.0;  // s, the time of its pose

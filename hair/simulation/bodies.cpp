@@ -128,7 +128,7 @@ private:
         for (const groom::TriangleBvh::Node& node : tree.nodes) {
             boxes.push_back(
                 {.lower = node.low, .first = node.first, .upper = node.high, .count = node.count});
-            // Sorted by index, so that the same one of equally near triangles counts everywhere.
+            // Sorted by index, so that every device picks the same one of equally near triangles.
             if (node.count > 0)
                 std::ranges::sort(std::span(tree.order).subspan(node.first, node.count));
         }

@@ -38,11 +38,12 @@ GuideCondition worstOf(
     std::span<const gpu::VertexCondition> vertices, std::uint32_t vertices_per_strand,
     double substep, const ConditionLimits& limits = {});
 
-// A vertex that no simulation of hair may reach.
+// A vertex at a place that no valid simulation of hair reaches.
 struct BrokenVertex {
     std::uint32_t guide = 0;
     std::uint32_t vertex = 0;
-    double stretch = 0.0;  // of the guide up to there, over its length at rest; NaN: no position
+    double stretch = 0.0;  // of the guide up to this vertex, over its length at rest; NaN: no
+                           // position
 };
 
 // Returns the first guide's vertex that has no finite position or that is farther along the guide

@@ -67,7 +67,7 @@ std::uint64_t hairHairBytes(const groom::GroomSize& size, const SimulationSettin
 // repulsion, stays stable beside friction for w^2 < 2 (2 - s) / (1 + f). With repulsion, f is
 // limited to 1 - s, at r dt = 1, so that this bound is never below 2.
 //
-// Repulsion is the pressure k (m_i - crowded), where positive, of a gas with the speed of sound
+// Repulsion is the pressure k (m_i - crowded), if positive, of a gas with the speed of sound
 // sqrt(k). Its energy E(m_i) has the slope E' = k ln(m_i / crowded). The part that each strand
 // would have alone is subtracted:
 //     a_p = -sum_i (E'(m_i) - E'(m_i of p's own strand)) grad w_pi.

@@ -26,7 +26,7 @@ SegmentPass::SegmentPass(
                    .push_size = sizeof(gpu::SegmentPush)}) {}
 
 void SegmentPass::recordStart(engine::Commands& commands, const engine::Buffer& positions) const {
-    // After the substep before, which wrote the positions and read its own start.
+    // Waits for the previous substep, which wrote the positions and read its own starts.
     commands.barrier(
         {{Access::compute_write, Access::transfer_read},
          {Access::compute_write, Access::transfer_write}});

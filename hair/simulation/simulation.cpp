@@ -392,7 +392,7 @@ void Simulation::recordSubsteps(
     const bool segments = segments_ && bodies_.count() > 0;
     for (std::uint32_t i = 0; i < count; ++i) {
         if (segments) segments_->recordStart(commands, positions_[i == 0 ? from_copy : current_]);
-        // After the forces, or after the substep before.
+        // Waits for the forces, or for the previous substep.
         commands.barrier(Access::compute_write, Access::compute_write);
         commands.uses(
             {{before.positions, Access::compute_read},

@@ -9,7 +9,7 @@
 #include "hair/settings.h"
 #include "hair/simulation/guide_solver.h"
 
-// The list of solvers, for those who choose one.
+// The list of solvers, for code that chooses one.
 namespace hair::simulation {
 
 // Returns the solver's memory.

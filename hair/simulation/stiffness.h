@@ -58,7 +58,7 @@ inline glm::dquat rotationBetween(const glm::dvec3& from, const glm::dvec3& to) 
 // too soft.
 //
 // Local with an energy: shaders/simulation/constraints/bend.glsl. In a reference step the thesis's
-// pull holds a segment by n0 k_L / 2 of its distance from its goal, where pulls are small. Its
+// pull holds a segment by n0 k_L / 2 of its distance from its goal, if pulls are small. Its
 // stiffness is therefore K = -n0 ln(1 - k_L) / (2 h0^2), twice that at the root, and a segment with
 // n vertices below it turns by n g / (K l0). A segment that also turns the segment above back bears
 // a moment instead, and turns by n (n + 1) g / (2 K l0). With 4 times the stiffness, the tip of the

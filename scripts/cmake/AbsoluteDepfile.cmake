@@ -2,7 +2,7 @@
 # Makes the file names in a depfile absolute. They are relative to FOLDER, but CMake would take them
 # to be relative to the build.
 file(READ "${DEPFILE}" text)
-string(REGEX REPLACE "^.*: " "" files "${text}")  # what depends on them is OUTPUT
+string(REGEX REPLACE "^.*: " "" files "${text}")  # OUTPUT depends on these
 string(REGEX REPLACE "[ \n]+" ";" files "${files}")
 set(line "${OUTPUT}:")
 foreach(file IN LISTS files)

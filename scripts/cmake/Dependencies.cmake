@@ -2,7 +2,7 @@
 # it. Packages come first, so a vcpkg toolchain or a Vulkan SDK works as well as scripts/setup.
 # Nothing is downloaded here. docs/dependencies.md says why each one is needed.
 
-set(HAIRBENCH_DEPS "${CMAKE_CURRENT_LIST_DIR}/../../.deps")  # what scripts/setup fetched
+set(HAIRBENCH_DEPS "${CMAKE_CURRENT_LIST_DIR}/../../.deps")  # the folder that scripts/setup fills
 
 # hairbench_header_only(<name> <header> [path suffix...]): hairbench::<name>, a system include folder.
 function(hairbench_header_only name header)
@@ -42,7 +42,7 @@ if(NOT TARGET Vulkan::Headers)
 endif()
 
 # volk is compiled here. Debian 12 packages only its sources, and a packaged library may have been
-# built for other headers than ours.
+# built for headers other than ours.
 find_file(VOLK_SOURCE volk.c
     HINTS "$ENV{VULKAN_SDK}/include" "$ENV{VULKAN_SDK}/Include"
     PATH_SUFFIXES volk Volk)
@@ -114,7 +114,7 @@ find_package(OpenEXR CONFIG REQUIRED)
 find_package(Threads REQUIRED)
 find_package(ZLIB REQUIRED)
 
-# Linked statically where that is packaged: it is small, and one library fewer to ship.
+# Linked statically if that is packaged: it is small, and makes one library fewer to ship.
 find_path(SECCOMP_INCLUDE_DIR seccomp.h)
 find_library(SECCOMP_LIBRARY NAMES libseccomp.a seccomp)
 mark_as_advanced(SECCOMP_INCLUDE_DIR SECCOMP_LIBRARY)

@@ -9,7 +9,7 @@ vec3 unitOr(vec3 direction, vec3 otherwise) {
     return dot(direction, direction) > 1e-30 ? normalize(direction) : otherwise;
 }
 
-// Returns the unit vector perpendicular to two unit vectors, E x T. Where they are parallel within
+// Returns the unit vector perpendicular to two unit vectors, E x T. If they are parallel within
 // rounding, it returns any vector perpendicular to the tangent.
 vec3 unitSide(vec3 to_eye, vec3 tangent) {
     vec3 side = cross(to_eye, tangent);
@@ -17,7 +17,7 @@ vec3 unitSide(vec3 to_eye, vec3 tangent) {
     return perpendicular(tangent);
 }
 
-// Returns the vector of length `size` along E x T. The inputs may have any length. Where they are
+// Returns the vector of length `size` along E x T. The inputs may have any length. If they are
 // parallel, it returns any vector perpendicular to the tangent.
 vec3 sideOfLength(vec3 to_eye, vec3 tangent, float size) {
     vec3 side = cross(to_eye, tangent);

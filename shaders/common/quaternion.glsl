@@ -18,7 +18,7 @@ vec3 rotate(vec4 rotation, vec3 v) {
 }
 
 // A vector perpendicular to v: its cross product with the axis along which v is smallest (x before
-// y before z where they tie).
+// y before z if they tie).
 vec3 crossLeastAxis(vec3 v) {
     vec3 size = abs(v);
     return size.x <= size.y && size.x <= size.z ? vec3(0.0, v.z, -v.y)

@@ -11,7 +11,8 @@ uint pcg(uint value) {
     return (word >> 22u) ^ word;
 }
 
-// `index` counts the things of one kind; `purpose` distinguishes the numbers that one thing needs.
+// `index` counts the objects of one kind; `purpose` distinguishes the numbers that one object
+// needs.
 uint hash(uint seed, uint index, uint purpose) {
     return pcg(purpose + pcg(index + pcg(seed)));
 }

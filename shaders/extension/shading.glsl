@@ -25,7 +25,7 @@ struct HairLight {
 
 // Scene fields that apply to every model.
 struct HairShading {
-    float ambient;  // /shading/ambient; 0 where an environment lights the hair
+    float ambient;  // /shading/ambient; 0 if an environment lights the hair
     float diffuse;  // /shading/diffuse
     float specular;  // /shading/specular
     float exponent;  // /shading/exponent

@@ -8,8 +8,8 @@ struct KajiyaKayLight {
 };
 
 // All directions are unit vectors that point away from the strand; the tangent points along it. L
-// in the equations is the direction in which light travels, so the specular term is greatest where
-// the eye is on the cone of mirrored light.
+// in the equations is the direction in which light travels, so the specular term is greatest if the
+// eye is on the cone of mirrored light.
 KajiyaKayLight kajiyaKay(vec3 tangent, vec3 to_light, vec3 to_eye, float exponent) {
     float cos_light = -dot(tangent, to_light);
     float cos_eye = dot(tangent, to_eye);

@@ -12,7 +12,8 @@ layout(buffer_reference, scalar) readonly buffer Lights { Light lights[]; };
 struct LightSample {
     vec3 to_light;  // unit length
     vec3 color;  // what a white matt surface facing it shows: irradiance / pi
-    float angular_radius;  // rad; 0 for points; for rectangles that of the disc with equal variance
+    float angular_radius;  // rad; 0 for points; for rectangles, the radius of the disc with equal
+                           // variance
     // Rectangles only:
     mat4x3 corners;  // from the point, m
     float facing;  // irradiance of a surface that faces the light, for radiance 1; 0 for other
@@ -80,7 +81,7 @@ struct LightPath {
     float scatter_count;  // mean number of strands that the scattered light passes; at least 1
     vec3 ended;  // part that the strands behind the point would let through, there and back
     vec3 returned;  // part of `ended` that meshes behind the strands send back
-    // Ratio of light that turns back in hair to the same where it comes straight in.
+    // Ratio of light that turns back in hair to light that comes straight in.
     float multiple_scattering;
 };
 

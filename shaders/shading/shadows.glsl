@@ -179,9 +179,9 @@ LightPath filteredPath(ShadowMap map, ShadowPoint point, float half_width) {
     return path;
 }
 
-// Distance in metres along the light's view to the first strand in a texel. Where skin is in front
-// of it, the hair ends on the skin, and its surface is assumed to continue at `here`. Where there
-// is neither, the surface falls steeply.
+// Distance in metres along the light's view to the first strand in a texel. If skin is in front of
+// it, the hair ends on the skin, and its surface is assumed to continue at `here`. If there is
+// neither, the surface falls steeply.
 float firstStrand(ShadowMap map, vec2 texel, float side, float here) {
     ivec2 at = ivec2(map.corner) + ivec2(clamp(texel, vec2(0.0), vec2(side - 1.0)));
     float depth = texelFetch(hair_depths, at, 0).r;

@@ -1,6 +1,6 @@
 // Makes a line of a strand into a quad that faces the light. A strand thinner than a texel of the
-// map is drawn one texel wide and proportionally less opaque, so that its mean coverage is right
-// however thin it is. All stages that make corners share this code.
+// map is drawn one texel wide and proportionally less opaque, so that its mean coverage is right at
+// any width. All stages that make corners share this code.
 #ifndef HAIRBENCH_SHADOW_QUAD_CORNER_GLSL
 #define HAIRBENCH_SHADOW_QUAD_CORNER_GLSL
 

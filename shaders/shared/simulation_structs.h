@@ -61,8 +61,8 @@ struct Step {
 
 // Data of a simulation's guides for its whole life.
 struct GuideParameters {
-    Address positions;  // m; w = inverse mass relative to a vertex's: 0 where pinned (the root),
-                        // else 1
+    Address positions;  // m; w = inverse mass relative to a vertex's: 0 if pinned (the root), else
+                        // 1
     Address previous;  // m, one substep earlier; w = 1 at vertices in contact with a body and all
                        // vertices below them on the strand, else 0
     Address rest_positions;  // m; w = margin between the vertex and bodies, m

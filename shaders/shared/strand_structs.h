@@ -60,8 +60,8 @@ struct PictureParameters {
     Address guide_turns;  // vec4 [guide][vertex], unit quaternions: rotation of the guide since
                           // rest; read if residuals are drawn
     Address residuals;  // uvec2 [sample] of all strands: hair/rendering/strand_residuals.h
-    Address contacts;  // vec4 [guide][vertex]: w > 0 where a guide touches a body and below; read
-                       // if the collision rule is on
+    Address contacts;  // vec4 [guide][vertex]: w > 0 from the first vertex that touches a body on;
+                       // read if the collision rule is on
     Address bodies;  // Bodies; read if they push strands out
     Address root_pattern;  // vec2 [strand], in [0, 1): read if all triangles share one pattern
     Address offsets;  // vec3 [profile][1 + sample + 1], m: see hair/rendering/strand_offsets.h
@@ -120,8 +120,8 @@ struct FramesPush {
 struct TurnsPush {
     vec4 head_turn;  // quaternion of PictureParameters::head
     Address guides;  // vec4 [guide][vertex], m, root first
-    Address rest_tangents;  // vec3 [guide][vertex], before the head's motion: unit length, or 0
-                            // where the guide has no direction
+    Address rest_tangents;  // vec3 [guide][vertex], before the head's motion: unit length, or 0 if
+                            // the guide has no direction
     Address turns;  // vec4 [guide][vertex]; written
     uint guide_count;
     uint vertices_per_guide;

@@ -49,7 +49,7 @@ struct VolumeParameters {
     float greatest_repulsion;  // m/s^2
     uint borrows;  // 1: the last component of a sum lacks 1 if the third is negative
     Address kept;  // vec4 [strand][vertex]: velocity difference that friction left in the step
-                   // before, m/s; w = 1 where there was one, else 0
+                   // before, m/s; w = 1 if there was one, else 0
 };
 
 // Push constants of every pass of the grid.

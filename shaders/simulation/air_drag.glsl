@@ -17,7 +17,7 @@
 // the hair together. For a solver, air therefore means two changes: w replaces v_p, and the mass
 // across the hair is multiplied by 1 + h k. With both, hair at rest feels k U for any h. Hair in
 // still air loses energy for any h and f, since P is positive semidefinite. Free hair has u' = u /
-// (1 + h k), which neither grows nor reverses. That is the exact solution where C_D is 1. Where the
+// (1 + h k), which neither grows nor reverses. That is the exact solution if C_D is 1. If the
 // viscous part dominates, the drag is too weak, by an error of first order in h.
 #ifndef HAIRBENCH_SIMULATION_AIR_DRAG_GLSL
 #define HAIRBENCH_SIMULATION_AIR_DRAG_GLSL
@@ -35,7 +35,7 @@ vec3 directionOf(vec3 edge) {
 
 // The tangent at a vertex between two segments. Each input is a unit vector, or zero for a segment
 // without a direction. The result is halfway between them, which is second-order accurate on a
-// curved strand. Where they are folded, it is that of the segment above. It is zero if neither has
+// curved strand. If they are folded, it is that of the segment above. It is zero if neither has
 // one.
 vec3 tangentBetween(vec3 above, vec3 below) {
     vec3 sum = above + below;

@@ -57,7 +57,7 @@ vec3 directionTo(uint i) {
     return len < kShortestSegment ? vec3(0.0) : edge / len;
 }
 
-// Displacement of a vertex of inverse mass w by a force, where a segment along e holds a share.
+// Displacement of a vertex of inverse mass w by a force, if a segment along e holds a share.
 vec3 displacementBy(vec3 force, float w, float share, vec3 e) {
     return w * (force - share * dot(e, force) * e);
 }

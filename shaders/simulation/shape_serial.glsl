@@ -1,7 +1,7 @@
 // A substep of the `shape` solver like shape.glsl, for comparison. There is one invocation per
-// strand, as the thesis's local constraint has one busy lane per strand, but strands are packed. It
-// walks along the strand with its state in the device's buffers. Define HAIRBENCH_SHAPE_ENERGY
-// first if the local constraint has an energy.
+// strand, like the one busy lane per strand of the thesis's local constraint, but strands are
+// packed. It walks along the strand with its state in the device's buffers. Define
+// HAIRBENCH_SHAPE_ENERGY first if the local constraint has an energy.
 #ifndef HAIRBENCH_SIMULATION_SHAPE_SERIAL_GLSL
 #define HAIRBENCH_SIMULATION_SHAPE_SERIAL_GLSL
 
@@ -112,8 +112,8 @@ void main() {
     RigidFrame head = root_frame_before;
     Transport start = Transport(firstTangent(head, rest_edges.at[root + 1]), head.rotation);
     vec3 axes[kVerticesPerStrand];
-    // Kept in an array: Mesa 22.3.6's lavapipe reads x instead of w if it is loaded again alone (2
-    // vertices).
+    // Kept in an array, because Mesa 22.3.6's lavapipe reads x instead of w if w alone is loaded
+    // again (2 vertices).
     float rest_lengths[kVerticesPerStrand];
     BendJoint joints[kVerticesPerStrand];
     Transport frame = start;

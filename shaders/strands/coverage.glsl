@@ -20,7 +20,7 @@ PixelFilter pixelFilter(float offset) {
     return PixelFilter(widths, 0.5 * (widths.x + widths.y));
 }
 
-// Distances from the four corners of the filter's trapezoid to x; 0 where x is before the corner.
+// Distances from the four corners of the filter's trapezoid to x; 0 if x is before the corner.
 vec4 beyondCorners(PixelFilter pixel, float x) {
     float difference = 0.5 * (pixel.widths.x - pixel.widths.y);
     vec4 corners = vec4(-pixel.reach, -difference, difference, pixel.reach);

@@ -62,7 +62,7 @@ void strandControlPoints(PictureParameters picture, uvec3 guides, uint segment, 
     for (int k = 0; k < 4; ++k)
         r[k] = mix(r[k], points[4u * heaviest + uint(k)] + offset, single_shares[k]);
 
-    // Where shares change at an end, the mean of reflected points is not the reflection.
+    // If shares change at an end, the mean of reflected points is not the reflection.
     if (kCollisionRule == 0 || kCurve == kCurveBsplineUnpinned) return;
     precise vec3 before = 2.0 * r[1] - r[2];
     precise vec3 behind = 2.0 * r[2] - r[1];

@@ -7,8 +7,8 @@
 
 // Returns the part of a pixel that the hairs cover, with a filter in metres, and finds the
 // representative hair and the position across it. Hairs that are wider than the filter are covered
-// one by one. Where many hairs fall into a pixel, the pixel sees the strip with their mean
-// coverage, and any one of them is shaded.
+// one by one. If many hairs fall into a pixel, the pixel sees the strip with their mean coverage,
+// and any one of them is shaded.
 // offset: of the pixel from the strip's middle; half_width: of the strip without gaps; m.
 float coverMerged(uint word, PixelFilter pixel, float offset, float half_width,
                   inout StrandFragment fragment) {

@@ -1,6 +1,6 @@
 #version 460
-// Draws a strand's quad, opaque. It discards fragments where the texture's opacity is below half,
-// and fragments between the hairs that the strand stands for.
+// Draws a strand's quad, opaque. It discards fragments if the texture's opacity is below half, and
+// fragments between the hairs that the strand stands for.
 #extension GL_GOOGLE_include_directive : require
 #include "strands/fragment.glsl"
 

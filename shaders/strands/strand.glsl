@@ -89,8 +89,8 @@ vec3 boundedOffset(HairPlace place) {
     return size > kOffsetReach ? offset * (kOffsetReach / size) : offset;
 }
 
-// The same with a function from the scene. Its slope is a difference between two positions beside
-// the point.
+// Moves a point by a function from the scene. Its slope is a difference between two positions
+// beside the point.
 void extendPoint(PictureParameters picture, StrandPatch strand_patch, PatchStrand strand, float t,
                  inout StrandPoint point) {
     const float kBeside = 1.0 / 1024.0;  // of the strand

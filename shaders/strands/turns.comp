@@ -1,8 +1,8 @@
 #version 460
 // Computes the rotation of guides since rest, at every vertex. It starts with the head's rotation
 // and is turned along the guide by the smallest rotations that its directions require. It has no
-// twist of its own. It is the identity where the guide is at rest, and the full rotation where the
-// guide has turned as a whole. One invocation per guide.
+// twist of its own. It is the identity if the guide is at rest, and the full rotation if the guide
+// has turned as a whole. One invocation per guide.
 #extension GL_GOOGLE_include_directive : require
 #include "common/picture.glsl"
 #include "common/quaternion.glsl"

@@ -19,7 +19,7 @@ namespace {
 
 struct Rule {
     std::string_view folder;     // "" is every folder
-    std::string_view forbidden;  // what includes start with
+    std::string_view forbidden;  // beginning of forbidden includes
     std::string_view except = "none";  // files with this beginning may include it
     std::string_view also = "none";    // files with this beginning, too
 };

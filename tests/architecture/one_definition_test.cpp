@@ -168,7 +168,7 @@ std::size_t pastBracket(const Tokens& tokens, std::size_t open) {
     return tokens.size();
 }
 
-// The same for '<' and '>'. A comparison between them must be in parentheses.
+// Returns the same for '<' and '>'. A comparison between them must be in parentheses.
 std::size_t pastAngle(const Tokens& tokens, std::size_t open) {
     std::size_t depth = 0;
     for (std::size_t i = open; i < tokens.size(); ++i) {

@@ -244,8 +244,8 @@ TEST_F(SceneExtensions, HaveNoBackslashAnywhere) {
                 << hidden;
 }
 
-// Functions get the same in every stage. Other things, such as gl_FragCoord, exist in the stages of
-// one back end and not in those of another.
+// Functions get the same arguments in every stage. Other inputs, such as gl_FragCoord, exist in the
+// stages of one back end and not in those of another.
 TEST_F(SceneExtensions, AreTheSameInEveryStage) {
     const auto shading = [&](const std::string& statement) {
         return modelError(

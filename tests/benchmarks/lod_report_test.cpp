@@ -121,7 +121,7 @@ TEST(LodTable, HasALinePerStepAndTheTotals) {
     EXPECT_THAT(table, HasSubstr("20.000"));
     EXPECT_THAT(table, HasSubstr("-10.00"));
     EXPECT_THAT(table, HasSubstr("coverage change: mean -5.00 %, worst -10.00 %"));
-    EXPECT_THAT(table, HasSubstr("against level 0 path-traced with 64 samples a pixel"));
+    EXPECT_THAT(table, HasSubstr("against level 0 path-traced with 64 samples per pixel"));
     EXPECT_THAT(table, HasSubstr("0.900"));
 }
 

@@ -33,7 +33,7 @@ std::map<std::string, std::string> documented() {
         std::smatch cells;
         if (!std::regex_match(line, cells, row)) continue;
         const std::string names = cells[1];
-        std::istringstream unit_list(cells[2].str());  // "ms, 1": one for each name
+        std::istringstream unit_list(cells[2].str());  // "ms, 1": one unit for each name
         std::string unit, last;
         for (std::sregex_iterator each(names.begin(), names.end(), code), end; each != end;
              ++each) {

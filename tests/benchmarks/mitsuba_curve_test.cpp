@@ -94,7 +94,7 @@ TEST(MitsubaCurves, HaveRootAndTipAndRadiiOfTheStrands) {
         const glm::dvec4 expected(glm::dvec3(strands.points[i]), strands.widths.values[i] / 2.0);
         EXPECT_LT(glm::distance(curveAt(curves[0], i), expected), kFloat) << i;
     }
-    // The second strand narrows to nothing at its tip, without a negative radius.
+    // The second strand narrows to nothing at its tip, but its radius does not become negative.
     for (const glm::dvec4& control : curves[1]) EXPECT_GE(control.w, 0.0);
     EXPECT_NEAR(curveAt(curves[1], 0.0).w, 0.1, kFloat);
 }

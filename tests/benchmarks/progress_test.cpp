@@ -12,7 +12,7 @@ TEST(Progress, SaysNothingOfTheRestBeforeSomethingIsDone) {
 }
 
 TEST(Progress, TakesTheRestToLastAsLongAsWhatIsDone) {
-    // Two pieces took 50 s, and ten are left including the current one.
+    // Two pieces took 50 s, and ten are left, including the current one.
     EXPECT_EQ(measure::progressText(3, 12, 2, 50.0), "[3/12] 0:50, about 4:10 left");
     // Nine existed already: only pieces of this run count for the estimate.
     EXPECT_EQ(measure::progressText(11, 12, 1, 30.0), "[11/12] 0:30, about 1:00 left");

@@ -77,7 +77,8 @@ TEST(LowRates, AreThreeDifferentThings) {
     // Position 299 * 0.99 = 296.01 in the sorted times: 0.01 of the way from 10 to 40 ms.
     EXPECT_NEAR(low.percentile, 1000.0 / 10.3, 1e-9);
     EXPECT_DOUBLE_EQ(low.mean, 1000.0 / ((100.0 + 50.0 + 40.0) / 3.0));  // the 3 longest of 300
-    EXPECT_DOUBLE_EQ(low.integral, 1000.0 / 100.0);  // 1 % of 3160 ms lies within the longest frame
+    EXPECT_DOUBLE_EQ(low.integral, 1000.0 / 100.0);  // 1 % of 3160 ms, which lies within the
+                                                     // longest frame
 }
 
 TEST(LowRates, OfFewFramesTakeTheLongest) {

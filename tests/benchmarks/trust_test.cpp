@@ -45,8 +45,8 @@ TEST(Trust, HoldsPassesAgainstTheDeviceAndTheWorkAlone) {
     EXPECT_TRUE(measure::passSums(frames, {.median = 0.06, .spread = 0.005}).incomplete);
 }
 
-// No pass has 3 ms of 13 ms, although the device's timestamps are covered by passes. That is 23 %
-// of the wall clock, and an empty submission takes only 0.06 ms.
+// 3 ms of 13 ms are in no pass, although the device's timestamps are covered by passes. That is 23
+// % of the wall clock, and an empty submission takes only 0.06 ms.
 TEST(Trust, FindsWorkThatNoStampHas) {
     std::vector frames{frame(13, 3, 7)};
     frames[0].device = 10.0;

@@ -381,7 +381,7 @@ TEST_F(CliRun, GivesEqualHashesTwice) {
     }
 }
 
-// The cache is a folder of the test's own.
+// The cache is in a folder that belongs to the test.
 TEST_F(CliRun, TakesSettledHairFromDiskOrNotAndHasTheSameHashes) {
     const fs::path folder = folder_.path() / "cache";
     const auto entries = [&] {

@@ -123,7 +123,7 @@ TEST_F(ExportCli, RendersAndComparesReferences) {
             hairbench(small + options + quoted(wide ? "wide.exr" : "narrow.png"));
         ASSERT_EQ(outcome.status, 0) << outcome.output;
         EXPECT_THAT(outcome.output, testing::Not(HasSubstr("[2/2]")));  // progress is for terminals
-        EXPECT_THAT(outcome.output, HasSubstr("x 36 px, 2 samples a pixel"));
+        EXPECT_THAT(outcome.output, HasSubstr("x 36 px, 2 samples per pixel"));
     }
     const Outcome same = hairbench(
         "diff --json " + quoted("wide.exr") + quoted("wide.exr") + "-o " + quoted("map.png"));

@@ -75,7 +75,7 @@ TEST_F(GroomCli, ConvertChoosesGuidesAndSaysHowGoodTheyAre) {
             "chose: 20 guides of 400 strands\nerror: .* nm in the mean .* % of the mean length"));
     EXPECT_THAT(
         outcome.output, ContainsRegex("left: of the file's strands as /strands/source groom draws "
-                                      "them with these guides .* in the mean, .* at most"));
+                                      "them with these guides .* on average, .* at most"));
     EXPECT_EQ(json("guides.hgl")["strands"], 20);
 }
 
@@ -139,7 +139,7 @@ TEST_P(GroomRefusal, IsOneLineWithStatus2AndWritesNothing) {
 INSTANTIATE_TEST_SUITE_P(
     , GroomRefusal,
     testing::Values(
-        // Refused before IN is read: none.hair does not exist either.
+        // In some pixels, hair may have the colour of the surface that it hides.
         RefusedGroom{
             "UnknownExtension", "none.hair", "out.foo", "",
             "can't be written as '.foo'; known: .hair"},

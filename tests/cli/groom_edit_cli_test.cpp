@@ -67,7 +67,7 @@ TEST_F(GroomEditCli, SmoothsBendsAndKeepsLengths) {
     EXPECT_EQ(edit("smooth", "bend.hair", "--scale 0.01 --length 50").status, 0);
     const nlohmann::json found = json("out.hair", "--scale 0.01");
     EXPECT_NEAR(found["lengths"]["mean"], 0.2, 1e-7);
-    EXPECT_GT(found["bounding_box"]["maximum"][0], 0.1);  // the corner is cut, the tip stays
+    EXPECT_GT(found["bounding_box"]["maximum"][0], 0.1);  // the corner is cut; the tip stays
     EXPECT_LT(found["bounding_box"]["maximum"][1], 0.13);
 }
 

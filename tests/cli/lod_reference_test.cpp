@@ -46,7 +46,7 @@ TEST_F(LodReferenceCli, ComparesEachLevelUnderEachLight) {
     if (!hasReferencePython()) GTEST_SKIP() << kNoReference;
     const Outcome outcome = lod();
     ASSERT_EQ(outcome.status, 0) << outcome.output;
-    EXPECT_THAT(outcome.output, HasSubstr("path-traced with 2 samples a pixel"));
+    EXPECT_THAT(outcome.output, HasSubstr("path-traced with 2 samples per pixel"));
     const nlohmann::json reference =
         nlohmann::json::parse(textOf(folder_.file("lod.json"))).at("reference");
     EXPECT_EQ(reference.at("samples"), 2);

@@ -46,7 +46,8 @@ TEST_F(SequenceCli, WritesEveryFrameAsItIsByItself) {
     EXPECT_NE(textOf(folder_.file("five.png")), textOf(folder_.file("out/001.png")));
 }
 
-// Every strand is at least a pixel wide, so thousands of them give more than one fragment a pixel.
+// Every strand is at least a pixel wide, so thousands of them give more than one fragment per
+// pixel.
 TEST_F(SequenceCli, SaysWhatListsOfFragmentsHaveNoRoomFor) {
     const std::string lists = "-a /render/coverage=analytic -a /strands/density=64 "
                               "-a /render/transparency=fragment_list -a /render/list_length=";

@@ -76,7 +76,7 @@ TEST(StrangersNames, AreNotRunByAShell) {
     }
 }
 
-// With std::regex such a --filter would end the program by a signal.
+// If --filter used std::regex, a signal would end the program here.
 TEST(StrangersNames, MatchExpressionsOfAnyKind) {
     const TemporaryFolder folder;
     const std::string value(200'000, 'a');
@@ -92,7 +92,8 @@ TEST(StrangersNames, MatchExpressionsOfAnyKind) {
     }
 }
 
-// The program would wait for a reader of a pipe after all the work. A folder can't be written.
+// Without this check, the program would wait for a pipe's reader after all the work. A folder can't
+// be written.
 TEST(OutputFiles, ArePlainOnesOrRefusedAtOnce) {
     const TemporaryFolder folder;
     ASSERT_EQ(mkfifo(folder.file("pipe.json").c_str(), 0600), 0);
@@ -118,7 +119,7 @@ TEST(OutputFiles, ArePlainOnesOrRefusedAtOnce) {
     }
 }
 
-// Two files of each kind but journals, which need a device; scripts/test --fuzz has more.
+// Two files of each kind except journals, which need a device; scripts/test --fuzz has more.
 TEST(CraftedFiles, TakeNothingAndOpenNothingOutside) {
     if (pythonInterpreter().empty()) return skipWithout(Need::python, kNoPython);
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)

@@ -43,7 +43,7 @@ TEST_F(Baseline, IsOfAReportThatNamesItsScene) {
 
 TEST_F(Baseline, KeepsAllSamplesInOneFile) {
     scene::Json report = madeReport();
-    std::vector<double> samples;  // so many that the report keeps them in a file beside it
+    std::vector<double> samples;  // enough that the report keeps them in a file beside it
     for (int i = 0; i < 5001; ++i) samples.push_back(1.0 + i);
     report["cases"].push_back(madeCase("made", {{"frame.time", samples}}));
     report["cases"][0]["picture"] = "made.png";

@@ -29,7 +29,7 @@ inline scene::Json madeReport(const std::string& device_type = "discrete") {
 
 struct MadeMetric {
     std::string name;
-    std::vector<double> samples;  // in any order in which the median is in the middle
+    std::vector<double> samples;  // in any order that has the median in the middle
     std::string unit = "ms";
     std::string hint = "lower";
     std::string mode = "isolated";

@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
-"""Runs the two commands of the README as a new user would: in a fresh minimal root of a release with only git and no
-cache. Only the distribution's mirror and Python's index have an address there. Checks that scripts/bench leaves a
-table, a report and its page, and that scripts/test passes. Writes the results into the table of docs/install.md.
-scripts/test --fresh calls this as root."""
+"""Runs the two commands of the README as a new user would: in a fresh minimal root of a release
+with only git and no cache. Only the distribution's mirror and Python's index can be reached there.
+Checks that scripts/bench leaves a table, a report and its page, and that scripts/test passes.
+Writes the results into the table of docs/install.md. scripts/test --fresh calls this as root."""
 
 import re
 import resource
@@ -83,7 +83,7 @@ def measured(place, command):
 
 
 def keep(log):
-    """Copies the log to where it outlives the root, and returns that path."""
+    """Copies the log to a place that outlives the root, and returns that path."""
     kept = Path(tempfile.gettempdir()) / "hairbench-fresh.log"
     shutil.copyfile(log, kept)
     return kept

@@ -64,13 +64,13 @@ TEST(Gate, EndsAt8WhenAChangeIsLargeInEveryPair) {
     gate::Gate faster(kOneMetric);
     EXPECT_EQ(play(faster, [](std::size_t) { return 1.0 / 1.21; }), 16u);
     EXPECT_EQ(faster.comparisons()[0].verdict, Verdict::improved);
-    // One pair of 19 %, or noise that large, leaves it to the next decision.
+    // After one pair of 19 %, or noise that large, the verdict waits for the next decision.
     gate::Gate once(kOneMetric);
     EXPECT_EQ(play(once, [](std::size_t i) { return i == 5 ? 1.19 : 1.5; }), 24u);
     gate::Gate noisy(std::vector<gate::GateMetric>{{.calibration = {0.4, -0.4, 0.4, -0.4}}});
     play(noisy, [](std::size_t i) { return 1.5 + 0.001 * wobble(i); });
     EXPECT_GE(noisy.pairs(), 12u);
-    // Asked for 24 pairs, it decides nothing before.
+    // If 24 pairs are requested, it decides nothing before them.
     gate::Gate late(kOneMetric, {.first_pairs = 24});
     EXPECT_EQ(play(late, [](std::size_t) { return 1.5; }), 48u);
 }
@@ -105,7 +105,7 @@ TEST(Gate, SaysSameOfWhatIsInsideTheBand) {
     gate::Gate gate(kOneMetric);
     EXPECT_EQ(play(gate, [](std::size_t i) { return 1.0 + 0.005 * wobble(i); }), 24u);
     EXPECT_EQ(gate.comparisons()[0].verdict, Verdict::same);
-    // A significant change that is too small to matter is none, either.
+    // A significant change that is too small to matter counts as no change.
     gate::Gate slower(kOneMetric);
     play(slower, [](std::size_t i) { return 1.01 + 0.001 * wobble(i); });
     EXPECT_EQ(slower.comparisons()[0].verdict, Verdict::same);
@@ -126,8 +126,8 @@ TEST(Gate, EndsAt24WhenThatIsEnough) {
     EXPECT_EQ(gate.comparisons()[0].verdict, Verdict::regressed);
 }
 
-// One metric is slower by 50 %, and the other can't be decided. To fail a build the other is not
-// needed.
+// One metric is slower by 50 %, and the other can't be decided. The first is enough to fail a
+// build.
 TEST(Gate, EndsWithARegressionUnlessAllAreWanted) {
     const auto pair_of = [](gate::Gate& gate) {
         const bool b = gate.next() == Step::run_b;
@@ -147,8 +147,8 @@ TEST(Gate, EndsWithARegressionUnlessAllAreWanted) {
     EXPECT_EQ(all.comparisons()[1].pairs, 48u);
 }
 
-// The first of two metrics is slower at 12 pairs and no more later: its verdict stays. The second
-// keeps the gate going.
+// The first of two metrics is slower after 12 pairs and no longer slower later: its verdict stays.
+// The second keeps the gate going.
 TEST(Gate, TakesNoVerdictBack) {
     gate::Gate gate(std::vector<gate::GateMetric>(2), {}, true);
     while (gate.next() != Step::decided) {
@@ -231,7 +231,7 @@ TEST(Gate, RefusesOtherMetrics) {
     gate::Gate gate(kOneMetric);
     EXPECT_EQ(
         errorText([&] { gate.add({1.0, 2.0}); }),
-        "gate: a process measured other metrics than the others");
+        "gate: one process measured different metrics from the others");
 }
 
 TEST(Gate, KnowsNothingBeforeThePairs) {

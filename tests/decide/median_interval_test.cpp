@@ -66,8 +66,8 @@ TEST(MedianInterval, OfManySamplesDoesNotUnderflow) {
 }
 
 TEST(EffectiveSamples, OfWhiteNoiseAreNearlyAll) {
-    // In theory it is all. The cut-off of the sum of correlations biases it downward by a few times
-    // 1 / sqrt(n), and the caution about it by as much again.
+    // In theory it equals the number of samples. The cut-off of the sum of correlations biases it
+    // downward by a few times 1 / sqrt(n), and the caution about it by as much again.
     Noise noise(3);
     double sum = 0.0;
     for (int trial = 0; trial < 100; ++trial) sum += effectiveSamples(series(noise, 1000, 0.0));
@@ -75,7 +75,8 @@ TEST(EffectiveSamples, OfWhiteNoiseAreNearlyAll) {
 }
 
 TEST(EffectiveSamples, OfACorrelatedSeriesAreThoseOfTheory) {
-    // If normal values have the correlation c, being above the median has 2/pi asin(c).
+    // If normal values have the correlation c, the indicators of being above the median have the
+    // correlation 2/pi asin(c).
     constexpr double kCorrelation = 0.9;
     constexpr std::size_t kCount = 4000;
     double time = 1.0;
@@ -138,7 +139,8 @@ TEST(Precision, IsReachedWhenTheMedianIsKnown) {
     }
     EXPECT_GT(reached, 50u);
     EXPECT_LT(reached, 400u);
-    EXPECT_EQ(precisionOf(std::vector(6, 4.0)), 0.0);  // the fewest with an interval at 5 %
+    EXPECT_EQ(precisionOf(std::vector(6, 4.0)), 0.0);  // the fewest samples that have an interval
+                                                       // at 5 %
     EXPECT_EQ(precisionOf(std::vector(5, 4.0)), std::numeric_limits<double>::infinity());
 }
 

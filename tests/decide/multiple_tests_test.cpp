@@ -37,7 +37,7 @@ TEST(FalseDiscovery, OfNothingIsNothing) {
     EXPECT_EQ(errorText([] { falseDiscoveryAdjusted(std::vector{std::nan("")}); }), error);
 }
 
-// The early decision on large changes has its share, too.
+// The early decision on large changes has its own share of the level.
 TEST(StageLevel, IsSpentInWhole) {
     EXPECT_DOUBLE_EQ(stageLevel(0.05) * (std::size(kStages) + 1), 0.05);
 }

@@ -3,8 +3,9 @@
 
     python scipy_values.py > scipy_values.json
 
-The committed numbers are from scipy 1.17.1 and numpy of its time. Intervals of the signed-rank test
-do not use the ranks of Walsh averages: scipy's test says which medians it rejects.
+The committed numbers are from scipy 1.17.1 and the numpy release of that time. Intervals of the
+signed-rank test do not use the ranks of Walsh averages. Instead, scipy's test shows which medians it
+rejects.
 """
 
 import itertools

@@ -158,8 +158,8 @@ TEST(SimulatedGates, WouldCryWolfIfBuildsTookNoTurns) {
     EXPECT_GE(alarms, kGates * 4 / 10);
 }
 
-// 10 of 30 metrics are really slower; all are exactly at or far beyond the threshold. Tests the
-// share of false ones among the regressed, averaged over gates.
+// 10 of 30 metrics are really slower. All are exactly at the threshold or far beyond it. Tests the
+// share of false verdicts among the regressed metrics, averaged over gates.
 TEST(SimulatedGates, KeepTheRateOfFalseDiscoveries) {
     Noise noise(15);
     constexpr std::size_t kMetrics = 30;

@@ -268,7 +268,7 @@ TEST_F(LesserDevice, ShapeNeedsSharedMemoryForItsStrands) {
 
 // ---- Cases with the same results ----------------------------------------------------------------
 
-// The extension needs one for windows. Devices without a window have neither.
+// Present fences need an instance extension for windows. Devices without a window have neither.
 TEST_F(LesserDevice, HasNoFencesOfPresentsWithoutAWindow) {
     EXPECT_FALSE(device().has(Feature::present_fences));
     make([](DeviceInfo& info) { EXPECT_FALSE(info.features.contains(Feature::present_fences)); });

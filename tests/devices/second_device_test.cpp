@@ -72,8 +72,8 @@ TEST_F(SwiftShader, SkipsStrandsWithTheirReason) {
 
 // Tests back ends that need none of the missing stages. By rounding, edges of strands fall on
 // either side of a sample, and the shading of steep strands differs. The test draws a quarter of
-// the scene's strands, because they take most of SwiftShader's time. Their error is about 0.0066;
-// that of all strands is 0.008.
+// the scene's strands, because drawing them takes most of SwiftShader's time. Their error is about
+// 0.0066; that of all strands is 0.008.
 TEST_F(SwiftShader, DrawsStrandsAsTheOtherDeviceDoes) {
     if (pythonInterpreter().empty()) return skipWithout(Need::python, kNoPython);
     if (hairbench("devices").status != 0) return skipWithout(Need::device, "no other device");

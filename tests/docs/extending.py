@@ -115,7 +115,7 @@ def check_shading_model(folder: pathlib.Path) -> None:
     expect(all(abs(value - wanted) < 0.03 * wanted for value in matt), f"{matt} is not {wanted}")
     expect(max(phong) > 230, f"phong is {max(phong)} at most")
     mean = sum(phong) / len(matt)
-    expect(abs(mean - wanted) < 0.02 * wanted, f"phong is {mean} in the mean, not {wanted}")
+    expect(abs(mean - wanted) < 0.02 * wanted, f"phong is {mean} on average, not {wanted}")
 
 
 def check_backend(folder: pathlib.Path) -> None:
@@ -127,7 +127,8 @@ def check_backend(folder: pathlib.Path) -> None:
         expect(strips["backend"]["name"] == "strips", f"{strips['backend']}")
         expect(strips["counts"] == pulling["counts"], "it draws other strands")
         far = median(strips, "image.flip.tessellation")
-        # The limit allows two roundings of one colour. A picture of other strands has 0.05 and more.
+        # The limit allows two roundings of one colour. The error of a picture of other strands is
+        # 0.05 or more.
         expect(
             far <= median(pulling, "image.flip.tessellation") + 1e-4 and far < 1e-3,
             f"{samples} samples: {far} from tessellation",
@@ -163,7 +164,8 @@ CHECKS = {
 
 
 def sync(source: pathlib.Path, target: pathlib.Path) -> None:
-    """Makes target's files equal to source's. Equal files keep their times, which saves builds."""
+    """Makes target's files equal to source's. Files that are already equal keep their times, which
+    saves builds."""
     files = {each.relative_to(source) for each in source.rglob("*") if each.is_file()}
     kept = target / "build"
     for each in list(target.rglob("*")):
@@ -182,7 +184,7 @@ def sync(source: pathlib.Path, target: pathlib.Path) -> None:
 def patched_copy(project: pathlib.Path, tree: pathlib.Path) -> None:
     with tempfile.TemporaryDirectory(prefix="hairbench-extending-") as fresh:
         copy_project(project, pathlib.Path(fresh))
-        # If a folder above had a repository, git would take paths as relative to that and skip them.
+        # If a folder above were a repository, git would take paths as relative to it and skip them.
         alone = {**os.environ, "GIT_CEILING_DIRECTORIES": str(pathlib.Path(fresh).parent)}
         for name in CHECKS:
             patch = project / "docs/extending" / f"{name}.patch"

@@ -77,7 +77,8 @@ class Site(unittest.TestCase):
     def look(
         self, page: str, *options: str, query: str = "", width: int = 1280, more: str = ""
     ) -> dict:
-        """Returns the state of the page after four seconds of virtual time, watched from its head on."""
+        """Returns the state of the page after four seconds of virtual time. The page is watched
+        from its head on."""
         file = self.site / page
         watch = (PROJECT / "tests/report_page/watch.js").read_text()
         text = file.read_text().replace("<head>", f"<head><script>{watch}</script>{more}", 1)
@@ -112,10 +113,10 @@ class Site(unittest.TestCase):
         said = self.look("index.html", width=1400)
         self.expect_whole(said)
         self.assertEqual(said["background"], "rgb(255, 255, 255)")
-        self.assertEqual(said["panels"], [])  # they are there
+        self.assertEqual(said["panels"], [])  # the panels are there
 
     def test_fits_a_narrow_dark_screen(self) -> None:
-        # This page has tables that are wider.
+        # This page has tables that are wider than the window.
         said = self.look(
             "docs/performance.html", "--blink-settings=preferredColorScheme=0", width=360
         )

@@ -29,7 +29,7 @@ TEST(DoctorChecks, HaveNamesOfTheirOwn) {
     EXPECT_EQ(names.size(), doctorChecks().size());
 }
 
-// A fault of a good machine, and what its check must say.
+// A fault of an otherwise good machine, and text that its check must contain.
 struct Fault {
     const char* check;
     Health health;

@@ -257,7 +257,7 @@ TEST(SuperfluousBarriers, AreThoseWithoutWhichThereIsNoMoreHazard) {
         use(1, kComputeWrite), barrier(kComputeWrite, kVertexRead, "a"),
         barrier(kComputeWrite, kVertexRead, "b"), use(1, kVertexRead)};
     EXPECT_THAT(redundantBarriers(std::span(&twice, 1)), ElementsAre("a", "b"));
-    // Only the next frame needs it.
+    // Only the next frame needs this barrier.
     const Recording frame{use(1, kComputeWrite), barrier(kComputeWrite, kComputeWrite, "last")};
     EXPECT_THAT(redundantBarriers(std::span(&frame, 1)), ElementsAre("last"));
     EXPECT_THAT(redundantBarriers(std::vector{frame, frame}), IsEmpty());

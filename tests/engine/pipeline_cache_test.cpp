@@ -78,7 +78,7 @@ TEST_F(PipelineCacheTest, IgnoresAFileThatIsNotACache) {
     }
 }
 
-// Drivers check the first bytes only, and not all drivers check more.
+// Drivers check the first bytes, and not all drivers check more.
 TEST_F(PipelineCacheTest, IgnoresDamagedData) {
     makeCache();
     ASSERT_EQ(files().size(), 1u);

@@ -25,7 +25,7 @@ TEST(ProcessUse, AddsAndSubtracts) {
     EXPECT_EQ((ProcessUse{1.0, {}} + a).instructions, std::nullopt);
 }
 
-// Works until the process has used 5 ms. If its clock did not count the other thread's work, this
+// Works until the process has used 5 ms. If the clock did not count the other thread's work, this
 // would never end.
 TEST(ProcessUse, IsThatOfAllThreads) {
     const ProcessUse before = processUse();

@@ -111,7 +111,7 @@ TEST(RunTool, EndsTheProgramWhereALineIsRefused) {
         "no");
 }
 
-// The same for a program without output.
+// Tests the same for a program without output.
 TEST(RunTool, EndsTheProgramWhereAPollThrows) {
     EXPECT_EQ(
         errorText([] {
@@ -222,7 +222,7 @@ TEST(RunTool, OpensOnlyWhatItMayRead) {
 }
 
 // seccomp(2). Python's own errors name the number of the error, and its module `os` calls the
-// kernel without much between.
+// kernel almost directly.
 TEST(RunTool, CallsNeitherTheNetworkNorOtherProcesses) {
     const auto python = [](const std::string& code, ChildLimits limits) {
         return errorText([&] { runTool({"python3", "-c", code}, limits); });
@@ -241,7 +241,7 @@ TEST(RunTool, CallsNeitherTheNetworkNorOtherProcesses) {
     }
 }
 
-// Work in a fork computes only.
+// Work in a fork only computes.
 TEST(RunApart, OpensAndStartsNothing) {
     EXPECT_EQ(
         runApart(

@@ -1,24 +1,24 @@
 #!/usr/bin/env python3
-"""Hands crafted hostile files to the program, and looks at what it does from outside.
+"""Gives crafted hostile files to the program and observes it from outside.
 
 crafted_files.py PROGRAM [--count N | --seconds T] [--seed S] [--kind NAME ...]
 
-crafts.py makes the files. For each of them:
+crafts.py makes the files. These rules hold for each file:
 
 * The program ends with status 0, or refuses the file with status 2 and one line on stderr; some
   commands have more statuses of their own (STATUSES). It never ends by a signal, with an internal
-  error or with the trace of a program in Python.
-* It and its children together take at most 2 s of the processor, and each of them at most 300 MB
-  for each begun 10 MB of file, beside what the smallest file of the kind takes (Python's start for
-  USD, glslang's for GLSL, the device's for journals).
-* No child of it is left.
+  error or with a traceback of a Python program.
+* The program and its children together use at most 2 s of processor time. Each of them uses at most
+  300 MB for each started 10 MB of the file, in addition to the memory for the smallest file of the
+  kind (Python's start for USD, glslang's for GLSL, the device's for journals).
+* No child of it remains.
 * Nothing opens a planted file, which lies in a folder beside the crafted ones. The kernel reports
-  opening (inotify), so that the program is not asked. A pipe does not block.
+  opened files (inotify), so the script need not trust the program. A pipe does not block.
 
-Each second file is read without Landlock, which a filter of system calls hides: then what the
-program itself checks is seen. Before, the script checks itself: that it sees what breaks each rule,
-that files which name planted ones do open them with --allow-outside, and that children end with a
-killed program. A file that breaks a rule is kept, and the exit status is 1.
+Every second file is read without Landlock, which a filter of system calls hides. This shows the
+checks of the program itself. First the script checks itself: that it detects a violation of each
+rule, that files with names of planted ones do open them with --allow-outside, and that children end
+with a killed program. A file that breaks a rule is kept, and the exit status is 1.
 """
 
 import argparse
@@ -42,21 +42,21 @@ from pathlib import Path
 
 import crafts
 
-MOST_SECONDS = 2.0  # of the processor
-MOST_MEGABYTES = 300  # for each begun 10 MB of file
-MOST_WALL_CLOCK = 60.0  # s; only what blocks takes so long
+MOST_SECONDS = 2.0  # s of processor time
+MOST_MEGABYTES = 300  # for each started 10 MB of the file
+MOST_WALL_CLOCK = 60.0  # s; only a blocked program takes so long
 MOST_LINE = 700  # bytes of the line that refuses a file: its path, and 480 bytes (shortMessage)
-MOST_UNTIL_GONE = 1.0  # s after the program was killed
+MOST_UNTIL_GONE = 1.0  # s between the kill of the program and the end of its children
 
-# Statuses beside 0 and 2: a comparison's verdict, what doctor finds, no Vulkan device, reports that are
-# merged with cases missing.
+# Statuses besides 0 and 2: the verdict of a comparison, findings of doctor, no Vulkan device, and
+# merged reports with missing cases.
 STATUSES = {"compare": {10, 11, 12, 13}, "doctor": {3}, "run": {77}, "merge": {130}}
 
-# Lines that are no errors: the first one of `run`, and what a command is doing, after 10 s.
+# Lines that are not errors: the first line of `run`, and the progress of a command after 10 s.
 NO_ERROR = re.compile(
     r"hairbench \d+\.\d+\.\d+ \(.* on |\[\d+/\d+\] \d+:\d\d|reads [^:]+$|[a-z ]+(, \d+ of \d+)?$"
 )
-# Words of programs, which tell a user nothing.
+# Words of programmers, which tell a user nothing.
 UNCLEAR = re.compile(r"internal error|Traceback|terminate called|Sanitizer|std::|\b\w+(Error|Exception)\b")
 
 libc = ctypes.CDLL(None, use_errno=True)
@@ -75,7 +75,7 @@ IN_ACCESS, IN_OPEN = 0x1, 0x20
 
 
 class Watch:
-    """Sees which files of a folder are opened or read."""
+    """Detects which files of a folder are opened or read."""
 
     def __init__(self, folder):
         self.file = call("inotify_init1", os.O_NONBLOCK | os.O_CLOEXEC)
@@ -115,7 +115,7 @@ def hide_landlock():
 
 
 def children():
-    """Returns this process's children, orphans of its children among them."""
+    """Returns this process's children, including orphans of its children."""
     return [
         int(number)
         for task in Path("/proc/self/task").iterdir()
@@ -183,7 +183,7 @@ Limits = collections.namedtuple("Limits", "seconds megabytes")
 
 
 def broken_rules(outcome, limits, statuses=frozenset()):
-    """Returns what the run did that it must not do."""
+    """Returns the rules that the run broke."""
     found = []
     lines = outcome.errors.decode("utf-8", "replace").splitlines()
     lines = [line for line in lines if not NO_ERROR.match(line)]
@@ -217,7 +217,7 @@ def broken_rules(outcome, limits, statuses=frozenset()):
 
 
 def plant(folder):
-    """Writes valid files of each ending and returns their names."""
+    """Writes valid files of each extension and returns their names."""
     folder.mkdir()
     triangle = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"
     data = struct.pack("<9f", *range(9)) + struct.pack("<9I", *range(3), *range(3), *range(3))
@@ -243,7 +243,7 @@ def plant(folder):
 
 
 def check_self(runner):
-    """Returns rules of which this script does not see that they are broken."""
+    """Returns the rules for which this script would not detect a violation."""
     planted = runner.folder / "private/planted.png"
     limits = Limits(MOST_SECONDS, MOST_MEGABYTES)
     python = [sys.executable, "-c"]
@@ -274,8 +274,9 @@ BUSY = f"import time\nwhile time.process_time() < {MOST_SECONDS + 0.2}: pass"
 
 
 def check_allowed(runner, program, place):
-    """Returns names that do not lead to planted files even if the user allows them, because a misspelt
-    name would pass as one that is refused; and fields whose names are not refused."""
+    """Returns names that do not lead to planted files even if the user allows them, because a
+    misspelt name would look like a refused one. Also returns fields that do not refuse the
+    names."""
     files = {
         ".usda": ("a.usda", '#usda 1.0\ndef "a" (references = @../private/planted.usda@) {}\n'),
         ".mtl": ("a.obj", "mtllib ../private/planted.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"),
@@ -329,7 +330,7 @@ def gltf_with_buffer():
 
 
 def check_killed(runner, program, place):
-    """Kills the program while a child of it works, and returns the children that live on."""
+    """Kills the program while one of its children works, and returns the children that survive."""
     here = place()
     rows = "".join(f"v {i % 7} {i % 5} {i}\n" for i in range(30_000)) + "f 1 2 3\n" * 100_000
     here.write("a.obj", rows)
@@ -346,7 +347,7 @@ def check_killed(runner, program, place):
         until = time.monotonic() + MOST_WALL_CLOCK
         while not child and process.poll() is None and time.monotonic() < until:
             for number in tasks.read_text().split():
-                # Before it runs its program, it has the name of its parent.
+                # Before a child runs its program, it has its parent's name.
                 if command_of(number).startswith(child_name):
                     child = int(number)
         process.kill()
@@ -381,7 +382,8 @@ def is_alive(process):
 
 
 def smallest(kind, place):
-    """Arguments that read the smallest valid file of a kind which takes longer to start than others."""
+    """Arguments that read the smallest valid file of a kind that takes longer than others to
+    start."""
     here = place()
     if kind == "usd":
         here.write("a.usda", "#usda 1.0\n" + crafts.CURVE % "c")

@@ -19,12 +19,12 @@ ROOT = Path(__file__).resolve().parents[2]
 CORPUS = ROOT / "tests/corpus"
 SEEDS = ROOT / "tests/fuzz/seeds"
 
-MOST_BYTES = 3_000_000  # of a crafted file, because 2,000 of them have to pass in an hour
+MOST_BYTES = 3_000_000  # of a crafted file, so that 2,000 of them take less than an hour
 
 
 class Place:
-    """The folder `inside`, in which crafted files lie, and beside it `private`, the folder of the
-    planted files. A Place lasts for one crafted file."""
+    """The folder `inside` for crafted files and, beside it, the folder `private` for planted ones.
+    A Place is used for one crafted file."""
 
     def __init__(self, folder, planted):
         self.inside = folder / "in"
@@ -41,7 +41,8 @@ class Place:
         return str(path)
 
     def outside(self, random, ending):
-        """A name of a planted file with this ending, or of a pipe, as a hostile file may write it."""
+        """A name of a planted file with this extension, or of a pipe, as a hostile file may write
+        it."""
         name = "planted" + ending
         assert name in self.planted, name
         link = "link" + ending
@@ -71,7 +72,7 @@ class Place:
             make(path)
 
     def size(self):
-        """Bytes of the crafted files."""
+        """The size of the crafted files, in bytes."""
         return sum(
             each.lstat().st_size for each in self.inside.rglob("*") if each.is_file() and not each.is_symlink()
         )
@@ -106,7 +107,7 @@ def damaged(random, data):
         elif way == 4:
             end = at + random.choice([1, 4, 16, 64, 256])
             data[at:at] = bytes(data[at:end]) * random.choice([1, 2, 100])
-        elif way == 5:  # a number of a text
+        elif way == 5:  # a number in a text
             digits = [i for i in range(at, min(at + 200, len(data))) if 48 <= data[i] < 58]
             if digits:
                 end = digits[0]
@@ -173,8 +174,8 @@ HAIR = (CORPUS / "hgl/one_guide.hgl").read_bytes()
 
 
 def scene(place, **members):
-    """Arguments that check a scene with these members, which name files of the place. Its hair is one
-    guide unless they say otherwise."""
+    """Arguments that check a scene with these members, which name files of the place. Its hair is
+    one guide unless the members say otherwise."""
     document = {"groom": {"file": "hair.hgl"}, "render": {"head": False}}
     for group, values in members.items():
         document[group] = {**document.get(group, {}), **values} if isinstance(values, dict) else values
@@ -217,7 +218,7 @@ def glb_of(text, data):
 
 
 def gltf_document(vertices, mode):
-    """A document of one mesh, and its data: `vertices` positions, and a list of indices."""
+    """A document with one mesh, and its data: `vertices` positions and a list of indices."""
     positions = b"".join(struct.pack("<3f", i % 97, i % 89, i % 83) for i in range(vertices))
     indices = b"".join(struct.pack("<I", i % vertices) for i in range(3 * vertices))
     document = {
@@ -245,7 +246,7 @@ def gltf(random, place):
     document, data = gltf_document(vertices, random.choice([1, 3]) if as_lines else 4)
     buffer = document["buffers"][0]
     way = random.randrange(15)
-    if way == 0:  # primitives of shared accessors, at many nodes
+    if way == 0:  # primitives with shared accessors, at many nodes
         product = random.choice([10, 1_000, 30_000])
         document["meshes"][0]["primitives"] *= random.choice([1, 100, product])
         document["nodes"] *= random.choice([1, 100, product])
@@ -255,7 +256,7 @@ def gltf(random, place):
         document["nodes"] = [{"children": [i + 1]} for i in range(count)] + [{"mesh": 0}]
         if random.random() < 0.5:
             document["nodes"][-1]["children"] = [random.randrange(count)]
-    elif way == 2:  # each node is two of the next one
+    elif way == 2:  # each node contains the next one twice
         count = random.choice([10, 30, 60])
         document["nodes"] = [{"children": [i + 1, i + 1], "mesh": 0} for i in range(count)] + [{"mesh": 0}]
     elif way in (3, 4):
@@ -293,7 +294,7 @@ def gltf(random, place):
     elif way == 9:
         view = random.choice(document["bufferViews"])
         view[random.choice(["byteStride", "byteLength", "byteOffset", "buffer"])] = random.choice(WORDS)
-    elif way == 10:  # many targets of shared accessors
+    elif way == 10:  # many targets with shared accessors
         targets = [{"POSITION": 0}] * random.choice([10, 1_000, 20_000])
         document["meshes"][0]["primitives"][0]["targets"] = targets
         document["meshes"][0]["weights"] = [1] * len(targets)
@@ -471,7 +472,7 @@ def mesh(random, place):
         )
         before = f'<!DOCTYPE x [<!ENTITY e0 "0 1 2 ">{entities}]>'
         content = dae(dae_geometry(3, 1).replace("0 1 2 ", "&e3;", 1), node, before)
-    elif way == 3:  # an entity of a file outside
+    elif way == 3:  # an entity from a file outside
         before = f'<!DOCTYPE x [<!ENTITY e SYSTEM "{place.outside(random, ".xml")}">]>'
         content = dae(dae_geometry(3, 1).replace("0 1 2 ", "&e;", 1), node, before)
     elif way == 4:
@@ -489,7 +490,7 @@ def mesh(random, place):
             'target="#m"/></technique_common></bind_material></instance_geometry></node>'
         )
         content = dae(geometry, bind, material=material)
-    elif way == 5:  # nodes of nodes
+    elif way == 5:  # nested nodes
         levels = random.choice([3, 8, 20])
         library = "".join(
             f'<node id="n{i + 1}">{f"""<instance_node url="#n{i}"/>""" * 10}</node>' for i in range(levels)
@@ -533,7 +534,7 @@ FACE = (
 
 
 def usd_arc(random, place):
-    """A part of a layer that names a layer outside, in one of the ways of USD."""
+    """A part of a layer that names a layer outside, in one of USD's ways."""
     name = place.outside(random, ".usda")
     if random.random() < 0.3:
         name += random.choice([":SDF_FORMAT_ARGS:a=b", ":SDF_FORMAT_ARGS:target=x", "[a.usda]"])
@@ -596,7 +597,7 @@ def usd_arc(random, place):
 
 
 def usd_nested(random, arc):
-    """Prims of which each is several of the one before."""
+    """A chain of prims. Each contains the previous one several times."""
     width, levels = random.choice([(2, 12), (2, 30), (8, 4), (8, 9), (100, 2), (300, 2), (40, 3)])
     text = CURVE % "l0"
     for i in range(1, levels):
@@ -636,7 +637,7 @@ def usd(random, place):
             text = prims if target else CURVE % "c"
             place.write(f"l{i}.usda", f'#usda 1.0\n(defaultPrim = "r")\ndef "r" {{\n{text}}}\n')
         body = 'def "a" (references = @l%d.usda@) {}\n' % (count - 1)
-    elif way == 7:  # sets of variants within variants
+    elif way == 7:  # nested variant sets
         depth = random.choice([2, 6, 30, 200])
         head = "".join(
             f'def "v{i}" (variants = {{ string v = "x" }}\nprepend variantSets = "v") {{\nvariantSet "v" = {{\n"x" {{\n'
@@ -712,7 +713,7 @@ def usd(random, place):
 
 
 def damaged_usd(random):
-    """A valid layer with other words in places of words."""
+    """A valid layer in which other words replace some words."""
     data = corpus(random, "tests/corpus/usd/*").decode()
     data += random.choice([FACE % "m", CURVE % "d", usd_nested(random, "references = <%s>")])
     if random.random() < 0.5:
@@ -735,7 +736,7 @@ def embree(random, place):
     name = "a.xml"
     way = random.randrange(11)
     body = curve
-    if way in (0, 1):  # each node is several of the one before
+    if way in (0, 1):  # each node contains the previous one several times
         width, levels = random.choice([(2, 10), (2, 60), (10, 5), (10, 9), (1_000, 2), (1_000, 3)])
         body = f'<assign id="n0">{curve}</assign>'
         for i in range(1, levels):
@@ -828,9 +829,9 @@ def npz(random, place):
         for member, content in members:
             archive.writestr(zipfile.ZipInfo(member), content, method)
     data = bytearray(stream.getvalue())
-    if way == 7:  # all members lie at the first one's place
+    if way == 7:  # all members lie at the place of the first
         data = bytearray(shared_headers(bytes(data), random.choice([2, 100, 20_000])))
-    elif way == 8:  # sizes that are not true
+    elif way == 8:  # wrong sizes
         at = data.rfind(b"PK\x01\x02")
         field = random.choice([20, 24, 28, 30, 42])
         data[at + field : at + field + 4] = struct.pack("<I", random.choice(WORDS))
@@ -847,7 +848,7 @@ def npz(random, place):
 
 @functools.lru_cache(maxsize=None)
 def bomb(strands, name):
-    """An archive of strands at one point, made without their bytes in memory."""
+    """An archive of strands at one point, made without holding their bytes in memory."""
     compress = zlib.compressobj(9, zlib.DEFLATED, -15)
     parts, checksum, size = [], 0, 0
     count, rest = divmod(48 * strands, 1_000_000)
@@ -913,7 +914,7 @@ def png(width, height, depth, color, rows=b"", interlace=0, more=b""):
 
 @functools.lru_cache(maxsize=None)
 def zeros(size):
-    """`size` zeros, deflated, made without them in memory."""
+    """`size` zeros, deflated, made without holding them in memory."""
     compress = zlib.compressobj(9)
     block = b"\0" * 1_000_000
     parts = [compress.compress(block) for _ in range(size // len(block))]
@@ -977,7 +978,7 @@ def picture(random, place):
 
 # ---- Scenes --------------------------------------------------------------------------------------
 
-# The fields that name files, and endings of what they name.
+# The fields that name files, and the extensions of those files.
 FIELDS = [
     ("/groom/file", ".hgl"),
     ("/groom/file", ".usda"),
@@ -1031,7 +1032,7 @@ def scenes(random, place):
             put(document, pointer, name)
     elif way == 3:
         document["base"] = place.outside(random, ".json")
-    elif way == 4:  # bases of bases
+    elif way == 4:  # a chain of bases
         count = random.choice([3, 15, 16, 17, 300])
         for i in range(count):
             place.write(f"b{i}.json", json.dumps({"base": f"b{i + 1}.json"} if i + 1 < count else document))
@@ -1069,7 +1070,7 @@ def scenes(random, place):
         names = [each for each in names if each.name != "scene.schema.json"]
         text = damaged_json(random, json.loads(random.choice(names).read_text()))
         return ["validate", place.write("scene.json", text)]
-    elif way == 11:  # a screenshot that unfolds
+    elif way == 11:  # a screenshot that inflates
         text = json.dumps({**document, "description": "x" * random.choice([10, 10_000_000])}).encode()
         packed = b"hairbench scene\0\0" + random.choice([zlib.compress(text), zeros(100_000_000)])
         chunk = struct.pack(">I", len(packed)) + b"zTXt" + packed + struct.pack(">I", zlib.crc32(b"zTXt" + packed))
@@ -1090,7 +1091,7 @@ def glsl(random, place):
     body = "return point.color;"
     if way == 0:
         head = f"const float a[{random.choice([1_000, 1_025, 100_000, 2_000_000_000])}] = float[](1.0);\n"
-    elif way == 1:  # each function calls the one before twice
+    elif way == 1:  # each function calls the previous one twice
         head = "float f0(float x) { return x; }\n" + "".join(
             f"float f{i}(float x) {{ return f{i - 1}(x) + f{i - 1}(x + 1.0); }}\n"
             for i in range(1, random.choice([5, 14, 60]))
@@ -1142,7 +1143,7 @@ def glsl(random, place):
         words = ["for", "(", ")", "{", "}", ";", "vec3", "x", "=", "+", "point", ".", "color", "1.0", "if", "return",
                  "struct", "const", "[", "]", ",", "?", ":", "mat4", "int", "inout", "discard", "layout", "precise"]  # fmt: skip
         body = "\n".join(" ".join(random.choice(words) for _ in range(12)) for _ in range(random.choice([2, 300])))
-    else:  # expressions of vectors within each other
+    else:  # nested expressions of vectors
         depth = random.choice([5, 10, 14])
         text = "point.color"
         for _ in range(depth):
@@ -1214,7 +1215,7 @@ def report(random, place):
 
 
 def resumed(place):
-    """Arguments that go on with a run of a scene which takes a moment."""
+    """Arguments that resume a run of a scene that takes a moment."""
     path = scene(
         place,
         simulation={"solver": "none"},

@@ -66,11 +66,11 @@ LLVMFuzzerInitialize(const int* argc, const char* const* const* argv) {
         listSeeds();
         std::exit(0);
     }
-    std::cerr.rdbuf(nullptr);  // silences messages on each file
+    std::cerr.rdbuf(nullptr);  // silences messages about each file
     return 0;
 }
 
-// A target refuses the bytes with an engine::Error or reads them as it should. With
+// A target refuses the bytes with an engine::Error or reads them correctly. With
 // $HAIRBENCH_FUZZ_SAYS it prints the reason for a refusal. Called by libFuzzer.
 extern "C" __attribute__((visibility("default"))) int
 LLVMFuzzerTestOneInput(const unsigned char* bytes, std::size_t size) {

@@ -67,7 +67,7 @@ void allowRefusal(Action&& action) {
     }
 }
 
-// Returns the folder for readers that take a path. It is in $TMPDIR, best in memory.
+// Returns the folder for readers that take a path. It is in $TMPDIR, preferably in memory.
 const TemporaryFolder& scratch() {
     static const TemporaryFolder folder;
     return folder;
@@ -191,8 +191,9 @@ void readAnimation(std::string_view bytes) {
     }
 }
 
-// Reads the output of the child process with assimp, or of usd_mesh.py. A file may have taken over
-// the child. Fuzzing assimp itself would find the faults for which it runs in a child.
+// Reads the output of the child process with assimp, or of usd_mesh.py. The output may come from a
+// child that a file has taken over. Fuzzing assimp itself would only find the faults that are the
+// reason for the child.
 void readMeshStream(std::string_view bytes) {
     const hair::groom::ReadMesh read = hair::groom::readMeshStream(asBytes(bytes));
     const hair::groom::Mesh& mesh = read.mesh;
@@ -219,7 +220,7 @@ void putBigEndian(std::string& bytes, std::size_t at, std::uint32_t value) {
         bytes[at + i] = static_cast<char>(value >> (24 - 8 * i) & 0xff);
 }
 
-// Returns the place of the deflated data's checksum and its right value (RFC 1950), or nothing if
+// Returns the place of the deflated data's checksum and its correct value (RFC 1950), or nothing if
 // the data have no end.
 std::optional<std::pair<std::size_t, std::uint32_t>> adlerOf(std::string_view data) {
     constexpr std::size_t kHeader = 2;
@@ -244,8 +245,8 @@ std::optional<std::pair<std::size_t, std::uint32_t>> adlerOf(std::string_view da
     return std::pair{end, static_cast<std::uint32_t>(sum)};
 }
 
-// Returns the file, with right checksums of chunks and data if it is a PNG. With wrong checksums
-// readers would refuse the file before they read on.
+// Returns the file, with correct checksums of chunks and data if it is a PNG. With wrong checksums,
+// readers would refuse the file too early.
 std::string withChecksums(std::string file) {
     constexpr std::size_t kSignature = 8;
     constexpr std::size_t kFrame = 12;  // bytes of a chunk without its data
@@ -302,7 +303,7 @@ void copyScenes(const fs::path& from, const fs::path& to, const std::string& lef
             fs::copy(entry.path(), to);
 }
 
-// Returns a folder within another one, both with the shipped scenes, because a scene's base may be
+// Returns a folder inside another one, both with the shipped scenes, because a scene's base may be
 // beside the scene or above it.
 const fs::path& sceneFolder() {
     static const fs::path folder = [] {
@@ -310,7 +311,7 @@ const fs::path& sceneFolder() {
         fs::create_directories(own);
         const fs::path shipped = projectFolder() / "scenes";
         copyScenes(shipped, own.parent_path());
-        // scene.schema.json marks the topmost folder of which scenes may name files, so the inner
+        // scene.schema.json marks the topmost folder from which scenes may name files, so the inner
         // folder has none.
         copyScenes(shipped, own, "scene.schema.json");
         copyScenes(shipped / "portraits", own);
@@ -481,8 +482,8 @@ const report::ReportHeader& header() {
     return made;
 }
 
-// Returns the journal with right checksums of its lines. With wrong checksums the reader would stop
-// there.
+// Returns the journal with correct checksums of its lines. With wrong checksums the reader would
+// stop there.
 std::string withHashes(std::string_view journal) {
     constexpr std::string_view kStart = R"({"hash":")";
     constexpr std::string_view kMiddle = R"(","line":)";
@@ -537,10 +538,10 @@ std::vector<Target> allTargets() {
     for (const hair::groom::StrandImporter* const row : importers())
         all.push_back(strandTarget(*row));
     const std::vector<std::string> gltf{".glb", ".gltf"};
-    // JSON needs many bytes for its content.
+    // JSON takes many bytes for little content.
     const Limits json{.length = 16384};
-    // 16 kB of PNG can hold 128 megapixels of one bit. So the limit is the greatest picture that is
-    // allowed, with four channels of 16 bits, or three floats.
+    // 16 kB of PNG can hold 128 megapixels of one bit. So the limit is the size of the largest
+    // allowed picture, with four channels of 16 bits or three floats.
     const Limits picture{.length = 16384, .allocation = 8 * kMostPixels / kMebibyte};
     const Limits light{.length = 16384, .allocation = 12 * kMostPixels / kMebibyte};
     all.push_back({"usd_stream", readUsdStream, {{"tests/fuzz/seeds/usd_stream", {}}}});
@@ -580,7 +581,7 @@ std::vector<Target> allTargets() {
           {"scenes/portraits", {".json"}},
           {"scenes/truth", {".json"}},
           {"tests/fuzz/seeds/scene", {}}}});
-    // The program ends its compiler after 20 s of the processor; the sanitizers make it slower.
+    // The program ends its compiler after 20 s of processor time; the sanitizers make it slower.
     all.push_back(
         {"extension",
          readExtension,

@@ -19,8 +19,8 @@ struct Seeds {
 
 struct Limits {
     std::size_t length = 4096;  // bytes of a file; larger seeds are left out
-    // Greatest single allocation in MiB. A file of a few kilobytes needs no more, so a greater one
-    // means that some count was not checked.
+    // Greatest single allocation in MiB. A file of a few kilobytes needs no more, so a larger
+    // allocation means that some count was not checked.
     std::size_t allocation = 64;
     std::size_t seconds = 10;  // for one file
 };

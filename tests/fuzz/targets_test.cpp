@@ -34,7 +34,7 @@ protected:
     const Target& target_ = targetNamed(GetParam());
 };
 
-// From a seed that is refused, a fuzzer does not reach the code after the refusal.
+// If a seed is refused, a fuzzer does not reach the code after the refusal.
 TEST_P(FuzzTarget, ReadsItsSeeds) {
     const auto seeds = seedsOf(target_);
     EXPECT_FALSE(seeds.empty());
@@ -58,7 +58,7 @@ Json& anyValue(Json& document, Dice& dice) {
 }
 
 // Takes texts of JSON in lines or between record separators. Chooses a text and replaces one of its
-// values by another of its values, or by one that is wrong almost everywhere. Returns "" if the
+// values by another of its values, or by a value that is wrong almost everywhere. Returns "" if the
 // chosen text is no JSON.
 std::string misshapen(const std::string& texts, Dice& dice) {
     const std::vector<Json> wrong{

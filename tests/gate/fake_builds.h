@@ -15,7 +15,7 @@
 namespace benchmarks::gate {
 
 // Two programs that measure nothing. The n-th process of the gate, from 0, copies a report that the
-// test made before, and logs that it ran and with which arguments.
+// test made earlier, and logs its run and its arguments.
 class FakeBuilds {
 public:
     // Two for warm-up and 48 pairs, twice because of calibration.
@@ -31,7 +31,8 @@ public:
         for (const char side : {'A', 'B'}) writeProgram(side, "");
     }
 
-    // Adds shell commands to the program; "$n" is the process's number and "$4" the report's path.
+    // Adds shell commands to the program. "$n" is the process's number and "$4" is the report's
+    // path.
     void writeProgram(char side, const std::string& also) {
         const std::string folder = folder_.path().string();
         const auto path = folder_.write(
@@ -72,8 +73,8 @@ private:
     TemporaryFolder folder_;
 };
 
-// One case with a frame of 10 ms, and a share more in B. Processes differ by 0.4 %, and the
-// machine's speed drifts (docs/comparing.md).
+// One case with a frame of 10 ms, which is longer by a share in B. Processes differ by 0.4 %, and
+// the machine's speed drifts (docs/comparing.md).
 class FakeMachine {
 public:
     explicit FakeMachine(double slowdown, double block_noise = 0.004) : slowdown_(slowdown) {

@@ -74,8 +74,8 @@ TEST(GateCommand, HandsOptionsToTheRuns) {
     EXPECT_THAT(calls.at(1), HasSubstr(both + "--set /seed=5 --filter x"));
 }
 
-// Results of a GPU where strands take 8 ms, and 50 % more in B. Wind and resolve can't be decided:
-// they are a hundredth of the frame, and a pass that differs by 10 % between processes.
+// Results of a GPU on which strands take 8 ms, and 50 % more in B. Wind and resolve can't be
+// decided: wind takes a hundredth of the frame, and resolve differs by 10 % between processes.
 FakeBuilds slowStrands() {
     return FakeBuilds([noise = Noise(5)](char side, int) mutable {
         const auto off = [&](double share) { return 1.0 + share * noise.normal(); };
@@ -104,13 +104,13 @@ TEST(GateCommand, EndsWhenItsAnswerIsKnown) {
     const FakeBuilds all = slowStrands();
     EXPECT_EQ(all.gate("--all").status, 10);
     EXPECT_GT(all.report()["pairs"], 12);
-    // Without passes of a hundredth of the frame there is nothing to wait for.
+    // If passes of a hundredth of the frame do not count, there is nothing to wait for.
     const FakeBuilds large_only = slowStrands();
     EXPECT_EQ(large_only.gate("--all --smallest-share 0.5").status, 10);
     EXPECT_EQ(large_only.report()["pairs"], 8);
 }
 
-// Without any time nothing is known, and the gate says so.
+// Without any time, there is no verdict, and the gate says so.
 TEST(GateCommand, SaysWhatItKnowsWhenTimeIsOver) {
     FakeBuilds builds(FakeMachine(0.05));
     const Outcome none = builds.gate("--max-minutes 0.000001");
@@ -122,8 +122,8 @@ TEST(GateCommand, SaysWhatItKnowsWhenTimeIsOver) {
     EXPECT_EQ(builds.gate("--max-minutes 0.000001 --fail-on regressed").status, 0);
 }
 
-// A block in which heat ended a case says nothing of the build. Twice in a row is bad luck, three
-// times in a row is the build's fault.
+// A block in which heat ended a case tells nothing about the build. Twice in a row is bad luck;
+// three times in a row is the build's fault.
 TEST(GateCommand, RepeatsABlockThatIsLost) {
     const auto gateOf = [](int lost) {
         return FakeBuilds([=, machine = FakeMachine(0.0)](char side, int n) {

@@ -7,7 +7,7 @@
 
 #include "tests/gate/fake_builds.h"
 
-// Tests gates that end before a verdict on times.
+// Tests gates that end before there is a verdict on times.
 namespace benchmarks::gate {
 namespace {
 
@@ -141,7 +141,7 @@ TEST(GateRefusals, SaveWhatIsDoneWhenInterrupted) {
     EXPECT_EQ(report["blocks"].size(), 2u + 4u + 1u);  // warm-up, two pairs, A of the third
 }
 
-// The gate takes a 13th pair because of another pass. B's block of it waits for the signal.
+// The gate runs a 13th pair because of another pass. B's block in it waits for the signal.
 TEST(GateRefusals, GiveTheLastVerdictsWhenInterruptedLater) {
     FakeBuilds builds([noise = Noise(6)](char side, int) mutable {
         scene::Json made = report::madeReport();

@@ -126,7 +126,7 @@ TEST(GateReport, CancelsADriftInTheCalibration) {
         EXPECT_NEAR(calibration[i], i % 2 == 0 ? 0.01 : -0.01, 1e-12);
 }
 
-// A rate falls where its cost rises: by 1 % from process to process, and in B by a quarter more. In
+// A rate falls if its cost rises: by 1 % from process to process, and in B by a quarter more. In
 // the calibration, too, a difference of costs is above 0 only if the second is worse.
 TEST(GateReport, TurnsRatesRoundInEveryDifference) {
     const FakeBuilds builds([](char side, int n) {

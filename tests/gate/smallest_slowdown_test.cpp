@@ -27,7 +27,7 @@ TEST(SmallestSlowdown, IsThatOfTheNormalApproximation) {
     // The signed-rank test of n normal differences is as good as a t test of 3 / pi n: its
     // estimate's standard error is sigma sqrt(pi / 3 / n). The interval at level 0.05 / 3 ends
     // 2.394 standard errors below, and nine of ten estimates lie above 1.282 standard errors below
-    // the median. As 48 pairs are few, the tolerance is 4 %.
+    // the median. 48 pairs are few, so the tolerance is 4 %.
     const double error = kDeviation * std::sqrt(3.14159265 / 3.0 / 48.0);
     const double expected = std::log1p(tau) + (2.394 + 1.282) * error;
     EXPECT_NEAR(std::log1p(found) - std::log1p(tau), expected - std::log1p(tau), 0.04 * expected);

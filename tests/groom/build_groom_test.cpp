@@ -58,8 +58,8 @@ TEST(BuildGroom, GrowsWhereNoFileIsNamed) {
     EXPECT_TRUE(groom.bindings.empty());
 }
 
-// The guides are strands of the dense groom and bound to themselves alone. There are as many roots
-// as settings ask for, all on the cap.
+// The guides are strands of the dense groom, each bound to itself alone. There are as many roots as
+// the settings request, all on the cap.
 TEST(BuildGroom, ChoosesGuidesFromGrownStrands) {
     const Mesh cap = makeCap();
     GroomSettings settings;

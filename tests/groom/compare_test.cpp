@@ -59,7 +59,7 @@ TEST(CompareStrands, MeasuresTheDistanceOfParallelStrands) {
         const double wanted = each.threshold.distance > 2.5e-3 ? 1.0 : 0.0;
         EXPECT_EQ(each.precision, wanted);
         EXPECT_EQ(each.recall, wanted);
-        EXPECT_EQ(each.f1, wanted);  // 0, and no quotient of zeros
+        EXPECT_EQ(each.f1, wanted);  // 0, not a quotient of zeros
         EXPECT_EQ(each.strand_consistency, wanted);
     }
 }
@@ -106,7 +106,7 @@ TEST(CompareStrands, HoldsDirectionsAgainstTheAngle) {
     }
 }
 
-// Samples at 1, 3 ... 99 mm; the longer part reaches from 60.5 to 62.5, 63.5 and 64.5 mm.
+// Samples at 1, 3 ... 99 mm; the longer part runs from 60.5 to 62.5, 63.5 and 64.5 mm.
 TEST(CompareStrands, CountsHowMuchOfAStrandIsInOne) {
     const StrandSet whole = strandsOf({upright(0, 0.1f)});
     const StrandSet parts = strandsOf({upright(0, 0.0605f), upright(0.0605f, 0.1f)});
@@ -141,7 +141,7 @@ TEST(CompareStrands, TellsBothWaysApart) {
     EXPECT_NEAR(found.first_to_second.mean, 12.375e-3, kDistanceRounding);
     EXPECT_NEAR(found.first_to_second.median, 0.375e-3, kDistanceRounding);
     EXPECT_NEAR(found.first_to_second.maximum, 48.75e-3, kDistanceRounding);
-    // Rank 0.9 * 49 = 44.1: a tenth of the way from the 20th of those to the next.
+    // Rank 0.9 * 49 = 44.1: a tenth of the way from the 20th of those distances to the next.
     EXPECT_NEAR(found.first_to_second.percentile90, 38.95e-3, kDistanceRounding);
     EXPECT_LT(found.second_to_first.maximum, kDistanceRounding);
     const double recalls[] = {26.0 / 50, 27.0 / 50, 27.0 / 50};
@@ -159,7 +159,7 @@ TEST(CompareStrands, DoesNotDependOnVertices) {
     const auto found = compared(strandsOf({upright(0, 0.1f)}), strandsOf({dense}));
     EXPECT_EQ(found.scores[0].f1, 1.0);
     EXPECT_LT(found.first_to_second.maximum, kDistanceRounding);
-    EXPECT_LT(found.curvatures.earth_movers_distance, 1e-3);  // a radius of a kilometre
+    EXPECT_LT(found.curvatures.earth_movers_distance, 1e-3);  // a radius of one kilometre
 }
 
 TEST(CompareStrands, MovesLengthsOntoEachOther) {
@@ -168,7 +168,8 @@ TEST(CompareStrands, MovesLengthsOntoEachOther) {
     const StrandSet longer =
         strandsOf({upright(0, 0.02f), upright(0, 0.03f, 1), upright(0, 0.04f, 2)});
     EXPECT_NEAR(compared(three, longer).lengths.earth_movers_distance, 0.01, kDistanceRounding);
-    // Half of the first strands and two thirds of the second are 30 mm long, the others 10 mm.
+    // Half of the first groom's strands and two thirds of the second groom's are 30 mm long, the
+    // others 10 mm.
     const auto found = compared(
         strandsOf({upright(0, 0.01f), upright(0, 0.03f, 1)}),
         strandsOf({upright(0, 0.01f), upright(0, 0.03f, 1), upright(0, 0.03f, 2)}));

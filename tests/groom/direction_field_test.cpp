@@ -83,7 +83,7 @@ TEST_F(DirectionFieldTest, CombsAwayFromThePartingOnBothSides) {
     }
 }
 
-// Straight beyond the end there is no side; elsewhere the direction from the end is aslant.
+// Exactly beyond the end there is no side. Elsewhere the direction from the end is oblique.
 TEST_F(DirectionFieldTest, FadesBeyondThePartingsEnds) {
     GrowSettings settings;
     settings.parting = {
@@ -111,7 +111,7 @@ TEST_F(DirectionFieldTest, LiftsDirectionsOutOfTheSurface) {
     settings.whorl = {.position = {0.0f, 0.0f, 0.0f}, .strength = 1e-6f, .radius = 0.01f};
     const DirectionField lifted(settings, surface_, nullptr);
     expectNear(lifted(at(4.0, 4.0)), {std::sqrt(1.0 - 0.0025), 0.05, 0.0});
-    settings.whorl.strength = 0.0f;  // the comb alone is as it is asked for
+    settings.whorl.strength = 0.0f;  // the comb alone acts as set
     const DirectionField combed(settings, surface_, nullptr);
     expectNear(combed(at(4.0, 4.0)), glm::normalize(glm::dvec3(3.0, -1.0, 0.0)));
 }

@@ -123,12 +123,12 @@ TEST(SmoothStrands, SolvesTheDiffusionOfTwoDirections) {
     EXPECT_NEAR(smooth.points[2].y, 3.0 / root, 2e-7);
 }
 
-// A wave of small slope along x, ten periods: smoothing multiplies slopes in the middle by 1 / (1
-// + k^2 length^2), at any distance of the points.
+// A wave of small slope along x, ten periods. Smoothing multiplies slopes in the middle by 1 / (1 +
+// k^2 length^2), whatever the distance between points.
 TEST(SmoothStrands, DampsWavesByTheirLength) {
     for (const int points_per_wave : {50, 100}) {
         constexpr double kSlope = 1e-2;
-        const double wave_number = 2.0 * std::numbers::pi;  // of waves of length 1
+        const double wave_number = 2.0 * std::numbers::pi;  // for waves of length 1
         std::vector<glm::vec3> wave;
         for (int i = 0; i <= 10 * points_per_wave; ++i) {
             const double x = static_cast<double>(i) / points_per_wave;
@@ -144,7 +144,7 @@ TEST(SmoothStrands, DampsWavesByTheirLength) {
         }
         const double wanted = kSlope / (1.0 + std::pow(wave_number * length, 2));
         // The error of finite volumes is (k h)^2 / 12, which is 0.13 % with 50 points a wave.
-        // Floats round slopes by 1e-6 over a segment of 0.01 m at x = 5: of 4e-3.
+        // Floats round slopes by 1e-6, relative to 4e-3, over a segment of 0.01 m at x = 5.
         EXPECT_NEAR(steepest / wanted, 1.0, 0.01) << points_per_wave;
     }
 }
@@ -202,7 +202,7 @@ TEST(FixStrands, LeavesOutWhatShowsNothing) {
                                    glm::vec3(2, 1, 0), glm::vec3(2, 2, 0)));
     EXPECT_EQ(edited.strands.widths.values, (std::vector<float>{2, 3, 6, 8, 10}));
     EXPECT_THAT(edited.strands.root_triangles, ElementsAre(std::array<std::uint32_t, 3>{0, 1, 1}));
-    // A second inspection finds none of the mended faults.
+    // A second inspection finds none of the repaired faults.
     const StrandFindings found = inspect(edited.strands, nullptr, {});
     EXPECT_EQ(found.single_point_strands, 0u);
     EXPECT_EQ(found.zero_length_strands, 0u);

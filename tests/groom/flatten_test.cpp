@@ -24,7 +24,7 @@ void expectKeepsOrientation(const Scalp& scalp) {
     }
 }
 
-// From the centre of a sphere every facet faces the eye; the depths tried are 1/255 of the root of
+// From the centre of a sphere every facet faces the eye. The tried depths are 1/255 of the root of
 // the area (0.24 m) apart. The map is stereographic: a polar angle t maps to the radius tan(t /
 // 2).
 TEST(Flatten, ProjectsASphereFromItsCentre) {
@@ -54,8 +54,8 @@ TEST(Flatten, PullsTheCentreOutOfAFlatScalp) {
 }
 
 TEST(Flatten, RefusesAScalpThatFolds) {
-    // A sheet of three squares in a row, folded flat along both lines: every place sees one from
-    // outside.
+    // A sheet of three squares in a row, folded flat along both lines: from every place, one of
+    // them is seen from outside.
     Mesh mesh = makeGrid(3, 1, kNoHole);
     for (glm::vec3& position : mesh.positions) {
         if (position.x == 2.0f) position = {0.2f, 0.3f, position.z};
@@ -64,8 +64,8 @@ TEST(Flatten, RefusesAScalpThatFolds) {
     EXPECT_THAT(errorText([&] { flatten(extractScalp(mesh)); }), HasSubstr("folds over itself"));
 }
 
-// A sphere with a C-shaped hole, wide along the equator: the mean normal points away from the
-// hole's middle, where there is scalp.
+// A sphere with a C-shaped hole, wide along the equator. The mean normal points away from the
+// hole's middle, to the scalp.
 TEST(Flatten, RefusesAScalpOnBothEndsOfItsAxis) {
     Mesh mesh = makeCap({.opening = 3.0f, .hairline = 4.0f});
     const auto last_ring = static_cast<std::uint32_t>(mesh.positions.size()) - 48;

@@ -122,14 +122,15 @@ TEST_F(GltfMaterials, FindPicturesBesideTheFile) {
     EXPECT_EQ(mesh.pictures.at(0).rgba, rgba);
 }
 
-// The 36 bytes of the positions are no picture, and the file has no others.
+// The 36 bytes of the positions are not a picture, and the file contains no others.
 TEST_F(GltfMaterials, FindPicturesInBuffers) {
     EXPECT_EQ(
         error({.material = kPainted, .images = R"([{"name":"skin","bufferView":0}])"}),
         "a.gltf: material 0: baseColorTexture: image 0 'skin': is not a PNG, JPEG, TGA or BMP");
     EXPECT_EQ(
         error({.material = kPainted, .images = R"([{"bufferView":1}])"}),
-        "a.gltf: material 0: baseColorTexture: image 0: the file names buffer view 1, it has 1");
+        "a.gltf: material 0: baseColorTexture: image 0: the file names buffer view 1, but it has "
+        "1");
 }
 
 TEST_F(GltfMaterials, NameWhatIsWrongWithAPicture) {
@@ -145,7 +146,7 @@ TEST_F(GltfMaterials, NameWhatIsWrongWithAPicture) {
     EXPECT_THAT(image_error(R"([{"uri":"data:image/png,iVBO"}])"), HasSubstr("base 64"));
     EXPECT_THAT(image_error(R"([{"uri":"data:image/png;base64,iVBO"}])"), HasSubstr("not a PNG"));
     EXPECT_THAT(image_error(R"([{}])"), HasSubstr("neither a bufferView nor a uri"));
-    EXPECT_THAT(image_error(R"([])"), HasSubstr("names image 0, it has 0"));
+    EXPECT_THAT(image_error(R"([])"), HasSubstr("names image 0, but it has 0"));
     EXPECT_THAT(image_error(R"([7])"), HasSubstr("image 0: is not an object"));
     EXPECT_THAT(image_error(R"({"a":1})"), HasSubstr("'images' is not an array"));
     EXPECT_THAT(image_error(R"([{"uri":7}])"), HasSubstr("type"));

@@ -70,7 +70,7 @@ bool sameGroom(const Groom& a, const Groom& b) {
     return a.points == b.points && a.root_triangles == b.root_triangles;
 }
 
-// Closed below by its h boundary edges, each once, a disc: V - E + F = 1 with 3 F = 2 E - h.
+// The surface has h boundary edges, each once, and is a disc: V - E + F = 1 with 3 F = 2 E - h.
 void expectDisc(const Groom& groom) {
     std::set<std::pair<std::uint32_t, std::uint32_t>> edges;
     std::set<std::uint32_t> used;
@@ -135,7 +135,7 @@ TEST(Grow, PutsRootsOnTheSurface) {
     }
 }
 
-// Outside is away from the middle of the head: the asset's scalp is star-shaped from there.
+// Outside means away from the middle of the head: the asset's scalp is star-shaped from there.
 TEST(Grow, TurnsRootTrianglesOutward) {
     const glm::vec3 middle{0.0f, -0.01f, -0.015f};
     const Mesh head = headMesh();
@@ -151,7 +151,7 @@ TEST(Grow, TurnsRootTrianglesOutward) {
 
 // With perfect spacing the ratio of smallest to mean distance between neighbours is 1. For n
 // uniform points the mean is 0.5 sqrt(A / n) and the smallest 0.66 sqrt(A) / n, a ratio of 1.3 /
-// sqrt(n): 0.14 for 86. A half is far from both.
+// sqrt(n): 0.14 for 86. A ratio of one half is far from both.
 TEST(Grow, SpreadsRootsWell) {
     for (const Mesh& mesh : {makeCap(), headMesh()}) {
         for (const std::uint32_t guides : {86u, 344u}) {
@@ -278,8 +278,8 @@ TEST(Grow, DroopsByItsFormula) {
     }
 }
 
-// The differential equation itself, by Runge-Kutta in 20,000 steps; 63 segments of the midpoint
-// rule keep within (droop l)^2 / 24 of the length in all.
+// The differential equation itself, by Runge-Kutta in 20,000 steps; The midpoint rule with 63
+// segments stays within (droop l)^2 / 24 of the length in total.
 TEST(Grow, DroopsByItsDifferentialEquation) {
     const Mesh head = headMesh();
     const GrowSettings settings{
@@ -364,8 +364,8 @@ TEST_F(GrowWithPictures, SaysWhatIsWrongWithAPicture) {
     }
 }
 
-// Uniform from 0.4 to 1 of the length: the mean of n has the standard deviation 0.6 / sqrt(12 n),
-// and five of them are allowed.
+// Lengths are uniform from 0.4 to 1. The mean of n has the standard deviation 0.6 / sqrt(12 n); the
+// test allows five.
 TEST(Grow, VariesLengths) {
     const Groom groom =
         grow(makeCap(), {.length = 1.0f, .length_variation = 0.6f, .droop = 2.0f}, 1000, 1);
@@ -385,7 +385,7 @@ TEST(Grow, VariesLengths) {
     EXPECT_LT(lengths.least(), 0.41);
 }
 
-// Everything, on a mesh without any name.
+// "*" takes everything, even on a mesh without names.
 TEST(Grow, TakesAWholeMesh) {
     Mesh sphere = makeSphere(0.1, 24, 12);
     sphere.materials[0].name = "";

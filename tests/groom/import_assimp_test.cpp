@@ -171,8 +171,8 @@ f 1 2 4
     EXPECT_THAT(names, testing::ElementsAre("bust", "scalp", "scalp"));
 }
 
-// Two nodes with one geometry, the second one moved and mirrored, so that its triangle has to turn
-// round to face the same way.
+// Two nodes with one geometry. The second is moved and mirrored, so that its triangle has to be
+// turned round to face the same way.
 TEST(ImportAssimp, PlacesEveryNode) {
     const TemporaryFolder folder;
     const Mesh mesh = importMesh(folder.write("a.dae", R"(<?xml version="1.0"?>
@@ -299,9 +299,9 @@ std::string plyOf(const std::string& vertices, const std::string& faces, const s
            "\nproperty list uchar int vertex_indices\nend_header\n" + rows;
 }
 
-// Each of these ended or held up the whole program, or took gigabytes, when assimp was a part of
-// it: a corner that is no vertex writes past the heap, a face without corners aborts, text among
-// numbers loops.
+// Each of these crashed or blocked the whole program, or took gigabytes, when assimp was a part of
+// it. A corner that is no vertex makes it write past the heap, a face without corners makes it
+// abort, and text among numbers makes it loop.
 TEST(ImportAssimp, RefusesWhatItsReaderDiesOf) {
     const TemporaryFolder folder;
     const std::string three = "0 0 0\n0 0 1\n1 0 0\n";
@@ -358,7 +358,7 @@ TEST(ImportAssimp, RefusesFacesThatTakeTooLongToCut) {
 }
 
 #if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
-// Nodes of nodes: 10^8 of them in 7 kB, which assimp makes before it returns.
+// Nested nodes: 10^8 of them in 7 kB, which assimp creates before it returns.
 TEST(ImportAssimp, GivesNodesOfNodesNoMoreMemoryThanAFileOfTheirSize) {
     const TemporaryFolder folder;
     std::string nodes = "<node id=\"n0\"/>";
@@ -382,7 +382,8 @@ TEST(ImportAssimp, GivesNodesOfNodesNoMoreMemoryThanAFileOfTheirSize) {
 }
 #endif
 
-// Files that a mesh names must be in its folders, and a pipe must not wait for its writer.
+// Files that a mesh names must be in its folders. A pipe must not make the reader wait for its
+// writer.
 TEST(ImportAssimp, OpensFilesOfItsFoldersAlone) {
     const TemporaryFolder folder;
     const std::string text = std::string("mtllib ") + "NAME" + "\n" + kObj;
@@ -412,7 +413,7 @@ TEST(ImportAssimp, OpensFilesOfItsFoldersAlone) {
     EXPECT_THAT(errorOf("pipe.mtl", {}), HasSubstr("pipe.mtl: is not a file"));
 }
 
-// If a face names the vertex after the last, assimp makes a triangle with the memory behind the
+// If a face names the vertex after the last, assimp makes a triangle with the memory past the
 // vertices.
 TEST(ImportAssimp, RefusesCornersOfAPlyThatAreNoVertices) {
     const TemporaryFolder folder;
@@ -422,8 +423,8 @@ TEST(ImportAssimp, RefusesCornersOfAPlyThatAreNoVertices) {
     };
     EXPECT_EQ(importMesh(text("3 1 3 2")).triangles.size(), 2u);
     for (const auto& [row, reason] :
-         {std::pair{"3 1 4 2", "line 15: vertex 4 is named, there are 4"},
-          {"3 1 -1 2", "line 15: vertex -1 is named, there are 4"},
+         {std::pair{"3 1 4 2", "line 15: vertex 4 is named, but there are 4"},
+          {"3 1 -1 2", "line 15: vertex -1 is named, but there are 4"},
           {"0", "line 15: a face has no corners"}}) {
         const auto path = text(row);
         EXPECT_EQ(errorText([&] { importMesh(path); }), path.string() + ": " + reason);
@@ -453,10 +454,10 @@ TEST(ImportAssimp, RefusesCornersOfAPlyThatAreNoVertices) {
         errorText([&] { importMesh(path); }),
         testing::AllOf(
             StartsWith(path.string() + ": byte "),
-            testing::EndsWith(": vertex 4 is named, there are 4")));
+            testing::EndsWith(": vertex 4 is named, but there are 4")));
 }
 
-// The stream of a program that a file has taken over.
+// A stream from a program that a file has taken over.
 TEST(MeshStream, IsRefusedWhateverIsChanged) {
     ReadMesh read;
     read.mesh.positions = {{0, 0, 0}, {0, 0, 1}, {1, 0, 0}};
@@ -486,7 +487,7 @@ TEST(MeshStream, IsRefusedWhateverIsChanged) {
     for (std::size_t size = 0; size < whole.size(); ++size)
         EXPECT_THAT(errorText([&] { parsed(whole.substr(0, size)); }), StartsWith("byte ")) << size;
     EXPECT_EQ(errorText([&] { parsed(whole + "x"); }).substr(0, 5), "byte ");
-    // Any damaged byte gives an error, or a mesh with arrays that fit each other.
+    // Any damaged byte gives an error, or a mesh whose arrays fit each other.
     for (std::size_t at = 0; at < whole.size(); ++at) {
         std::string damaged = whole;
         damaged[at] = static_cast<char>(damaged[at] ^ 0xff);

@@ -197,7 +197,8 @@ TEST(ImportGltf, ReadsItsOwnScalarsAsVertexGroups) {
          .more_accessors = R"(,{"bufferView":1,"componentType":5126,"count":3,"type":"SCALAR"})"
                            R"(,{"bufferView":0,"byteOffset":20,"componentType":5126,"count":3,)"
                            R"("type":"SCALAR"})"});
-    ASSERT_EQ(mesh.vertex_groups.size(), 1u);  // the values of the other ones aren't 0 to 1
+    ASSERT_EQ(mesh.vertex_groups.size(), 1u);  // the values of the other attributes are not between
+                                               // 0 and 1
     EXPECT_EQ(mesh.vertex_groups[0].name, "scalp");
     EXPECT_THAT(mesh.vertex_groups[0].weights, ElementsAre(0, 1, 0));
     EXPECT_THAT(
@@ -240,7 +241,7 @@ TEST(ImportGltf, RefusesWrongIndicesAndPositions) {
     document.data[72] = 3;
     EXPECT_THAT(
         importError(document),
-        HasSubstr("mesh 0, primitive 0: index 0 names vertex 3, there are 3"));
+        HasSubstr("mesh 0, primitive 0: index 0 names vertex 3, but there are 3"));
     document = {};
     const float nan = std::numeric_limits<float>::quiet_NaN();
     std::memcpy(document.data.data() + 16, &nan, 4);

@@ -54,7 +54,7 @@ void expectNothingCrosses(const Parted& parted, const glm::vec3& normal, float z
     }
 }
 
-// 0.1 / |from| of 0.05 is 0.038, and of -0.03 -0.024.
+// 0.05 times 0.1 / |from| is 0.038, and -0.03 times it is -0.024.
 const glm::vec3 kInsidePlane{0.12f, -0.02f, 0.0f};
 constexpr float kInsideFrom = -0.0239f;
 constexpr float kInsideTo = 0.0379f;
@@ -120,7 +120,7 @@ TEST(Parting, CutsASphere) {
 
 TEST(Parting, CutsTheHead) {
     const Mesh head = importMesh(std::string(HAIRBENCH_SCENES_DIR) + "/assets/head.glb");
-    // With fewer the hairline is within a triangle of the slit's end, 1 cm away.
+    // With fewer roots, the hairline would be within a triangle of the slit's end, 1 cm away.
     for (const std::uint32_t guides : {500u, 1376u}) {
         const Parted parted = part(head, {.strength = 1.0f}, guides);
         expectNothingCrosses(parted, {1.0f, 0.0f, 0.0f}, -0.01f, 0.055f);
@@ -132,8 +132,8 @@ TEST(Parting, CutsTheHead) {
     }
 }
 
-// Two roots every `spacing` or less are 4 % of it or half a millimetre from the line; the others
-// are farther than half of it.
+// On the line there are two roots every `spacing` or less. They are 4 % of it or half a millimetre
+// from the line; the others are farther away than half of it.
 TEST(Parting, HasTwoRows) {
     for (const std::uint32_t guides : {86u, 1376u}) {
         const Parted parted = part(makeCap(), kInside, guides);

@@ -24,7 +24,8 @@ TEST(Random, StaysBelowOne) {
     EXPECT_LT(static_cast<float>(0xffffffffu >> 8u) * 0x1p-24f, 1.0f);
 }
 
-// Chi-square with 15 degrees of freedom is above 44 once in 10^4; three arguments are tried.
+// Chi-square with 15 degrees of freedom exceeds 44 once in 10^4 times; the test tries three
+// arguments.
 TEST(Random, IsUniformAlongEveryArgument) {
     constexpr std::uint32_t count = 160000;
     for (int argument = 0; argument < 3; ++argument) {
@@ -41,8 +42,8 @@ TEST(Random, IsUniformAlongEveryArgument) {
     }
 }
 
-// The correlation of n independent pairs has the standard deviation 1 / sqrt(n); five of them are
-// allowed.
+// The correlation of n independent pairs has the standard deviation 1 / sqrt(n); the test allows
+// five.
 TEST(Random, PurposesAreUncorrelated) {
     constexpr std::uint32_t count = 100000;
     double sum = 0.0;

@@ -47,8 +47,8 @@ double smallestDistance(const Roots& roots) {
 }
 
 // Bins of equal area on a sphere: 6 of its height (Archimedes) times 8 of its azimuth. Chi-square
-// with 47 degrees of freedom is above 87.8 once in 3,000; two of four seeds is once in 10^6. The
-// mesh, of 96 by 48 pieces, has the sphere's area to 0.1 %.
+// with 47 degrees of freedom exceeds 87.8 once in 3,000 times, and for two of four seeds once in
+// 10^6 times. The mesh, of 96 by 48 pieces, has the sphere's area to 0.1 %.
 TEST(PlaceRoots, IsUniformInAreaAtRandom) {
     int high = 0;
     for (std::uint32_t seed = 0; seed < 4; ++seed) {
@@ -70,8 +70,8 @@ TEST(PlaceRoots, IsUniformInAreaAtRandom) {
     EXPECT_LT(high, 2);
 }
 
-// See sample_elimination_test: 1.07 sqrt(A / n) is the most; independent points have 0.66 sqrt(A) /
-// n.
+// See sample_elimination_test: 1.07 sqrt(A / n) is the maximum; independent points have 0.66
+// sqrt(A) / n.
 TEST(PlaceRoots, KeepsADistanceOnAnySurface) {
     for (const Mesh& mesh : {makeSphere(0.1, 48, 24), makeTorus(0.1, 0.04, 48, 24)}) {
         const double area = extractScalp(mesh).area();
@@ -138,14 +138,14 @@ TEST(PlaceRoots, LeavesBlackBare) {
 TEST(PlaceRoots, KeepsADistanceUnderAMask) {
     const Texture mask = columns({0.3f, 0.5f, 0.7f, 1.0f});
     const Roots roots = rootsOf(texturedGrid(8), {.guides = 300, .seed = 1, .mask = &mask});
-    // The roots come from at least as many candidates, spread over all of the area.
+    // The roots are chosen from at least as many candidates, spread over the whole area.
     EXPECT_EQ(roots.points.size(), 300u);
     const double mean = 0.625;  // of the mask; its maximum is 1
     EXPECT_GT(smallestDistance(roots), 0.5 * 1.07 * std::sqrt(64.0 * mean / 300.0));
 }
 
-// One pixel in 4,096 is white and the others nearly black: there are still as many roots as asked
-// for.
+// One pixel in 4,096 is white and the others are nearly black. There are still as many roots as
+// requested.
 TEST(PlaceRoots, TakesAVeryUnevenMask) {
     std::vector<float> pixels(64 * 64, 0.02f);
     pixels[32 * 64 + 32] = 1.0f;
@@ -197,7 +197,8 @@ TEST(HairlineLengths, AreEvenWithoutCuts) {
 TEST(HairlineLengths, HaveARootOnBothSidesOfACut) {
     // Three steps from 3.5 to 12.5.
     EXPECT_THAT(hairlineLengths(10.0, 4, {3.0}, 0.5), ElementsAre(3.5, 6.5, 9.5, 12.5));
-    // From 1.5 to 3.5 and from 4.5 to 10.5: 6 roots on a length of 8, a quarter and the rest.
+    // From 1.5 to 3.5 and from 4.5 to 10.5 there are 6 roots on a length of 8: a quarter of them on
+    // the first part, the rest on the second.
     EXPECT_THAT(
         hairlineLengths(10.0, 6, {4.0, 1.0}, 0.5), ElementsAre(1.5, 3.5, 4.5, 6.5, 8.5, 10.5));
     EXPECT_THAT(hairlineLengths(10.0, 4, {4.0, 1.0}, 0.5), ElementsAre(1.5, 3.5, 4.5, 10.5));

@@ -186,8 +186,8 @@ TEST(Hairline, IsMeasuredByArcLength) {
     EXPECT_EQ(hairlinePoint(scalp, hairline, 10.5).position, points[1].position);
 }
 
-// There are fewer points than edges, and not a divisor of them. On a circle the chords are still
-// equal, except for the sagitta of the mesh's own 48 edges.
+// There are fewer points than edges, and their number does not divide the number of edges. On a
+// circle the chords are still equal, except for the sagitta of the mesh's own 48 edges.
 TEST(Hairline, IsEvenOnACircle) {
     const Scalp scalp = extractScalp(makeCap());
     const std::vector<SurfacePoint> points = evenly(scalp, 7);

@@ -13,7 +13,7 @@ using testing::HasSubstr;
 using testing::SizeIs;
 
 // Three squares in a row, two triangles each, of materials skin, scalp, scalp, in parts named head,
-// head, wig; the vertices of the last square's outer edge have half of the weight of "fringe".
+// head, wig; the vertices on the last square's outer edge have half of the full weight in "fringe".
 Mesh row() {
     Mesh mesh = makeGrid(3, 1, [](auto, auto) { return false; });
     mesh.materials = {{.name = "skin"}, {.name = "scalp"}};
@@ -47,7 +47,7 @@ TEST(ScalpTriangles, PreferMaterialsToPartsToGroups) {
     mesh.vertex_groups[0].name = "head";
     EXPECT_THAT(scalpTriangles(mesh, "scalp"), ElementsAre(2, 3, 4, 5));
     EXPECT_THAT(scalpTriangles(mesh, "head"), ElementsAre(0, 1, 2, 3));
-    mesh.materials.push_back({.name = "wig"});  // without a triangle
+    mesh.materials.push_back({.name = "wig"});  // used by no triangle
     mesh.parts[1] = "wig";
     EXPECT_THAT(scalpTriangles(mesh, "wig"), ElementsAre(4, 5));
 }

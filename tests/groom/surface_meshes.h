@@ -93,9 +93,9 @@ inline Mesh makeSphere(double radius, std::uint32_t columns, std::uint32_t rows)
 struct Topology {
     std::size_t vertices = 0;  // that a triangle has
     std::size_t pieces = 0;
-    std::size_t loops = 0;  // of the boundary
+    std::size_t loops = 0;  // vertices that a triangle uses
     std::ptrdiff_t euler = 0;
-    bool is_manifold = true;  // an edge has one or two triangles, which run along it in opposite
+    bool is_manifold = true;  // each edge has one or two triangles, which run along it in opposite
                               // directions, and the triangles at a vertex follow each other
 };
 
@@ -125,8 +125,8 @@ inline Topology topologyOf(const std::vector<std::array<std::uint32_t, 3>>& tria
     }
     for (const auto& [vertex, link] : links) {
         topology.pieces += root(vertex) == vertex ? 1 : 0;
-        // One cycle has as many starts as ends and comes back after all of them. One path doesn't
-        // come back, but its vertex is on the boundary only once.
+        // A single cycle has as many starts as ends and returns only after all of them. A single
+        // path does not return, but its vertex is on the boundary only once.
         std::map<std::uint32_t, std::uint32_t> next(link.begin(), link.end());
         std::set<std::uint32_t> ends;
         for (const auto& [from, to] : next) ends.insert(to);

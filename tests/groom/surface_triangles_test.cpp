@@ -13,7 +13,7 @@ namespace {
 
 using Triangles = std::vector<std::array<std::uint32_t, 3>>;
 
-// The roots are independent, so some are very close.
+// The roots are independent, so some are very close together.
 std::vector<SurfacePoint> randomRoots(const Scalp& scalp, std::uint32_t count, std::uint32_t seed) {
     std::vector<SurfacePoint> roots;
     for (std::uint32_t i = 0; i < count; ++i) roots.push_back(rootSample(scalp, seed, i));
@@ -82,8 +82,8 @@ TEST(SurfaceTriangles, FaceOutward) {
 
 // An equilateral triangle of circumradius R with its corners on a unit sphere has less area than
 // the part of the sphere over it by 0.625 R^2 (seen from the middle dA = (1 + R^2 - 1.5 r^2) da,
-// the mean of r^2 being R^2 / 4); 2 n of them have R^2 = 4.84 / n. Roots that are spread are within
-// twice of that.
+// the mean of r^2 being R^2 / 4); 2 n of them have R^2 = 4.84 / n. For spread roots, the difference
+// is at most twice that.
 TEST(SurfaceTriangles, HaveTheAreaOfASphere) {
     const Scalp scalp = extractScalp(makeSphere(1.0, 96, 48));
     const std::uint32_t count = 500;
@@ -104,7 +104,8 @@ TEST(SurfaceTriangles, AreDelaunayInThePlane) {
     const Scalp scalp = extractScalp(makeGrid(4, 3, [](auto, auto) { return false; }));
     const std::vector<SurfacePoint> roots = randomRoots(scalp, 300, 4);
     const Triangles triangles = surfaceTriangles(scalp, roots);
-    EXPECT_GT(triangles.size(), 500u);  // 2 n - 2 - h = 598 less h on the hull, less what is peeled
+    EXPECT_GT(triangles.size(), 500u);  // 2 n - 2 - h = 598, less h on the hull and the triangles
+                                        // that are dropped
     for (const auto& [i, j, k] : triangles) {
         for (std::uint32_t other = 0; other < roots.size(); ++other) {
             if (other == i || other == j || other == k) continue;
@@ -140,7 +141,7 @@ TEST(SurfaceTriangles, LeaveHolesOpen) {
     }
 }
 
-// Two sheets face to face, much closer than roots are to each other, and the same way round.
+// Two sheets that face each other, much closer than neighbouring roots, with the same orientation.
 TEST(SurfaceTriangles, JoinNoPieces) {
     Mesh mesh = makeGrid(6, 6, [](auto, auto) { return false; });
     const Mesh lower = mesh;

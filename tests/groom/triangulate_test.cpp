@@ -47,7 +47,7 @@ bool isInside(const Points& points, std::size_t boundary, const glm::dvec2& p) {
     return inside;
 }
 
-// How deep d lies inside the circle through a, b and c, in units of its radius.
+// The depth of d inside the circle through a, b and c, in units of its radius.
 double
 depthInCircle(const glm::dvec2& a, const glm::dvec2& b, const glm::dvec2& c, const glm::dvec2& d) {
     const glm::dvec2 u = b - a;
@@ -60,7 +60,7 @@ depthInCircle(const glm::dvec2& a, const glm::dvec2& b, const glm::dvec2& c, con
     return (radius - glm::distance(centre, d)) / radius;
 }
 
-// All conditions for a triangulation of this polygon with these points.
+// Checks all conditions for a triangulation of this polygon with these points.
 void expectTriangulates(const Triangles& triangles, const Points& points, std::size_t boundary) {
     ASSERT_EQ(triangles.size(), 2 * points.size() - 2 - boundary);  // Euler
     std::map<std::pair<std::uint32_t, std::uint32_t>, int> edges;
@@ -167,7 +167,7 @@ TEST(Triangulate, CoversAnyStarWithAnyPoints) {
     }
 }
 
-// In a convex polygon no boundary edge is in the way, so no circle holds any point at all.
+// In a convex polygon no boundary edge is in the way, so no circle contains any point.
 TEST(Triangulate, LeavesEveryCircleEmptyInAConvexPolygon) {
     for (std::uint32_t seed = 0; seed < 10; ++seed) {
         Points points = regularPolygon(17);
@@ -192,7 +192,7 @@ TEST(Triangulate, TakesCocircularPoints) {
     expectTriangulates(triangulate(rings, 64), rings, 64);
 }
 
-// Points on the lines between others, on existing edges and on straight parts of the boundary.
+// Points lie on the lines between others, on existing edges and on straight parts of the boundary.
 TEST(Triangulate, TakesASquareGrid) {
     constexpr int n = 12;
     Points points;
@@ -205,12 +205,13 @@ TEST(Triangulate, TakesASquareGrid) {
     }
     const Triangles triangles = triangulate(points, 4 * n);
     expectTriangulates(triangles, points, 4 * n);
-    for (const auto& [a, b, c] : triangles) {  // halves of unit squares, whichever way they are cut
+    for (const auto& [a, b, c] : triangles) {  // halves of unit squares, whichever diagonal cuts
+                                               // them
         EXPECT_NEAR(cross(points[a], points[b], points[c]), 1.0, 1e-6);
     }
 }
 
-// A comb: the walk to a point meets the boundary again and again.
+// In a comb, the walk to a point meets the boundary again and again.
 TEST(Triangulate, CoversACombWithPoints) {
     Points points;
     constexpr int teeth = 20;

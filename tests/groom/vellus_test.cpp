@@ -13,7 +13,7 @@
 namespace hair::groom {
 namespace {
 
-// 20 x 20 m in the plane y = 0; the 10 x 10 m in the middle are scalp.
+// A square of 20 x 20 m in the plane y = 0; the 10 x 10 m in the middle are scalp.
 Mesh squareScalp() {
     Mesh mesh = makeGrid(20, 20, kNoHole);
     mesh.materials = {{.name = "skin"}, {.name = "scalp"}};
@@ -50,7 +50,8 @@ TEST(Vellus, IsNoneWithoutAShare) {
 }
 
 // The part of 1 - smoothstep(0, 1, x) below 1/2 is 13/16; the tolerance is four standard
-// deviations for this number of hairs. Corners, of a band each, weigh a hundredth of the edge.
+// deviations for this number of hairs. The corners, one band wide, have a hundredth of the edge's
+// weight.
 TEST(Vellus, ThinsOutOnEitherSideOfTheEdge) {
     static constexpr std::uint32_t kHairs = 4000;
     const StrandSet hairs = growVellus(squareScalp(), settingsOf(kHairs), 3);
@@ -69,7 +70,7 @@ TEST(Vellus, ThinsOutOnEitherSideOfTheEdge) {
     EXPECT_LT(apart.greatest(), 0.1 + 1e-6);
 }
 
-// The comb leads along +z; hairs turn away from it by 25 degrees at most, and are longer on the
+// The comb leads along +z. Hairs deviate from it by at most 25 degrees, and are longer on the
 // scalp.
 TEST(Vellus, LiesDownTheWayHairIsCombed) {
     const StrandSet hairs = growVellus(squareScalp(), settingsOf(2000), 3);
@@ -88,7 +89,7 @@ TEST(Vellus, LiesDownTheWayHairIsCombed) {
     EXPECT_GE(heights.least(), 0.0);
     EXPECT_LT(heights.greatest(), 0.15 * 0.06 * 1.0001);
     EXPECT_LT(std::max(turns.greatest(), -turns.least()), 25.0 * 3.14159266 / 180.0 + 1e-4);
-    // A float at 10 m is off by a millionth of it, against a hair of 0.01 m.
+    // A float at 10 m is off by a millionth of a metre, compared with a hair of 0.01 m.
     EXPECT_GT(lengths.least(), 1.0 / 3.0 - 1e-3);
     EXPECT_LT(lengths.greatest(), 1.0 + 1e-3);
 }

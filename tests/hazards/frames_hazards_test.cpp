@@ -87,7 +87,7 @@ protected:
 
     static engine::HazardLog& log() { return *device().hazards(); }
 
-    // Returns the messages on hazards, without the layer's own messages.
+    // Returns the messages on hazards, without other messages of the layer.
     static std::string hazards() {
         std::string text;
         for (const std::string& message : device().messages().take())
@@ -208,7 +208,7 @@ struct Missed {
 };
 
 // Expects that frames need these barriers and no others. If one is removed, two passes access
-// `resource` without order. One of these covers each of the other barriers.
+// `resource` without order. Each of the other barriers is covered by one of these.
 void missEach(
     engine::Device& device, const hair::Settings& settings, const std::vector<Missed>& expected) {
     engine::HazardLog& log = *device.hazards();
@@ -255,10 +255,10 @@ const std::vector<Missed> kMissed{
     {"volume", 1, "volume blocks"},  // cleared
     {"volume", 2, "volume samples"},
     {"volume", 3, "volume sums"},
-    {"pull", 0, "guide accelerations"},  // by hair on hair
+    {"pull", 0, "guide accelerations"},  // written by hair-hair contact
     {"pull", 1, "guide pull"},
-    {"simulate", 0, "guide accelerations"},  // by the hand
-    {"simulate", 1, "guide positions"},  // by the substep before
+    {"simulate", 0, "guide accelerations"},  // written by the hand
+    {"simulate", 1, "guide positions"},  // written by the substep before
     {"frames", 1, "guide normals"},
     {"mesh_shadow", 0, "depth of meshes"},
     {"mesh_shadow", 1, "depth of meshes"},
@@ -266,7 +266,7 @@ const std::vector<Missed> kMissed{
     {"hair_shadow", 1, "depth of hair"},
     {"hair_shadow", 2, "opacity of hair"},
     {"hair_shadow", 3, "opacity of hair"},
-    {"scene", 0, "color"},  // still resolved by the frame before
+    {"scene", 0, "color"},  // the frame before still resolves it
     {"scene", 1, "depth"},
     {"strands", 1, "fragment heads"},  // cleared
     {"strands", 2, "depth"},

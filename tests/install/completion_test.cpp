@@ -56,7 +56,8 @@ protected:
                "':$PATH; ";
     }
 
-    // Types these keys into a shell with completions and returns the program's arguments.
+    // Types these keys into a shell with completions, and returns the arguments that the program
+    // gets.
     std::string called(TypedShell& shell, const std::string& keys) const {
         shell.type(keys + '\n');
         const std::string seen = shell.waitFor(".\r\n");
@@ -69,7 +70,7 @@ protected:
 
 TEST_F(Completion, IsReadByItsShellWithoutAWord) {
     for (const std::string& shell : shellNames()) {
-        if (!isThere(shell)) continue;  // at least bash is there
+        if (!isThere(shell)) continue;  // at least bash exists
         const Outcome read = runInShell(shell + " -n '" + completionsOf(shell).string() + "' 2>&1");
         EXPECT_EQ(read.status, 0) << shell;
         EXPECT_EQ(read.output, "") << shell;

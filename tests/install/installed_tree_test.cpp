@@ -24,7 +24,7 @@ using testing::IsEmpty;
 
 class InstalledTree : public testing::Test {
 protected:
-    // Once for all tests.
+    // Installs once for all tests.
     static void SetUpTestSuite() {
         folder.emplace();
         const Outcome installed = runInShell(
@@ -144,7 +144,7 @@ def BasisCurves "hair"
     EXPECT_THAT(read.output, HasSubstr("\"strands\": 2"));
 }
 
-// Tests that the files exist that its messages name, without making an environment.
+// Tests that the files named in its messages exist, without making an environment.
 TEST_F(InstalledTree, HasWhatMakesPythonEnvironments) {
     const std::string maker =
         "'" + (tree() / "libexec/hairbench/python-environment").string() + "'";
@@ -154,7 +154,7 @@ TEST_F(InstalledTree, HasWhatMakesPythonEnvironments) {
             runInShell("HOME='" + own.path().string() + "' " + maker + " --check " + name).status %
                 2,
             1)
-            << name;  // 1 or 3
+            << name;  // status 1 or 3
 }
 
 TEST_F(InstalledTree, HasCompletionsAndAManual) {

@@ -37,7 +37,7 @@ TEST(Manual, NamesEveryCommandAndOption) {
     }
 }
 
-// mandoc and groff, which show such pages, find no fault in any page.
+// mandoc and groff, which display such pages, find no fault in any page.
 TEST(Manual, IsWithoutFault) {
     const TemporaryFolder folder;
     ASSERT_EQ(hairbench("man --out '" + folder.path().string() + "'").status, 0);

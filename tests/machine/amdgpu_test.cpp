@@ -87,7 +87,7 @@ TEST_F(AmdgpuTest, NamesWhatHoldsTheClockBack) {
     EXPECT_EQ(reasons(32), Reasons{"thermal limit"});
     EXPECT_EQ(reasons(55), Reasons{"thermal limit"});
     EXPECT_EQ(reasons(56), Reasons());
-    EXPECT_EQ(reasons(32, 4), Reasons());  // has another layout
+    EXPECT_EQ(reasons(32, 4), Reasons());  // the table has another layout
 }
 
 TEST_F(AmdgpuTest, ReadsAgainEveryTime) {

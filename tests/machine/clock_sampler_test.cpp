@@ -26,7 +26,7 @@ void waitForReads(const std::atomic<int>& reads, int count) {
     while (reads < count) std::this_thread::sleep_for(std::chrono::milliseconds(1));
 }
 
-// A reading at the end of a round would be that of an idle device.
+// A reading at the end of a round would describe an idle device.
 TEST(ClockSampler, ReadsNothingForWhoTakes) {
     std::atomic<int> reads = 0;
     ClockSampler sampler(std::make_unique<CountingSource>(reads));

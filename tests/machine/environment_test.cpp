@@ -40,8 +40,8 @@ TEST_F(EnvironmentTest, HasTheDevicesIdentity) {
     EXPECT_EQ(record.timestamp_valid_bits, device().info().timestamp_valid_bits);
 }
 
-// The specification's least values (Vulkan 1.3, Required Limits), for a device with tessellation
-// and geometry shaders like every device here.
+// The specification's minimum values (Vulkan 1.3, Required Limits), for a device with tessellation
+// and geometry shaders, which every device here has.
 TEST_F(EnvironmentTest, HasLimitsThatMeetTheSpecification) {
     const auto limits = describe(engine::Validation::off).device.limits;
     const auto limit = [&](const std::string& name) {
@@ -87,7 +87,7 @@ TEST(BuildRecord, SaysHowTheProgramWasBuilt) {
 #ifdef NDEBUG
     EXPECT_THAT(build.flags, HasSubstr("-DNDEBUG"));
 #endif
-    // Suffix and flag say the same.
+    // The suffix and the flag agree.
     if (!build.commit.empty())
         EXPECT_EQ(build.dirty, build.commit.ends_with("-dirty"));
     else

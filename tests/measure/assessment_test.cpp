@@ -51,7 +51,7 @@ TEST(Assessment, DoesNotJudgeWhatItCannot) {
 }
 
 // The interval contains the median of the noise, 1, as often as promised, although frames differ by
-// a factor of two: the median over the profile 0.7 ... 1.4 is 1.05.
+// a factor of two and the median over the profile 0.7 ... 1.4 is 1.05.
 TEST(Assessment, SaysHowWellTheMedianIsKnown) {
     constexpr int kTrials = 500;
     Noise noise(3);

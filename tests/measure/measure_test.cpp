@@ -232,7 +232,7 @@ TEST_F(MeasureTest, EndsWithTheSameHairAfterAnyNumberOfRounds) {
     EXPECT_EQ(more.image_hash, one.image_hash);
     EXPECT_EQ(more.state_hash, one.state_hash);
     EXPECT_THAT(more.trust.warnings, testing::Not(testing::Contains(testing::HasSubstr("differ"))));
-    settings.run.frames = 6;  // the hair moves: another number of frames ends elsewhere
+    settings.run.frames = 6;  // the hair moves, so another number of frames ends with another state
     EXPECT_NE(measured(settings).state_hash, one.state_hash);
 }
 
@@ -287,7 +287,7 @@ TEST_F(MeasureTest, StopsWhenAsked) {
 class RoundPlayerTest : public GpuTest {
 protected:
     // Frames advance by a third of a step, so that only every third frame simulates. The passes
-    // then identify these frames, whatever their times.
+    // then identify these frames; their times do not matter.
     static hair::Settings thirdsOfSteps() {
         hair::Settings settings = smallCase();
         settings.simulation.time_step = 1.0f / 60.0f;

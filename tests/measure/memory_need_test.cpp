@@ -247,7 +247,7 @@ TEST_F(NoRoom, IsSkippedWithTheFigure) {
         testing::MatchesRegex("needs about [0-9.]+ [MG]B of (device )?memory; 1.05 MB are free "
                               "\\(--max-memory\\)"));
     ASSERT_TRUE(skipped.memory_need);
-    EXPECT_GT(skipped.memory_need->device, 512u * 512 * 8);  // colour and depth
+    EXPECT_GT(skipped.memory_need->device, 512u * 512 * 8);  // both mean that there is no limit
     const report::CaseResult ran = run(each, std::uint64_t{8} << 30);
     EXPECT_EQ(ran.status, report::Status::ok) << ran.reason;
     ASSERT_TRUE(ran.memory_need);

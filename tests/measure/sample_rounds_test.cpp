@@ -37,7 +37,7 @@ struct Machine {
         return std::vector<std::string>();
     };
     double held = 0.0;  // MHz, before and then after
-    // Other times than the judged one are those of a machine that slows down.
+    // Times other than the judged one are those of a machine that slows down.
     FrameTime judged = &engine::FrameRecord::wall;
     int frames = 10;
     double now = 100.0;  // s
@@ -103,7 +103,8 @@ TEST(SampleRounds, PlaysOneWithoutTime) {
     EXPECT_THAT(sampled.conditions, SizeIs(1));
 }
 
-// Rounds of 0.1 s until 32 times of 10 ms are steady. Only the judged time counts, whichever it is.
+// Rounds of 0.1 s until 32 times of 10 ms are steady. Only the judged time counts, whichever one it
+// is.
 TEST(SampleRounds, JudgesTheTimeThatTheRuleNames) {
     for (const FrameTime judged : kFrameTimes) {
         Machine machine{.time = [](int, int) { return 10.0; }, .judged = judged};
@@ -160,8 +161,8 @@ double misleading(double correlation, int frames, double max_time) {
     return static_cast<double>(missed) / kSeries;
 }
 
-// Intervals of 95 % that are worth the name miss at most 7 %, whatever the dependence and the time.
-// Without caution, 18 % of them miss at a correlation of 0.9 and half at 0.98.
+// Intervals of 95 % that deserve the name miss at most 7 %, whatever the dependence and the time.
+// Without caution, 18 % of them miss at a correlation of 0.9, and half at 0.98.
 TEST(SampleRounds, GiveIntervalsThatCoverTheMedian) {
     for (const double correlation : {0.0, 0.8, 0.9, 0.98})
         for (const int frames : {5, 60})
@@ -220,7 +221,7 @@ TEST(SampleRounds, LeavesOutTheFirstWhileTheySettle) {
         sampled.sampling.warmup_rounds + sampled.sampling.rounds,
         static_cast<std::uint32_t>(machine.rounds));
     EXPECT_THAT(sampled.frames, SizeIs(10 * sampled.sampling.rounds));
-    // 8 % of the last round but one, and ten standard deviations of the noise.
+    // 8 % in the last round but one, and ten standard deviations of the noise.
     EXPECT_THAT(walls(sampled), testing::Each(DoubleNear(10.0, 1.0)));
     EXPECT_THAT(sampled.conditions, SizeIs(machine.rounds));
 }
@@ -277,7 +278,7 @@ TEST(SampleRounds, CountsRoundsAtThePowerLimitWhileTheClockHolds) {
         sampled.sampling.throttled_rounds, static_cast<std::uint32_t>((machine.rounds + 2) / 3));
 }
 
-// A clock locked below the board's rated clock is as good as any.
+// A clock locked below the board's rated clock is accepted like any other.
 TEST(SampleRounds, TakesALockedClockForWhatItIs) {
     Machine machine{
         .time = [](int, int) { return 10.0; }, .clock = [](int) { return 300.0; }, .load = 1.0};

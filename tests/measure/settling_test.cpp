@@ -17,8 +17,8 @@ std::vector<double> levels(std::size_t count, const std::function<double(double)
     return all;
 }
 
-// Noise of 10 %, for which the tolerance of 1 % is of little use. The level of the tests limits how
-// many series lose a round, for any number of rounds.
+// With noise of 10 %, the tolerance of 1 % is of little use. The level of the tests limits how many
+// series lose a round, for any number of rounds.
 TEST(Settling, LeavesNothingOutOfNoise) {
     constexpr int kSeries = 1000;
     for (const std::size_t rounds : {8u, 9u, 20u, 64u, 200u}) {

@@ -55,7 +55,7 @@ struct GpuModel {
     double stamp_rate = 1.0;
     bool timestamps_shifted = false;  // a pass's time is that of the previous pass
     bool calibrated = true;  // host and device can read a common clock
-    bool processor = false;  // it reports that it is a processor
+    bool processor = false;  // the device reports that it is a processor
     bool waits_for_all = false;  // a wait for a frame ends only when all submitted frames are done
 
     double most_age = 0.1;  // s, of a clock reading

@@ -115,7 +115,7 @@ TEST(SimulatedGpu, ThrottlingIsFoundWhereThereIsSomeAndNotElsewhere) {
     EXPECT_LE(wrongly, 1);
 }
 
-// An hour of heat: the case fails, and its measurements are in the report.
+// After an hour of heat the case fails, and its measurements are in the report.
 TEST(SimulatedGpu, ACaseThatIsThrottledThroughoutFailsAndKeepsItsSamples) {
     GpuModel model;
     model.throttled_share = 0.9999;

@@ -56,8 +56,8 @@ TEST(Start, IsSilentWhereNothingIsWrong) {
     EXPECT_THAT(judgeStart(fine, nullptr, settledSettings()).warnings, IsEmpty());
 }
 
-// The thesis's iterations stretch hair, and so do lengths without a constraint: the settings
-// request it.
+// The thesis's iterations stretch hair, and so do lengths without a constraint. The settings
+// request this.
 TEST(Start, GivesTheFigureAloneWhereLengthsAreNotKept) {
     const GuideCondition stretched{.stretch = {.value = 1.5, .guide = 1, .guides = 9}};
     hair::Settings settings = settledSettings();
@@ -88,7 +88,7 @@ TEST(Start, SaysWhatBalanceTook) {
     settings.simulation.solver = hair::Solver::shape;
     EXPECT_THAT(
         judgeStart({}, &balance, settings).warnings,
-        ElementsAre("hair sags: guide 4 can't be balanced where nothing pulls it to its place "
+        ElementsAre("hair sags: guide 4 can't be balanced if nothing pulls it to its place "
                     "(/simulation/global/stiffness is 0); 2 guides in all"));
 }
 

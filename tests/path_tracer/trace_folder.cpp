@@ -1,6 +1,6 @@
 // Traces a scene of `hairbench export SCENE --mitsuba DIR` with our own path tracer. Prints the
-// picture's mean radiance, linear RGB, and its standard error, as mitsuba_means.py beside this file
-// does for Mitsuba.
+// picture's mean radiance, linear RGB, and its standard error. The script mitsuba_means.py beside
+// this file does the same for Mitsuba.
 //
 // usage: trace_folder DIR SAMPLES [OUT.exr] [SEED]
 #include <cstdint>

@@ -78,7 +78,7 @@ TEST_F(TruthScenes, LevelHairSagsAsTheElastica) {
     }
 }
 
-// Requirement: 2 % of the length at any time step where theory has a steady state, and 1 % between
+// Requirement: 2 % of the length at any time step if theory has a steady state, and 1 % between
 // time steps.
 TEST_F(TruthScenes, WindHoldsHairWhereTheElasticaIs) {
     std::vector<std::vector<glm::dvec3>> tips;

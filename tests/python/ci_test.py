@@ -76,7 +76,8 @@ class Repository(unittest.TestCase):
             stderr=subprocess.STDOUT, timeout=500)
 
     def make_branches(self):
-        """Makes a branch and then another commit on main, so that the branch's base is 'old'."""
+        """Makes a branch and then another commit on main, so that the branch's base is the commit
+        'old'."""
         scripts = self.work / "scripts"
         scripts.mkdir(parents=True)
         for name in ("ci-gate", "gate-table"):
@@ -164,7 +165,8 @@ class Action(Repository):
         status, said = self.play(
             {"scene": SMOKE, "options": TINY}, {"github.event.pull_request.base.sha": "main"})
         self.check_builds()
-        self.assertEqual(status, 0, said)  # stopped before it could decide, and told to pass then
+        self.assertEqual(status, 0, said)  # stopped before it could decide, and set to pass in that
+                                           # case
         report = json.loads((self.work / "build" / "gate" / "gate.json").read_text())
         self.assertEqual(report["end"], "out_of_time")
         self.assertEqual((report["a"]["given"], report["b"]["given"]),

@@ -163,7 +163,7 @@ class MeasuredReport(unittest.TestCase):
         cases = self.frame[
             (self.frame["/strands/density"] == 64) & (self.frame["/render/msaa"] == 1)
             & (self.frame["/lod/level"] == 0) & (self.frame["metric"] == "frame.time")]
-        printed = re.findall(r"([0-9.]+) ms (?:a frame )?by `(\w+)`", line)
+        printed = re.findall(r"([0-9.]+) ms (?:per frame )?with `(\w+)`", line)
         self.assertEqual([backend for _, backend in printed], ["tessellation", "software"])
         for milliseconds, backend in printed:
             (median,) = cases[cases["backend"] == backend]["median"]

@@ -71,7 +71,7 @@ out.write_text(json.dumps({{"cases": cases, "environment": environment}}))
 def load():
     loader = importlib.machinery.SourceFileLoader("reproduce_thesis", str(SCRIPT))
     module = importlib.util.module_from_spec(importlib.util.spec_from_loader(loader.name, loader))
-    sys.modules[loader.name] = module  # where dataclasses look for it
+    sys.modules[loader.name] = module  # dataclasses look for it there
     sys.dont_write_bytecode = True
     loader.exec_module(module)
     return module

@@ -38,7 +38,7 @@ TEST(BackendLimits, AreRefusedWithTheirReason) {
     textured.strands.texture = "bands.png";
     EXPECT_EQ(
         refusal(blended), "/strands/backend: a /render/transparency but none is not drawn: it "
-                          "keeps one strand a sample");
+                          "keeps one strand per sample");
     EXPECT_EQ(
         refusal(shown),
         "/strands/backend: a /render/show but shading is not drawn: it only shades");
@@ -133,7 +133,7 @@ TEST_F(BackendChoiceTest, IsTheFirstThatDrawsTheCase) {
     EXPECT_EQ(other.backend, backendOrder(device().info())[1]);
     EXPECT_EQ(
         other.reason, "automatic: the first that can draw it; not software: /strands/backend: a "
-                      "/render/transparency but none is not drawn: it keeps one strand a sample");
+                      "/render/transparency but none is not drawn: it keeps one strand per sample");
 }
 
 TEST_F(BackendChoiceTest, IsTheScenesOwn) {

@@ -19,7 +19,7 @@
 // except with `pulling`: a rasteriser rounds interpolated values differently if it gets the
 // triangles in another way. `precise` doesn't reach dot products, roots and the logarithm of
 // levels by distance. A GPU's compiler may round these differently in another stage, which moves
-// an edge over a sample here and there: one of a thousand pixels may differ.
+// an edge over a sample in a few places: one in a thousand pixels may differ.
 namespace hair::rendering {
 namespace {
 
@@ -66,7 +66,7 @@ protected:
     }
 };
 
-// Without a split it would be one draw of 304,640 vertices, 4.6 times as many as lavapipe's
+// Without splitting it would be one draw of 304,640 vertices, 4.6 times as many as lavapipe's
 // tessellator can index.
 TEST_F(BackendPictureTest, AreEqualAtTheThesissCase) {
     const benchmarks::measure::Case thesis(
@@ -122,7 +122,7 @@ std::size_t fusibleSums(std::span<const std::uint32_t> code) {
     std::set<std::uint32_t> exact;
     std::set<std::uint32_t> products;  // ids of values, variables and functions
     std::set<std::uint32_t> sums;
-    for (int pass = 0; pass < 4; ++pass) {  // functions may be called before they are there
+    for (int pass = 0; pass < 4; ++pass) {  // functions may be called before they are defined
         std::uint32_t function = 0;
         for (std::size_t at = 5; at < code.size(); at += code[at] >> 16) {
             const std::uint32_t operation = code[at] & 0xffff;
@@ -239,8 +239,9 @@ protected:
     }
 };
 
-// Strands cover pixels at random, each with the same chance: as many as their area has. At 45
-// degrees a line a pixel wide may have one diagonal of pixels or two throughout.
+// Strands cover pixels at random, each with the same chance, so that the count matches their area.
+// At 45 degrees a line one pixel wide may cover one diagonal of pixels or two along its whole
+// length.
 TEST_F(LinesPicture, CoverTheAreaOfThinStrands) {
     for (const double width : {0.1, 0.3, 0.6}) {
         for (const double degrees : {0.0, 20.0, 40.0, 80.0, 130.0}) {
@@ -254,7 +255,7 @@ TEST_F(LinesPicture, CoverTheAreaOfThinStrands) {
 // Thesis 2.2: a line has one width, whatever the strand's.
 TEST_F(LinesPicture, AreOnePixelWideWhereStrandsAreWider) {
     for (const double degrees : {0.0, 20.0, 45.0}) {
-        // The bounds: one pixel a column, and all pixels that a rectangle a pixel wide touches.
+        // The bounds: one pixel per column, and all pixels that a rectangle one pixel wide touches.
         const double columns = kLength * std::cos(glm::radians(degrees));
         EXPECT_GE(covered(5.0, degrees), columns - 2.0) << degrees;
         EXPECT_LE(covered(5.0, degrees), kLength + 2.0) << degrees;

@@ -58,7 +58,7 @@ TEST(Camera, DepthRunsFromNearToFar) {
 }
 
 // 32-bit depth resolves less than a strand's width with the default planes of 0.01 and 100 m, from
-// right before the camera to beyond the distances of `hairbench lod`.
+// directly in front of the camera to beyond the distances of `hairbench lod`.
 TEST(Camera, DepthTellsTenthsOfAMillimetreApartUpTo40M) {
     const CameraSettings camera{.position = glm::vec3(0.0f), .target = {0.0f, 0.0f, -1.0f}};
     const glm::mat4 matrix = viewProjection(camera, 1.0f);
@@ -73,7 +73,7 @@ TEST(Camera, LooksFromAnywhereWithItsUpUpward) {
     const CameraSettings camera{
         .position = {1.0f, 2.0f, 3.0f},
         .target = {-1.0f, 1.0f, 1.0f},  // 3 m away
-        .up = {0.0f, 0.5f, 0.0f},       // of any length
+        .up = {0.0f, 0.5f, 0.0f},       // of arbitrary length
         .field_of_view = 60.0f};
     const glm::mat4 matrix = viewProjection(camera, 1.0f);
     const glm::vec3 forward = glm::vec3(-2.0f, -1.0f, -2.0f) / 3.0f;

@@ -77,15 +77,15 @@ TEST_F(CurveTest, TangentIsTheDerivative) {
     }
 }
 
-// Seven segments along (3, -2, 1) from (1, 2, 4): a B-spline of points on a line, evenly spaced, is
-// the line, and the reflected points at its ends go on with it.
+// Seven segments along (3, -2, 1) from (1, 2, 4). A B-spline of evenly spaced points on a line is
+// the line itself, and the reflected points at its ends continue it.
 TEST_F(CurveTest, StraightGuideIsReproduced) {
     std::vector<glm::vec3> guide;
     const glm::vec3 root(1.0f, 2.0f, 4.0f);
     const glm::vec3 step(3.0f, -2.0f, 1.0f);
     for (int v = 0; v < 8; ++v) guide.push_back(root + static_cast<float>(v) * step);
     const StrandPoints points = evaluate(oneTriangle(guide), {.density = 2, .tessellation = 5});
-    // The largest coordinate is 1 + 8 * 3, the reflected one; some ten roundings.
+    // The largest coordinate is the reflected one, 1 + 8 * 3. There are some ten roundings.
     constexpr float kTolerance = 10 * 25 * kUlp;
     for (std::uint32_t segment = 0; segment < 7; ++segment) {
         for (std::uint32_t point = 0; point <= 5; ++point) {
@@ -133,7 +133,8 @@ TEST_F(CurveTest, CatmullRomGoesThroughEveryVertex) {
         expectNear(points.at(0, 1, vertex, 0).position, kBent[vertex], kBentTolerance);
         expectNear(points.at(0, 1, vertex, 3).position, kBent[vertex + 1], kBentTolerance);
     }
-    // Half of the way between the neighbours. Beyond an end there is the end's reflection.
+    // Half of the difference between the neighbours. Beyond an end, the neighbour is the end's
+    // reflection.
     expectNear(points.at(0, 1, 1, 0).tangent, 0.5f * (kBent[2] - kBent[0]), kBentTolerance);
     expectNear(points.at(0, 1, 0, 0).tangent, kBent[1] - kBent[0], kBentTolerance);
     expectNear(points.at(0, 1, 2, 3).tangent, kBent[3] - kBent[2], kBentTolerance);

@@ -22,8 +22,8 @@ inline constexpr double kTurn = 2.0 * std::numbers::pi;
 
 inline constexpr float kUlp = 0x1p-24f;  // rounding of a float, relative
 
-// Contacts as a simulation could mark them, [guide][vertex]. Two guides of three touch a body,
-// each at another vertex; the vertices below it are marked, too.
+// Contacts as a simulation could mark them, [guide][vertex]. Two of three guides touch a body, each
+// at a different vertex. The vertices below it are marked too.
 inline std::vector<bool> madeUpContacts(const groom::Groom& groom) {
     std::vector<bool> contacts;
     for (std::uint32_t guide = 0; guide < groom.strand_count; ++guide) {
@@ -130,8 +130,8 @@ inline groom::Groom uprightGroom() {
     return oneTriangle(guides);
 }
 
-// Three guides with their roots at the unit vectors, so that a strand's root is its barycentric
-// coordinates, under any number of root triangles.
+// Three guides with their roots at the unit vectors, so that the position of a strand's root equals
+// its barycentric coordinates, for any number of root triangles.
 inline groom::Groom unitTriangles(std::uint32_t triangles) {
     const glm::vec3 up(1.0f, 1.0f, 1.0f);
     const std::array<glm::vec3, 3> roots{glm::vec3{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
@@ -142,7 +142,7 @@ inline groom::Groom unitTriangles(std::uint32_t triangles) {
     return groom;
 }
 
-// Curved guides with bulging roots, in no special arrangement, of about 0.5 m.
+// Curved guides of about 0.5 m with bulging roots, in no special arrangement.
 inline groom::Groom tangledGroom(std::uint32_t vertices) {
     constexpr std::uint32_t kGuides = 6;
     groom::Groom groom{

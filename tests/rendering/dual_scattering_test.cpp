@@ -91,7 +91,8 @@ TEST(LocalScattering, ReflectsNoMoreThanAllLayersDo) {
                     // b R^2 - (1 + b^2 - f^2) R + b = 0
                     const double p = 1 + b * b - f * f;
                     const double stack = 2 * b / (p + std::sqrt(std::max(p * p - 4 * b * b, 0.0)));
-                    EXPECT_LE(stack, 1 + 1e-6);  // a root of a number that is 0 for a white fibre
+                    EXPECT_LE(stack, 1 + 1e-6);  // the square root of a number that is 0 for a
+                                                 // white fibre
                     const double q = f * std::exp(f - 1);
                     const double all = b / (1 - q / (1 - b * stack));
                     const double some = b + local.albedo[c];
@@ -119,11 +120,11 @@ TEST(DualScattering, IsTheFibersOwnWhereNothingElseIs) {
     EXPECT_EQ(
         reference::dualScattering(fiber, 0, wo, wi, 0.3, {}),
         reference::scattering(fiber, wo, wi, 0.3));
-    // Without density only the light that meets no strand is left.
+    // Without density, only the light that meets no strand remains.
     EXPECT_NEAR(
         reference::dualScattering(fiber, 0, wo, wi, 0.3, {.strands = 2}).g,
         std::exp(-2.0) * reference::scattering(fiber, wo, wi, 0.3).g, 1e-12);
-    // Hair around it adds, hair before it takes away.
+    // Hair around the fibre adds light; hair in front of it takes light away.
     const double alone = reference::scattering(fiber, wo, wi, 0.3).g;
     const double among = reference::dualScattering(fiber, 0.7, wo, wi, 0.3, {}).g;
     EXPECT_GT(among, alone);

@@ -26,7 +26,7 @@ struct Walk {
 
 struct Step {
     bool forward;
-    double theta;        // of the light that leaves, seen as it came: theta_i of the next fibre
+    double theta;  // of the light that leaves, as seen on arrival: theta_i of the next fibre
     glm::dvec3 carried;  // part of the light
 };
 
@@ -79,8 +79,8 @@ TEST(FiberAverages, AreTheMeansOfSampledDirections) {
     }
 }
 
-// Light through a random number of fibres, followed direction by direction, as long as it goes
-// forward. Dual scattering takes a_f at the incoming light's inclination, and narrow lobes.
+// Follows light through a random number of fibres, direction by direction, as long as it goes
+// forward. Dual scattering instead uses a_f at the incoming light's inclination, and narrow lobes.
 TEST(GlobalScattering, IsThatOfARandomWalk) {
     constexpr std::uint32_t kWalks = 20000;
     for (const float roughness : {0.1f, 0.3f}) {

@@ -1,4 +1,4 @@
-// Strands seen end-on: there E x T, the direction across quads and fibres' frames, is 0.
+// Strands seen end-on. E x T, the direction across quads and fibres' frames, is 0 there.
 #include <algorithm>
 #include <cmath>
 #include <cstring>
@@ -22,7 +22,7 @@ constexpr ShadingModel kModels[]{
     ShadingModel::phong, ShadingModel::kajiya_kay, ShadingModel::marschner,
     ShadingModel::dual_scattering};
 
-// Light from the eye, from the side of the strands and from all along them.
+// Light from the eye, from the side of the strands and from directions along them.
 Settings litSettings(ShadingModel model) {
     Settings settings = linearPicture(33, 33);
     settings.shading.model = model;
@@ -112,8 +112,8 @@ std::vector<std::uint16_t> drawRendered(const engine::Device& device, const Sett
 bool isFiniteHalf(std::uint16_t half) { return (half & 0x7c00u) != 0x7c00u; }
 bool isAboveZero(std::uint16_t half) { return half != 0 && half < 0x8000u; }
 
-// Every sample is finite, and the strand has its full width where the eye sees it end-on: 0.2 m at
-// the middle vertex are 10 px. Their column is the edge of two quads and belongs to them.
+// Every sample is finite, and the strand has its full width at the vertex that the eye sees end-on:
+// 0.2 m at the middle vertex are 10 px. Their column is the edge of two quads and belongs to them.
 void expectSound(const std::vector<std::uint16_t>& halves, const std::string& what) {
     ASSERT_EQ(halves.size(), 4u * 33 * 33);
     EXPECT_TRUE(std::ranges::all_of(halves, isFiniteHalf)) << what;
@@ -151,8 +151,8 @@ TEST_F(EndOn, SoDoBackEndsCoverageAndShadows) {
         }
 }
 
-// Tangents stored to 0.1 degrees have a side even where the eye sees the strand end-on, but it
-// differs in the last bits: pixels on the very edge may be lost.
+// Tangents stored to 0.1 degrees have a side even if the eye sees the strand end-on, but it differs
+// in the last bits, so pixels exactly on the edge may be lost.
 TEST_F(EndOn, BackEndsFromPointsDrawFiniteLight) {
     for (const Backend backend : {Backend::expanded, Backend::software})
         for (const ShadingModel model : kModels) {

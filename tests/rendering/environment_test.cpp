@@ -109,8 +109,8 @@ std::vector<glm::vec3> floats(const std::vector<glm::dvec3>& directions) {
     return {directions.begin(), directions.end()};
 }
 
-// Light of l = 0 and 1 comes back exactly (irradiance_test.cpp), also from the shader, with the
-// strength and turned; 1e-3 for the picture's texels and the arithmetic.
+// Light of l = 0 and 1 is reproduced exactly (irradiance_test.cpp), also by the shader, with the
+// strength and turned. The tolerance of 1e-3 covers the picture's texels and the arithmetic.
 TEST_F(EnvironmentTest, LightsSurfacesAsTheHarmonicsSay) {
     Settings settings = bald(8);
     settings.render.environment_strength = 3.0f;
@@ -170,8 +170,8 @@ TEST_F(EnvironmentTest, LeavesOutWhatLightCannotBe) {
 }
 
 // A bright spot of 3 degrees at (u, v) of the picture, and its place for a camera of 90 degrees at
-// the origin. The camera looks along +z with +y up, so +x is at the left: a spot at u = 0.4 is 36
-// degrees left of the middle, tan 36 of the half width away.
+// the origin. The camera looks along +z with +y up, so +x is on the left. A spot at u = 0.4 is 36
+// degrees to the left of the middle, at tan 36 of the half width.
 struct Spot {
     double u, v;
     float turn;
@@ -202,7 +202,7 @@ TEST_F(EnvironmentTest, IsSeenWhereItIs) {
                      return glm::dot(d, middle) > std::cos(glm::radians(3.0)) ? 4.0 : 0.0;
                  }));
         const glm::dvec2 seen = picture.middleOfLight() / 45.0 - 1.0;
-        // A pixel, and the spot's texels of 1.4 degrees, which are wider off the middle.
+        // One pixel, plus the spot's texels of 1.4 degrees, which look wider away from the middle.
         EXPECT_NEAR(seen.x, spot.seen.x, 0.035) << spot.u << ' ' << spot.v << ' ' << spot.turn;
         EXPECT_NEAR(seen.y, spot.seen.y, 0.035) << spot.u << ' ' << spot.v << ' ' << spot.turn;
     }

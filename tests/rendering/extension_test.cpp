@@ -1,4 +1,4 @@
-// Functions that a scene brings along, on the device: docs/extending.md.
+// Tests functions that a scene supplies, on the device: docs/extending.md.
 #include <algorithm>
 #include <memory>
 #include <set>
@@ -110,8 +110,8 @@ TEST_F(ShadingExtensions, AConstantColourIsWhatHairShowsInEveryBackEnd) {
     EXPECT_GT(covered, 200u);
 }
 
-// The thesis's equations (5) and (6) by a file. A sum in another order rounds differently, by less
-// than half of a step of 255 and so by one step at most.
+// The thesis's equations (5) and (6), implemented in a file. A sum in another order rounds
+// differently, by less than half of a step of 255, so the result differs by at most one step.
 TEST_F(ShadingExtensions, PhongByAFileIsPhong) {
     Settings settings = shadedBy(R"(
 vec3 shadeHair(HairPoint point) {
@@ -195,7 +195,7 @@ TEST_F(ShadingExtensions, ReadsItsParameters) {
     EXPECT_EQ(colorsOf(draw(settings)), (std::set<Color>{kBackground, {0, 255, 51}}));
 }
 
-// All in one process: the text, not the name, tells pipelines apart.
+// All run in one process: the text, not the name, distinguishes pipelines.
 TEST_F(ShadingExtensions, TwoTextsOfOneNameGiveTwoPictures) {
     const std::string body = "vec3 shadeHair(HairPoint point) { return ";
     EXPECT_EQ(
@@ -357,7 +357,7 @@ protected:
     }
 };
 
-// Solvers add gravity and accelerations up. If one of them is 0, the sum is the same to the bit,
+// Solvers add gravity and the accelerations. If one of them is 0, the sum is the same to the bit,
 // and so are all results.
 TEST_F(ForceExtensions, AConstantAccelerationIsGravity) {
     const groom::Groom groom = simulation::straightGroom(3, 8);
@@ -375,8 +375,9 @@ TEST_F(ForceExtensions, AConstantAccelerationIsGravity) {
     }
 }
 
-// A free vertex without other forces has the velocity of all accelerations before, times the step.
-// The accelerations are the times 0, dt, ... (n - 1) dt, so the velocity is n (n - 1) / 2 dt^2.
+// Without other forces, the velocity of a free vertex is the sum of all previous accelerations,
+// times the step. The accelerations are the times 0, dt, ... (n - 1) dt, so the velocity is n (n -
+// 1) / 2 dt^2.
 // The second force brakes with 1 / dt times the velocity and so ends the motion of the step
 // before.
 TEST_F(ForceExtensions, KnowTimeAndVelocity) {

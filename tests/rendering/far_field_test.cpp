@@ -93,7 +93,7 @@ TEST_F(FarField, IsTheMeanOverTheWidthOfThinFibers) {
     for (const Row& row :
          {Row{0.2f, 0.18, 0.08, 0.04}, Row{0.3f, 0.05, 0.04, 0.02}, Row{0.5f, 0.01, 0.015, 0.005},
           Row{0.9f, 0.005, 0.005, 0.002}})
-        for (const float across : {-0.9f, 0.2f}) {  // wherever the pixel's middle is
+        for (const float across : {-0.9f, 0.2f}) {  // for any position of the pixel's middle
             const FarError error =
                 errorOf(device(), row.roughness, across, 10 * kProbeWidth, -1, 1);
             EXPECT_LT(error.largest, row.largest) << row.roughness;
@@ -102,7 +102,7 @@ TEST_F(FarField, IsTheMeanOverTheWidthOfThinFibers) {
         }
 }
 
-// h - 0.4 to h + 0.4, and at the edge the part of it that is left.
+// from h - 0.4 to h + 0.4, or to the edge if that is nearer
 TEST_F(FarField, IsTheMeanOverThePartThatAPixelSees) {
     for (const float roughness : {0.3f, 0.5f}) {
         const FarError middle = errorOf(device(), roughness, 0.2f, 0.4 * kProbeWidth, -0.2, 0.6);

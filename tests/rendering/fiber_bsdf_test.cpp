@@ -67,8 +67,8 @@ TEST(AzimuthalScattering, IntegratesToOneAndToItsCdf) {
     }
 }
 
-// Light that is not absorbed comes out again for any widths of the lobes: the integral of f |cos
-// theta_i| over all directions is 1 as a mean over the fibre.
+// Light that is not absorbed leaves again, for any widths of the lobes: the integral of f |cos
+// theta_i| over all directions is 1 on average over the fibre.
 TEST(WhiteFurnace, HoldsWithUniformSamples) {
     for (const float m : kRoughnesses) {
         for (const float n : kRoughnesses) {
@@ -107,8 +107,8 @@ TEST(WhiteFurnace, HoldsWithImportanceSampling) {
     }
 }
 
-// The mean of a function over f's directions is the same with both ways of sampling, so directions
-// are as frequent as their density. Absorption and tilt make lobes differ.
+// The mean of a function over f's directions is the same with both ways of sampling, so the
+// frequency of directions follows their density. Absorption and tilt make lobes differ.
 TEST(FiberSampling, ComesAsOftenAsItsDensitySays) {
     constexpr std::uint32_t kSamples = 20000;
     for (const float m : {0.3f, 0.7f}) {
@@ -171,7 +171,7 @@ TEST(FiberTilt, MovesLobes) {
     for (std::size_t p = 0; p < kFiberLobes; ++p)
         EXPECT_NEAR(glm::degrees(fiber.shifts[p]), expected[p], 1e-6) << p;
 
-    // Only R goes back from a black fibre.
+    // Only R returns light from a black fibre.
     shading.color = glm::vec3(0.0f);
     shading.longitudinal_roughness = 0.1f;
     Fiber black = makeFiber(shading);

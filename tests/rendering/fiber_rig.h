@@ -14,7 +14,7 @@ namespace hair::rendering {
 
 constexpr float kRoughnesses[]{0.1f, 0.3f, 0.5f, 0.7f, 0.9f};
 
-// A fibre that absorbs nothing, with flat scales.
+// A fibre that absorbs nothing and has flat scales.
 inline ShadingSettings whiteFiber(float longitudinal_roughness, float azimuthal_roughness) {
     ShadingSettings shading;
     shading.color = {1.0f, 1.0f, 1.0f};

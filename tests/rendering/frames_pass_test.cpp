@@ -12,7 +12,7 @@
 #include "tests/gpu_fixture.h"
 #include "tests/rendering/device_hair.h"
 
-// Frames that don't turn about the guides, compared with their known properties.
+// Compares frames that don't turn about the guides with their known properties.
 namespace hair::rendering {
 namespace {
 
@@ -41,8 +41,8 @@ protected:
 
 constexpr double kUlp = 0x1p-24;
 
-// A spiral in a tilted plane: parallel transport along a plane curve turns about the plane's normal
-// alone, so the part along that stays.
+// A spiral in a tilted plane: parallel transport along a plane curve turns only about the plane's
+// normal, so the component along that normal stays.
 TEST_F(FramesPassTest, KeepTheirPartAcrossAPlane) {
     const glm::dvec3 x = glm::normalize(glm::dvec3(1.0, 2.0, -0.5));
     const glm::dvec3 z = glm::normalize(glm::cross(x, glm::dvec3(0.3, 1.0, 1.0)));
@@ -60,7 +60,7 @@ TEST_F(FramesPassTest, KeepTheirPartAcrossAPlane) {
 
 // The frame turns by minus torsion times length against the Frenet frame of a helix. The tangents
 // are those of chords over two steps of h = 0.1 rad. They are flatter than the curve's by h^2 / 6
-// = 0.17 %, and the turning is less by as much.
+// = 0.17 %, and the rotation is smaller by the same share.
 TEST_F(FramesPassTest, TurnByMinusTheTorsionOfAHelix) {
     constexpr int kVertices = 200;
     constexpr double kStep = 0.1;  // rad
@@ -82,7 +82,7 @@ TEST_F(FramesPassTest, TurnByMinusTheTorsionOfAHelix) {
     const double speed = std::hypot(kRadius, kRise);
     const double torsion = kRise / (speed * speed);
     double turned = 0.0;
-    for (int v = 2; v < kVertices - 1; ++v) {  // the chords at the ends are of one step
+    for (int v = 2; v < kVertices - 1; ++v) {  // the chords at the ends span one step
         turned += std::remainder(angleInFrenet(v) - angleInFrenet(v - 1), 2.0 * std::numbers::pi);
         const double expected = -torsion * speed * kStep * (v - 1);
         ASSERT_NEAR(turned, expected, 0.003 * std::abs(expected) + 1e-4) << v;

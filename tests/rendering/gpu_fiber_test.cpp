@@ -148,7 +148,7 @@ TEST_F(GpuFiberTest, AgreesWithTheReferenceOfDualScattering) {
 }
 
 // Like AgreesWithTheReference, but from the papers' equations and not from the source of the
-// device's parameters. Their sums are right to 1e-6 of a value at least.
+// device's parameters. Their sums are correct to 1e-6 of a value or better.
 TEST_F(GpuFiberTest, AgreesWithThePublishedEquations) {
     for (const float m : kRoughnesses) {
         for (const float n : {0.1f, 0.3f, 0.9f}) {
@@ -172,7 +172,7 @@ TEST_F(GpuFiberTest, AgreesWithThePublishedEquations) {
 }
 
 // As AgreesWithTheReferenceOfDualScattering. Sums over half turns end within a part of 0.008 rad
-// of N_p, which is 0.12 wide: the middles of parts are wrong there by its square over 24, 2e-4.
+// of N_p, which is 0.12 wide: the middles of parts are off there by its square over 24, 2e-4.
 TEST_F(GpuFiberTest, AgreesWithThePublishedEquationsOfDualScattering) {
     for (const float m : {0.1f, 0.3f, 0.7f}) {
         ShadingSettings shading = brownFiber();

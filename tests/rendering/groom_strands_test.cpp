@@ -132,7 +132,7 @@ TEST_F(GroomStrandsTest, WidthsOfTheGroomAreMixedBetweenRootTriangles) {
             .guides = groom.root_triangles[triangle],
             .weights = {weights[0], weights[1], weights[2]}};
         const std::uint32_t segment = i / 3 % 4;
-        // Two pieces at level 1 of four; strands twice as wide.
+        // Two of four pieces at level 1; strands are twice as wide.
         const double expected = 2.0 * widthAt(groom, binding, segment, i % 3 / 2.0);
         ASSERT_NEAR(
             points.at(triangle, strand, segment, i % 3).width, expected, 20 * 0x1p-24 * 1e-3);
@@ -160,7 +160,8 @@ TEST_F(GroomStrandsTest, LowerLevelsKeepTheFirstStrandsAndWidenThem) {
     }
 }
 
-// near 1 m, far 4 m, level 2 there. Guides at the origin, half of the strands 4 m away.
+// near is 1 m and far 4 m, with level 2 there. Guides are at the origin, half of the strands 4 m
+// away.
 TEST_F(GroomStrandsTest, EveryStrandHasTheLevelOfItsOwnRoot) {
     groom::Groom groom = boundGroom(3, 400);
     for (std::size_t i = 0; i < 200; ++i) groom.bindings[2 * i].offset.z = -10.0f;
@@ -186,7 +187,7 @@ TEST_F(GroomStrandsTest, EveryStrandHasTheLevelOfItsOwnRoot) {
     }
 }
 
-// In the order of the file the first half would be one side of the head.
+// In the order of the file, the first half would be one side of the head.
 TEST_F(GroomStrandsTest, StrandsAreDroppedAllOverTheGroom) {
     groom::Groom groom = boundGroom(2, 2000);
     for (std::size_t i = 0; i < 2000; ++i)

@@ -31,7 +31,7 @@ TEST(HairColor, AbsorbsByTheColorOfMuchHair) {
     expectNear(absorption(shading), glm::dvec3(0.0158292), 1e-6);  // float's 0.5 in display RGB
     shading.color = glm::vec3(1.0f);
     expectNear(absorption(shading), glm::dvec3(0), 1e-12);
-    shading.color = glm::vec3(0.0f);  // as 1e-4; its logarithm is -9.210340372
+    shading.color = glm::vec3(0.0f);  // counts as 1e-4, with the logarithm -9.210340372
     expectNear(absorption(shading), glm::dvec3(2.794868), 1e-5);
 }
 

@@ -13,7 +13,8 @@ namespace {
 
 using HairShadowTest = GpuTest;
 
-// Parallel straight strands in planes across z, all of one length, with a strand each `pitch`.
+// Parallel straight strands in planes perpendicular to z, all of one length, one strand every
+// `pitch`.
 struct Fans {
     std::vector<float> depths{0.0f};  // m, along -z from z = 0
     float pitch = 0.001f;             // m
@@ -72,13 +73,13 @@ std::vector<glm::vec3> plane(float depth, float reach = 0.5f * kReach) {
 }
 
 // Texels of a fan's map: 128 a side for a sphere about the roots' middle. The sphere is as wide as
-// the fan and as high as the strands are long: hypot(0.1, 0.2) or 0.1 + 0.2 m at the most.
+// the fan and as high as the strands are long: at most hypot(0.1, 0.2) or 0.1 + 0.2 m.
 constexpr float kTexel = 2.0f * (kReach + 2.0f * kReach) / 128.0f;
 
 // A point behind k fans of coverage c has met k c strands. Layers of 0.01, 0.02, 0.04 and 0.08 m
 // have one fan each, so their ends are behind one fan more. Between, the number is linear in depth
 // (Yuksel and Keyser 2008, section 3), with the fan anywhere in the layer. It is off by c times
-// the layer's part before or behind the fan.
+// the part of the layer before or behind the fan.
 TEST_F(HairShadowTest, CountsTheFansBeforeAPoint) {
     const Fans fans{.depths = {0.0f, 0.02f, 0.05f, 0.11f}, .pitch = 0.0015f};
     constexpr float kWidth = 0.0004f;
@@ -93,7 +94,7 @@ TEST_F(HairShadowTest, CountsTheFansBeforeAPoint) {
         const DeviceHair hair(device(), groom, settings);
         struct Row {
             float depth;
-            double fans;  // before it
+            double fans;  // in front of it
             double tolerance;
         };
         // A texel is 3.1 pitches, so the number of strands in a column of texels varies by one;
@@ -120,8 +121,8 @@ TEST_F(HairShadowTest, CountsTheFansBeforeAPoint) {
 // The coverage is width / pitch for any width of the strands in texels.
 TEST_F(HairShadowTest, ThinStrandsCoverTheirArea) {
     constexpr float kFine = 0.25f * kTexel;  // in maps of 512
-    // A pitch of 5.7 texels and an angle, so that strands are at all places in texels. Points are
-    // all over 14 whole pitches.
+    // A pitch of 5.7 texels and an angle make strands lie at all places within texels. Points are
+    // spread over 14 whole pitches.
     const Fans fans{.pitch = 5.7f * kFine, .angle = 0.3f};
     std::vector<glm::vec3> points = plane(0.0f, 7.0f * fans.pitch);
     for (glm::vec3& p : points) {
@@ -150,7 +151,8 @@ TEST_F(HairShadowTest, VisibilityIsThatOfRandomStrands) {
     const DeviceHair hair(device(), fansOfStrands(fans), settings);
     const std::vector<FoundPath> paths =
         findPaths(device(), settings, hair.view(), {}, plane(0.2f));
-    // Powers of the device are good to 3 + 2 |exponent| units of 2^-23, Vulkan's precision of exp.
+    // Powers on the device are accurate to 3 + 2 |exponent| units of 2^-23, Vulkan's precision of
+    // exp.
     for (const FoundPath& path : paths)
         ASSERT_NEAR(path.visibility, std::exp(-0.7 * path.strands), 1e-6);
 }
@@ -205,7 +207,7 @@ TEST_F(HairShadowTest, LightsDoNotDisturbEachOther) {
         alone.shading.lights = {settings.shading.lights[light]};
         const auto among = findPaths(device(), settings, hair.view(), {}, points, light);
         const auto single = findPaths(device(), alone, hair.view(), {}, points);
-        // The same triangles on the same grid of sub-pixels.
+        // The same triangles lie on the same grid of sub-pixels.
         for (std::size_t i = 0; i < points.size(); ++i)
             ASSERT_NEAR(among[i].strands, single[i].strands, 1e-4) << light;
         EXPECT_GT(meanStrands(single), 0.5);
@@ -216,7 +218,7 @@ TEST_F(HairShadowTest, LightsDoNotDisturbEachOther) {
     }
 }
 
-// A light among the hair throws the shadows of the hair before it, and none behind it.
+// A light among the hair casts shadows of the hair in front of it, and none of the hair behind it.
 TEST_F(HairShadowTest, LightMayBeAmongTheHair) {
     const groom::Groom groom = fansOfStrands({.depths = {-0.1f, 0.0f, 0.1f}, .pitch = 0.0011f});
     Settings settings = litFromAbove(0.00044f);
@@ -266,8 +268,8 @@ double meanOf(std::span<const FoundPath> paths, float FoundPath::* value) {
     return sum / static_cast<double>(paths.size());
 }
 
-// Fans of coverage c lie on each other: a ray meets a strand of each of them or none. Light does
-// the same; deep opacity maps have c of each fan on every ray.
+// Fans of coverage c lie on top of each other, so a ray meets a strand of each fan or of none. Real
+// light does the same, but deep opacity maps take c of each fan on every ray.
 TEST_F(HairShadowTest, RaysMeetWholeStrands) {
     const Fans fans{.depths = {0.0f, 0.02f, 0.05f, 0.11f}, .pitch = 0.0015f, .angle = 0.3f};
     constexpr float kWidth = 0.0004f;
@@ -278,8 +280,8 @@ TEST_F(HairShadowTest, RaysMeetWholeStrands) {
         settings.shading.shadows.resolution = resolution;
         const DeviceHair hair(device(), groom, settings);
         const auto found = findPaths(device(), settings, hair.view(), {}, plane(0.15f, 0.03f));
-        // 1,600 rays at least: four standard errors of a part c. Each layer of the map ends behind
-        // one fan, so that counts are whole.
+        // There are at least 1,600 rays; the tolerance is four standard errors of a share c. Each
+        // layer of the map ends behind one fan, so that counts are whole.
         const double error = 4 * std::sqrt(c * (1 - c) / 1600);
         EXPECT_NEAR(meanOf(found, &FoundPath::direct), 1 - c, error) << resolution;
         EXPECT_NEAR(meanOf(found, &FoundPath::strands), 4 * c, 4 * error) << resolution;
@@ -293,7 +295,7 @@ TEST_F(HairShadowTest, RaysMeetWholeStrands) {
     }
 }
 
-// The part of halved light that goes there and back: a_f exp(a_f - 1), as in LocalScattering.
+// The part of the halved light that passes both ways: a_f exp(a_f - 1), as in LocalScattering.
 const float kThereAndBack = 0.5f * std::exp(-0.5f);
 
 // Points of strands one behind another, on rays that meet all of them.
@@ -329,8 +331,8 @@ TEST_F(HairShadowTest, RaysCountStrandsBeforeAndBehind) {
     }
 }
 
-// Light comes in at a cosine mu to a closed surface of strands. The part of the light scattered
-// more than once that is kept is H(mu) H(0.7) - 1 over its value at 0.8; H(mu) = 1 + 2 mu.
+// Light comes in at a cosine mu to a closed surface of strands. The kept part of the light that is
+// scattered more than once is H(mu) H(0.7) - 1 over its value at 0.8; H(mu) = 1 + 2 mu.
 TEST_F(HairShadowTest, KeepsLessOfGrazingLight) {
     constexpr float kWidth = 0.0008f;
     const Fans fans{.pitch = 0.0005f};

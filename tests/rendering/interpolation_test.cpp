@@ -117,7 +117,7 @@ TEST_F(InterpolationTest, GuidesHaveEqualTerritories) {
         EXPECT_NEAR(followers[axis], 1e4 / 3.0, 4.0 * std::sqrt(1e4 * 2.0 / 9.0));
 }
 
-// The offset from the guide turns with the head.
+// The guide's offset turns with the head.
 TEST_F(InterpolationTest, TurnsWithTheGuides) {
     groom::Groom groom = tangledGroom(5);
     groom.root_normals.clear();
@@ -162,7 +162,7 @@ TEST_F(InterpolationTest, CollisionRuleNeedsContacts) {
         "/strands/collision_rule: is set, but it is not known where guides touch bodies");
 }
 
-// One pattern for all triangles; the fold is as of 2.3.2. Density 201 takes several patches.
+// One pattern for all triangles; the fold is that of 2.3.2. Density 201 takes several patches.
 TEST_F(InterpolationTest, ThesissPatternIsThatOfEveryTriangle) {
     const StrandSettings strands{
         .randomness = Randomness::thesis, .density = 201, .tessellation = 1};

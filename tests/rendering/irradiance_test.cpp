@@ -96,13 +96,13 @@ double irradianceOf(const LightSettings& light) {
     return std::numbers::pi * double{light.strength} * workingColor(linear, light.color).g;
 }
 
-// sRGB's curve there and back in single precision.
+// sRGB's curve and its inverse in single precision.
 constexpr double kColorRounding = 1e-5;
 
 TEST(EnvironmentLights, HaveAllLightOfThePicture) {
     RenderSettings render{
         .tone_map = ToneMap::srgb, .environment_strength = 3.0f, .environment_turn = 40.0f};
-    // 1 + 0.6 cos: 4 pi in all; texels' solid angles are exact and their middles off by 1e-4.
+    // 1 + 0.6 cos: 4 pi in total; texels' solid angles are exact and their middles are off by 1e-4.
     const auto picture =
         environmentOf([](const glm::dvec3& d) { return 1 + 0.6 * glm::dot(d, kTilted); });
     for (const std::uint32_t count : {1u, 7u, 12u, 48u}) {
@@ -114,7 +114,7 @@ TEST(EnvironmentLights, HaveAllLightOfThePicture) {
     }
 }
 
-// Twelve parts of an even light are those of an icosahedron's corners, except for the cells at
+// Twelve parts of an even light lie round the corners of an icosahedron, except for the cells at
 // their edges, 70 of a part's 680.
 TEST(EnvironmentLights, OfEvenLightAreEqualAndWiderThanTheirPart) {
     const auto lights =
@@ -123,8 +123,8 @@ TEST(EnvironmentLights, OfEvenLightAreEqualAndWiderThanTheirPart) {
     for (const LightSettings& light : lights) {
         EXPECT_NEAR(irradianceOf(light), 0.7 * 4 * std::numbers::pi / 12, 0.7 * 0.1);
         EXPECT_EQ(light.type, LightType::directional);
-        // A cap of a twelfth of the sphere has 1 - cos r = 1/6; of twice its area, nearly. A
-        // pentagon is 2 % wider, and the cells at its edge make it rougher.
+        // The cap of a twelfth of the sphere has 1 - cos r = 1/6; the disc has about twice its
+        // area. A pentagon is 2 % wider, and the cells at its edge make it rougher.
         const double radius = std::numbers::sqrt2 * std::acos(5.0 / 6);
         EXPECT_NEAR(light.angular_radius, radius * 180 / std::numbers::pi, 2.5);
         for (int axis = 0; axis < 3; ++axis)
@@ -152,8 +152,8 @@ double softBoxes(const glm::dvec3& d) {
     return 0.02;
 }
 
-// Irradiance of a surface from a disc of uniform radiance, for an irradiance of 1 where it comes
-// straight from all of it: a sum over its points.
+// Irradiance of a surface from a disc of uniform radiance, scaled to 1 if all of it shone
+// perpendicularly onto the surface: a sum over its points.
 double discIrradiance(const LightSettings& light, const glm::dvec3& normal) {
     constexpr int kSide = 48;
     const glm::dvec3 middle = -glm::normalize(glm::dvec3(light.direction));
@@ -175,7 +175,7 @@ double discIrradiance(const LightSettings& light, const glm::dvec3& normal) {
 // irradiance over all normals are exact. A cosine lobe has 1/4 of the light in l = 0 and 5/16 P2 in
 // l = 2. There a part and its disc differ from their middle by 3 (1 - R) at most, R being the mean
 // cosine; so over the mean irradiance the error is at most 4 * 5/16 * 6 (1 - R) = 7.5 (1 - R), if
-// all parts add up. R is 0.987 in the mean here, so 10 %. Signs differ, and 3 % are held.
+// all parts add up. R is 0.987 in the mean here, so 10 %. Signs differ, so the test requires 3 %.
 TEST(EnvironmentLights, GiveSurfacesTheEnvironmentsIrradiance) {
     const engine::FloatPixels picture = environmentOf(softBoxes);
     const auto lights = environmentLights(picture, {.tone_map = ToneMap::srgb}, 12);
@@ -217,8 +217,8 @@ TEST(EnvironmentLights, GiveSurfacesTheEnvironmentsIrradiance) {
     }
 }
 
-// Two soft boxes look like two soft boxes: what they send comes from within them. 0.23 and 0.17 sr
-// times 10 are 0.94 of all light, and discs of all other light are wide.
+// Two soft boxes keep their look: the light that they send comes from within them. 0.23 and 0.17 sr
+// times 10 are 0.94 of all light, and discs for the rest of the light are wide.
 TEST(EnvironmentLights, KeepSoftBoxesApart) {
     const auto lights =
         environmentLights(environmentOf(softBoxes), {.tone_map = ToneMap::srgb}, 12);
@@ -233,7 +233,7 @@ TEST(EnvironmentLights, KeepSoftBoxesApart) {
     EXPECT_GT(within, 0.9 * all);
 }
 
-// A sun in a black sky needs one light, and two need two, however many may be there.
+// A sun in a black sky needs one light, and two suns need two, however many lights are allowed.
 TEST(EnvironmentLights, AreFewWhereFewCarryTheLight) {
     const auto suns = [](int count) {
         return environmentOf([=](const glm::dvec3& d) {

@@ -1,4 +1,4 @@
-// Pictures under many lights.
+// Tests pictures under many lights.
 #include <cmath>
 
 #include <gtest/gtest.h>

@@ -1,5 +1,5 @@
-// Shadows of lights that have a size, by several maps a light, against closed forms of penumbras
-// and against many lights that are points.
+// Tests shadows of lights that have a size, with several maps per light, against closed forms of
+// penumbras and against many point lights.
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -21,7 +21,7 @@ using LightSizeShadow = GpuTest;
 
 constexpr float kSide = 0.1f;  // m: half of the occluder's
 constexpr float kReceiver = 0.02f;  // m: distance of the lit surface behind it
-constexpr float kLamp = 0.4f;  // m: lights are so far before it
+constexpr float kLamp = 0.4f;  // m: distance of the lights in front of it
 
 // In the plane z = 0, its edges along x and y.
 groom::Mesh occluder() {
@@ -60,7 +60,7 @@ double halfPenumbra(LightType type) {
     if (type == LightType::directional)
         return kReceiver * std::tan(lamp.angular_radius * std::numbers::pi / 180);
     if (type == LightType::rectangle) return 0.5 * lamp.width * kReceiver / kLamp;
-    // The outline of a sphere from the edge's foot.
+    // The outline of a sphere as seen from the edge's foot.
     const double apart = kLamp + kReceiver;
     const double radius = lamp.radius / std::sqrt(1 - std::pow(lamp.radius / apart, 2));
     return radius * kReceiver / kLamp;
@@ -102,9 +102,9 @@ double largestError(LightType type, const std::vector<double>& lit) {
     return std::ranges::all_of(lit, [](double part) { return std::isfinite(part); }) ? largest : 1;
 }
 
-// The part of a disc's N points beyond a line is off by N^-3/4; no N points can have a better
-// order (Beck and Chen 1987, Irregularities of distribution). The points of a rectangle are in
-// equal steps along its width. The map adds up to half a texel, 0.14 mm of at least 8 mm.
+// The part of a disc's N points beyond a line is off by N^-3/4; no set of N points can do better
+// (Beck and Chen 1987, Irregularities of distribution). The points of a rectangle are in equal
+// steps along its width. The map adds up to half a texel, 0.14 mm of at least 8 mm.
 TEST_F(LightSizeShadow, PenumbraOfAnEdgeHasItsWidthAndProfile) {
     for (const LightType type : {LightType::rectangle, LightType::directional, LightType::sphere})
         for (const std::uint32_t samples : {4u, 16u, 64u}) {
@@ -166,7 +166,7 @@ std::vector<glm::vec3> acrossTheEdge() {
     return points;
 }
 
-// The mean visibility of 256 points of the light, each a light of its own, in strata.
+// The mean visibility of 256 points of the light, in strata, each treated as a separate light.
 std::vector<double> manyPoints(
     const engine::Device& device, Settings settings, const LightSettings& lamp,
     const groom::Groom& groom) {
@@ -207,7 +207,7 @@ std::vector<double> manyPoints(
     return sum;
 }
 
-// Like the penumbra of an edge, for light through hair.
+// Resembles the penumbra of an edge, for light through hair.
 TEST_F(LightSizeShadow, OfHairIsTheMeanOverThePointsOfTheLight) {
     const groom::Groom groom = hairWithAnEdge();
     for (const HairShadows shadows : {HairShadows::deep_opacity, HairShadows::deep_shadow})

@@ -63,8 +63,8 @@ TEST_F(Lights, AreFiniteWhereTheyAre) {
     }
 }
 
-// Points within a metre see a point light 1 km off at angles that differ by 1e-3, and its light by
-// 2e-3.
+// For points within a metre, the direction of a point light 1 km away varies by 1e-3, and its light
+// by 2e-3.
 TEST_F(Lights, DirectionalOnesAreInfinitelyFar) {
     const glm::vec3 to_light = glm::normalize(glm::vec3(0.3f, 0.5f, 0.8f));
     const LightSettings near_by{.type = LightType::directional, .direction = -0.5f * to_light};
@@ -108,7 +108,7 @@ TEST_F(Lights, SpheresLightMattSurfacesAsTheirWholeFaceDoes) {
         for (const double tilt : {0.0, 0.5, 1.2, 1.45, 1.6, 1.8, 2.3}) {
             const glm::vec3 normal(std::sin(tilt), 0.0, std::cos(tilt));
             const gpu::ModelProbe found = probe(light, at({0, 0, 0}, normal));
-            // Vulkan's arc sine: 4096 units in the last place.
+            // The error of Vulkan's arc sine: 4096 units in the last place.
             EXPECT_NEAR(found.angular_radius, angular, 4096 * 0x1p-23 * angular);
             // The error that mattResponse() documents; the integral's own error is below 1e-3.
             EXPECT_NEAR(found.matt, meanCosine(angular, tilt), 0.04 * std::sin(angular) + 1e-3)

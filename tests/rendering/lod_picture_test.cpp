@@ -48,7 +48,7 @@ TEST_F(LodPictureTest, FarHairIsThatOfTheMaximumLevel) {
     EXPECT_EQ(differingPixels(draw(settings), forced), 0u);
 }
 
-// From the width at which strand_plan.h stops strands, distance alone draws no coarser ones.
+// Above the width at which strand_plan.h limits strands, distance alone draws no coarser ones.
 TEST_F(LodPictureTest, StrandsStopAtTheirGreatestWidth) {
     Settings settings = small();
     settings.strands.tessellation = 1;
@@ -62,7 +62,7 @@ TEST_F(LodPictureTest, StrandsStopAtTheirGreatestWidth) {
 }
 
 // The camera is 1 m to 20 m away. The hair is equally large in all pictures, with 16 samples a
-// pixel. Level 0 covers some 160,000 samples, which chance spreads by 0.1 %; strand_plan.h lets
+// pixel. Level 0 covers some 160,000 samples, which vary by 0.1 % at random. strand_plan.h lets
 // the outline grow by 3 %.
 TEST_F(LodPictureTest, KeepsCoverageFromOneToTwentyMetres) {
     Settings settings = thesisAtRest();
@@ -110,7 +110,7 @@ TEST_F(LodPictureTest, CoveredAreaIsKept) {
         settings.lod.level = level;
         EXPECT_NEAR(area() / full, 1.0, 0.1) << "level " << level;
     }
-    settings.strands.root_width /= 4.0f;  // level 2 still: as if the strands had kept their width
+    settings.strands.root_width /= 4.0f;  // as for level 2 if the strands had kept their width
     settings.strands.tip_width /= 4.0f;
     EXPECT_LT(area() / full, 0.8);
 }

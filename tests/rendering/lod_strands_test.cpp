@@ -50,8 +50,8 @@ protected:
         return evaluate(tangledGroom(8), {.strands = strands, .lod = {.level = level}});
     }
 
-    // The greatest change of any strand's line, over lengths of about 1, and of its width, over
-    // the full width there: a strand that isn't drawn has no width.
+    // The greatest change of any strand's line, relative to lengths of about 1, and of its width,
+    // relative to the full width. A strand that isn't drawn has no width.
     static double greatestChange(const StrandPoints& a, const StrandPoints& b) {
         Extremes changes;
         const std::uint32_t strands = std::max(a.plan.forced_density, b.plan.forced_density);
@@ -96,13 +96,13 @@ TEST_F(LodStrandsTest, NothingJumpsWhereCountsFall) {
     }
 }
 
-TEST_F(LodStrandsTest, BigStepsAreSeen) {  // or the test above would see nothing
+TEST_F(LodStrandsTest, BigStepsAreSeen) {  // otherwise the test above could not fail
     const StrandSettings strands{.density = 30, .tessellation = 4};
     EXPECT_GT(greatestChange(evaluateAt(strands, 0.5f), evaluateAt(strands, 0.6f)), 0.1);
 }
 
-// Between the nested sets, ends that stay are on the curve. The others are on the way from it to
-// the line: 6 -> 3 -> 1.
+// Between the nested sets, ends that remain are on the curve. The others are on their way from the
+// curve to the line: 6 -> 3 -> 1.
 TEST_F(LodStrandsTest, EndsMoveFromTheCurveToTheLine) {
     const StrandSettings strands{.density = 4, .tessellation = 6};
     const StrandPoints fine = evaluateAt(strands, 0.0f);
@@ -198,7 +198,8 @@ TEST_F(LodStrandsTest, TangentsMoveWithTheirEnds) {
                 << row.wanted << " " << i;
         }
         if (row.morph < 1.0) {
-            EXPECT_GT(morphed.greatest(), 5.0 * kTolerance) << row.wanted;  // it can tell
+            // the test can tell the two apart
+            EXPECT_GT(morphed.greatest(), 5.0 * kTolerance) << row.wanted;
         }
     }
 }
@@ -224,7 +225,7 @@ TEST_F(LodStrandsTest, JointsHaveNoGaps) {
 // widths of all strands add up to the same everywhere; sums of 50 floats are off by some 1e-6.
 TEST_F(LodStrandsTest, AreaIsKept) {
     groom::Groom groom = tangledGroom(8);
-    groom.root_triangles = {{0, 0, 0}};  // all strands of a length
+    groom.root_triangles = {{0, 0, 0}};  // all strands have one length
     const auto pointsAt = [&](float level) {
         return evaluate(
             groom, {.strands = {.density = 50, .tessellation = 8}, .lod = {.level = level}});
@@ -285,7 +286,7 @@ TEST_F(LodStrandsTest, StrandsLeaveInOneOrder) {
     EXPECT_LT(before, 40u);
 }
 
-// The host's counts for a path are equal to the device's.
+// The host's counts along a path equal the device's.
 TEST_F(LodStrandsTest, HostCountsWhatTheDeviceDraws) {
     const groom::Groom groom = tangledGroom(3);
     Settings settings{

@@ -56,7 +56,8 @@ protected:
 
 // Width times length of sixteen hairs. The hairs' ends spread a strip's area by 1.2 %, the cuts at
 // its edges by some 3 %. The mean of 12 strips has a spread of 1 %; the test allows three. The
-// hairs lie aslant, for upright hairs of 1.8 px would meet the same columns of pixels all along.
+// hairs are oblique, because upright hairs of 1.8 px would meet the same columns of pixels along
+// their whole length.
 TEST_F(MergedHairsTest, CoverTheAreaOfAllHairs) {
     for (const Backend backend : {Backend::tessellation, Backend::software, Backend::expanded}) {
         Settings settings = strip(backend, 256);
@@ -83,8 +84,8 @@ TEST_F(MergedHairsTest, CoverTheSameAnalytically) {
     }
 }
 
-// The middle of the strip has fifteen whole hairs across, and the rest of two at its edges. A
-// wider strand without merged hairs would show one.
+// Across the middle of the strip there are fifteen whole hairs, and parts of two at its edges. A
+// wide strand without merged hairs would count as one.
 TEST_F(MergedHairsTest, AreSeenOneByOne) {
     Settings settings = strip(Backend::tessellation, 512);
     makeWhite(settings);
@@ -104,11 +105,12 @@ TEST_F(MergedHairsTest, AreSeenOneByOne) {
     EXPECT_EQ(runs(), 1);
 }
 
-// Each hair has its own place across, so the mean over a hair is the mean over the wide strip for
-// any model. Kajiya and Kay's diffuse term changes by half of the tilts' variance, below 0.1 %.
-// Transmitted light, the narrowest lobe, is 0.15 wide along the fibre and turns by twice the tilt,
-// 0.04 r.m.s.: (0.04 / 0.15)² / 2 = 3.6 % less at its peak. Hairs cut by the strip's edges keep
-// only one of their sides, which spreads the mean of 16 strips' light by less than 1 %.
+// Each hair has its own position across the strip, so for any model the mean over the hairs equals
+// the mean over the wide strip. Kajiya and Kay's diffuse term changes by half of the tilts'
+// variance, below 0.1 %. Transmitted light, the narrowest lobe, is 0.15 wide along the fibre and
+// turns by twice the tilt, 0.04 r.m.s.: (0.04 / 0.15)² / 2 = 3.6 % less at its peak. Hairs cut by
+// the strip's edges keep only one of their sides, which spreads the mean of 16 strips' light by
+// less than 1 %.
 TEST_F(MergedHairsTest, HaveTheLightOfTheStrip) {
     const auto brightness = [&](Settings settings) {
         double light = 0.0;
@@ -132,8 +134,8 @@ TEST_F(MergedHairsTest, HaveTheLightOfTheStrip) {
     }
 }
 
-// The back ends draw the same hairs. Edges of software's points are off by 0.4 % of the width, 0.3
-// px here at the strip's edge: of a hair's 6 px that is a part of a pixel at either edge.
+// The back ends draw the same hairs. `software` puts edges of points off by 0.4 % of the width,
+// here 0.3 px at the strip's edge. For a hair 6 px wide this is a part of a pixel at either edge.
 TEST_F(MergedHairsTest, AreTheSameInAllBackends) {
     Settings settings = strip(Backend::tessellation, 512);
     makeWhite(settings);
@@ -153,7 +155,7 @@ TEST_F(MergedHairsTest, AreTheSameInAllBackends) {
     }
 }
 
-// At the start of a level the strand is still itself.
+// At the start of a level the strand still has its own shape.
 TEST_F(MergedHairsTest, GrowOutOfTheStrand) {
     Settings settings = strip(Backend::tessellation, 256);
     makeWhite(settings);

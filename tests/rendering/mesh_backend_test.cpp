@@ -100,12 +100,12 @@ StrandPlan planOf(
 }
 
 TEST(MeshBackend, FillsBlocksWithWholeStrands) {
-    // 7 x 4 + 1 = 29 points a strand; four strands fit 128.
+    // 7 x 4 + 1 = 29 points per strand; four strands fit into 128.
     EXPECT_EQ(countBlocks(planOf(136, 7, 64, 4), {}, 128), 136u * 16);
     EXPECT_EQ(countBlocks(planOf(136, 7, 65, 4), {}, 128), 136u * 17);
-    // 7 x 5 = 35 points where segments share none; three strands fit.
+    // 7 x 5 = 35 points if segments share none; three strands fit.
     EXPECT_EQ(countBlocks(planOf(136, 7, 64, 4), {.taper = Taper::segment}, 128), 136u * 22);
-    // 127 + 1 points and 64 x 2 fill one block; a point more takes a second one.
+    // 127 + 1 points and 64 x 2 points fill one block; one point more takes a second block.
     EXPECT_EQ(countBlocks(planOf(1, 127, 1, 1), {}, 128), 1u);
     EXPECT_EQ(countBlocks(planOf(1, 128, 1, 1), {}, 128), 2u);
     EXPECT_EQ(countBlocks(planOf(1, 64, 1, 1), {.taper = Taper::segment}, 128), 1u);
@@ -115,7 +115,7 @@ TEST(MeshBackend, FillsBlocksWithWholeStrands) {
 TEST(MeshBackend, CutsLongStrandsBetweenSegments) {
     // 15 segments of 8 pieces have 121 points, 16 have 129: 64 segments are five blocks.
     EXPECT_EQ(countBlocks(planOf(2, 64, 3, 8), {}, 128), 2u * 3 * 5);
-    // 65 points a segment; two segments share one.
+    // 65 points per segment; two segments share one.
     EXPECT_EQ(countBlocks(planOf(1, 255, 1, 64), {}, 128), 255u);
     EXPECT_EQ(countBlocks(planOf(0, 7, 64, 4), {}, 128), 0u);
     EXPECT_NE(
@@ -140,7 +140,7 @@ protected:
 
     // The back end makes the quads of `tessellation` by the same functions: on processors the
     // pictures are equal. A GPU's compiler may round differently in another stage, which moves an
-    // edge over a sample here and there.
+    // edge over a sample in a few places.
     static void expectSamePictures(const Settings& settings, std::size_t hair) {
         const Pixels expected = drawCase(device(), with(settings, Backend::tessellation));
         EXPECT_GT(differingPixels(expected, drawBald(device(), settings)), hair);
@@ -174,7 +174,8 @@ TEST_F(MeshBackendPicture, IsThatOfTessellationAtTheThesissCase) {
 
 TEST_F(MeshBackendPicture, IsThatOfTessellationOfStrandsInAnyNumber) {
     Settings dense = small();
-    dense.strands.density = 101;  // blocks of four and one of a strand; two patches a triangle
+    dense.strands.density = 101;  // blocks of four strands and one of a single strand; two patches
+                                  // per triangle
     dense.strands.tessellation = 3;
     expectSamePictures(dense, 625);
     Settings single = small();
@@ -236,7 +237,7 @@ TEST_F(MeshBackendPicture, IsThatOfTessellationOfEveryKindOfStrand) {
     }
 }
 
-// The strands of a groom: each has guides and a level of its own.
+// The strands of a groom. Each has its own guides and its own level.
 TEST_F(MeshBackendPicture, IsThatOfTessellationOfAGroomsOwnStrands) {
     Settings settings;
     settings.strands.source = StrandSource::groom;
@@ -351,7 +352,7 @@ TEST_F(MeshBackendPicture, IsThatOfTessellationInScenes) {
         EXPECT_LE(errors[i], 0.005) << pairs[i].second.filename();
 }
 
-// The eye is in the hair: strands cross the near plane and are behind it.
+// The eye is in the hair, so strands cross the near plane or are behind it.
 TEST_F(MeshBackendPicture, IsThatOfTessellationWithinTheHair) {
     Settings settings = small();
     settings.camera.position = {0.0f, 0.02f, 0.11f};
@@ -436,7 +437,7 @@ protected:
     }
 };
 
-// 136 triangles of 64 strands, four a block.
+// 136 triangles of 64 strands, four strands per block.
 TEST_F(MeshBackendCounts, AreABlockForEachInvocationAndAWorkgroupForEachBlock) {
     const MeshSizes sizes = meshSizes(device().info());
     const Invocations counted = count(small());

@@ -61,7 +61,7 @@ TEST_F(MeshPictureTest, ShowsPicturesWithTheFirstRowUp) {
     expectQuarters(drawQuad(device(), quadSettings(16), painted()));
 }
 
-// White ambient light leaves colours as they are, by way of linear light and back.
+// White ambient light leaves colours as they are after conversion to linear light and back.
 TEST_F(MeshPictureTest, ShowsPicturesInLinearLight) {
     const Pixels pixels = drawQuad(device(), linearSettings(16), painted());
     const Rgb shown = at(pixels, 16, 11, 11);
@@ -75,7 +75,7 @@ TEST_F(MeshPictureTest, ShowsPicturesInLinearLight) {
 
 TEST_F(MeshPictureTest, RepeatsMirrorsAndClampsPictures) {
     groom::Mesh mesh = painted();
-    // From -1 to 2: the picture is the middle third.
+    // Coordinates run from -1 to 2, so the picture is in the middle third.
     for (glm::vec2& c : mesh.texture_coordinates) c = 3.0f * c - 1.0f;
     mesh.materials[0].base_color_texture->vertical = groom::Wrap::clamp;
     Pixels pixels = drawQuad(device(), quadSettings(24), mesh);
@@ -146,7 +146,7 @@ TEST_F(MeshPictureTest, TiltsNormalsWithThePicture) {
         at(drawQuad(device(), settings, mirrored), 9, 4, 4),
         255.0 * glm::dot(glm::dvec3(-normal.x, normal.y, normal.z), to_light));
 
-    // u grows upward and v to the right: a quarter turn against the clock.
+    // u grows upward and v to the right: a quarter turn anticlockwise.
     groom::Mesh turned = tilted(kTilt);
     for (glm::vec2& c : turned.texture_coordinates) c = {1.0f - c.y, c.x};
     expectNear(

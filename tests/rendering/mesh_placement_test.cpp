@@ -16,7 +16,7 @@ constexpr Rgb kWhite{255, 255, 255};
 
 groom::Mesh white() { return quad({.base_color = {1, 1, 1}}); }
 
-// The turns take +y to +z, then that to +x, then that to +y.
+// The turns take +y to +z, that to +x, and that back to +y.
 TEST(MeshPlacement, ScalesTurnsAboutXThenYThenZAndMoves) {
     groom::Mesh mesh = white();
     mesh.positions[0] = {0, 1, 0};

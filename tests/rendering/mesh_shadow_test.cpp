@@ -75,11 +75,11 @@ void expectGeometry(
     for (std::size_t i = 0; i < points.size(); ++i) {
         const glm::vec3 to_light =
             light.type == LightType::directional ? -light.direction : light.position - points[i];
-        // The way to the light meets the square's plane here.
+        // The path to the light meets the square's plane here.
         const glm::vec3 at = points[i] - points[i].z / to_light.z * to_light;
         const float outside = std::max(std::abs(at.x), std::abs(at.y)) - kHalf;
-        // Softness and half a texel of rasterisation; a light's map is up to twice as coarse in
-        // perspective from the distances here.
+        // Softness, and half a texel for rasterisation. In perspective, a light's map is up to
+        // twice as coarse at the distances here.
         const float filter = 2.0f * (settings.shading.shadows.softness + 0.5f) * kMeshTexel;
         if (std::abs(outside) < filter) continue;
         ASSERT_NEAR(paths[i].meshes, outside > 0.0f ? 1.0f : 0.0f, kMapRounding) << i;
@@ -101,7 +101,7 @@ TEST_F(MeshShadowTest, SquareShadesWhatIsBehindIt) {
         Settings settings = meshShadows(light);
         for (const float softness : {0.0f, 1.0f, 2.5f}) {
             settings.shading.shadows.softness = softness;
-            // The second are beyond the far end of the light's depths.
+            // The second ones are beyond the far end of the light's depth range.
             expectGeometry(device(), settings, {.head = &mesh}, grid(0.09f, -0.03f));
             expectGeometry(device(), settings, {.head = &mesh}, grid(0.12f, -0.2f));
         }
@@ -116,7 +116,7 @@ TEST_F(MeshShadowTest, WhatIsBeforeTheSquareIsLit) {
         ASSERT_NEAR(path.meshes, 1.0f, kMapRounding);
 }
 
-// Flat surfaces at any angle down to 6 degrees to the light don't shade themselves. The shadow of
+// Flat surfaces don't shade themselves at any angle to the light down to 6 degrees. The shadow of
 // a surface begins half a texel along the light behind it. A surface turned by 5 degrees more also
 // needs the distance that it rises within the filter.
 TEST_F(MeshShadowTest, SurfacesShadeNotThemselvesButWhatIsCloseBehind) {
@@ -155,8 +155,8 @@ TEST_F(MeshShadowTest, SurfacesShadeNotThemselvesButWhatIsCloseBehind) {
     }
 }
 
-// Strands don't know the surface that they lie on: they are lit on it up to a slope of 63 degrees,
-// and shaded 2 (softness + 0.5) texels behind.
+// Strands don't know the surface that they lie on. On it they are lit up to a slope of 63 degrees,
+// and they are shaded from 2 (softness + 0.5) texels behind it.
 TEST_F(MeshShadowTest, StrandsOnASurfaceAreLit) {
     const glm::vec3 down(0.0f, 0.0f, -1.0f);
     const glm::vec3 normal = glm::normalize(glm::vec3(1.0f, 0.0f, 1.0f));
@@ -168,7 +168,7 @@ TEST_F(MeshShadowTest, StrandsOnASurfaceAreLit) {
     std::vector<glm::vec3> behind;
     for (const glm::vec3& point : grid(0.9f, 0.0f)) {
         on.push_back(point.x * a + point.y * b);
-        // The bias of 3 texels, and 1.5 for how the surface falls within the filter.
+        // The bias of 3 texels, and 1.5 texels for the slope of the surface within the filter.
         behind.push_back(on.back() + (3.0f + 1.5f + 0.1f) * kMeshTexel * down);
     }
     for (const FoundPath& path : findPaths(device(), settings, bald(), {.head = &mesh}, on))

@@ -11,7 +11,7 @@
 #include "tests/largest_difference.h"
 #include "tests/rendering/device_hair.h"
 
-// Offsets that are taken from the strands of a model.
+// Tests offsets that are taken from the strands of a model.
 namespace hair::rendering {
 namespace {
 
@@ -47,7 +47,7 @@ StrandOffsets make(const groom::StrandSet& model, double length) {
     return makeStrandOffsets({.offsets = "model"}, straight(length), &model, 1);
 }
 
-// On hair half as long a curl is half as wide, and goes round as often. A cubic through the root
+// On hair half as long, a curl is half as wide and has as many turns. A cubic through the root
 // is off the axis in the middle half for two reasons:
 //  - it takes up a part of a wave of 32 periods: at most sum (2n + 1) |P_n| 2 / (2 pi 32), n = 0
 //    to 3, with Legendre's polynomials P_n: 8 % of the amplitude;
@@ -82,7 +82,8 @@ TEST(ModelOffsets, AreTheSameOfAModelThatIsMovedAndEnlarged) {
     ASSERT_EQ(a.samples, b.samples);
     for (std::size_t i = 0; i < a.samples; ++i) {
         // Rounding may choose where the frames start, so the test compares radius and tangent.
-        // Floats round 40 by 2e-6, a 20th of that to 0.2 m, and there are three.
+        // Floats round 40 by 2e-6, which is a 20th of that after scaling to 0.2 m, for each of
+        // three coordinates.
         const glm::vec3& p = a.profile(0)[i];
         const glm::vec3& q = b.profile(0)[i];
         ASSERT_NEAR(std::hypot(p.x, p.y), std::hypot(q.x, q.y), 1e-6) << i;
@@ -97,7 +98,7 @@ TEST(ModelOffsets, OfStraightStrandsAreNothing) {
 }
 
 TEST(ModelOffsets, TakeStrandsFromAllOverTheFile) {
-    // The strands before half of the file are straight.
+    // The strands in the first half of the file are straight.
     std::vector<std::vector<glm::vec3>> strands(
         1500, {{0.0f, 0.0f, 0.0f}, {0.0f, 0.5f, 0.0f}, {0.0f, 1.0f, 0.0f}});
     strands.resize(3000, {{0.0f, 0.0f, 0.0f}, {0.3f, 0.5f, 0.0f}, {0.0f, 1.0f, 0.0f}});
@@ -132,7 +133,7 @@ TEST(ModelOffsets, PassOverStrandsWithoutLength) {
     EXPECT_EQ(errorText([&] { make(strandSet({point, still}), kAxis); }), "no strand has a length");
 }
 
-// Points that coincide leave nothing to fit a cubic to but a line.
+// Through points that coincide, the only possible fit is a line.
 TEST(ModelOffsets, AreFiniteForAnyStrand) {
     std::vector<glm::vec3> heap(40, {0.0f, 0.0f, 0.0f});
     heap.back() = {0.0f, 0.1f, 0.0f};

@@ -62,7 +62,7 @@ TEST_F(MovedHeadTest, PictureIsTheSameWhereEverythingMoves) {
     Settings settings = small();
     const Pixels still = drawCase(device(), settings);
 
-    // +z to +x, about the origin, then 1 m up: all rounded little.
+    // +z to +x, about the origin, then 1 m up: all with little rounding.
     settings.simulation.motion.keyframes = {
         {.rotation = {0.0f, 90.0f, 0.0f}, .translation = {0.0f, 1.0f, 0.0f}}};
     const Pixels left_behind = drawCase(device(), settings);
@@ -74,8 +74,9 @@ TEST_F(MovedHeadTest, PictureIsTheSameWhereEverythingMoves) {
 
     EXPECT_GT(differingPixels(still, left_behind), 2000u);
     // Points are up to 2e-7 m off, and a pixel is 7 mm: at each end of a line that is 3e-5 of the
-    // chance that a pixel's middle or the order of two strands in depth changes. A hundred strands
-    // on top of each other in 10^4 pixels of hair make it 30 pixels; three times that, for chance.
+    // chance that a pixel's middle or the order of two strands in depth changes. For a hundred
+    // strands on top of each other in 10^4 pixels of hair, 30 pixels may change; the test allows
+    // three times that, for chance.
     EXPECT_LT(differingPixels(still, followed), 100u);
 }
 
@@ -91,7 +92,7 @@ TEST_F(MovedHeadTest, BackEndsDrawTheSame) {
     EXPECT_EQ(differingPixels(instanced, drawCase(device(), settings)), 0u);
 }
 
-// In a case that plays, frame by frame.
+// Within a case that plays frame by frame.
 TEST_F(MovedHeadTest, FrozenHairFollowsInEveryFrame) {
     Settings settings = small();
     settings.simulation.motion = {
@@ -102,8 +103,7 @@ TEST_F(MovedHeadTest, FrozenHairFollowsInEveryFrame) {
     loop.finish();
     const Pixels end = picture.picture();
     settings.simulation.motion.keyframes = {{.rotation = {0.0f, 60.0f, 0.0f}}};
-    // The device rounds the hair that moved there, the host rounds the hair that starts there: as
-    // above.
+    // The device rounds the moved hair, and the host rounds the hair that starts there, as above.
     EXPECT_LT(differingPixels(end, drawCase(device(), settings)), 100u);
 }
 

@@ -9,7 +9,8 @@
 #include "hair/rendering/strand_offsets.h"
 #include "tests/rendering/strand_reference.h"
 
-// Points off the smooth strand, in double and not from the shaders; the table is given.
+// Points off the smooth strand, in double precision and independent of the shaders. The table is
+// given.
 namespace hair::reference {
 
 struct Offset {
@@ -39,8 +40,8 @@ offsetAt(const rendering::StrandOffsets& offsets, std::uint32_t profile, double 
     return offset;
 }
 
-// The frame of the guide with the greatest weight, at rest: its normals as a B-spline, made square
-// to the strand.
+// The frame of the guide with the greatest weight, at rest: its normals as a B-spline, made
+// perpendicular to the strand.
 inline glm::dmat3 frameAt(
     const groom::Groom& groom, std::uint32_t guide, std::uint32_t segment, double t,
     const glm::dvec3& tangent) {

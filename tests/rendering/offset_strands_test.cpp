@@ -28,7 +28,7 @@ protected:
     }
 };
 
-// 12 turns of the upright guides.
+// The upright guides' strands have 12 turns.
 constexpr StrandCurlSettings kCurl{
     .radius = 0.004f, .frequency = 40.0f, .frequency_variation = 0.0f, .start = 0.2f};
 
@@ -62,8 +62,8 @@ TEST_F(OffsetStrandsTest, AgreeWithTheReference) {
 }
 
 // With 16 samples a turn, Catmull and Rom's curve is within 1 - (9 cos d - cos 3d) / 8 = 0.06 % of
-// the circle, d = 2 pi / 32. Floats round coordinates of 0.3 m by 2e-8, twice, which is 1e-5 rad,
-// too.
+// the circle, d = 2 pi / 32. Floats round coordinates of 0.3 m by 2e-8, twice, which is also 1e-5
+// rad.
 TEST_F(OffsetStrandsTest, CurlsHaveTheirRadiusAndTurns) {
     const Settings settings{.strands = {.density = 8, .tessellation = 16, .curl = kCurl}};
     const StrandPoints curled = evaluate(uprightGroom(), settings);
@@ -174,7 +174,7 @@ TEST_F(OffsetStrandsTest, LowerLevelsKeepTheirOffsets) {
     }
 }
 
-// A quarter of 2,000 strands, give or take four deviations of sqrt(2000 * 3 / 16) = 19.
+// A quarter of 2,000 strands, within four deviations of sqrt(2000 * 3 / 16) = 19.
 TEST_F(OffsetStrandsTest, VariationMovesItsShareOfTheStrands) {
     const Settings settings{
         .strands = {

@@ -82,11 +82,11 @@ TEST_F(PictureTest, HairIsHiddenBehindAMeshAndSeenBeforeIt) {
         ASSERT_TRUE(std::equal(&both[i], &both[i] + 4, &expected[i])) << "pixel " << i / 4;
     }
     // 64 strands about 0.06 m long and on average 1.25 mm wide, at 200 px / (0.8 m tan 50 degrees)
-    // = 210 px/m: 212 px where none overlap; a third of that says that hair was there.
+    // = 210 px/m: 212 px without overlap; a third of that shows that hair was there.
     EXPECT_GT(covered, 70u);
 }
 
-// Each pixel has its own depth: the half before the wall of hair that passes through it is seen.
+// Each pixel has its own depth. If hair passes through the wall, its nearer half is seen.
 TEST_F(PictureTest, HairThroughAMeshIsCutByIt) {
     groom::Groom groom = tuft(0.0f);
     for (glm::vec3& point : groom.points) point.z = point.x;  // half before, half behind the wall
@@ -102,7 +102,7 @@ TEST_F(PictureTest, HairThroughAMeshIsCutByIt) {
     for (std::size_t i = 0; i < both.size(); i += 4) {
         if (std::equal(&both[i], &both[i] + 4, &wall_alone[i])) continue;
         const std::size_t column = i / 4 % 200;
-        ++(column < 99 ? left : right);  // one column for the width of a strand on the border
+        ++(column < 99 ? left : right);  // one column less, for the width of a strand on the border
     }
     EXPECT_EQ(left, 0u);
     EXPECT_GT(right, 50u);
@@ -111,7 +111,7 @@ TEST_F(PictureTest, HairThroughAMeshIsCutByIt) {
 // Crosses of strands that face a camera 20 m away, [cross][pixel]: one strand is upright and one
 // level, and one is 1 mm nearer. Strands have the colours of their tangents, (0, 1, 0) and (1, 0,
 // 0): all green or all red. A step of depth that grows from the near plane would be 2.4 mm there,
-// and the first drawn of two strands at one depth would be seen.
+// and the strand that is drawn first would be seen of two at the same depth.
 TEST_F(PictureTest, StrandsAMillimetreApartAt20MAreInOrder) {
     constexpr int kCrosses = 16;
     constexpr std::uint32_t kPitch = 16;  // px
@@ -137,7 +137,7 @@ TEST_F(PictureTest, StrandsAMillimetreApartAt20MAreInOrder) {
     };
     const auto upright_is_nearer = [](int cross) { return cross / 2 % 2 == 0; };
     for (int i = 0; i < kCrosses; ++i) {
-        // The distances are at different parts of a coarse step.
+        // The distances lie at different fractions of a coarse step.
         const glm::vec3 nearer(
             (static_cast<float>(i) + 0.5f - 0.5f * kCrosses) * kPitch * pixel, 0.0f,
             -0.0004f * static_cast<float>(i));
@@ -182,7 +182,7 @@ int greenOf(const Pixels& pixels, std::size_t row, std::size_t column) {
 }
 
 // An even number of pixels, half of them on either side of the picture's middle: edges are half a
-// pixel from where pixels are sampled.
+// pixel away from sample positions.
 TEST_F(PictureTest, QuadsAreAsWideAsTheirStrands) {
     for (const Backend backend : {Backend::tessellation, Backend::pulling_geometry})
         for (const std::size_t width : {2u, 8u, 20u}) {
@@ -199,7 +199,7 @@ TEST_F(PictureTest, QuadsAreAsWideAsTheirStrands) {
 
 // Samples of a pixel lie at distinct places across it, at the middles of equal parts (four of
 // Vulkan's standard ones at 1/8, 3/8, 5/8 and 7/8), so an edge between two parts leaves exactly the
-// part of the pixel that it cuts off. The mean is of display colours, or of linear light where
+// part of the pixel that it cuts off. The mean is one of display colours, or of linear light if
 // there is a tone map.
 TEST_F(PictureTest, APixelIsTheMeanOfItsSamples) {
     struct Row {

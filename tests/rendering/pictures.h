@@ -63,7 +63,7 @@ inline Pixels drawCase(const engine::Device& device, const Settings& settings) {
     return picture.picture();
 }
 
-// The same without its hair, for strands of no width cover nothing.
+// The same case without its hair, because strands of no width cover nothing.
 inline Pixels drawBald(const engine::Device& device, Settings settings) {
     settings.strands.root_width = 0.0f;
     settings.strands.tip_width = 0.0f;

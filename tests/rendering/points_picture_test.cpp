@@ -24,8 +24,8 @@ struct Way {
     const char* name;
     Backend backend;
     // Greatest mean FLIP error of pictures that look the same. Points keep tangents to 0.1 degrees
-    // and widths to 0.4 %. Quads that are rounded differently put edges on other sides of samples.
-    // And `software` shades each of a pixel's samples separately.
+    // and widths to 0.4 %. Differently rounded quads put edges on other sides of samples.
+    // `software` also shades each of a pixel's samples separately.
     double most_different;
 };
 
@@ -136,7 +136,7 @@ TEST_F(PointsPicture, IsNearerToManySamplesThanMultisampling) {
     EXPECT_LT(errors[0], errors[1]);
 }
 
-// The eye is in the hair, so that strands cross the near plane and are behind it.
+// The eye is in the hair, so that strands cross the near plane or are behind it.
 TEST_F(PointsPicture, IsThatOfTessellationWithinTheHair) {
     if (pythonInterpreter().empty()) return skipWithout(Need::python, kNoPython);
     Settings settings = thesisAtRest();
@@ -223,7 +223,7 @@ TEST_F(PointsPicture, ShowsNothingOfNoStrands) {
             << way.name;
 }
 
-// A pixel of 1.2 m; a strand in it is 0.002 px wide. Phong's terms are not negative, so the
+// A pixel is 1.2 m wide, and a strand in it 0.002 px. Phong's terms are not negative, so the
 // ambient term is the least.
 TEST_F(PointsPicture, HasOnePixel) {
     Settings settings = with(thesisAtRest(), Backend::software);
@@ -238,7 +238,8 @@ TEST_F(PointsPicture, HasOnePixel) {
             std::floor(255.0f * settings.shading.ambient * settings.shading.color[i]));
 }
 
-// A picture wider than many a target. Its hair is 63 to 77 degrees from its middle and stretched
+// A picture that is wider than many targets. Its hair is 63 to 77 degrees off its middle and
+// stretched
 // to some 700 px.
 TEST_F(PointsPicture, IsThatOfTessellationInAWidePicture) {
     if (pythonInterpreter().empty()) return skipWithout(Need::python, kNoPython);
@@ -261,7 +262,7 @@ TEST_F(PointsPicture, IsThatOfTessellationInAWidePicture) {
         EXPECT_LE(errors[i], kWays[i].most_different) << kWays[i].name;
 }
 
-// A straight strand of several pixels' width that nothing hides: every pixel inside is the same.
+// A straight strand several pixels wide that nothing hides. Every pixel inside it is the same.
 TEST_F(PointsPicture, ShadesAWideStrandAsTessellationDoes) {
     Settings settings;
     settings.strands.density = 1;
@@ -301,7 +302,7 @@ TEST_F(PointsPicture, IsTheSameEveryTime) {
     }
 }
 
-// Other kinds of drawing than shaded and opaque with `expanded`, and levels of detail with fewer
+// Ways of drawing other than shaded and opaque with `expanded`, and levels of detail with fewer
 // pieces than the finest.
 TEST_F(PointsPicture, IsThatOfTessellationHoweverItIsShown) {
     if (pythonInterpreter().empty()) return skipWithout(Need::python, kNoPython);

@@ -13,14 +13,14 @@
 
 #include "hair/shading_settings.h"
 
-// The papers' definitions, from the settings on and by brute force: sums over points for
-// integrals, paths traced through the fibre's cross-section, series term by term. The code shares
-// nothing with the program. The program makes the device's parameters and tables from its own
-// reference, so an error there would be in both. Directions, h and the lobes are as in fiber.h.
+// The papers' definitions, evaluated from the settings by brute force: sums over points for
+// integrals, paths traced through the fibre's cross-section, and series term by term. The code
+// shares nothing with the program. The program makes the device's parameters and tables from its
+// own reference, so an error there would be in both. Directions, h and the lobes are as in fiber.h.
 namespace hair::rendering::published {
 
 inline constexpr double kPi = std::numbers::pi;
-inline constexpr std::size_t kLobes = 4;  // R, TT, TRT, all that is left
+inline constexpr std::size_t kLobes = 4;  // R, TT, TRT, and the rest
 
 // Mean of f at the middles of `steps` parts of [from, to].
 template <class Function>
@@ -34,9 +34,9 @@ struct Fiber {
     glm::dvec3 absorption;
     double eta;
     std::array<double, kLobes> variances;
-    std::array<double, kLobes> shifts;  // theta_i + theta_o where a lobe is strongest
-    double scale;                       // s of the logistic distribution
-    double inside;                      // its integral over [-pi, pi]
+    std::array<double, kLobes> shifts;  // theta_i + theta_o at which a lobe is strongest
+    double scale;  // s of the logistic distribution
+    double inside;  // its integral over [-pi, pi]
 };
 
 inline double logistic(double x, double scale) {
@@ -82,7 +82,7 @@ inline double azimuthal(const Fiber& fiber, double angle) {
     return logistic(nearest, fiber.scale) / fiber.inside;
 }
 
-// Fresnel's equations as he wrote them, with the angles on both sides.
+// Fresnel's equations in their original form, with the angles on both sides.
 inline double fresnel(double angle, double eta) {
     if (angle < 1e-6) return std::pow((eta - 1.0) / (eta + 1.0), 2.0);
     const double refracted = std::asin(std::sin(angle) / eta);
@@ -142,8 +142,8 @@ inline View viewOf(const glm::dvec3& wo, const glm::dvec3& wi) {
     return {std::asin(wi.x), std::asin(wo.x), std::atan2(wi.z, wi.y) - std::atan2(wo.z, wo.y)};
 }
 
-// f |cos theta_i|, Chiang et al. 2016, (1) to (3), where the light's inclination has changed by
-// `change` with the variance `spread`, and `n` is the azimuthal part at an angle from Phi(p).
+// f |cos theta_i|, Chiang et al. 2016, (1) to (3), for light with an inclination changed by
+// `change` with the variance `spread`. `n` is the azimuthal part at an angle from Phi(p).
 template <class Azimuthal>
 glm::dvec3 sumOfLobes(
     const Fiber& fiber, const View& view, double h, double change, double spread,
@@ -180,7 +180,8 @@ inline Half halfOf(const Fiber& fiber, double theta, double middle) {
     constexpr int kAngles = 384;
     std::array<glm::dvec3, kLobes> carried{};
     for (int i = 0; i < kPlaces; ++i) {
-        // h = sin gamma, dh = cos gamma dgamma, where the attenuations are smooth to the edge.
+        // h = sin gamma, dh = cos gamma dgamma, because the attenuations are then smooth up to the
+        // edge.
         const double gamma = ((i + 0.5) / kPlaces - 0.5) * kPi;
         const double weight = 0.5 * kPi / kPlaces * std::cos(gamma);
         const Path path = trace(fiber, theta, std::sin(gamma));
@@ -207,7 +208,7 @@ inline Half halfOf(const Fiber& fiber, double theta, double middle) {
     return half;
 }
 
-// Light that has gone several ways: the sum, and means over all of them.
+// Light that has taken several paths: the sum, and means over all of them.
 struct Ways {
     glm::dvec3 part{0.0};
     double shift = 0.0;
@@ -226,10 +227,9 @@ struct Ways {
 };
 
 // Zinke et al. 2008, (13) to (15): light that goes forward through i fibres, back, and through i
-// again; and all the ways of going back three times. Here the first i fibres are a mean of
-// Poisson's distribution: exp(-i (1 - f)) of the light gets there, and meets i f fibres. For light
-// that goes back three times, there are m ways that pass m fibres in and out and n more twice
-// within.
+// again; and all paths that go back three times. Here the first i fibres are a mean of Poisson's
+// distribution: exp(-i (1 - f)) of the light gets there, and meets i f fibres. For light that goes
+// back three times, there are m paths that pass m fibres in and out, and n more twice inside.
 inline Ways backThroughNeighbours(const Half& forward, const Half& backward) {
     Ways ways;
     for (int channel = 0; channel < 3; ++channel) {

@@ -28,7 +28,7 @@ using std::numbers::pi;
 // A rectangle of radiance 1 in double precision, independent of rectangleFace().
 struct Rectangle {
     glm::dvec3 middle;
-    glm::dvec3 normal;  // unit, where its light goes
+    glm::dvec3 normal;  // unit; direction of its light
     glm::dvec3 half_width;
     glm::dvec3 half_height;
 };
@@ -106,7 +106,8 @@ protected:
     }
 };
 
-// Single precision: the edges of a rectangle that is seen 0.2 rad wide leave a fifth of each other.
+// Single precision: the contributions of the edges of a rectangle that is seen 0.2 rad wide cancel
+// to a fifth.
 constexpr double kEdgeRounding = 2e-5;
 
 TEST_F(RectangleLight, HasItsColorAtTheReferenceDistance) {
@@ -133,7 +134,7 @@ TEST_F(RectangleLight, LightsParallelSurfacesByTheFormFactor) {
     }
 }
 
-// Turned surfaces, from which the horizon cuts a part or all of it, from 5 cm to 2 m.
+// Turned surfaces from 5 cm to 2 m. Their horizon cuts off a part of the light or all of it.
 TEST_F(RectangleLight, LightsTurnedSurfacesAsItsPointsDo) {
     std::mt19937 random(11);
     const auto number = [&] { return 2.0 * (random() + 0.5) / 4294967296.0 - 1.0; };
@@ -233,7 +234,7 @@ Rectangle facing(const glm::dvec3& from, double half_width, double half_height, 
 
 struct Difference {
     double largest = 0;  // over the greatest value
-    double mean = 0;  // mean of sizes, over the mean
+    double mean = 0;  // mean of absolute values, over the mean
 };
 
 class Differences {
@@ -277,7 +278,7 @@ double reflectedSum(const gpu::RectangleProbe& probe, const Rectangle& rectangle
 // The distribution of facets is exact, except for the curvature of a side's half vectors.
 // Fresnel's reflectance and shadowing are those of one facet; their error grows with the width of
 // light and lobe. So the tolerances of the largest and the mean difference grow with the
-// rectangle, which is 11, 44 and 90 degrees long. The sums' own errors are below 1e-3.
+// rectangle, which is seen 11, 44 and 90 degrees long. The sums' own errors are below 1e-3.
 TEST_F(GlossyRectangle, ReflectsAsTheSumOverItsPoints) {
     struct Row {
         double size;
@@ -304,7 +305,7 @@ TEST_F(GlossyRectangle, MirrorsItsRadiance) {
     const Rectangle wide = facing({0, 0, 1}, 10, 10, 0);
     const Rectangle below = facing(glm::normalize(glm::dvec3(0.3, 0, -1)), 0.1, 0.1, 0);
     const auto found = asked({probeOf(wide, 1.0f, 0.1f, 0.9), probeOf(below, 1.0f, 0.1f, 0.9)});
-    // For F0 = 0.8 Schlick's F is 0.800002 at 26 degrees; shadowing takes less than 1e-4 of it.
+    // For F0 = 0.8, Schlick's F is 0.800002 at 26 degrees; shadowing removes less than 1e-4 of it.
     EXPECT_NEAR(found[0].glossy.x, 0.8, 2e-3);
     EXPECT_EQ(found[1].glossy.x + found[1].diffuse.x, 0.0f);
 }

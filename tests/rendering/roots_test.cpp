@@ -63,7 +63,7 @@ TEST_F(RootsTest, FillTheTriangleEvenly) {
     }
 }
 
-// The seed of this strand gives u = 8299944 / 2^24 and v = 8477273 / 2^24 (found by search). Their
+// The seed of this strand, found by search, gives u = 8299944 / 2^24 and v = 8477273 / 2^24. Their
 // sum 1 + 2^-24 rounds to 1. Unfolded, its third weight would be negative.
 TEST_F(RootsTest, FoldsWhatIsBeyondTheEdgeByOneBit) {
     const glm::vec3 weights = roots(unitTriangles(1), 24, 130704).back();

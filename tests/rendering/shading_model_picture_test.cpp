@@ -1,4 +1,4 @@
-// Models in pictures of one strand as wide as the picture, upright before the eye.
+// Tests models in pictures of one strand as wide as the picture, upright in front of the eye.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -23,7 +23,7 @@ Settings wideStrand(ShadingModel model, double azimuth) {
     settings.strands.density = 1;
     settings.strands.root_width = settings.strands.tip_width = 0.1f;
     settings.camera.position = {0, 0, 10};
-    // 0.1 m wide at 10 m.
+    // The strand is 0.1 m wide at 10 m.
     settings.camera.field_of_view =
         static_cast<float>(360.0 / std::numbers::pi * std::atan(0.5 * 0.1 / 10.0 * 4.0 / kWidth));
     settings.shading.model = model;
@@ -36,7 +36,7 @@ Settings wideStrand(ShadingModel model, double azimuth) {
 
 class ShadingModelPictures : public GpuTest {
 protected:
-    // Green of a row of pixels that shows a strand, 2 m long, from this way up.
+    // Green along a row of pixels that shows a strand, 2 m long, with this direction up.
     static std::vector<double>
     across(const Settings& settings, const glm::vec3& up = {0.0f, 1.0f, 0.0f}) {
         const groom::Groom groom = oneTriangle({-up, glm::vec3(0.0f), up});
@@ -56,7 +56,8 @@ protected:
     }
 };
 
-// The strand may go any way: if it is level or upright, its quads' ends are along rows of samples.
+// The strand may have any direction. If it is level or upright, the ends of its quads lie along
+// rows of samples.
 TEST_F(ShadingModelPictures, NoneHasAHoleInAStrandThatFillsThePicture) {
     Settings settings = wideStrand(ShadingModel::phong, 0.0);
     settings.strands.root_width = settings.strands.tip_width = 0.3f;
@@ -66,7 +67,7 @@ TEST_F(ShadingModelPictures, NoneHasAHoleInAStrandThatFillsThePicture) {
           Backend::software}) {
         settings.strands.backend = backend;
         for (int turn = 0; turn < 16; ++turn) {
-            // Exact where the strand is level or upright.
+            // Exact if the strand is level or upright.
             const int x = turn % 8 < 4 ? turn % 4 : 4 - turn % 4;
             const int y = turn % 8 < 4 ? 4 - turn % 4 : -(turn % 4);
             const glm::vec3 up = (turn < 8 ? 0.25f : -0.25f) * glm::vec3(x, y, 0.0f);
@@ -90,7 +91,7 @@ TEST_F(ShadingModelPictures, PhongIsMattOnACylinder) {
     }
 }
 
-// The same from edge to edge: sin(T, L) = 1.
+// Equal from edge to edge: sin(T, L) = 1.
 TEST_F(ShadingModelPictures, KajiyaKayIsFlatAcrossTheStrand) {
     Settings settings = wideStrand(ShadingModel::kajiya_kay, 60.0);
     settings.shading.color = glm::vec3(1.0f);
@@ -99,10 +100,9 @@ TEST_F(ShadingModelPictures, KajiyaKayIsFlatAcrossTheStrand) {
     for (const double value : across(settings)) EXPECT_NEAR(value, 0.75, 1e-3);
 }
 
-// Black fibres scatter only the surface's mirror image of the light. It is where the normal is
-// halfway between eye and light: at sin(azimuth / 2), on the light's side. A lobe is 0.03 rad wide
-// (s of beta_n = 0.1: 0.0240); two of them are 4 px here, and Fresnel's factor grows towards the
-// edge.
+// Black fibres scatter only the surface's mirror image of the light. It lies at the normal halfway
+// between eye and light: at sin(azimuth / 2), on the light's side. A lobe is 0.03 rad wide (s of
+// beta_n = 0.1: 0.0240); two of them are 4 px here, and Fresnel's factor grows towards the edge.
 TEST_F(ShadingModelPictures, FibresMirrorTheLightOnItsSide) {
     for (const ShadingModel model : {ShadingModel::marschner, ShadingModel::dual_scattering}) {
         for (const double azimuth : {60.0, -40.0}) {
@@ -133,10 +133,10 @@ TEST_F(ShadingModelPictures, OwnColorsLeaveTheSurfacesReflection) {
     }
 }
 
-// In its middle, a strand with tips lighter by 1/2 has the power 3/4. It looks as hair of the
-// colour c^(3/4) does: by equation (9) of Chiang et al. 2016, hair of 9/16 of the absorption. The
-// picture shows 1/300 of the strand's length, in which the power changes by 1/600 and the light
-// that comes through, with an absorption of 2.7 at the most here, by 1 %.
+// In its middle, a strand with tips lighter by 1/2 has the power 3/4. It looks like hair of the
+// colour c^(3/4): by equation (9) of Chiang et al. 2016, hair of 9/16 of the absorption. The
+// picture shows 1/300 of the strand's length, in which the power changes by 1/600. The light that
+// comes through then changes by 1 %, with an absorption of at most 2.7 here.
 TEST_F(ShadingModelPictures, OwnColorsAreThoseOfHairWithTheirAbsorption) {
     const glm::vec3 color(0.5f, 0.16f, 0.07f);
     for (const ShadingModel model : {ShadingModel::marschner, ShadingModel::dual_scattering}) {
@@ -166,8 +166,8 @@ TEST_F(ShadingModelPictures, FibresLetLightThroughOnTheOtherSide) {
 
 // A white furnace: under radiance 1 from everywhere a white fibre shows 1. Light of colour 1 has
 // the irradiance pi, so over directions spread evenly over the sphere the mean is 1 / 4. 128
-// directions meet lobes as wide as these to 1 %, pixels the width of the strand to 1 %; the model
-// loses up to 5 % (pbrt's tests of it allow as much).
+// directions sample lobes of this width to 1 %, and pixels sample the strand's width to 1 %. The
+// model loses up to 5 %, as much as pbrt's tests of it allow.
 TEST_F(ShadingModelPictures, WhiteFibresReturnAllLight) {
     constexpr int kDirections = 128;
     Settings settings = wideStrand(ShadingModel::marschner, 0.0);
@@ -180,7 +180,7 @@ TEST_F(ShadingModelPictures, WhiteFibresReturnAllLight) {
         settings.shading.lights.clear();
         for (int i = first; i < first + 16; ++i) {
             const double y = (2.0 * i + 1.0) / kDirections - 1.0;
-            const double turn = i * std::numbers::pi * (3.0 - std::sqrt(5.0));  // Fibonacci's
+            const double turn = i * std::numbers::pi * (3.0 - std::sqrt(5.0));  // Fibonacci lattice
             const double ring = std::sqrt(1.0 - y * y);
             settings.shading.lights.push_back(
                 {.type = LightType::directional,

@@ -1,4 +1,4 @@
-// Phong and Kajiya-Kay on the device against values by hand.
+// Compares Phong and Kajiya-Kay on the device with values computed by hand.
 #include <cmath>
 #include <numbers>
 
@@ -38,7 +38,7 @@ TEST_F(ShadingModels, PhongIsThesisEquations5And6) {
     const gpu::ModelProbe mirrored = probe(atDegrees(60), atDegrees(60, 180), 50.0f);
     EXPECT_NEAR(mirrored.phong_diffuse, 0.5, kModelRounding);
     EXPECT_NEAR(mirrored.phong_specular, 1.0, kModelRounding);
-    // The eye 10 degrees off: cos(10)^50 = 0.98480775^50 = 0.465128.
+    // The eye is 10 degrees off: cos(10)^50 = 0.98480775^50 = 0.465128.
     const gpu::ModelProbe off = probe(atDegrees(60), atDegrees(50, 180), 50.0f);
     EXPECT_NEAR(off.phong_specular, 0.465128, kModelRounding);
     // Light from behind.
@@ -50,18 +50,19 @@ TEST_F(ShadingModels, PhongIsThesisEquations5And6) {
 // Angles are from the strand's direction. Light 30 degrees from it is mirrored in a cone 150
 // degrees from it.
 TEST_F(ShadingModels, KajiyaKayIsTheirEquations) {
-    for (const double turn : {0.0, 77.0, 180.0}) {  // the eye is anywhere on the cone
+    for (const double turn : {0.0, 77.0, 180.0}) {  // the eye may be anywhere on the cone
         const gpu::ModelProbe mirrored = probe(atDegrees(30), atDegrees(150, turn), 20.0f);
         EXPECT_NEAR(mirrored.kajiya_kay_diffuse, 0.5, kModelRounding) << turn;  // sin 30
         EXPECT_NEAR(mirrored.kajiya_kay_specular, 1.0, kModelRounding) << turn;
     }
-    // 140 degrees: 10 off the cone; cos(10)^20 = 0.736257. Straight across, 60 off: 0.5^20.
+    // 140 degrees is 10 degrees off the cone; cos(10)^20 = 0.736257. Perpendicular is 60 off:
+    // 0.5^20.
     EXPECT_NEAR(
         probe(atDegrees(30), atDegrees(140, 20), 20.0f).kajiya_kay_specular, 0.736257,
         kModelRounding);
     EXPECT_NEAR(
         probe(atDegrees(30), atDegrees(90, 20), 2.0f).kajiya_kay_specular, 0.25, kModelRounding);
-    // More than a right angle off: nothing.
+    // More than a right angle off gives nothing.
     EXPECT_EQ(probe(atDegrees(30), atDegrees(40), 2.0f).kajiya_kay_specular, 0.0f);
     // Light along the strand doesn't light it.
     const gpu::ModelProbe along = probe(atDegrees(0), atDegrees(90), 20.0f);

@@ -19,7 +19,7 @@
 
 namespace hair::rendering {
 
-// The obstacles between a light and a point, as shading finds them.
+// The obstacles between a light and a point, as the shading functions find them.
 struct FoundPath {
     float meshes;
     float strands;
@@ -31,7 +31,7 @@ struct FoundPath {
     float kept;
 };
 
-// Draws the lights' maps in three frames, two of them in flight, and asks about the probes in each.
+// Draws the lights' maps in three frames, two of them in flight, and evaluates the probes in each.
 inline std::vector<FoundPath> findPaths(
     const engine::Device& device, const Settings& settings, const StrandView& view,
     const RenderAssets& assets, std::span<const gpu::ShadowProbe> probes) {

@@ -9,7 +9,7 @@
 #include "tests/gpu_fixture.h"
 #include "tests/rendering/pictures.h"
 
-// /render/show and the overlay of bodies, as they are seen.
+// Tests pictures of /render/show and of the overlay of bodies.
 namespace hair::rendering {
 namespace {
 
@@ -65,7 +65,7 @@ TEST_F(ShowPictureTest, NormalsFaceTheCamera) {
     ASSERT_GT(found.size(), 3u);  // they turn across the strand
     for (const auto& [red, green, blue] : found) {
         EXPECT_NEAR(green, 127.5, 1.5);
-        // The camera sees the outermost strands from 11 degrees aside: cos 101 is -0.2.
+        // The camera sees the outermost strands 11 degrees from the side: cos 101 is -0.2.
         EXPECT_GT(blue, 127.5 * (1.0 - 0.2) - 1.0);
     }
 }
@@ -82,7 +82,8 @@ TEST_F(ShowPictureTest, LevelsGoFromBlueToRed) {
 }
 
 // Each strand has one colour of its own, in all back ends and levels. With this seed the strands,
-// 3 px wide, are 7 px apart or more: they are in one plane, so chance decides which of two is
+// 3 px wide, are 7 px apart or more: they are in one plane, so if two overlapped, chance would
+// decide which is
 // seen.
 TEST_F(ShowPictureTest, StrandsKeepColorsOfTheirOwn) {
     Settings shown = settings(Show::strands);
@@ -105,7 +106,7 @@ TEST_F(ShowPictureTest, StrandsKeepColorsOfTheirOwn) {
 int countOf(const std::uint8_t* pixel) {
     // Green is full at 32, in steps of 8 of 255.
     const int count = static_cast<int>(std::lround(pixel[1] * 32.0 / 255.0));
-    // Each fragment is rounded to a step of 255: 1/2 of it for each.
+    // Each fragment is rounded by up to half of a step of 255.
     const bool agrees = std::abs(pixel[0] - std::min(count * 255.0 / 8.0, 255.0)) <= 0.5 * count &&
                         std::abs(pixel[2] - count * 255.0 / 128.0) <= 0.5 * count;
     return agrees ? count : -1;
@@ -139,8 +140,8 @@ TEST_F(ShowPictureTest, DensityCountsAllStrands) {
     EXPECT_NEAR(sum, expected, 0.036 * expected);
 }
 
-// White without shadows; with the hair's own, the light from the side comes to the first strands
-// alone: others are darker, in grey.
+// White without shadows. With shadows of hair, light from the side reaches only the first strands;
+// the others are darker, in grey.
 TEST_F(ShowPictureTest, ShadowIsThePartOfTheLights) {
     Settings shown = settings(Show::shadow);
     const auto without = colors(draw(shown));
@@ -156,7 +157,7 @@ TEST_F(ShowPictureTest, ShadowIsThePartOfTheLights) {
     EXPECT_LT((*found.begin())[0], 200);
 }
 
-// Hair of the colour (1/2, 1/4, 1/8), with even light from everywhere: a times the absorption
+// Hair of the colour (1/2, 1/4, 1/8) in even light from everywhere. Absorption times a
 // gives (2^-a, 2^-2a, 2^-3a).
 class OwnColorTest : public ShowPictureTest {
 protected:
@@ -192,7 +193,7 @@ TEST_F(OwnColorTest, TipsAbsorbLess) {
     lit.shading.tip_lightening = 0.5f;
     const std::vector<double> found = absorptions(draw(lit));
     ASSERT_GT(found.size(), 20u);
-    EXPECT_NEAR(found.front(), 0.5, 0.02);  // a pixel of a hundred, and a step of colour
+    EXPECT_NEAR(found.front(), 0.5, 0.02);  // one pixel in a hundred, and a step of colour
     EXPECT_NEAR(found.back(), 1.0, 0.02);
 }
 
@@ -231,7 +232,8 @@ TEST_F(ShowPictureTest, BodiesAreSeenThroughHair) {
     const Pixels alone = draw(bald);
     bald.render.overlays.bodies = false;
     const Pixels empty = draw(bald);
-    // A circle of 94 px and two lines of 30 px, 0.5 px wide: 77 px, and half where chance is bad.
+    // A circle of 94 px and two lines of 30 px, 0.5 px wide, cover 77 px, or half of that in the
+    // worst case.
     EXPECT_GT(differingPixels(alone, empty), 38u);
     for (std::size_t i = 0; i < with.size(); i += 4) {
         const bool wire = !std::equal(&alone[i], &alone[i] + 3, &empty[i]);

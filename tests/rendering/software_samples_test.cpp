@@ -9,7 +9,7 @@
 #include "tests/gpu_fixture.h"
 #include "tests/probe_shaders.h"
 
-// The back end `software` has its samples at the places of multisampled images.
+// Tests that the back end `software` has its samples at the positions of multisampled images.
 namespace hair::rendering {
 namespace {
 
@@ -49,7 +49,7 @@ TEST_F(SoftwareSamples, AreWhereVulkanHasThem) {
     }
 }
 
-// Row k of n is k + 1/2 of n parts down the pixel, and so are columns.
+// With n rows, row k lies k + 1/2 of n parts down the pixel; columns are alike.
 TEST_F(SoftwareSamples, AreOneInEachRowAndColumn) {
     for (const std::vector<glm::vec2>& standard : kStandard) {
         const gpu::SamplePlaces found = placesOf(standard.size());

@@ -20,7 +20,7 @@ namespace {
 constexpr std::uint32_t kVertices = 6;
 constexpr std::uint32_t kPieces = 4;
 
-// The rounding of a point of about 0.5 m, moved and turned with a dozen roundings. The
+// The rounding of a point of about 0.5 m that is moved and turned, a dozen roundings in total. The
 // exponential's error is 3 ulp and that of its argument (Vulkan specification, Precision and
 // Operation of SPIR-V Instructions).
 constexpr double kRounded = 40 * 0x1p-24;  // m
@@ -38,8 +38,8 @@ Nearest nearestOf(const gpu::Capsule& capsule, const glm::dvec3& position) {
 }
 
 // The distance outside after the push for a point that was `gap` outside. From the margin on it is
-// unchanged. Below, it is the exponential that meets that smoothly and stays above a quarter of
-// the margin. docs/grooms.md
+// unchanged. Below the margin it is an exponential that joins smoothly and stays above a quarter of
+// the margin: docs/grooms.md.
 double pressedGap(double gap, double margin) {
     if (gap >= margin) return gap;
     const double least = 0.25 * margin;
@@ -165,8 +165,8 @@ TEST_F(StrandCollisionTest, FieldsPushAndTurnTangents) {
             const glm::dvec3 after = points.at(0, 0, segment, i + 1).position;
             const glm::dvec3 slope = (after - before) * (0.5 * kFine);
             const auto& here = points.at(0, 0, segment, i);
-            // Positions of 0.5 m are rounded to 6e-8, which the difference takes 64 times; the
-            // margin's beginning is a corner of the second derivative, 0.08 / 64 m wide.
+            // Positions of 0.5 m are rounded to 6e-8, which the difference takes 64 times; at the
+            // margin's beginning the second derivative jumps, which affects 0.08 / 64 m.
             ASSERT_LE(glm::distance(slope, glm::dvec3(here.tangent)), 1e-3) << segment << " " << i;
             lowest = std::min(lowest, here.position.y);
         }

@@ -16,7 +16,7 @@
 #include "tests/required.h"
 #include "tests/temporary_folder.h"
 
-// Features of strands beyond the thesis: every back end draws them alike and counts them right.
+// Features of strands beyond the thesis: every back end draws them alike and counts them correctly.
 namespace hair::rendering {
 namespace {
 
@@ -55,7 +55,7 @@ const Feature kFeatures[] = {
      true},
 };
 
-// Points of their own for the bound strands, 5 to 12 of them: spirals round their guides.
+// The bound strands have their own points, 5 to 12 each: spirals round their guides.
 void addResiduals(groom::Groom& groom) {
     for (std::uint32_t i = 0; i < groom.bindings.size(); ++i) {
         const auto guide = groom.strand(groom.bindings[i].guides[0]);
@@ -137,7 +137,7 @@ TEST_F(StrandFeaturePictureTest, BackEndsDrawTheSame) {
         SCOPED_TRACE(feature.name);
         const Settings settings = small(feature.strands);
         const Pixels picture = draw(settings, feature.has_residuals);
-        EXPECT_GT(differingPixels(picture, plain), 100u);  // there is something of it to see
+        EXPECT_GT(differingPixels(picture, plain), 100u);  // the feature is visible
         expectEqualPictures(picture, settings, feature.has_residuals);
     }
 }

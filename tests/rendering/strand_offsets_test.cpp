@@ -94,7 +94,7 @@ TEST(StrandOffsets, CurlsDifferInPhaseAndFrequency) {
         mean_phase += glm::dvec2(std::cos(phase), std::sin(phase)) / 64.0;
     }
     // 20 turns within a quarter. The least and the greatest of 64 uniform numbers are within a
-    // tenth of the ends, except for a chance of 2 * 0.9^64 = 0.2 %.
+    // tenth of the ends, except with a probability of 2 * 0.9^64 = 0.2 %.
     EXPECT_GE(all_turns.least(), 15.0 - 1e-4);
     EXPECT_LE(all_turns.greatest(), 25.0 + 1e-4);
     EXPECT_LT(all_turns.least(), 16.0);
@@ -107,8 +107,8 @@ TEST(StrandOffsets, VariationIsBoundedSmoothAndOnAShareOfTheProfiles) {
     const StrandOffsets offsets = make(
         {.variation = {.amplitude = 0.01f, .frequency = 40.0f, .share = 0.25f, .start = 0.0f}},
         0.25);
-    // 10 changes on the strand; between two the vector goes at most the ball's diameter, eased with
-    // a slope of 1.5.
+    // 10 changes on the strand. Between two of them the vector moves by at most the ball's
+    // diameter, eased with a slope of 1.5.
     const double longest_step = 1.5 * 2.0 * kAmplitude * 10.0 / (offsets.samples - 1);
     std::uint32_t varied = 0;
     Extremes sizes;
@@ -135,7 +135,7 @@ TEST(StrandOffsets, CurlAndVariationAddUp) {
     const StrandOffsets curl = make(settings, 0.3);
     settings.variation = {.amplitude = 0.002f, .frequency = 20.0f, .share = 0.5f};
     const StrandOffsets both = make(settings, 0.3);
-    ASSERT_EQ(both.samples, curl.samples);  // the curl's turns need more
+    ASSERT_EQ(both.samples, curl.samples);  // the curl's turns need more samples
     Extremes differences;
     for (std::uint32_t p = 0; p < 64; ++p) {
         const double difference = largestDifference(both.profile(p), curl.profile(p));
@@ -145,7 +145,7 @@ TEST(StrandOffsets, CurlAndVariationAddUp) {
     EXPECT_GT(differences.greatest(), 0.001);
 }
 
-// On parabolas: third differences are 0.
+// On parabolas, third differences are 0.
 TEST(StrandOffsets, RunOnByAStepAtBothEnds) {
     const StrandOffsets offsets = make({.curl = {.radius = 0.01f, .start = 0.0f}}, 0.3);
     ASSERT_EQ(offsets.values.size(), std::size_t{64} * (offsets.samples + 2));

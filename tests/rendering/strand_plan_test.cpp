@@ -19,7 +19,7 @@ StrandPlan plan(
     return planStrands(triangles, segments, strands, lod, kIsolines);
 }
 
-// How often the draws name each patch; a patch that does not exist fails.
+// Counts how often the draws name each patch; a patch that does not exist fails.
 std::vector<int> visits(const StrandPlan& plan, const std::vector<engine::Draw>& draws) {
     std::vector<int> count(plan.patches(), 0);
     for (const engine::Draw& draw : draws) {
@@ -49,7 +49,7 @@ void expectEveryPatchOnceWithin(std::uint32_t limit, const StrandPlan& plan) {
     }
 }
 
-// 136 triangles, 7 segments, 64 strands a triangle, 4 pieces a segment: thesis sections 2.3.5
+// 136 triangles, 7 segments, 64 strands per triangle, 4 pieces per segment: thesis sections 2.3.5
 // and 6.
 TEST(StrandPlan, HasTheThesissCounts) {
     const StrandPlan thesis = plan({.density = 64, .tessellation = 4});
@@ -61,7 +61,7 @@ TEST(StrandPlan, HasTheThesissCounts) {
     EXPECT_EQ(counts.tessellation_control_patches, 952u);
     EXPECT_EQ(counts.tessellation_evaluation_invocations, 304640u);  // 952 * 64 * 5
     EXPECT_EQ(counts.geometry_invocations, 243712u);
-    EXPECT_EQ(counts.geometry_primitives, 487424u);  // two triangles a line
+    EXPECT_EQ(counts.geometry_primitives, 487424u);  // two triangles per line
 }
 
 TEST(StrandPlan, CountsAreTheDevicesToSayWhereDistanceDecides) {
@@ -120,13 +120,13 @@ TEST(StrandPlan, PiecesFallThroughNestedSets) {
     };
     for (const Row& row :
          {Row{8, 0.0f, 8, false},
-          {8, 0.99f, 8, true},  // 4.03 are wanted
+          {8, 0.99f, 8, true},  // 4.03 are needed
           {8, 1.0f, 4, false},
           {8, 1.01f, 4, true},  // 3.97
           {8, 3.0f, 1, false},
           {8, 8.0f, 1, false},
           {6, 1.0f, 3, false},
-          {6, 1.1f, 3, true},  // 2.8: 3 has no divisor but itself
+          {6, 1.1f, 3, true},  // 2.8 are needed: 3 has no divisor except itself
           {12, 0.9f, 12, true},  // 6.4
           {12, 1.5f, 6, true},   // 4.2
           {7, 2.0f, 7, true},    // 1.75

@@ -46,7 +46,7 @@ TEST_F(StrandPointsTest, AgreeOnGuidesOfOneSegmentAndFlatRoots) {
     expectReference(groom, {.strands = {.density = 7, .tessellation = 1}});
 }
 
-// 2^k pieces a segment, so that the coarse points' t are exactly those of fine points.
+// 2^k pieces per segment, so that the coarse points' t are exactly those of fine points.
 TEST_F(StrandPointsTest, LowerLevelKeepsTheFirstStrandsAndWidensThem) {
     const groom::Groom groom = tangledGroom(8);
     const StrandSettings strands{.density = 100, .tessellation = 4};
@@ -63,14 +63,15 @@ TEST_F(StrandPointsTest, LowerLevelKeepsTheFirstStrandsAndWidensThem) {
                 const auto& same = fine.at(1, strand, 3, step * point);
                 ASSERT_EQ(kept.position, same.position);
                 ASSERT_EQ(kept.tangent, same.tangent);
-                // The same total width.
+                // The total width is the same.
                 ASSERT_FLOAT_EQ(kept.width * static_cast<float>(density), same.width * 100.0f);
             }
         }
     }
 }
 
-// near 1 m, far 16 m, level 4 there: level log2(distance). The centres of the triangles are
+// near is 1 m and far 16 m, with level 4 there: level log2(distance). The centres of the triangles
+// are
 // 0.5, 1.8, 4 and 50 m away: levels 0, 0.85, 2 and 4.
 TEST_F(StrandPointsTest, LevelFollowsTheLogarithmOfTheDistance) {
     struct Row {
@@ -89,7 +90,7 @@ TEST_F(StrandPointsTest, LevelFollowsTheLogarithmOfTheDistance) {
         groom.root_triangles.push_back(
             {groom.strand_count, groom.strand_count + 1, groom.strand_count + 2});
         groom.strand_count += 3;
-        // The corners add up to zero in x and y.
+        // The corners' coordinates add up to zero in x and y.
         for (const glm::vec2 corner : {glm::vec2{0.1f, 0.0f}, {0.0f, 0.1f}, {-0.1f, -0.1f}}) {
             for (int v = 0; v < 3; ++v) {
                 groom.points.emplace_back(corner, -row.distance + static_cast<float>(v) * 0.1f);
@@ -128,8 +129,8 @@ TEST_F(StrandPointsTest, NoTrianglesHaveNoPoints) {
 }
 
 // 4 triangles x 5 strands x 7 segments x 4 points: several whole parts and a rest, none of whole
-// strands. The other tests compare the points of a single part with the reference. Offsets are on,
-// too, for the device makes their frames once.
+// strands. The other tests compare the points of a single part with the reference. Offsets are on
+// too, because the device makes their frames once.
 TEST_F(StrandPointsTest, AreTheSameInParts) {
     const groom::Groom groom = tangledGroom(8);
     const Settings settings{

@@ -60,7 +60,7 @@ weights(const Settings& settings, std::uint32_t triangle, std::uint32_t strand) 
 }
 
 // Vertices of a strand between three guides, thesis 2.3.1 to 2.3.4. `contacts`, [guide][vertex],
-// tells whether a guide touches a body at the vertex or above it; if it is empty, no guide does.
+// tells whether a guide touches a body at the vertex or above it. If it is empty, no guide does.
 inline std::vector<glm::dvec3> strandVertices(
     const groom::Groom& groom, const StrandSettings& settings,
     const std::array<std::uint32_t, 3>& guides, const std::array<double, 3>& w,
@@ -90,7 +90,7 @@ inline std::vector<glm::dvec3> strandVertices(
     return vertices;
 }
 
-// A strand's vertex. One step outside its ends it is the control point that the curve needs there.
+// A strand's vertex. One step outside its ends, it is the control point that the curve needs there.
 inline glm::dvec3 controlPoint(const std::vector<glm::dvec3>& vertices, int index, Curve curve) {
     const int last = static_cast<int>(vertices.size()) - 1;
     const auto vertex = [&](int i) { return vertices[static_cast<std::size_t>(i)]; };
@@ -101,8 +101,8 @@ inline glm::dvec3 controlPoint(const std::vector<glm::dvec3>& vertices, int inde
     return 6.0 * vertex(end) - 4.0 * vertex(end) - vertex(index < 0 ? 1 : last - 1);
 }
 
-// How far the point with these weights is moved off its flat triangle: half of the way to the mean
-// of its projections onto the corners' tangent planes (Boubekeur and Alexa 2008, Phong
+// The displacement of the point with these weights from its flat triangle: half of the way to the
+// mean of its projections onto the corners' tangent planes (Boubekeur and Alexa 2008, Phong
 // tessellation).
 inline glm::dvec3
 lift(const groom::Groom& groom, std::uint32_t triangle, const std::array<double, 3>& t) {

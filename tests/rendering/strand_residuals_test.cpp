@@ -22,7 +22,7 @@
 #include "tests/rendering/pictures.h"
 #include "tests/temporary_folder.h"
 
-// The strands of a file are drawn as they are, for any guides.
+// Tests that the strands of a file are drawn unchanged, for any guides.
 namespace hair::rendering {
 namespace {
 
@@ -39,7 +39,7 @@ double apart(const glm::dvec3& a, const glm::dvec3& b) {
 
 double number(std::uint32_t strand, std::uint32_t purpose) { return random01(7, strand, purpose); }
 
-// A curl or a wave with a phase, a length and a size of its own, on a cap of a ball of 0.1 m.
+// A curl or a wave with its own phase, length and size, on a spherical cap of radius 0.1 m.
 class Wisp {
 public:
     explicit Wisp(std::uint32_t strand)
@@ -54,7 +54,7 @@ public:
         root_ = 0.1 * up_ - at(0.0);
     }
 
-    // u in [0, 1]; the strand bends down the further out it is.
+    // u in [0, 1]; the farther out the strand is, the more it bends down.
     glm::dvec3 at(double u) const {
         const double s = u * length_;
         const double grows = std::min(u / 0.1, 1.0);
@@ -72,8 +72,8 @@ private:
     glm::dvec3 root_{0.0};
 };
 
-// `points` of strand `i` is sizes[i % sizes.size()]. Places of the points along the curve are even
-// for a `bunching` of 1, and nearer to the root for more.
+// Strand `i` has sizes[i % sizes.size()] points. With a `bunching` of 1, the points are evenly
+// spaced along the curve; with more, they are nearer to the root.
 groom::StrandSet
 wisps(std::uint32_t count, std::span<const std::uint32_t> sizes, double bunching = 1.0) {
     groom::StrandSet set{.metres_per_unit = 1.0};
@@ -121,7 +121,7 @@ Settings ownStrands(std::uint32_t tessellation, Curve curve = Curve::bspline) {
 
 class StrandResidualsTest : public GpuTest {
 protected:
-    // Strands of `groom` when its guides are where those of `now` are.
+    // Strands of `groom` when its guides have the positions of those of `now`.
     static StrandPoints evaluate(
         const groom::Groom& groom, const Settings& settings, const groom::Groom& now,
         const glm::mat4& head = glm::mat4(1.0f)) {
@@ -145,8 +145,8 @@ protected:
         return line;
     }
 
-    // The greatest distance from a point of the file to the drawn point at the same place; the
-    // drawn points are `times` times as dense.
+    // The greatest distance from a point of the file to the drawn point at the same place; drawn
+    // points are `times` times as dense.
     static double farthest(
         const groom::Groom& groom, const groom::StrandSet& file, const Settings& settings,
         std::uint32_t times) {
@@ -226,14 +226,14 @@ TEST_F(StrandResidualsTest, StrandsOfAnyNumberOfPointsGoThroughThem) {
             for (std::uint32_t drawn = 0; drawn < order.size(); ++drawn)
                 greatest = std::max(
                     greatest, farthestFrom(file.strand(order[drawn]), line(points, drawn)));
-            // A strand of 0.3 m in 900 pieces that turns on 2 mm: a sagitta of 7 um.
+            // A strand of 0.3 m in 900 pieces with turns of radius 2 mm has a sagitta of 7 um.
             EXPECT_LT(greatest, kAtRest) << guides << ' ' << bunching;
         }
     }
 }
 
-// Between points the strand is that of the file, too, as far as the points define it: the cubic's
-// slopes are off by h^2 / 6 of the third derivative, the curve by h^3 / 24 of it at most.
+// Between points, too, the strand is that of the file, as far as the points define it. The cubic's
+// slopes are off by h^2 / 6 of the third derivative, and the curve by at most h^3 / 24 of it.
 TEST_F(StrandResidualsTest, StrandsAreSmoothBetweenThePoints) {
     constexpr std::uint32_t kPoints = 121;
     const groom::StrandSet file = wisps(100, std::array{kPoints});
@@ -340,8 +340,8 @@ TEST_F(StrandResidualsTest, ARigidMotionOfTheHeadCarriesStrandsRigidly) {
     }
 }
 
-// A strand without weights follows the head for any motion of the guides and has its own width:
-// its own points, turned and moved.
+// A strand without weights follows the head for any motion of the guides. It has its own points,
+// turned and moved, and its own width.
 TEST_F(StrandResidualsTest, AStrandWithoutWeightsFollowsTheHeadAlone) {
     groom::Groom groom = groomOf(wisps(40, std::array{20u}), 12);
     const std::size_t own = groom.bindings.size();
@@ -385,11 +385,12 @@ TEST_F(StrandResidualsTest, AStrandWithoutWeightsFollowsTheHeadAlone) {
     }
     EXPECT_EQ(found, 30u);
     EXPECT_LT(farthest, kRigid);
-    EXPECT_LT(from_points, 5e-5);  // as far as docs/grooms.md lets a strand be from its points
+    EXPECT_LT(from_points, 5e-5);  // the limit in docs/grooms.md for the distance of a strand from
+                                   // its points
 }
 
-// Three straight guides up, 0.01 m a segment, and a curl about their middle that keeps clear of the
-// ends' offset: its root is theirs.
+// Three straight guides up, 0.01 m a segment, and a curl about their middle without an offset at
+// the ends: its root is theirs.
 groom::Groom straightGuides(std::uint32_t vertices) {
     const auto guide = [&](float x, float z) {
         std::vector<glm::vec3> points;
@@ -433,7 +434,7 @@ TEST_F(StrandResidualsTest, GuidesThatBendTurnResidualsWithThem) {
         const glm::dvec3 root(0.0, 0.0, 0.00375);
         const glm::dvec3 pivot = root + glm::dvec3(0.0, 0.01 * kBend, 0.0);
         for (std::uint32_t k = 0; k < kVertices; ++k) {
-            if (k + 2 > kBend && k < kBend + 2) continue;  // where the curve rounds the corner
+            if (k + 2 > kBend && k < kBend + 2) continue;  // the curve rounds the corner there
             const glm::dvec3 rest(groom.bound_points[k]);
             const glm::dvec3 expected =
                 k < kBend ? rest : pivot + glm::dvec3(turn * glm::dvec4(rest - pivot, 0.0));
@@ -444,8 +445,8 @@ TEST_F(StrandResidualsTest, GuidesThatBendTurnResidualsWithThem) {
     }
 }
 
-// Guides swing past each other in small steps, two of them by almost half a turn in opposite ways,
-// so that they point away from each other on the way; nothing jumps.
+// Guides swing past each other in small steps. Two of them turn by almost half a turn in opposite
+// ways, so that they point away from each other in between. Nothing jumps.
 TEST_F(StrandResidualsTest, SwingWithoutAJump) {
     constexpr std::uint32_t kVertices = 8;
     constexpr int kSteps = 400;
@@ -473,12 +474,12 @@ TEST_F(StrandResidualsTest, SwingWithoutAJump) {
         before = here;
     }
     // The guides' tips move by 0.07 m times the step. A residual of 8 mm turns by at most 2 / (1/2)
-    // times as much as guides do, for the heaviest weight is 1/2.
+    // times as much as guides do, because the heaviest weight is 1/2.
     EXPECT_LT(greatest, (0.07 + 4.0 * 0.0085) * 3.0 / kSteps + kRigid);
 }
 
-// Guides folded back on themselves, straight ones and ones of no length: the point is finite, and
-// no farther from the mean than the residual reaches.
+// With guides that are folded back on themselves, straight or without length, the point is finite,
+// and no farther from the mean than the residual reaches.
 TEST_F(StrandResidualsTest, AreFiniteWhereFramesDegenerate) {
     constexpr std::uint32_t kVertices = 9;
     const groom::Groom groom = straightGuides(kVertices);
@@ -501,7 +502,7 @@ TEST_F(StrandResidualsTest, AreFiniteWhereFramesDegenerate) {
     for (std::uint32_t guide = 0; guide < 3; ++guide)  // upside down from the root on
         for (std::uint32_t k = 1; k < kVertices; ++k) now.points[guide * kVertices + k].y *= -1.0f;
     check(now);
-    for (std::uint32_t guide = 0; guide < 3; ++guide)  // all in the root
+    for (std::uint32_t guide = 0; guide < 3; ++guide)  // all points at the root
         for (std::uint32_t k = 1; k < kVertices; ++k)
             now.points[guide * kVertices + k] = groom.strand(guide)[0];
     check(now);
@@ -530,7 +531,8 @@ TEST(StrandResiduals, TakeEightBytesAPoint) {
     }
 }
 
-// Points at the guides' vertices are found at once; bunched ones, up to 46 a strand, in 6 halvings.
+// Points at the guides' vertices are found at once. Bunched points, up to 46 per strand, are found
+// in 6 halvings.
 TEST(StrandResiduals, AreSearchedWhereTheyAreUneven) {
     const auto halvings = [](double bunching, std::uint32_t vertices) {
         const groom::Groom groom = groomOf(wisps(50, std::array{46u}, bunching), 10, vertices);

@@ -3,7 +3,7 @@
 #include "tests/gpu_fixture.h"
 #include "tests/rendering/mesh_pictures.h"
 
-// One wide strand from the picture's lower edge to the upper one; it shows its colour alone.
+// One wide strand runs from the picture's lower edge to the upper one and shows only its colour.
 namespace hair::rendering {
 namespace {
 
@@ -30,8 +30,8 @@ protected:
             device(), settings, {.strand_texture = texture}, glm::mat4(1.0f), oneTriangle(guide));
     }
 
-    // Two columns, four rows: red grows along the strand. Green is on the right of a strand that
-    // hangs down, so on the left of this one.
+    // Two columns and four rows: red grows along the strand. Green is on the right of a strand that
+    // hangs down, so it is on the left of this one.
     static engine::Pixels bands(std::uint8_t left_opacity = 255) {
         engine::Pixels pixels{2, 4, {}};
         for (int row = 0; row < 4; ++row) {
@@ -41,8 +41,8 @@ protected:
         return pixels;
     }
 
-    // In the middle of the texture's pixels, where linear filtering gives them alone. The strand is
-    // half as wide as the picture.
+    // Samples the middle of the texture's pixels, so that linear filtering gives each pixel alone.
+    // The strand is half as wide as the picture.
     static Rgb shown(const Pixels& pixels, int column, int row) {
         const auto x = static_cast<std::uint32_t>(3 * kPictureSide / 4 - 5 - 10 * column);
         return at(pixels, kPictureSide, x, kPictureSide - 5 - 10 * static_cast<std::uint32_t>(row));
@@ -68,7 +68,7 @@ TEST_F(StrandTextureTest, IsDecodedWhereLightIsLinear) {
     settings.render.tone_map = ToneMap::srgb;
     const Pixels pixels = draw(settings, bands());
     for (int row = 0; row < 4; ++row)
-        EXPECT_NEAR(shown(pixels, 0, row)[0], 40 + 60 * row, 5) << row;  // and half floats
+        EXPECT_NEAR(shown(pixels, 0, row)[0], 40 + 60 * row, 5) << row;  // plus half floats
 }
 
 TEST_F(StrandTextureTest, HasHolesWhereItIsLessThanHalfOpaque) {

@@ -89,7 +89,7 @@ TEST_F(SurfaceBrdfTest, FollowsTheEquations) {
         const glm::dvec3 expected = reference::surfaceBrdf(
             {probe.base_color, probe.metallic, probe.roughness}, probe.normal, probe.to_eye,
             probe.to_light);
-        // D loses 1 / alpha^2 of float's 6e-8 where its lobe is narrow: alpha = 0.01 at least.
+        // D loses 1 / alpha^2 of float's 6e-8 for narrow lobes: alpha = 0.01 at least.
         EXPECT_NEAR(probe.f.x, expected.x, 1e-6 + 1e-3 * expected.x);
     }
 }
@@ -135,12 +135,11 @@ TEST_F(SurfaceFurnaceTest, IsKnownForTheRoughestMetal) {
     EXPECT_NEAR(albedo(1.0f, 1.0f, 1.0), 1.0 - std::numbers::ln2, 1e-3);
 }
 
-// A white sphere in even light of 1 shows about 1: what it reflects less than that are facets'
-// second reflections, and what it reflects more is 1 - F near the horizon, which glTF takes at the
-// facet. Mitsuba 3.9.1's `principled` with the base colour that hairbench exports, 0.96, shows the
-// values here within 0.98 of the radius. Its matt part (Burley 2012) sends back more of grazing
-// light, by up to twice the roughness: that is the difference, up to 2 % for roughness 0.5 and 6 %
-// for 1.
+// A white sphere in even light of 1 shows about 1. It reflects less because facets' second
+// reflections are missing, and more near the horizon because glTF takes 1 - F at the facet. Mitsuba
+// 3.9.1's `principled` with the base colour that hairbench exports, 0.96, shows the values here
+// within 0.98 of the radius. Its matt part (Burley 2012) returns more of grazing light, by up to
+// twice the roughness. This makes the difference of up to 2 % for roughness 0.5 and 6 % for 1.
 TEST_F(SurfaceFurnaceTest, OfAWhiteSphereIsMitsubas) {
     struct Traced {
         float roughness;
@@ -160,8 +159,8 @@ TEST_F(SurfaceFurnaceTest, OfAWhiteSphereIsMitsubas) {
 }
 
 // The sum may be off by half a percent. For dielectrics this holds only for an eye up to 45
-// degrees off the normal. glTF scatters 1 - F of the reflecting facet. Near the horizon that and
-// the reflected light are more than 1 (in double precision 1.069 with roughness 0.5 at cos 0.2),
+// degrees off the normal. glTF scatters 1 - F of the reflecting facet. Near the horizon the sum of
+// that and the reflected light exceeds 1 (in double precision 1.069 with roughness 0.5 at cos 0.2),
 // which is the model's fault.
 TEST_F(SurfaceFurnaceTest, IsNotMoreThanAllLight) {
     for (const float roughness : {0.5f, 0.7f, 1.0f}) {

@@ -128,8 +128,8 @@ TEST_F(ToneMapTest, AcesIsNearTheAcademysTransform) {
 }
 
 // The published polynomial for AgX's curve (Wrensch 2023, Minimal AgX Implementation) in the way
-// that Filament and three.js use it; its stated mean square error is 3.7e-6, which is 0.002, and at
-// most four times that where the matrices spread it.
+// that Filament and three.js use it; its stated mean square error is 3.7e-6, which is 0.002; the
+// matrices may enlarge it up to four times.
 TEST_F(ToneMapTest, AgxIsNearThePublishedFit) {
     const std::array<Mapped, 10> table{
         {{{0.02f, 0.02f, 0.02f}, {0.1439, 0.1439, 0.1439}},
@@ -179,7 +179,7 @@ TEST_F(ToneMapTest, AStopOfExposureIsTwiceTheLight) {
     for (const ToneMap map : kMaps) {
         const Developed exposed = develop(map, light, 1.0f);
         EXPECT_EQ(exposed.display, develop(map, twice).display);
-        EXPECT_EQ(exposed.light[0], glm::dvec3(light[0]));  // which exposure leaves alone
+        EXPECT_EQ(exposed.light[0], glm::dvec3(light[0]));  // exposure does not change it
     }
 }
 
@@ -198,8 +198,8 @@ TEST_F(ToneMapTest, WhatLightCannotBeIsBlackOrBrightest) {
     }
 }
 
-// The average comes before the tone map: a pixel half in light of 1 and half in the dark shows as
-// 0.7354, not a half. Two pixels side by side, SSAA 4, each sample with another light.
+// Averages come before the tone map: a pixel half in light of 1 and half in the dark shows 0.7354,
+// not a half. There are two pixels side by side with SSAA 4, and each sample has a different light.
 TEST_F(ToneMapTest, SupersamplesAreAveragedAsLight) {
     RenderSettings render;
     render.width = 2;

@@ -339,7 +339,7 @@ TEST_F(PageInBrowser, ShowsTheThesisReport) {
         1280);
     EXPECT_EQ(said.at("rows"), 108);
     EXPECT_EQ(said.at("lines"), 3);
-    // Density is on x: no axis has more values.
+    // Density is on x, because no axis has more values.
     EXPECT_EQ(said.at("faceted"), 3 * 3 * 2);  // tessellation factors, levels, sample counts
     EXPECT_EQ(said.at("bars"), 108);
 }

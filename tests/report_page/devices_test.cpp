@@ -28,8 +28,8 @@ Report onCard(Report report, const std::string& name, const std::string& driver_
     return report;
 }
 
-// Returns the known cases on three cards, where the second takes 1.5 times and the third half of
-// the first card's time, and a report of another scene.
+// Returns the known cases on three cards. The second takes 1.5 times the first card's time, and the
+// third half of it, and a report of another scene.
 std::vector<Json> threeCards() {
     return {
         reportJson(onCard(knownReport(), "Card 1", "1.0")),

@@ -38,8 +38,8 @@ TEST(Estimate, CountsStrandsAgainForEachLightThatTheyShade) {
     EXPECT_EQ(shaded.samples, unshaded.samples + 2.0 * 512 * 512);
 }
 
-// Where costs c >= 0 and parts w of the work give a time c . w, the time grows at most as the part
-// that grows most. That bounds it for any costs.
+// If costs c >= 0 and parts w of the work give a time c . w, the time grows at most as much as the
+// part that grows most. This bounds it for any costs.
 TEST(Estimate, BoundsTimesThatAreSumsOfTheParts) {
     const FrameWork tried{.updates = 100.0, .segments = 1000.0, .samples = 5000.0};
     const FrameWork large{.updates = 700.0, .segments = 20'000.0, .samples = 5000.0};
@@ -56,7 +56,7 @@ TEST(Estimate, BoundsTimesThatAreSumsOfTheParts) {
     EXPECT_EQ(mostTimesLonger(tried, {}), 5000.0);  // a missing part counts as one
 }
 
-// A smaller case is of the same kind, so that it tells something of the larger one.
+// A smaller case is of the same kind, so it tells something about the larger one.
 TEST(Estimate, KeepsBackEndsShadingModelsAndSolversApart) {
     hair::Settings settings;
     settings.groom.guides = 100'000;

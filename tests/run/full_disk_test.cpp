@@ -41,7 +41,7 @@ protected:
         EXPECT_EQ(outcome.status, 1) << outcome.output;
         const std::string line = lastLine(outcome.output);
         EXPECT_THAT(line, HasSubstr(journalFile(out).string() + ": cannot be written: " + reason));
-        EXPECT_THAT(line, HasSubstr("--resume goes on with "));
+        EXPECT_THAT(line, HasSubstr("--resume continues with "));
         const long kept = journalled(out);
         EXPECT_GT(kept, 0);
         EXPECT_LT(kept, static_cast<long>(kCases));

@@ -34,7 +34,7 @@ TEST_F(Resume, GoesOnAfterAnInterrupt) {
     EXPECT_EQ(partial["interrupted"], true);
     EXPECT_LT(partial["cases"].size(), kCases);
     EXPECT_EQ(static_cast<long>(partial["cases"].size()), journalled(out_));
-    EXPECT_THAT(textOf(log_), HasSubstr("--resume goes on"));
+    EXPECT_THAT(textOf(log_), HasSubstr("--resume continues"));
 
     const Outcome outcome = run(out_, {"--resume"});
     EXPECT_EQ(outcome.status, 0) << outcome.output;
@@ -76,7 +76,7 @@ TEST_F(Resume, RefusesAnotherSweep) {
     EXPECT_THAT(frames.output, HasSubstr("can't be resumed: hash of the scene: "));
     const Outcome anew = run(out_);
     EXPECT_EQ(anew.status, 2);
-    EXPECT_THAT(anew.output, HasSubstr("of a run that was not finished: --resume goes on with it"));
+    EXPECT_THAT(anew.output, HasSubstr("of a run that was not finished: --resume continues it"));
     EXPECT_EQ(textOf(journalFile(out_)), journal);
 }
 

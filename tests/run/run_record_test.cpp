@@ -114,7 +114,7 @@ TEST_F(Record, GoesOnAsIfNothingHadHappened) {
     }
 }
 
-// A damaged line costs its case.
+// A damaged line loses only its case.
 TEST_F(Record, PlaysAgainWhatIsDamaged) {
     std::string whole;
     {
@@ -202,7 +202,7 @@ TEST_F(Record, DoesNotThrowAwayWhatIsUnfinished) {
     }
     EXPECT_EQ(
         error(false), "r.json.journal: there are 3 of 4 cases of a run that was not finished: "
-                      "--resume goes on with it, removing the file starts anew");
+                      "--resume continues it; remove the file to start anew");
     EXPECT_EQ(open(true).done(), 3u);
 }
 

@@ -36,7 +36,8 @@ TEST_F(WrittenReport, FitsTheSchema) {
     EXPECT_THAT(textOf(out_), testing::Not(HasSubstr("null")));
 }
 
-// The other tests compare something: hair is visible, and each case has another picture.
+// Checks that the other tests compare something: hair is visible, and each case has a different
+// picture.
 TEST_F(WrittenReport, DiffersFromCaseToCase) {
     std::set<std::string> images;
     const scene::Json report = whole();

@@ -251,7 +251,7 @@ TEST_F(BendingAtRest, CurlsHangWhereTheirEnergyIsLeast) {
 class BendingInBalance : public GpuTest, public testing::WithParamInterface<Parallelism> {};
 
 // Tensions and the pull to the rest position bear the weight, in closed form. Only the rounding of
-// positions, 1e-8 m near the origin, moves hair. Where the pull alone bears the weight, it is soft:
+// positions, 1e-8 m near the origin, moves hair. If the pull alone bears the weight, it is soft:
 // its force changes by 1e-3 of the weight per millimetre.
 TEST_P(BendingInBalance, BalancedHairStays) {
     for (const std::uint32_t vertices : kVertexCounts) {
@@ -315,9 +315,9 @@ TEST(Bending, EnergyNeverGrows) {
 
 // ---- As the thesis's hair -----------------------------------------------------------------------
 
-// Compares the tip's sag of level hair under a thousandth of gravity, where both methods are linear
-// in gravity. The thesis's own method turns by pulls of finite size, 5 % of a segment in a step:
-// hence 3 %.
+// Compares the tip's sag of level hair under a thousandth of gravity, so that both methods are
+// linear in gravity. The thesis's own method turns by pulls of finite size, 5 % of a segment in a
+// step: hence 3 %.
 TEST(Bending, SagsAsTheThesissHair) {
     SimulationSettings settings = bending();
     settings.gravity = {0.0f, -0.0098f, 0.0f};

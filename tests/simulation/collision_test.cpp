@@ -50,7 +50,7 @@ TEST(Collision, LeavesTheAxisSidewaysInAFixedDirection) {
     expectPoint(pushed({1, 1, 1}, {{.a = {1, 1, 1}, .b = {1, 1, 1}, .radius = 0.5f}}), {1, 1.5, 1});
 }
 
-// The first capsule pushes the vertex into the second, which pushes it further. In the other order
+// The first capsule pushes the vertex into the second, which pushes it farther. In the other order
 // the second does nothing.
 TEST(Collision, GoesThroughTheListInOrder) {
     const Collider left{.a = {0, 0, 0}, .b = {0, 0, 0}, .radius = 1.0f};

@@ -68,7 +68,7 @@ using GuideConditions = GpuTest;
 TEST_F(GuideConditions, FindsWhatIsWrongOnTheDevice) {
     SimulationSettings settings = nothingActs();
     settings.time_step = 1.0f / 60.0f;
-    settings.collision.margin = 0.05f;  // counts for nothing here
+    settings.collision.margin = 0.05f;  // has no effect here
     settings.colliders = {
         {.a = {0.1f, -0.3f, 0.0f}, .b = {0.1f, -0.3f, 0.0f}, .radius = 0.02f},
         {.a = {5.0f, 0.0f, 0.0f}, .b = {5.0f, 1.0f, 0.0f}, .radius = 1.0f}};

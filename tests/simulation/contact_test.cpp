@@ -207,7 +207,7 @@ TEST_F(GpuContact, KeepsHairOutOfAMovingOpenField) {
             settings.collision = {.margin = kMargin, .friction = 0.2f};
             settings.motion = nod();
             settings.distance_fields = {{.mesh = "", .resolution = 32}};
-            // The ghost would hold hair above the ball.
+            // The ghost would hold the hair above the ball.
             settings.augmented_mass_spring.integrity = 0.0f;
             settings.augmented_mass_spring.angular_stiffness = 0.0f;
             Simulation simulation(device(), groom, settings, 1, std::span(&ball, 1), field.made());

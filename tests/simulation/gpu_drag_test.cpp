@@ -74,7 +74,7 @@ protected:
 };
 
 // Includes winds that have blown for so long that they have moved by more than 2^32 cells. A
-// position in cells is rounded twice in float, within a metre and a cell, and once in double
+// position in cells is rounded twice in float, within a metre and a cell, and once in double,
 // together with the distance that the wind has covered. Four octaves of noise have a derivative of
 // some tens per smallest cell, and their sums are rounded some 16 times.
 TEST_F(GpuDrag, BlowsLikeTheReferenceAtAnyTime) {
@@ -176,7 +176,7 @@ TEST_F(GpuDrag, StandsHairWithoutDirections) {
         reference::Reference solver(groom, settings, kSeed);
         advance(device(), simulation, 1);
         solver.step();
-        // The hair moves a few mm at 5 m/s.
+        // The hair moves by a few mm at 5 m/s.
         EXPECT_LT(largestDifference(simulation.readPositions(), solver.positions()), 1e-6);
     }
 }

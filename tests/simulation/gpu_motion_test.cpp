@@ -208,8 +208,8 @@ TEST_F(GpuMotion, DoesTheSameInAnyPose) {
         Simulation turned(device(), groom, settings, 3);
         advance(device(), upright, 100);
         advance(device(), turned, 100);
-        // Both simulations round, the one away from the origin by twice as much. Turned gravity is
-        // rounded by 6e-7 m/s^2, which makes 8e-7 m in 100 steps.
+        // Both simulations round; the simulation away from the origin rounds by twice as much.
+        // Turned gravity is rounded by 6e-7 m/s^2, which makes 8e-7 m in 100 steps.
         EXPECT_LT(
             largestDifference(turned.readPositions(), carried(pose, upright.readPositions())),
             3.0 * rounding.bound() + 8e-7);
@@ -232,8 +232,8 @@ TEST_F(GpuMotion, TurnsStrandsWithoutARootSegment) {
     EXPECT_LT(largestDifference(simulation.readPositions(), expected), 1e-7);
 }
 
-// The head carries a strand through a fixed sphere: the sphere stays, and the strand leaves it.
-// Where lengths are enforced last, hair presses into the margin.
+// The head carries a strand through a fixed sphere: the sphere stays, and the strand leaves it. If
+// lengths are enforced last, hair presses into the margin.
 TEST_F(GpuMotion, LeavesTheWorldsBodiesWhereTheyAre) {
     const groom::Groom groom = straightGroom(3, 8);
     for (const LengthMethod method : {LengthMethod::tridiagonal, LengthMethod::iterate}) {

@@ -91,7 +91,7 @@ INSTANTIATE_TEST_SUITE_P(
     });
 
 // The requirement is 2 %, and 5 % at 1000. 64 segments err by 0.02 % and 0.07 % in double. 32 bits
-// leave 1e-7 rad in every joint, which is 1e-4 of a joint's bend where gamma is 0.1.
+// leave 1e-7 rad in every joint, which is 1e-4 of a joint's bend if gamma is 0.1.
 TEST_F(GpuRod, HangsAsACantileverDoes) {
     const std::vector<double> gammas{0.1, 1.0, 5.0, 10.0, 50.0, 100.0, 1000.0};
     const auto ratios = hangingRatios(64, gammas);
@@ -101,7 +101,7 @@ TEST_F(GpuRod, HangsAsACantileverDoes) {
     }
 }
 
-// A step rounds positions to some 1e-7 of the strand's length. Where stiffness keeps a strand
+// A step rounds positions to some 1e-7 of the strand's length. If stiffness keeps a strand
 // together, the errors of a hundred steps add up. A limp strand of many segments is a pendulum of
 // many links, which is chaotic. So it is followed for a single step, as is a strand that a few
 // corrections leave limp. Sweeps over orientations round each by some 3e-7 in each of nine sweeps,

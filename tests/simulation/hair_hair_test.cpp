@@ -245,7 +245,7 @@ TEST_F(HairOnHair, ExpandsACompressedBundle) {
     // Newton's third law holds except for the sampling in cells, about 1 % (hair_hair.h).
     EXPECT_LT(glm::length(all.sum), 0.02 * all.size);
     const auto shares = lengthShares(groom);
-    double outward = 0.0;  // the virial: positive where forces push apart
+    double outward = 0.0;  // the virial: positive if forces push apart
     for (std::size_t i = 0; i < shares.size(); ++i)
         outward += shares[i] *
                    (compressed[i].x * accelerations[i].x + compressed[i].z * accelerations[i].z);

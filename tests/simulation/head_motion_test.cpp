@@ -145,8 +145,8 @@ TEST(HeadMotion, VelocityNeverJumps) {
     const HeadMotion motion(wild());
     for (const Keyframe& key : wild().keyframes)
         EXPECT_LT(velocityJump(motion, key.time), kVelocityStep) << key.time;
-    // The test can detect a jump: at top speed the same head would stop with one of 30 m/s and
-    // more.
+    // The test can detect a jump: at top speed, a sudden stop of the same head would be a jump of
+    // 30 m/s or more.
     const double speed =
         glm::distance(motion.at(2.125 + kDifference)({0, 0, 1}), motion.at(2.125)({0, 0, 1})) /
         kDifference;

@@ -106,7 +106,7 @@ TEST_F(Inertia, SwingsAPendulumToTwiceTheAngle) {
     }
 }
 
-// A head that stops lets its hair swing on, ahead of it.
+// When a head stops, its hair swings on, ahead of it.
 TEST_F(Inertia, CarriesHairPastAHeadThatStops) {
     const groom::Groom groom = straightGroom(1, 8);
     SimulationSettings settings;

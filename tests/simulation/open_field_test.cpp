@@ -123,7 +123,7 @@ TEST_F(OpenFieldTest, DoesNotJumpAtAnOpening) {
     EXPECT_LT(steps.greatest(), 3 * baked.cell());
 }
 
-// Compares with the sum over all triangles where that is not nearly 1/2.
+// Compares with the sum over all triangles, except where that is nearly 1/2.
 TEST_F(OpenFieldTest, SignIsThatOfTheWindingNumber) {
     groom::Mesh winged = makeSphere({0, 0, 0}, 1.0, 3);
     const auto corners = reference::corners(winged, winged.triangles[100]);

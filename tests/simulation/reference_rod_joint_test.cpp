@@ -15,9 +15,9 @@ const glm::dquat kNoTurn(1.0, 0.0, 0.0, 0.0);
 glm::dquat about(const glm::dvec3& axis, double angle) { return glm::angleAxis(angle, axis); }
 
 // The torque on the second frame is minus the gradient of the energy by its rotation. This holds
-// for any two stiffnesses and any section, and also where the bend is linear and the twist fades.
-// Central differences of 1e-5 rad leave 1e-10 of the third derivative, which is some 1e3 near the
-// fold.
+// for any two stiffnesses and any section, and also for bends with a linear torque and a fading
+// twist. Central differences of 1e-5 rad leave 1e-10 of the third derivative, which is some 1e3
+// near the fold.
 TEST(RodJoint, TorqueIsTheGradientOfTheEnergy) {
     std::mt19937 random(5);
     for (const Clamp clamp : {Clamp::no, Clamp::yes})

@@ -115,8 +115,9 @@ double energyOf(const RodState& state, const RodRest& rest) {
 }
 
 // Hair with a kink is held at both ends, or released hanging or upright, from stiff to limp.
-// Methods of second order blow up here where Newton's does not converge. Without damping the energy
-// never exceeds its first value; the tolerance for rounding is a thousandth of the weight's energy.
+// Methods of second order blow up here if Newton's method does not converge. Without damping the
+// energy never exceeds its first value; the tolerance for rounding is a thousandth of the weight's
+// energy.
 TEST(ReferenceRodTime, GainsNoEnergyWhereItWhips) {
     constexpr int kSegments = 32;
     constexpr double kLength = 0.2;

@@ -21,9 +21,9 @@ struct Rounding {
     double bound() const { return 2.0 * std::sqrt(roundings) * spread; }
 };
 
-// Returns the rounded corrections per vertex and step. Where a solver treats a strand as a whole,
-// each vertex collects the roundings of all vertices above it. One extra pass corrects the vertices
-// that bodies pushed.
+// Returns the rounded corrections per vertex and step. If a solver treats a strand as a whole, each
+// vertex collects the roundings of all vertices above it. One extra pass corrects the vertices that
+// bodies pushed.
 inline double pulls(const SimulationSettings& settings, std::uint32_t vertices_per_strand) {
     if (settings.solver == Solver::ftl) return vertices_per_strand;
     if (settings.length.method == LengthMethod::iterate)

@@ -149,7 +149,7 @@ TEST(LayoutFaults, HaveNumbersThatAreWiderThanTheirFields) {
         ImGui::DragFloat("##wide", &number, 1.0f, 0.0f, 0.0f, "%.5f");
         ImGui::End();
     });
-    EXPECT_THAT(faults.clipped, Contains("Panel: what \"##wide\" says is cut off"));
+    EXPECT_THAT(faults.clipped, Contains("Panel: the text of \"##wide\" is cut off"));
 }
 
 TEST(LayoutFaults, HaveColumnsOfTablesThatAreTooNarrow) {
@@ -198,7 +198,7 @@ TEST(LayoutFaults, HavePanelsThatLieOnOneAnother) {
         panel("B", 190, 200);
         ImGui::End();
     });
-    EXPECT_THAT(faults.outside, Contains("A and B lie on one another"));
+    EXPECT_THAT(faults.outside, Contains("A and B overlap"));
 }
 
 TEST(LayoutFaults, HaveWidgetsBesideTheirPanel) {

@@ -95,10 +95,10 @@ TEST(UiItems, AreThoseOfTheLastPictureAlone) {
     EXPECT_TRUE(findItem(items, {"after", ""}));
     EXPECT_EQ(
         errorText([&] { itemNamed(items, {"aftre", "Panel"}); }),
-        "no item 'aftre' in Panel is seen (did you mean 'after'?); known: after");
+        "no item 'aftre' in Panel is visible (did you mean 'after'?); known: after");
     EXPECT_EQ(
         errorText([&] { itemNamed(items, {"", "Pane"}); }),
-        "no window 'Pane' is seen (did you mean 'Panel'?); known: Panel");
+        "no window 'Pane' is visible (did you mean 'Panel'?); known: Panel");
 }
 
 TEST(UiItems, CostNothingOnceNobodyAsks) {

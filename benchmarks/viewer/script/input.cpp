@@ -164,7 +164,7 @@ std::optional<engine::UiItem> findItem(const engine::UiItems& items, const ItemN
     for (const engine::UiItem& item : items.items()) {
         if (!item.visible || !isCalled(item, name)) continue;
         if (found && !name.item.empty()) {
-            // A panel's tab and a button may have the same name as the panel.
+            // A panel, its tab and a button may have the same name.
             if (item.is_window) continue;
             if (!found->is_window)
                 throw engine::Error(
@@ -189,7 +189,7 @@ engine::UiItem itemNamed(const engine::UiItems& items, const ItemName& name) {
         if (!text.empty() && std::ranges::find(known, text) == known.end()) known.push_back(text);
     }
     throw engine::Error(scene::unknownName(
-        "no " + described(name) + " is seen", wants_window ? name.window : name.item, known));
+        "no " + described(name) + " is visible", wants_window ? name.window : name.item, known));
 }
 
 // ---- Values in a script -------------------------------------------------------------------------

@@ -24,7 +24,8 @@ struct DrawnGlyph {
     bool cut = false;  // on the left or right
 };
 
-// Letters exceed their advance, and thus a box of their text's width, by fractions of a pixel.
+// Letters extend beyond their advance, and thus beyond a box of their text's width, by fractions of
+// a pixel.
 constexpr float kTolerance = 1.0f;  // px
 // Visible share of its texture rectangle above which a glyph counts as whole.
 constexpr float kWhole = 0.999f;
@@ -166,7 +167,7 @@ void addFields(
     std::vector<std::string>& faults) {
     for (const engine::UiItem& item : items.items())
         if (item.window == window && item.visible && item.inputable && isTooLong(item, glyphs))
-            faults.push_back(item.window + ": what \"" + item.label + "\" says is cut off");
+            faults.push_back(item.window + ": the text of \"" + item.label + "\" is cut off");
 }
 
 bool isInField(const DrawnGlyph& glyph, const engine::UiItems& items) {
@@ -216,7 +217,7 @@ void addLabel(const engine::UiItem& item, std::vector<std::string>& faults) {
 bool isOutside(const engine::UiItem& item) {
     const engine::UiRect &rect = item.rect, &clip = item.clip;
     if (rect.width() <= 0.0f || rect.height() <= 0.0f) return false;
-    // The highlight in a list exceeds its row by half of the gap between rows.
+    // The highlight in a list extends beyond its row by half of the gap between rows.
     const ImVec2 gap = ImGui::GetStyle().ItemSpacing;
     const float x = 0.5f * gap.x + kTolerance, y = 0.5f * gap.y + kTolerance;
     return rect.left < clip.left - x || rect.right > clip.right + x || rect.top < clip.top - y ||
@@ -265,13 +266,12 @@ std::vector<std::string> outsideItems(const engine::UiItems& items) {
             const ImRect shared = overlap(*panels[i], *panels[j]);
             if (shared.GetWidth() > kTolerance && shared.GetHeight() > kTolerance)
                 faults.push_back(
-                    std::string(panels[i]->Name) + " and " + panels[j]->Name +
-                    " lie on one another");
+                    std::string(panels[i]->Name) + " and " + panels[j]->Name + " overlap");
         }
     for (const engine::UiItem& item : items.items())
         if (!item.is_window && !item.scrolls && isOutside(item))
             faults.push_back(
-                item.window + ": the item \"" + item.label + "\" is not all inside of it");
+                item.window + ": the item \"" + item.label + "\" is not completely inside it");
     return faults;
 }
 

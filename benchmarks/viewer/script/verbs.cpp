@@ -158,7 +158,7 @@ Check readItem(const scene::Json& value, const std::string& pointer, const Scrip
                checked = members.flag("checked"), open = members.flag("open");
     return [=](const Driver& driver, const Side&) {
         if (seen == false) {
-            if (findItem(driver.items, *name)) fail(described(*name) + " is seen");
+            if (findItem(driver.items, *name)) fail(described(*name) + " is visible");
             return;
         }
         const engine::UiItem item = itemNamed(driver.items, *name);

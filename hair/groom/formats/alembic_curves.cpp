@@ -41,7 +41,7 @@ AlembicTopology::AlembicTopology(
     kind->require(AlembicType::uint8, 4);
     const auto codes = valueAt<std::array<std::uint8_t, 4>>(values.bytes(), kind->elements.start);
     const auto [type, wrap, basis, basis_again] = codes;
-    if (wrap != 0) kind->fail("closed (periodic) curves, only those with two ends are strands");
+    if (wrap != 0) kind->fail("closed (periodic) curves; only those with two ends are strands");
     if (type == kLinearCurves) return;
     if (type != kCubicCurves && type != kCurvesOfOrders)
         kind->fail("curves of the unknown type " + std::to_string(type));

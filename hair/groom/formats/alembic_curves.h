@@ -26,7 +26,8 @@ struct AlembicBasis {
 struct AlembicNurbs {
     std::uint64_t first_knot;  // the number of knots is that of vertices plus the order
     std::uint32_t order;  // degree + 1
-    std::uint32_t segments;  // successive knots that differ, where the curve is
+    std::uint32_t segments;  // intervals between different successive knots on which the curve is
+                             // defined
 };
 
 // Evaluates a curve with knots, segment after segment: the weights of its vertices at a place
@@ -62,8 +63,8 @@ public:
     AlembicTopology(
         AlembicValues& values, const AlembicCompound& geometry, const AlembicParameter& sizes);
 
-    // Chooses how curves that are not linear are drawn between these vertices. Throws where a
-    // curve has too few vertices for its basis. Before it, only members that follow from the sizes
+    // Chooses how curves that are not linear are drawn between these vertices. Throws if a curve
+    // has too few vertices for its basis. Before this call, only members that follow from the sizes
     // are valid.
     void draw(std::span<const glm::vec3> vertices, const AlembicParameter& sizes);
 
@@ -110,7 +111,7 @@ private:
     template <class Value, class Add>
     void alongBasis(std::size_t curve, std::span<const Value> own, const Add& add) const {
         // Extrapolated vertices before the first and after the last continue the curve evenly.
-        const auto vertex = [&](std::size_t i) {  // from 1 where it is pinned
+        const auto vertex = [&](std::size_t i) {  // numbered from 1 if the curve is pinned
             if (!is_pinned_) return wide(own[i]);
             if (i == 0) return 2.0 * wide(own[0]) - wide(own[1]);
             if (i > own.size()) return 2.0 * wide(own[i - 2]) - wide(own[i - 3]);

@@ -200,7 +200,8 @@ private:
     void header(
         std::string_view name, std::string_view metadata, std::uint32_t kind, AlembicType type,
         std::uint8_t extent) {
-        constexpr std::uint32_t kOneSample = 0x400 | 0x800;  // of one size, the same always
+        constexpr std::uint32_t kOneSample = 0x400 | 0x800;  // one size, and the same value at all
+                                                             // times
         append(
             headers_, kind | static_cast<std::uint32_t>(type) << 4 | kOneSample |
                           std::uint32_t{extent} << 12 |
@@ -226,7 +227,7 @@ struct OgawaObject {
     std::string hashes;
 };
 
-// Writes an object with one child, or with none where `child` is null.
+// Writes an object with one child, or with none if `child` is null.
 OgawaObject writeObject(
     OgawaWriter& writer, OgawaCompound& properties, const OgawaObject* child = nullptr,
     std::string_view child_name = {}, std::string_view child_metadata = {}) {
@@ -292,7 +293,7 @@ AlembicArrays arraysOf(const StrandSet& strands) {
     arrays.sizes.reserve(strands.ends.size());
     for (std::uint32_t i = 0; i < strands.strandCount(); ++i) {
         if (strands.size(i) > std::numeric_limits<std::int32_t>::max())
-            throw engine::Error("a strand has more points than an int32 counts");
+            throw engine::Error("a strand has more points than an int32 can hold");
         arrays.sizes.push_back(static_cast<std::int32_t>(strands.size(i)));
     }
     arrays.guides.assign(strands.guides.begin(), strands.guides.end());

@@ -14,7 +14,7 @@
 namespace hair::groom {
 
 // Equal strands make equal bytes: no date is written. Returns a warning for all data that is left
-// out. Throws engine::Error where there are no strands, or one has 2^31 points.
+// out. Throws engine::Error if there are no strands, or one has 2^31 points.
 std::vector<std::string> exportAlembic(const StrandSet& strands, std::ostream& out);
 
 }  // namespace hair::groom

@@ -487,7 +487,7 @@ private:
         }
     }
 
-    // Returns an integer for each curve, its own or inherited; empty where there is neither.
+    // Returns an integer for each curve, its own or inherited; empty if there is neither.
     std::vector<std::int32_t> integersIn(
         const AlembicCompound& parameters, std::string_view name, const AlembicTopology& topology,
         std::optional<std::int32_t> above) {
@@ -557,7 +557,7 @@ private:
 
     // ---- All objects together ----
 
-    // Whether every object has a part. Warns where only some have it.
+    // Whether every object has a part. Warns if only some have it.
     template <class Has>
     bool areIn(const Has& has, const std::string& what) {
         const auto count = std::ranges::count_if(curves_, has);

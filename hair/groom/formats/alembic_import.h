@@ -20,8 +20,9 @@ namespace hair::groom {
 // Reads the first sample of moving data, with a warning. Cubic curves are sampled like those of
 // USD: evenly in t, by the fewest points that give no curve fewer points than vertices. Bézier and
 // B-spline curves are those of their vertices. Catmull-Rom curves run through all of their
-// vertices, as Blender draws them. Only if each has its two first and two last vertices in one
-// place, as RenderMan wants them, do they run between those. Curves with knots, of any order to
+// vertices, as Blender draws them. They run between the second vertex and the last but one only if
+// each curve begins and ends with two vertices in one place, as RenderMan requires. Curves with
+// knots, of any order to
 // 16, follow their knots. Parameters that only some of the objects have are left out with a
 // warning; objects without the guide parameter are no guides. Refuses archives that AlembicArchive
 // refuses; closed curves, other bases (Hermite, power), weights that differ; counts that don't

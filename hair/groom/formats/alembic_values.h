@@ -36,10 +36,10 @@ struct AlembicParameter {
     [[noreturn]] void fail(const std::string& reason) const {
         failIn(elements.start, path, reason);
     }
-    // Throws where values are of another type.
+    // Throws if values are of another type.
     void require(AlembicType type, std::uint8_t extent) const;
 
-    // Returns the values that the indices name; all values where there are no indices.
+    // Returns the values that the indices name; all values if there are no indices.
     template <class Value>
     std::vector<Value> arranged(std::vector<Value> values) const {
         if (!has_indices) return values;
@@ -59,14 +59,14 @@ public:
     AlembicArchive& archive() { return archive_; }
     std::span<const std::byte> bytes() const { return archive_.bytes(); }
 
-    // Returns the compound `name` of an object's properties. Throws where there is none.
+    // Returns the compound `name` of an object's properties. Throws if there is none.
     AlembicCompound compoundOf(
         const std::vector<AlembicProperty>& properties, std::string_view name,
         const std::string& path);
-    // Returns the compound `name` of another; without properties where there is none.
+    // Returns the compound `name` of another; without properties if there is none.
     AlembicCompound compoundIn(const AlembicCompound& outer, std::string_view name);
 
-    // Absent where the property is not there or has no values.
+    // Absent if the property is not there or has no values.
     std::optional<AlembicParameter>
     parameterOf(const AlembicCompound& compound, std::string_view name);
 

@@ -37,7 +37,7 @@ public:
         bytes_ += std::min(bytes, most_ + 1);
         if (bytes_ <= most_) return;
         throw engine::Error(
-            std::string(what) + " unfold to more than " + std::to_string(most_ >> 20) +
+            std::string(what) + " expand to more than " + std::to_string(most_ >> 20) +
             " MiB, the limit of " + std::to_string(kTimes) + " times the file's size plus " +
             std::to_string(kAnyway >> 20) + " MiB");
     }
@@ -88,11 +88,11 @@ void writeValue(std::ostream& out, const Value& value) {
 }
 
 // Returns the index of the first number that is infinite or NaN. It checks tens of gigabytes a
-// second where there is none.
+// second if there is none.
 std::optional<std::size_t> firstNotFinite(std::span<const float> numbers);
 
-// Throws where an element of floats is not finite. The elements begin at `offset` in the file.
-// `name` describes an element in the message.
+// Throws if an element of floats is not finite. The elements begin at `offset` in the file. `name`
+// describes an element in the message.
 template <class Element>
 void requireFinite(
     const std::vector<Element>& elements, std::uint64_t offset, std::string_view name) {
@@ -105,7 +105,7 @@ void requireFinite(
         std::string(name) + ' ' + std::to_string(*wrong / kFloats) + " is not finite");
 }
 
-// Throws where a diameter is negative.
+// Throws if a diameter is negative.
 void requireNotNegative(
     const std::vector<float>& widths, std::uint64_t offset, std::string_view name);
 

@@ -33,13 +33,13 @@ struct HairHeader {
     std::uint32_t hair_count = 0;
     std::uint32_t point_count = 0;
     std::uint32_t arrays = 0;
-    // Values that hold where there is no array. The defaults of transparency and colour are those
-    // of the format's author.
+    // Values that apply if there is no array. The defaults of transparency and colour are those of
+    // the format's author.
     std::uint32_t default_segments = 0;
     float default_thickness = 0.0f;  // 0: not known
     float default_transparency = 0.0f;
     glm::vec3 default_color{1.0f, 1.0f, 1.0f};
-    std::array<char, 88> info{};  // text, ended by a 0 where it is shorter
+    std::array<char, 88> info{};  // text, ended by a 0 if it is shorter
 
     bool has(HairArray array) const { return (arrays & static_cast<std::uint32_t>(array)) != 0; }
     void add(HairArray array) { arrays |= static_cast<std::uint32_t>(array); }
@@ -96,7 +96,7 @@ HairHeader readHairHeader(std::span<const std::byte> bytes) {
     const auto header = valueAt<HairHeader>(bytes, 0);
     const std::string arrays = "arrays " + std::to_string(header.arrays);
     if (header.magic != HairHeader{}.magic) failAt(0, "a .hair file begins with \"HAIR\"");
-    if (header.hair_count == 0) failAt(4, "0 strands, at least 1 is needed");
+    if (header.hair_count == 0) failAt(4, "0 strands; at least 1 is needed");
     if ((header.arrays & ~kAllHairArrays) != 0)
         failAt(12, arrays + ": only the bits 0 to 4 are known");
     if (!header.has(HairArray::points))
@@ -158,7 +158,7 @@ readEnds(const HairHeader& header, std::uint64_t start, std::span<const std::byt
         if (end > header.point_count) {
             failAt(
                 offset, "strand " + std::to_string(i) + " ends after point " + std::to_string(end) +
-                            ", there are " + std::to_string(header.point_count));
+                            ", but there are " + std::to_string(header.point_count));
         }
         ends[i] = static_cast<std::uint32_t>(end);
     }

@@ -19,7 +19,7 @@ namespace hair::groom {
 
 // Writes strands of 1 to 65,536 points, or of any number if all have the same. Unknown widths
 // become a default thickness of 0, unknown colours white. Returns a warning for all data that is
-// left out. Throws engine::Error where there are no strands or they are too long.
+// left out. Throws engine::Error if there are no strands or they are too long.
 std::vector<std::string> exportHair(const StrandSet& strands, std::ostream& out);
 
 // Refuses files that are not exactly of the format: no strands, no points, an unknown array,

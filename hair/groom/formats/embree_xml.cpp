@@ -394,7 +394,8 @@ private:
         if (named == named_.end())
             failAtLine(ref.line, "no earlier element has the id " + inQuotes(ref.attribute("id")));
         if (++references_ > kMostReferences)
-            failAtLine(ref.line, "references are nested more than 64 deep: one to itself?");
+            failAtLine(
+                ref.line, "references are nested more than 64 deep; does one refer to itself?");
         const std::vector<const XmlElement*> nodes = named->second;
         for (const XmlElement* const node : nodes) {
             repeated(*node, node->size);
@@ -472,7 +473,7 @@ private:
                               ", expected linear, bezier, bspline, hermite or catmull_rom");
     }
 
-    // Returns an array of curves; for moving curves, the first one. Null where there is none.
+    // Returns an array of curves; for moving curves, the first one. Null if there is none.
     const XmlElement*
     arrayOf(const XmlElement& element, std::string_view name, std::string_view moving) {
         const XmlElement* const animated = element.child(moving);
@@ -501,7 +502,7 @@ private:
         const std::vector<glm::vec4> vectors = arrays_.vectors(*tangents);
         if (vectors.size() != positions.size())
             failAtLine(
-                tangents->line, std::to_string(vectors.size()) + " tangents, there are " +
+                tangents->line, std::to_string(vectors.size()) + " tangents, but there are " +
                                     std::to_string(positions.size()) + " positions");
         std::vector<glm::vec4> all;
         all.reserve(3 * positions.size());
@@ -512,7 +513,7 @@ private:
         return all;
     }
 
-    // Returns strands of consecutive segments, each within one curve where curves have numbers.
+    // Returns strands of consecutive segments, each within one curve if curves have numbers.
     std::vector<EmbreeStrand> strandsOf(
         const XmlElement& element, const EmbreeBasis& basis, bool has_pairs, std::size_t vertices) {
         const XmlElement* const indices = element.child("indices");
@@ -526,7 +527,7 @@ private:
                 if (number >= vertices / 3)
                     failAtLine(
                         indices->line, "a segment from vertex " + std::to_string(number) +
-                                           ", there are " + std::to_string(vertices / 3));
+                                           ", but there are " + std::to_string(vertices / 3));
                 number = 3 * number + 1;
             }
         }
@@ -535,7 +536,8 @@ private:
             curves = arrays_.integers(*ids, 1);
             if (curves.size() != numbers.size())
                 failAtLine(
-                    ids->line, std::to_string(curves.size()) + " numbers of curves, there are " +
+                    ids->line, std::to_string(curves.size()) +
+                                   " numbers of curves, but there are " +
                                    std::to_string(numbers.size()) + " segments");
         }
         std::vector<EmbreeStrand> strands;
@@ -544,8 +546,8 @@ private:
             if (first + basis.vertices > vertices)
                 failAtLine(
                     indices->line, "a segment of vertices " + std::to_string(first) + " to " +
-                                       std::to_string(first + basis.vertices - 1) + ", there are " +
-                                       std::to_string(vertices));
+                                       std::to_string(first + basis.vertices - 1) +
+                                       ", but there are " + std::to_string(vertices));
             const bool same_curve = i > 0 && (has_pairs        ? numbers[i + 1] == numbers[i - 1]
                                               : curves.empty() ? true
                                                                : curves[i] == curves[i - 1]);

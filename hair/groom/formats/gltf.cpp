@@ -125,7 +125,7 @@ std::vector<std::string> write(const StrandSet& strands, std::ostream& out, Cont
     std::vector<std::string> warnings =
         leftOut(strands, {Part::widths, Part::transparencies, Part::colors, Part::unit});
     if (!strands.metres_per_unit) {
-        warnings.push_back("the unit of length is not known, in glTF it is the metre");
+        warnings.push_back("the unit of length is not known; in glTF it is the metre");
     }
     LinesFile file;
     const std::size_t count = strands.points.size();
@@ -138,7 +138,7 @@ std::vector<std::string> write(const StrandSet& strands, std::ostream& out, Cont
     const std::size_t size = model.buffers[0].data.size();
     if (size > greatestData(container)) {
         throw engine::Error(
-            "the strands are " + std::to_string(size) + " bytes, the format holds " +
+            "the strands are " + std::to_string(size) + " bytes; the format holds " +
             std::to_string(greatestData(container)));
     }
     const bool is_binary = container == Container::binary;
@@ -178,8 +178,8 @@ Polylines chainsOf(const std::vector<std::uint32_t>& indices, std::size_t vertex
 }
 
 // Lines without indices share no vertices. Programs that know strips write a strip as lines that
-// each begin where the previous one ended. There, the first vertex of a line becomes the second of
-// the previous.
+// each begin where the previous one ended. There, the second vertex of the previous line is used as
+// the first vertex of a line.
 void weld(std::vector<std::uint32_t>& indices, const std::vector<glm::vec3>& points) {
     for (std::size_t i = 2; i < indices.size(); i += 2)
         if (points[i] == points[i - 1]) indices[i] = indices[i - 1];
@@ -200,7 +200,7 @@ public:
     void add(const GltfPlace& place) {
         const tinygltf::Primitive& primitive = place.primitive;
         if (primitive.mode == TINYGLTF_MODE_LINE_LOOP) {
-            throw engine::Error("mode 2 is a closed loop, a strand has two ends");
+            throw engine::Error("mode 2 is a closed loop, but a strand has two ends");
         }
         if (primitive.mode != TINYGLTF_MODE_LINE && primitive.mode != TINYGLTF_MODE_LINE_STRIP) {
             ++skipped_;
@@ -253,7 +253,7 @@ private:
         }
         for (const float width : set.widths.values)
             if (width < 0.0f) throw engine::Error("_WIDTH is negative: " + std::to_string(width));
-        // Even the identity would make 0 of -0.
+        // Even the identity would turn -0 into 0.
         if (transform != glm::dmat4(1.0)) place(set, transform);
         checkFinite(set);
         return set;
@@ -309,7 +309,7 @@ private:
     void dropPartial(PointAttribute<Value>& attribute, const char* name) {
         if (attribute.values.empty() || attribute.values.size() == set_.points.size()) return;
         set_.warnings.push_back(
-            std::string(name) + " of some strands only is left out, the others have none");
+            std::string(name) + " is left out, because only some strands have it");
         attribute.values.clear();
     }
 

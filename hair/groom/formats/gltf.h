@@ -9,8 +9,8 @@
 
 namespace hair::groom {
 
-// Writes one LINES primitive, as importGltfStrands() reads it, and a node that scales to metres
-// where the strands' unit is known to be another. As StrandExporter says.
+// Writes one LINES primitive, as importGltfStrands() reads it, and a node that scales to metres if
+// the strands' unit is known to be another. Keeps StrandExporter's contract.
 std::vector<std::string> exportGltf(const StrandSet& strands, std::ostream& out);  // data in JSON
 std::vector<std::string> exportGlb(const StrandSet& strands, std::ostream& out);  // binary
 

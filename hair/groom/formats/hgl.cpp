@@ -40,7 +40,7 @@ HglHeader readHglHeader(std::span<const std::byte> bytes) {
     }
     const auto header = valueAt<HglHeader>(bytes, 0);
     if (header.strands < 1) {
-        failAt(0, std::to_string(header.strands) + " strands, at least 1 is needed");
+        failAt(0, std::to_string(header.strands) + " strands; at least 1 is needed");
     }
     if (header.segments < 1 || header.segments > kMaximumSegments) {
         failAt(
@@ -71,7 +71,7 @@ void checkSize(const HglHeader& header, std::uint64_t size) {
             expected, std::to_string(size - expected) + " trailing bytes after the last triangle");
     }
     if (strands * vertices > std::numeric_limits<std::uint32_t>::max()) {
-        failAt(0, std::to_string(strands * vertices) + " points, at most 2^32 - 1 are read");
+        failAt(0, std::to_string(strands * vertices) + " points; at most 2^32 - 1 are read");
     }
 }
 
@@ -84,7 +84,7 @@ void checkTriangles(const StrandSet& strands) {
             failAt(
                 start + kTripleSize * i + 4 * corner,
                 "triangle " + std::to_string(i) + " names strand " +
-                    std::to_string(static_cast<std::int32_t>(guide)) + ", there are " +
+                    std::to_string(static_cast<std::int32_t>(guide)) + ", but there are " +
                     std::to_string(strands.strandCount()));
         }
     }

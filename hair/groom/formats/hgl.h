@@ -15,8 +15,8 @@ namespace hair::groom {
 
 // Writes points and root triangles; the format has no place for anything else. Strands with
 // differing numbers of points, or with fewer than 2 or more than 256, are resampled. Returns a
-// warning for all data that is changed or left out. Throws engine::Error where there are no
-// strands, or too many of them.
+// warning for all data that is changed or left out. Throws engine::Error if there are no strands,
+// or too many of them.
 std::vector<std::string> exportHgl(const StrandSet& strands, std::ostream& out);
 
 // Refuses files that are not exactly of the format: no strands, segments outside [1, 255], a size

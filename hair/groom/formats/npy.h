@@ -21,7 +21,7 @@ namespace hair::groom {
 
 // Strands with differing numbers of points are resampled to the greatest of them, with a warning.
 // Numbers are float32, int32 and uint8, in C's order; nothing is deflated. Both return what is
-// left out. Both throw engine::Error where there are no strands, or an array has 4 GiB or more.
+// left out. Both throw engine::Error if there are no strands, or an array has 4 GiB or more.
 std::vector<std::string> exportNpy(const StrandSet& strands, std::ostream& out);
 std::vector<std::string> exportNpz(const StrandSet& strands, std::ostream& out);
 

@@ -81,7 +81,7 @@ public:
         if (greatest_.index >= set_.points.size() && !lines_.ends.empty()) {
             throw engine::Error(
                 "line " + std::to_string(greatest_.line),
-                "vertex " + std::to_string(greatest_.index + 1) + " is named, there are " +
+                "vertex " + std::to_string(greatest_.index + 1) + " is named, but there are " +
                     std::to_string(set_.points.size()));
         }
         if (lines_.ends.empty()) {
@@ -149,7 +149,7 @@ private:
         const std::int64_t index = *number > 0 ? *number - 1 : *number + vertices;
         if (*number == 0 || index < 0 || index >= static_cast<std::int64_t>(kMaximumVertices)) {
             fail(
-                "vertex " + std::to_string(*number) + " is named, there are " +
+                "vertex " + std::to_string(*number) + " is named, but there are " +
                 std::to_string(vertices));
         }
         // Vertices may follow, so only the end of the file shows whether the index is valid.
@@ -229,7 +229,7 @@ std::string joinContinued(std::string_view line, TextLines& lines) {
 std::vector<std::string> exportObj(const StrandSet& strands, std::ostream& out) {
     std::vector<std::string> warnings = leftOut(strands, {Part::colors, Part::comment});
     if (greatestSize(strands) < 2) {
-        throw engine::Error("no strand has two points, as a line needs");
+        throw engine::Error("no strand has the two points that a line needs");
     }
     Text text(out);
     text.add(commentLines(strands.comment, "# "));

@@ -167,7 +167,7 @@ AlembicArchive::Group AlembicArchive::openGroup(std::uint64_t byte, const std::s
     if (byte > bytes_.size() || bytes_.size() - byte < kWord)
         failIn(
             byte, path,
-            "truncated: a group is expected, the file ends at byte " +
+            "truncated: a group is expected, but the file ends at byte " +
                 std::to_string(bytes_.size()));
     const auto count = valueAt<std::uint64_t>(bytes_, byte);
     const std::uint64_t start = byte + kWord;
@@ -201,7 +201,7 @@ AlembicArchive::dataOf(const Group& group, std::uint64_t child, const std::strin
         failIn(
             here, path,
             "truncated: data at byte " + std::to_string(byte) +
-                " are expected, the file ends at byte " + std::to_string(bytes_.size()));
+                " are expected, but the file ends at byte " + std::to_string(bytes_.size()));
     const auto size = valueAt<std::uint64_t>(bytes_, byte);
     const std::uint64_t start = byte + kWord;
     if (size > bytes_.size() - start)
@@ -271,7 +271,7 @@ AlembicArchive::readProperties(std::uint64_t byte, const std::string& path, std:
     AlembicCursor cursor(bytes_, headers.start, headers.size, path);
     while (!cursor.atEnd()) {
         if (properties.size() == count)
-            cursor.fail("headers of more properties than the " + std::to_string(count) + " there");
+            cursor.fail("more headers than the " + std::to_string(count) + " properties");
         AlembicProperty property{.header = cursor.at(), .depth = depth};
         const PropertyInfo info{cursor.number(4, "a property's header")};
         property.kind = info.kind();
@@ -302,7 +302,7 @@ AlembicArchive::readProperties(std::uint64_t byte, const std::string& path, std:
     if (properties.size() != count)
         failIn(
             headers.start, path,
-            "headers of " + std::to_string(properties.size()) + " properties, there are " +
+            "headers of " + std::to_string(properties.size()) + " properties, but there are " +
                 std::to_string(count));
     return properties;
 }
@@ -320,7 +320,7 @@ std::vector<AlembicObject> AlembicArchive::readChildren(
         bytes_, headers.start, has_hashes ? headers.size - kObjectHashes : 0, path);
     while (!cursor.atEnd()) {
         if (children.size() == count)
-            cursor.fail("headers of more objects than the " + std::to_string(count) + " there");
+            cursor.fail("more headers than the " + std::to_string(count) + " objects");
         AlembicObject child{.depth = object.depth + 1};
         const std::uint32_t size = cursor.number(4, "the length of a name");
         child.name = cursor.name(size);
@@ -341,7 +341,7 @@ std::vector<AlembicObject> AlembicArchive::readChildren(
     if (children.size() != count)
         failIn(
             headers.start, path,
-            "headers of " + std::to_string(children.size()) + " objects, there are " +
+            "headers of " + std::to_string(children.size()) + " objects, but there are " +
                 std::to_string(count));
     return children;
 }
@@ -370,8 +370,8 @@ AlembicArchive::firstOf(const AlembicProperty& property, const std::string& path
     if (group.count != property.stored * each)
         failIn(
             property.header, path,
-            std::to_string(group.count) + " parts, there are " + std::to_string(property.stored) +
-                " samples of " + std::to_string(each));
+            std::to_string(group.count) + " parts, but there are " +
+                std::to_string(property.stored) + " samples of " + std::to_string(each));
     if (group.count == 0) return {};
     const Data data = dataOf(group, 0, path);
     if (data.size != 0 && data.size < kSampleKey)

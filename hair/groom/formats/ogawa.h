@@ -45,7 +45,7 @@ enum class AlembicType : std::uint8_t {
 std::string_view nameOf(AlembicType type);
 std::size_t sizeOf(AlembicType type);  // bytes of a number; 0: texts
 
-// Returns a key's value in an object's or property's "key=value;..."; empty where it has none.
+// Returns a key's value in an object's or property's "key=value;..."; empty if it has none.
 std::string_view alembicValue(std::string_view metadata, std::string_view key);
 
 enum class AlembicKind : std::uint8_t { compound, scalar, array };
@@ -85,7 +85,7 @@ struct AlembicElements {
     std::uint64_t count = 0;  // number of elements; for texts, of their bytes
 };
 
-// Throws engine::Error "byte N: path: reason", without the path where it is empty.
+// Throws engine::Error "byte N: path: reason", without the path if it is empty.
 [[noreturn]] void failIn(std::uint64_t byte, const std::string& path, const std::string& reason);
 
 // Reads the requested parts and refuses malformed ones: counts and offsets beyond the file, groups
@@ -103,7 +103,7 @@ public:
     AlembicContents contentsOf(const AlembicObject& object, const std::string& path);
     std::vector<AlembicProperty>
     propertiesOf(const AlembicProperty& compound, const std::string& path);
-    // Returns the first sample of a scalar or array; absent where it has none.
+    // Returns the first sample of a scalar or array; absent if it has none.
     std::optional<AlembicElements>
     firstOf(const AlembicProperty& property, const std::string& path);
 

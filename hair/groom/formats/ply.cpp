@@ -201,7 +201,7 @@ class PlyText {
 public:
     PlyText(std::string_view body, std::size_t lines_before) : rest_(body), line_(lines_before) {}
 
-    // Throw where the file is too short for the element's values, or for the list's.
+    // Throw if the file is too short for the element's values, or for the list's.
     void expect(const PlyElement& element) const;
     void expectList(double length, PlyType type) const;
 
@@ -259,7 +259,7 @@ private:
     std::size_t position_;
 };
 
-// Takes a list's length. Throws where the file is too short for the list.
+// Takes a list's length. Throws if the file is too short for the list.
 template <class Source>
 std::size_t takeLength(Source& source, const PlyProperty& list) {
     const double length = source.take(*list.count_type);
@@ -273,14 +273,14 @@ void skipProperty(Source& source, const PlyProperty& property) {
     for (std::size_t i = 0; i < values; ++i) source.take(property.type);
 }
 
-// Throws where the value that was taken last is not the index of a vertex.
+// Throws if the value that was taken last is not the index of a vertex.
 template <class Source>
 void checkVertex(const Source& source, double index, std::uint64_t vertices) {
     if (index >= 0.0 && index < static_cast<double>(vertices)) return;
     throw engine::Error(
-        Source::place(source.position()), "vertex " +
-                                              std::to_string(static_cast<std::int64_t>(index)) +
-                                              " is named, there are " + std::to_string(vertices));
+        Source::place(source.position()),
+        "vertex " + std::to_string(static_cast<std::int64_t>(index)) + " is named, but there are " +
+            std::to_string(vertices));
 }
 
 std::string truncated(const PlyElement& element, std::size_t room) {
@@ -337,7 +337,8 @@ double PlyText::take(PlyType type) {
     const std::string_view word = takeWord(line_rest_);
     const auto value = valueFrom(word, type);
     if (value) return *value;
-    if (word.empty()) throw engine::Error(place(line_), "the line ends, more numbers are expected");
+    if (word.empty())
+        throw engine::Error(place(line_), "the line ends, but more numbers are expected");
     throw engine::Error(
         place(line_), inQuotes(word) + " is not " + (isInteger(type) ? "an integer" : "a number"));
 }
@@ -357,7 +358,7 @@ void PlyText::finish() const {
     const std::string_view word = takeWord(rest);
     if (word.empty()) return;
     throw engine::Error(
-        place(line_ + 1), inQuotes(word) + " after the last element, the file is expected to end");
+        place(line_ + 1), inQuotes(word) + " after the last element; the file should end there");
 }
 
 template <std::endian order>
@@ -425,7 +426,7 @@ enum Slot : std::size_t { x, y, z, width, transparency, red, green, blue, slot_c
 struct VertexRow {
     std::string_view property;
     Slot slot;
-    double unit = 1.0;  // value that is a width, or a transparency, of 1
+    double unit = 1.0;  // value that stands for a width, or a transparency, of 1
     bool is_share = false;  // integers stand for 0 to 1
     std::string_view better = "";  // a property that is read instead
 };
@@ -499,7 +500,7 @@ void reserve(const Plan& plan, std::size_t count, StrandSet& set) {
     if (plan.known[red]) set.colors.values.reserve(count);
 }
 
-// Returns the element `vertex`. Throws engine::Error "line N: reason" where it isn't there, has no
+// Returns the element `vertex`. Throws engine::Error "line N: reason" if it isn't there, has no
 // coordinates, or more vertices than 32 bits can number.
 const PlyElement& plyVertices(const PlyHeader& header) {
     const std::string place = "line " + std::to_string(header.lines);
@@ -512,7 +513,7 @@ const PlyElement& plyVertices(const PlyHeader& header) {
     }
     if (element->count > std::numeric_limits<std::uint32_t>::max()) {
         throw engine::Error(
-            place, std::to_string(element->count) + " vertices, at most 2^32 - 1 are expected");
+            place, std::to_string(element->count) + " vertices; at most 2^32 - 1 are expected");
     }
     return *element;
 }
@@ -583,8 +584,8 @@ bool isEdge(const PlyElement& element) {
         "follow one another, give their number (--points-per-strand, /groom/points_per_strand)");
 }
 
-// Returns the element that lists the vertices of strands; null where strands are runs of
-// consecutive vertices.
+// Returns the element that lists the vertices of strands; null if strands are runs of consecutive
+// vertices.
 const PlyElement* strandElement(const PlyHeader& header, std::uint32_t points_per_strand) {
     for (const std::string_view name : kListElements) {
         const PlyElement* element = header.find(name);
@@ -621,7 +622,7 @@ public:
             }
         }
         source_.finish();
-        if (!edges_.empty()) {  // only once the file is known to hold
+        if (!edges_.empty()) {  // only once the whole file is known to be valid
             lines_ = chainEdges(
                 edges_, vertex_count_, [this](std::size_t edge) { return placeOf(edge); });
         }
@@ -737,7 +738,7 @@ private:
     std::vector<Edge> edges_;
     std::size_t edges_start_ = 0;  // position of the first edge
     std::size_t edges_step_ = 0;  // from one edge to the next
-    std::vector<std::size_t> edge_positions_;  // [edge], where distances differ
+    std::vector<std::size_t> edge_positions_;  // [edge], if distances differ
     std::uint64_t polygons_ = 0;
     Polylines lines_;
     StrandSet set_;

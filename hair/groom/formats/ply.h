@@ -30,9 +30,8 @@ std::vector<std::string> exportPly(const StrandSet& strands, std::ostream& out);
 // A StrandImporter's `read`.
 StrandSet importPly(const StrandFile& file);
 
-// Throws engine::Error "place: reason" where a mesh's file names a vertex that isn't there, has a
-// face without corners, is too short, or is no PLY. Readers of meshes don't check the first of
-// these.
+// Throws engine::Error "place: reason" if a mesh's file names a vertex that isn't there, has a face
+// without corners, is too short, or is no PLY. Readers of meshes don't check the first of these.
 void checkPlyFaces(std::span<const std::byte> file);
 
 enum class PlyFormat { ascii, little_endian, big_endian };

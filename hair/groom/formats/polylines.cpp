@@ -37,7 +37,7 @@ class Neighbours {
 public:
     explicit Neighbours(std::size_t vertex_count) : of_(vertex_count, {kNone, kNone}) {}
 
-    // False where the vertex has two already.
+    // False if the vertex has two already.
     bool add(std::uint32_t vertex, std::uint32_t neighbour) {
         for (std::uint32_t& slot : of_[vertex]) {
             if (slot != kNone) continue;
@@ -80,7 +80,7 @@ Neighbours join(
         for (const std::uint32_t vertex : {a, b}) {
             if (vertex < vertex_count) continue;
             throw engine::Error(
-                place(i), "the edge names " + vertexName(vertex) + ", there are " +
+                place(i), "the edge names " + vertexName(vertex) + ", but there are " +
                               std::to_string(vertex_count));
         }
         if (a == b) throw engine::Error(place(i), "the edge joins " + vertexName(a) + " to itself");
@@ -132,7 +132,7 @@ Polylines chainEdges(
         const std::uint32_t one_end = neighbours.lastOf(a, b);
         if (one_end == kNone) {
             throw engine::Error(
-                place(i), "the edge belongs to a closed loop, a strand has two ends");
+                place(i), "the edge belongs to a closed loop, but a strand has two ends");
         }
         const std::uint32_t other_end = neighbours.lastOf(b, a);
         std::uint32_t before = kNone;
@@ -159,7 +159,7 @@ std::vector<Edge> edgesOf(const StrandSet& strands, std::vector<std::string>& wa
         if (end - first == 1) ++single;
         first = end;
     }
-    if (edges.empty()) throw engine::Error("no strand has two points, as a line needs");
+    if (edges.empty()) throw engine::Error("no strand has the two points that a line needs");
     if (single > 0) {
         warnings.push_back(
             std::to_string(single) +

@@ -38,7 +38,7 @@ Polylines chainEdges(
     const std::function<std::string(std::size_t edge)>& place);
 
 // Returns the edges from which chainEdges() makes the same strands, and warns of strands of a
-// single point, which have no edge. Throws engine::Error where no strand has an edge.
+// single point, which have no edge. Throws engine::Error if no strand has an edge.
 std::vector<Edge> edgesOf(const StrandSet& strands, std::vector<std::string>& warnings);
 
 }  // namespace hair::groom

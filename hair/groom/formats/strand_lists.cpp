@@ -43,7 +43,7 @@ countAt(std::span<const std::byte> bytes, std::uint64_t offset, const std::strin
 // Lists the strands of the file, which must be exactly as long as they are.
 std::vector<ListedStrand> listStrands(std::span<const std::byte> bytes, std::uint64_t point_size) {
     const std::uint32_t count = countAt(bytes, 0, "the number of strands");
-    if (count == 0) failAt(0, "0 strands, at least 1 is needed");
+    if (count == 0) failAt(0, "0 strands; at least 1 is needed");
     if (count > (bytes.size() - kCountSize) / kCountSize) {
         failAt(
             0, "truncated: " + std::to_string(count) + " strands are more than " +
@@ -85,7 +85,7 @@ std::vector<std::string> exportHairData(const StrandSet& strands, std::ostream& 
     if (strands.ends.empty()) throw engine::Error("there are no strands");
     constexpr std::uint32_t kMost = std::numeric_limits<std::int32_t>::max();
     if (strands.strandCount() > kMost || greatestSize(strands) > kMost)
-        throw engine::Error("more strands, or points of a strand, than an int32 counts");
+        throw engine::Error("more strands, or points of a strand, than an int32 can hold");
     writeValue(out, strands.strandCount());
     for (std::uint32_t i = 0; i < strands.strandCount(); ++i) {
         writeValue(out, strands.size(i));

@@ -17,8 +17,8 @@
 // (Shen et al. 2023, CT2Hair: high-fidelity 3D hair modeling using computed tomography).
 namespace hair::groom {
 
-// Returns a warning for all data that is left out. Throws engine::Error where there are no strands
-// or more of them than an int32 counts.
+// Returns a warning for all data that is left out. Throws engine::Error if there are no strands or
+// more of them than an int32 can hold.
 std::vector<std::string> exportHairData(const StrandSet& strands, std::ostream& out);
 
 // Strands without points are left out with a warning. Refuses files that are not exactly of the

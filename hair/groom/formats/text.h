@@ -34,7 +34,7 @@ enum class Part {
 // that are opaque everywhere have no transparencies.
 std::vector<std::string> leftOut(const StrandSet& strands, std::initializer_list<Part> held);
 
-// Warns where strands were left out: "3 strands with ... are left out".
+// Warns if strands were left out: "3 strands with ... are left out".
 void warnOfStrands(std::size_t count, const std::string& which, StrandSet& set);
 
 // Lines of text files, word by word. Numbers are in C's notation whatever the locale; a '+' before
@@ -79,7 +79,7 @@ struct NumberOfPoints {
     std::uint32_t wanted;  // for strands with other numbers
 };
 
-// Returns the strands resampled to one number of points, with a warning; absent where all have the
+// Returns the strands resampled to one number of points, with a warning; absent if all have the
 // same number already, from `least` to `most`.
 std::optional<StrandSet> makeUniform(
     const StrandSet& strands, const NumberOfPoints& number, std::vector<std::string>& warnings);

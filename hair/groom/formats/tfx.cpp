@@ -67,7 +67,7 @@ constexpr std::uint64_t kTfx3GuideStrands = 160;
 
 // ---- Writing ------------------------------------------------------------------------------------
 
-// The range that AMD's loader takes, of powers of two only.
+// AMD's loader takes numbers in this range, powers of two only.
 constexpr std::uint32_t kLeastVertices = 4;
 constexpr std::uint32_t kMostVertices = 64;
 constexpr std::uint32_t kFixedVertices = 2;
@@ -104,7 +104,7 @@ widthsOf(const StrandSet& strands, std::uint32_t vertices, std::vector<std::stri
     return widths;
 }
 
-// Colours and alphas; empty where no colours are known and everything is opaque.
+// Colours and alphas; empty if no colours are known and everything is opaque.
 std::vector<glm::vec4> colorsOf(const StrandSet& strands, std::vector<std::string>& warnings) {
     const bool opaque = strands.transparencies.values.empty() &&
                         strands.transparencies.everywhere.value_or(0.0f) == 0.0f;
@@ -128,7 +128,7 @@ std::vector<glm::vec4> colorsOf(const StrandSet& strands, std::vector<std::strin
     return colors;
 }
 
-// Returns the place of an array of `bytes` at the end of the file; 0 where it is empty.
+// Returns the place of an array of `bytes` at the end of the file; 0 if it is empty.
 std::uint32_t place(std::uint64_t& end, std::uint64_t bytes) {
     if (bytes == 0) return 0;
     const std::uint64_t start = (end + 7) / 8 * 8;
@@ -179,15 +179,15 @@ TfxHeader readHeader(std::span<const std::byte> bytes, const TfxForm& form) {
         .vertex_uvs = offsetAt(form.vertex_uvs),
         .strand_thickness = offsetAt(form.strand_thickness),
         .vertex_colors = offsetAt(form.vertex_colors)};
-    if (header.strands == 0) failAt(4, "0 strands, at least 1 is needed");
+    if (header.strands == 0) failAt(4, "0 strands; at least 1 is needed");
     if (header.vertices_per_strand < 2) {
         failAt(
             8, std::to_string(header.vertices_per_strand) +
-                   " vertices per strand, at least 2 are needed");
+                   " vertices per strand; at least 2 are needed");
     }
     const std::uint64_t vertices = std::uint64_t{header.strands} * header.vertices_per_strand;
     if (vertices > std::numeric_limits<std::uint32_t>::max())
-        failAt(4, std::to_string(vertices) + " vertices, at most 2^32 - 1 are read");
+        failAt(4, std::to_string(vertices) + " vertices; at most 2^32 - 1 are read");
     if (header.positions == 0) failAt(form.positions, "there are no positions");
     return header;
 }
@@ -240,8 +240,8 @@ void checkPlaces(std::vector<Array> arrays, std::uint64_t header_size, std::uint
     }
 }
 
-// Returns the values, or one value where all are the same, because TressFX has no other way to
-// store one.
+// Returns the values, or one value if all are the same, because TressFX has no other way to store
+// one.
 template <class Value>
 PointAttribute<Value> compact(std::vector<Value> values) {
     const Value first = values.front();

@@ -9,7 +9,7 @@
 
 // TressFX 4 (AMD, TressFXFileFormat.h), guide strands. Little-endian: a header of 160 bytes, which
 // says where these arrays lie:
-//   float32 positions[strands][vertices_per_strand][4]    xyz and inverse mass, 0 where fixed
+//   float32 positions[strands][vertices_per_strand][4]    xyz and inverse mass, 0 if fixed
 //   float32 strand_uvs[strands][2]
 //   float32 vertex_uvs[strands][vertices_per_strand][2]
 //   float32 strand_thickness[strands]                     diameters
@@ -26,7 +26,7 @@ namespace hair::groom {
 // Writes the arrays at multiples of 8 bytes. Each strand has one width, that of its root. Its
 // first two vertices are fixed, as by AMD's exporters. Strands with differing numbers of points
 // are resampled to a number that TressFX takes: 4, 8, 16, 32 or 64. Returns a warning for all data
-// that is changed or left out. Throws engine::Error where there are no strands, or more bytes than
+// that is changed or left out. Throws engine::Error if there are no strands, or more bytes than
 // 32-bit offsets reach.
 std::vector<std::string> exportTfx(const StrandSet& strands, std::ostream& out);
 

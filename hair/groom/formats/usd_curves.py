@@ -2,7 +2,7 @@
 
 Every BasisCurves prim is read, in the stage's order, including instances, in world space, +Y up, in
 the stage's unit. Data without a place in USD is read under Unreal Engine's names:
-primvars:groom_group_id, groom_guide and, where the curves have none themselves, groom_width,
+primvars:groom_group_id, groom_guide and, if the curves have none themselves, groom_width,
 groom_color, groom_root_uv. Linear curves are their points; cubic ones are sampled (usd_cubic.py).
 Animated curves are taken at the default time, or else at their points' first sample. A stage that
 can't be read ends the program with one line on stderr.
@@ -26,9 +26,10 @@ except ImportError as error:
 # A stage may have as many prims, plus one for each 64 bytes of its files: 40,000 prims take 2 s, and
 # a prim with points is longer than 64 bytes.
 MOST_PRIMS = 20_000
-# USD looks for inherited values in all prims around a prim, and in all that these are composed of.
-MOST_NESTED = 128  # prims within each other
-MOST_COMPOSED = 256  # variants and prims that one prim refers to, and they in turn
+# USD looks for inherited values in all prims around a prim, and in all prims that these are
+# composed of.
+MOST_NESTED = 128  # nested prims
+MOST_COMPOSED = 256  # variants and prims that one prim refers to, directly or through others
 MOST_SUBLAYERS = 256  # of a layer and its sublayers together, each as often as it is named
 MOST_UNFOLDED = 32 << 20  # bytes of points and triangles, plus 16 times the size of its files
 
@@ -60,7 +61,7 @@ class Layers:
             for asset in list(layer.GetCompositionAssetDependencies()) + self._clips(layer):
                 # The variables of an expression are known only when USD opens the layer.
                 if Sdf.VariableExpression.IsExpression(asset):
-                    raise Refused(f"{asset}: names of layers by expressions are not read")
+                    raise Refused(f"{asset}: layer names given by expressions are not read")
                 if asset:
                     waiting.append(Sdf.ComputeAssetPathRelativeToLayer(layer, asset))
 
@@ -89,11 +90,11 @@ class Layers:
             for clip in dict(prim.GetInfo("clips")).values() if prim and prim.HasInfo("clips") else ():
                 try:
                     if "templateAssetPath" in clip:
-                        raise Refused(f"{path}: value clips by a template are not read")
+                        raise Refused(f"{path}: value clips from a template are not read")
                     assets.append(clip.get("manifestAssetPath", Sdf.AssetPath()).path)
                     assets.extend(asset.path for asset in clip.get("assetPaths", ()))
                 except (AttributeError, TypeError):
-                    raise Refused(f"{path}: its value clips are no assets") from None
+                    raise Refused(f"{path}: its value clips are not assets") from None
 
         layer.Traverse(Sdf.Path.absoluteRootPath, visit)
         return assets
@@ -152,7 +153,7 @@ class Layers:
             + sum(max((variant.composed for variant in each), default=0) for each in variants),
         )
         if weight.depth > MOST_NESTED:
-            raise Refused(f"{path}: more than {MOST_NESTED} prims within each other")
+            raise Refused(f"{path}: more than {MOST_NESTED} nested prims")
         if weight.composed > MOST_COMPOSED:
             raise Refused(
                 f"{path}: is composed of {weight.composed} prims and variants, more than {MOST_COMPOSED}"
@@ -186,7 +187,7 @@ class Unfolded:
         self.bytes += sum(array.nbytes for array in arrays)
         if self.bytes > self.most:
             raise Refused(
-                f"its instances unfold to more than {self.most >> 20} MiB, the limit of 16 times its "
+                f"its instances expand to more than {self.most >> 20} MiB, the limit of 16 times its "
                 f"files' size plus {MOST_UNFOLDED >> 20} MiB"
             )
 
@@ -214,7 +215,7 @@ class Xforms:
 def metres_per_unit_of(stage):
     try:
         return UsdGeom.GetStageMetersPerUnit(stage)
-    except Tf.ErrorException:  # no double
+    except Tf.ErrorException:  # the value is no double
         unit = stage.GetMetadata(UsdGeom.Tokens.metersPerUnit)
     if isinstance(unit, bool) or not isinstance(unit, (int, float)):
         raise Refused(f"metersPerUnit is not a number: {unit!r}")
@@ -301,7 +302,7 @@ def read(path, below=()):
 def words_of(error, path):
     try:
         words = " ".join(error.args[0].commentary.split())
-    except (AttributeError, UnicodeDecodeError):  # USD's words quote the file
+    except (AttributeError, UnicodeDecodeError):  # USD's messages quote the file
         return "its texts are not UTF-8"
     return words.replace(os.path.realpath(path) + ":", "line ")
 

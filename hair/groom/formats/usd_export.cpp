@@ -60,7 +60,7 @@ void stage(
         text.text("\n");
     }
     if (!strands.metres_per_unit)
-        warnings.emplace_back("the unit of length is not known, the file says metres");
+        warnings.emplace_back("the unit of length is not known; the file says metres");
     line(text, "    metersPerUnit", strands.metres_per_unit.value_or(1.0));
     text.text("    upAxis = \"Y\"\n");
     if (timing) {
@@ -97,7 +97,7 @@ opacities(const PointAttribute<float>& transparencies, std::vector<std::string>&
 std::vector<std::string>
 beginUsdaCurves(UsdaText& text, const StrandSet& strands, const std::optional<UsdaTiming>& timing) {
     if (strands.points.size() > std::numeric_limits<std::int32_t>::max())
-        throw engine::Error("usda", "more points than an int counts");
+        throw engine::Error("usda", "more points than an int can hold");
     std::vector<std::string> warnings;
     stage(text, strands, timing, warnings);
     text.text("def BasisCurves \"hair\"\n{\n"

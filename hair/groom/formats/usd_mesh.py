@@ -33,8 +33,8 @@ def encoded(linear):
 
 
 class Mesh:
-    """One prim. Vertices are its points; a point has several where texture coordinates differ.
-    Has `points` [vertex], `triangles` [triangle][3] and `uvs` [vertex] or None."""
+    """One prim. Vertices are its points; a point has several if texture coordinates differ. Has
+    `points` [vertex], `triangles` [triangle][3] and `uvs` [vertex] or None."""
 
     def __init__(self, prim, xforms):
         self.prim = prim

@@ -17,7 +17,7 @@ namespace {
 
 constexpr double kLeastRise = 0.05;  // least part of a direction along the normal
 
-// The unit vector of the part along the surface, or zero where there is none.
+// The unit vector of the part along the surface, or zero if there is none.
 glm::dvec3 alongSurface(const glm::dvec3& vector, const glm::dvec3& normal) {
     const glm::dvec3 flat = vector - glm::dot(vector, normal) * normal;
     const double length = glm::length(flat);
@@ -55,7 +55,7 @@ glm::dvec3 drooped(const glm::dvec3& direction, double turn) {
     const double cosine = glm::dot(direction, kGravity);
     const glm::dvec3 across = direction - cosine * kGravity;
     const double sine = glm::length(across);
-    if (turn == 0.0 || sine < 1e-9) return direction;  // straight up or down it stays
+    if (turn == 0.0 || sine < 1e-9) return direction;  // a vertical direction stays
     const double tangent = (1.0 - cosine) / sine * std::exp(-turn);  // of half the angle
     const double scale = 1.0 / (1.0 + tangent * tangent);
     return 2.0 * tangent * scale * (across / sine) + (1.0 - tangent * tangent) * scale * kGravity;

@@ -17,7 +17,7 @@
 namespace hair::groom {
 
 // The direction in which hair leaves the scalp:
-//     normalize(normal + comb + whorl + parting),     the normal alone where they cancel it.
+//     normalize(normal + comb + whorl + parting),     the normal alone if they cancel it.
 // whorl    along the surface, round the point c of the scalp that is nearest to its position, at
 //          the distance r from it: strength (r / radius) exp((1 - (r / radius)^2) / 2), which is
 //          `strength` at the radius and less everywhere else.

@@ -92,7 +92,7 @@ EdgePoint nearestOnEdge(const glm::dvec3& from, const glm::dvec3& to, const glm:
 
 constexpr int kSamples = 128;  // pieces of the line; none is longer than this part of it
 constexpr int kHalvings = 14;  // of a piece, at most
-constexpr int kRounds = 4;  // to the plane and back: the error falls with the angle squared
+constexpr int kRounds = 4;  // to the plane and back: the error falls with the square of the angle
 
 // Distance of roots from the line, as a part of their spacing, and the least distance, m.
 constexpr double kGapPart = 0.04;
@@ -138,7 +138,8 @@ public:
         return true;
     }
 
-    // The fraction at which the line leaves the scalp, between a fraction over it and one off it.
+    // The fraction at which the line leaves the scalp. One of the two given fractions is on the
+    // scalp, the other off it.
     double boundary(double over, double off) const {
         for (int i = 0; i < 40; ++i) {
             const double middle = 0.5 * (over + off);

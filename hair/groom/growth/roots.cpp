@@ -73,7 +73,7 @@ struct Ground {
 // Returns the numbers of at most `count` samples.
 std::vector<std::uint32_t>
 spreadRoots(const Ground& ground, std::uint32_t count, const std::vector<glm::vec3>& fixed) {
-    // Where the mask doesn't keep all, it takes four standard deviations more than are needed on
+    // If the mask doesn't keep all, it takes four standard deviations more than are needed on
     // average.
     const double mean = ground.density.mean();
     const double needed = mean < 1.0 ? (count + 4.0 * std::sqrt(count) + 4.0) / mean : count;

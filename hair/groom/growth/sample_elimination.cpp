@@ -119,8 +119,8 @@ std::uint32_t HashGrid::key(const Cell& cell) {
     return along(cell.x) | along(cell.y) << kCellBits | along(cell.z) << 2 * kCellBits;
 }
 
-// Prefetches all buckets before the first is needed, and then the points, because memory takes the
-// time.
+// Prefetches all buckets before the first is needed, and then the points, because most of the time
+// goes into reading memory.
 std::size_t HashGrid::findNear(const glm::vec3& point, Neighbours& neighbours) const {
     const Cell centre = cell(point);
     std::array<const Bucket*, 27> buckets;

@@ -85,7 +85,7 @@ public:
 
     std::uint32_t size() const { return static_cast<std::uint32_t>(points_.size()); }
     std::uint32_t source(std::uint32_t place) const { return sources_[place]; }
-    // A number of the point that depends on its cell and the other points alone.
+    // A number of the point that depends only on its cell and the other points.
     std::uint32_t rank(std::uint32_t place) const { return ranks_[place]; }
 
     // Calls visit(place, distance) for every other point that is left and closer than the radius.
@@ -97,7 +97,7 @@ public:
             for (std::uint32_t i = cell.bucket.first; i < cell.bucket.end; ++i) {
                 const Point& other = points_[i];
                 const glm::vec3 gap = other.position - point;
-                // Most points end here, without a square root. Cells can share a bucket.
+                // Most points are left out here, without a square root. Cells can share a bucket.
                 if (glm::dot(gap, gap) > square_limit_ || other.key != cell.key) continue;
                 const double distance = glm::distance(other.position, point);
                 if (distance < radius_ && other.place != place) visit(other.place, distance);

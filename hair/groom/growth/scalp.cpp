@@ -18,7 +18,7 @@ namespace hair::groom {
 namespace {
 
 constexpr float kMember = 0.5f;  // weight from which a vertex belongs to its group
-constexpr std::size_t kMostNames = 30;  // that an error lists
+constexpr std::size_t kMostNames = 30;  // most names that an error lists
 
 std::vector<std::string> materialNames(const Mesh& mesh) {
     std::vector<std::string> names;

@@ -17,7 +17,8 @@ namespace {
 
 constexpr auto kNone = CornerTable::kNone;
 
-// Functions, so that no variable of a file that is compiled together with this one shadows them.
+// These are functions, so that no variable of a file that is compiled together with this one
+// shadows them.
 std::uint32_t after(std::uint32_t corner) { return CornerTable::after(corner); }
 std::uint32_t before(std::uint32_t corner) { return CornerTable::before(corner); }
 
@@ -260,7 +261,8 @@ void ScalpTriangulation::makeDelaunay() {
 bool ScalpTriangulation::flipAway(const CornerTable::Fan& fan) {
     const auto count = fan.corners.size();
     const glm::dvec3 centre = position(fan.corners[0]);
-    // [neighbour], one more than corners: at the end the first again, or the boundary's other one.
+    // [neighbour], one more than corners: the last is the first again, or the other neighbour on
+    // the boundary.
     std::vector<double> angles{0.0};
     std::vector<glm::dvec3> neighbours;
     for (const std::uint32_t corner : fan.corners) {
@@ -366,7 +368,7 @@ void ScalpTriangulation::peel() {
     }
 }
 
-// Gives a root in several fans one number, and no edge a third triangle.
+// Gives a root in several fans a single number, and lets no edge have a third triangle.
 std::vector<std::array<std::uint32_t, 3>> ScalpTriangulation::triangles() const {
     std::set<std::pair<std::uint32_t, std::uint32_t>> edges;
     std::vector<std::array<std::uint32_t, 3>> triangles;

@@ -26,7 +26,7 @@ public:
         return corner % 3 == 0 ? corner + 2 : corner - 1;
     }
 
-    // Two triangles are neighbours where they, and no third one, run along an edge in opposite
+    // Two triangles are neighbours if they, and no third one, run along an edge in opposite
     // directions.
     explicit CornerTable(std::span<const std::array<std::uint32_t, 3>> triangles);
 
@@ -38,8 +38,8 @@ public:
     bool exists(std::uint32_t cell) const { return vertices_[3 * cell] != kNone; }
     std::vector<std::array<std::uint32_t, 3>> triangles() const;
 
-    // Corners of the triangles round a corner's vertex, counter-clockwise; from one boundary to the
-    // other where it is on the boundary.
+    // Corners of the triangles round a corner's vertex, counter-clockwise; from one boundary edge
+    // to the other if it is on the boundary.
     struct Fan {
         std::vector<std::uint32_t> corners;
         bool closed = false;

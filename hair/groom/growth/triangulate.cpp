@@ -43,7 +43,7 @@ bool edgesMeet(const Edge& p, const Edge& q) {
            sign(orientation(q.a, q.b, p.a)) * sign(orientation(q.a, q.b, p.b)) <= 0;
 }
 
-// Whether the two edges from b lie on each other.
+// Whether the two edges from b overlap.
 bool foldsBack(GridPoint a, GridPoint b, GridPoint c) {
     return orientation(a, b, c) == 0 && (a.x - b.x) * (c.x - b.x) + (a.y - b.y) * (c.y - b.y) >= 0;
 }
@@ -164,8 +164,8 @@ bool Triangulation::contains(std::uint32_t cell, std::uint32_t point) const {
            side(3 * cell + 2, point) >= 0;
 }
 
-// Walks across edges that have the point on their far side; where the boundary is in the way, looks
-// at every cell.
+// Walks across edges that have the point on their far side; if the boundary is in the way, looks at
+// every cell.
 std::uint32_t Triangulation::locate(std::uint32_t point) const {
     const std::uint32_t cells = net_.cornerCount() / 3;
     std::uint32_t at = last_;

@@ -27,7 +27,7 @@ triangulate(std::span<const glm::dvec2> points, std::uint32_t boundary_count);
 // sum of at most 180 degrees, as in a Delaunay triangulation. Each triangle is counter-clockwise
 // seen from outside. An edge has at most two triangles, which run along it in opposite directions.
 // No triangle joins pieces of the scalp that have no edge in common. Along a boundary, roots are
-// joined where the triangle is not much longer than high; no triangle reaches over a hole. A piece
+// joined if the triangle is not much longer than high; no triangle reaches over a hole. A piece
 // with one root has the triangle {a, a, a}. A piece with several roots but no triangle has {a, b,
 // b} from each root to the next.
 std::vector<std::array<std::uint32_t, 3>>

@@ -53,7 +53,7 @@ public:
     Band(const Mesh& mesh, const Scalp& scalp, const NearestSurface& surface, double width)
         : places_(edgePlaces(scalp)), surface_(surface), width_(width) {
         if (places_.empty())
-            throw engine::Error("/groom/grow/vellus: the scalp has no edge, along which they grow");
+            throw engine::Error("/groom/grow/vellus: the scalp has no edge for them to grow along");
         tree_.emplace(std::span<const glm::vec3>(places_));
         whole_ = extractScalp(mesh, "*");
         const auto isNear = [&](const std::array<std::uint32_t, 3>& triangle) {

@@ -21,7 +21,7 @@ namespace {
 
 // Weight of the points' own square distances beside that of their mean. It lifts them to a
 // paraboloid, over a plane with the Delaunay triangulation as lower hull. With 1e-6, a mean may be
-// farther off by 1e-3 of the distance to the points, where that gives a smaller triangle.
+// farther off by 1e-3 of the distance to the points, if that gives a smaller triangle.
 constexpr double kNearness = 1e-6;
 
 // Thinner triangles have no solution that survives rounding, but their edges do.

@@ -40,7 +40,7 @@ struct GramMatrix {
     std::array<std::array<double, kMostCandidates>, kMostCandidates> of{};
 };
 
-// A weighted mean of three points of a GramMatrix, heaviest first. Where fewer have a weight, the
+// A weighted mean of three points of a GramMatrix, heaviest first. If fewer have a weight, the
 // first stands in for the rest.
 struct Mean {
     std::array<std::size_t, 3> members{};

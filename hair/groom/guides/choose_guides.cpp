@@ -57,7 +57,7 @@ float squareDistance(const Feature& a, const Feature& b) {
     return sum;
 }
 
-// Strands that show how hair lies: those with a length, or all where none has.
+// Strands that show how hair lies: those with a length, or all strands if none has.
 std::vector<std::uint32_t> strandsWithLength(const Groom& dense) {
     std::vector<std::uint32_t> strands;
     for (std::uint32_t i = 0; i < dense.strand_count; ++i) {
@@ -93,7 +93,7 @@ public:
         update(0);
     }
 
-    // Makes the strand that is farthest from all guides a guide; false where none is apart.
+    // Makes the strand that is farthest from all guides a guide; false if none is apart.
     bool addFarthest() {
         const auto widest = static_cast<std::size_t>(
             std::ranges::max_element(guides_, {}, &Guide::reach) - guides_.begin());
@@ -104,7 +104,7 @@ public:
         std::vector<Member> drawn;
         for (std::size_t i = 0; i < guides_.size(); ++i) {
             const glm::vec3 apart = guides_[i].root - root;
-            // The part of the roots alone.
+            // The distance by roots alone is a lower bound.
             if (glm::dot(apart, apart) > guides_[i].reach) continue;
             if (squareDistance(features_[guides_[i].strand], features_[strand]) <= guides_[i].reach)
                 draw(i, strand, drawn);

@@ -142,7 +142,7 @@ struct Axes {
 // Returns eigenvalues and eigenvectors of a symmetric matrix. Golub and Van Loan 2013, Matrix
 // computations, 8.5 (Jacobi's rotations).
 Axes eigenvectors(glm::dmat3 matrix) {
-    static constexpr int sweeps = 20;  // it takes about 5
+    static constexpr int sweeps = 20;  // enough: about 5 are needed
     glm::dmat3 vectors(1.0);
     for (int i = 0; i < 3 * sweeps; ++i) {
         const int p = i % 3;
@@ -265,9 +265,9 @@ RootSurface onSphere(std::span<const glm::vec3> roots, const glm::dvec3& centre)
         .all_round = size < kAllRound};
 }
 
-// Fits a surface to at least one root. It is a line where the roots are within 1e-4 of their
-// extent of one. It is a sphere where that fits at least ten roots better than a plane, with a
-// radius of at most 50 times their extent. Otherwise it is a plane.
+// Fits a surface to at least one root. It is a line if the roots are within 1e-4 of their extent of
+// one. It is a sphere if that fits at least ten roots better than a plane, with a radius of at most
+// 50 times their extent. Otherwise it is a plane.
 RootSurface fitRoots(std::span<const glm::vec3> roots) {
     const Cloud cloud = cloudOf(roots);
     const Axes& axes = cloud.axes;
@@ -461,7 +461,7 @@ std::vector<glm::vec3> rootNormals(const Groom& guides, const Mesh& mesh) {
             sum += weight * glm::dvec3(mesh.normals[corners[k]]);
             if (weight > at.weights[static_cast<int>(heaviest)]) heaviest = k;
         }
-        // Corners can face opposite ways, where a modelled hair card is folded.
+        // Corners can face opposite ways if a modelled hair card is folded.
         const double length = glm::length(sum);
         normals.push_back(
             length > 1e-6 ? glm::vec3(sum / length) : mesh.normals[corners[heaviest]]);

@@ -77,7 +77,7 @@ private:
     struct Node {
         int parent;  // -1: none; comes before the node
         int number;  // in the file
-        glm::dmat4 matrix;  // where has_matrix
+        glm::dmat4 matrix;  // read if has_matrix
         bool has_matrix;
         glm::dvec3 translation;  // m
         glm::dquat rotation;  // unit length
@@ -100,7 +100,7 @@ private:
         std::size_t first;  // vertex
         std::vector<glm::dvec3> positions;  // [vertex]
         std::vector<std::vector<glm::dvec3>> targets;  // [morph target][vertex], displacements
-        std::vector<double> weights;  // [morph target], where nothing animates them
+        std::vector<double> weights;  // [morph target], if nothing animates them
         std::size_t node;  // index into nodes_
         bool is_skinned = false;
         std::vector<std::size_t> joints;  // [joint], indices into nodes_

@@ -302,7 +302,7 @@ bool boundsABody(const ClosedMesh& closed) {
     });
 }
 
-// Absent where the mesh is not closed, or is inside out.
+// Absent if the mesh is not closed, or is inside out.
 std::optional<ClosedMesh> closedMesh(const Mesh& mesh) {
     try {
         return closeMesh(mesh);

@@ -23,7 +23,7 @@ constexpr double kNoArea = 1e-9;
 // Greatest ratio of the mean edge length to that at rest.
 constexpr double kMostStretch = 4.0;
 
-// Absent where the triangle has no area.
+// Absent if the triangle has no area.
 std::optional<glm::dmat3> triangleFrame(const std::array<glm::dvec3, 3>& corners) {
     const glm::dvec3 edge = corners[1] - corners[0];
     const glm::dvec3 other = corners[2] - corners[0];
@@ -34,8 +34,7 @@ std::optional<glm::dmat3> triangleFrame(const std::array<glm::dvec3, 3>& corners
     return glm::dmat3(along, glm::cross(normal / area, along), normal / area);
 }
 
-// The smallest rotation that turns one unit vector to another; the identity where they are
-// opposite.
+// The smallest rotation that turns one unit vector to another; the identity if they are opposite.
 glm::dquat shortestTurn(const glm::dvec3& from, const glm::dvec3& to) {
     const double cosine = glm::dot(from, to);
     if (cosine < -1.0 + 1e-12) return {1.0, 0.0, 0.0, 0.0};

@@ -43,13 +43,13 @@ SurfaceMotion motionOf(const SurfaceBinding& binding, const std::array<glm::dvec
 
 // Returns the mean of rigid motions: the mean of their rotations, and the translation that takes
 // the mean of `points` to the mean of the moved points. Needs a point for each motion, and at least
-// one. Exact where all motions are the same.
+// one. Exact if all motions are the same.
 SurfaceMotion meanMotion(std::span<const SurfaceMotion> motions, std::span<const glm::vec3> points);
 
 // A mesh that an animation deforms over simulated time.
 class DeformingMesh {
 public:
-    // `mesh` is importMesh() of the animation's file. Throws engine::Error where they don't fit.
+    // `mesh` is importMesh() of the animation's file. Throws engine::Error if they don't fit.
     DeformingMesh(const Mesh& mesh, MeshAnimation animation, const AnimationSettings& settings);
 
     // Binds points to triangles that have an area. Throws engine::Error for a mesh without any.

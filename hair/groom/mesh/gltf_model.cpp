@@ -148,8 +148,8 @@ GlbChunks glbChunks(std::string_view file) {
     if (version != 2) fail(4, "version " + std::to_string(version) + " of glTF, expected 2");
     if (length != file.size()) {
         fail(
-            8, "the header says that there are " + std::to_string(length) + " bytes, there are " +
-                   std::to_string(file.size()));
+            8, "the header says that there are " + std::to_string(length) +
+                   " bytes, but there are " + std::to_string(file.size()));
     }
     const std::string_view json = chunkAt(file, kHeaderSize, kJsonChunk);
     const std::size_t end = kHeaderSize + kChunkHeaderSize + json.size();
@@ -202,7 +202,7 @@ std::string reasonIn(std::string_view text) {
 }
 
 // Takes the data of the first buffer out of the JSON, for a binary chunk as in .glb files: tinygltf
-// takes half a minute for half a gigabyte of base 64. Empty where there is none in the JSON.
+// takes half a minute for half a gigabyte of base 64. Empty if there is none in the JSON.
 std::string takeData(json& document) {
     const auto buffers = document.find("buffers");
     if (buffers == document.end() || !buffers->is_array() || buffers->empty()) return {};
@@ -240,7 +240,7 @@ std::vector<tinygltf::Image> takeImages(json& document) {
 }
 
 // Names missing inverse bind matrices, because tinygltf requires them. glTF lets skins leave them
-// out where they are the identity. Returns whether any were missing.
+// out if they are the identity. Returns whether any were missing.
 bool nameMissingMatrices(json& document) {
     const auto skins = document.find("skins");
     if (skins == document.end() || !skins->is_array()) return false;
@@ -290,7 +290,7 @@ int depthOf(std::string_view text) {
 }
 
 struct Rewritten {
-    std::optional<std::string> file;  // absent where the given file stays as it is
+    std::optional<std::string> file;  // absent if the given file stays as it is
     std::vector<tinygltf::Image> images;
 };
 
@@ -303,7 +303,7 @@ Rewritten rewritten(std::string_view file, GltfImages images, GltfMotion motion)
     if (depthOf(chunks.json) > kMaximumDepth)
         throw engine::Error("the JSON has more than " + std::to_string(kMaximumDepth) + " levels");
     try {
-        // Not by nlohmann's callback, which takes quadratic time in the length of an array.
+        // Does not use nlohmann's callback, which takes quadratic time in the length of an array.
         json document = json::parse(chunks.json.begin(), chunks.json.end());
         bool has_others = dropOthers(document, images, motion);
         const std::string data = isGlb(file) ? std::string() : takeData(document);
@@ -696,7 +696,7 @@ std::vector<std::uint32_t> readIndices(
         if (indices[i] < vertex_count) continue;
         throw engine::Error(
             "index " + std::to_string(i) + " names vertex " + std::to_string(indices[i]) +
-            ", there are " + std::to_string(vertex_count));
+            ", but there are " + std::to_string(vertex_count));
     }
     return indices;
 }

@@ -33,7 +33,7 @@ std::optional<std::string> decodeBase64(std::string_view text);
 // The chunks of a binary glTF file (glTF 2.0, section 4.4).
 struct GlbChunks {
     std::string_view json;
-    std::string_view binary;  // empty where there is none
+    std::string_view binary;  // empty if there is none
 };
 
 bool isGlb(std::string_view file);
@@ -52,7 +52,7 @@ enum class GltfImages {
 enum class GltfMotion { skipped, read };
 
 // Reads glTF 2.0: .gltf or, by its first bytes, .glb. Buffers in files of their own are read from
-// the folder of `path` after a call of `check`, or refused where `path` is empty. Sections that
+// the folder of `path` after a call of `check`, or refused if `path` is empty. Sections that
 // nothing here needs are left out. Refuses required extensions that change the geometry. Throws
 // engine::Error without naming the file.
 tinygltf::Model loadGltf(
@@ -71,7 +71,7 @@ template <class Element>
 const Element& at(const std::vector<Element>& elements, int index, const char* kind) {
     if (index < 0 || static_cast<std::size_t>(index) >= elements.size()) {
         throw engine::Error(
-            "the file names " + numbered(kind, index) + ", it has " +
+            "the file names " + numbered(kind, index) + ", but it has " +
             std::to_string(elements.size()));
     }
     return elements[static_cast<std::size_t>(index)];
@@ -116,12 +116,12 @@ std::vector<glm::vec2> readTextureCoordinates(const tinygltf::Model& model, int 
 
 struct GltfColors {
     std::vector<glm::vec3> colors;
-    std::vector<float> opacities;  // empty where the accessor is a VEC3
+    std::vector<float> opacities;  // empty if the accessor is a VEC3
 };
 GltfColors readColors(const tinygltf::Model& model, int accessor);
 
-// Returns the vertices that a primitive names, all of them below `vertex_count`; 0, 1, 2 ... where
-// it has no indices.
+// Returns the vertices that a primitive names, all of them below `vertex_count`; 0, 1, 2 ... if it
+// has no indices.
 std::vector<std::uint32_t> readIndices(
     const tinygltf::Model& model, const tinygltf::Primitive& primitive, std::size_t vertex_count);
 
@@ -134,8 +134,8 @@ struct GltfPlace {
 };
 
 // Visits the primitives of the default scene's meshes. Errors, also those of `visit`, begin with
-// the mesh and primitive where there is one. Throws engine::Error also where the scene's nodes are
-// not a tree.
+// the mesh and primitive if there is one. Throws engine::Error also if the scene's nodes are not a
+// tree.
 void forEachPrimitive(
     const tinygltf::Model& model, const std::function<void(const GltfPlace& place)>& visit);
 

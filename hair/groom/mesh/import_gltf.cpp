@@ -242,7 +242,7 @@ std::size_t triangleCount(int mode, std::size_t index_count) {
     return index_count / 3;
 }
 
-// Returns the group's weights; none where the group is new.
+// Returns the group's weights; none if the group is new.
 std::vector<float>& weightsOf(Mesh& mesh, const std::string& name) {
     const auto group = std::ranges::find(mesh.vertex_groups, name, &VertexGroup::name);
     if (group != mesh.vertex_groups.end()) return group->weights;
@@ -284,7 +284,7 @@ public:
     }
 
 private:
-    // Returns their number.
+    // Returns the number of added vertices.
     std::size_t addVertices(const tinygltf::Primitive& primitive, const glm::dmat4& transform) {
         const std::vector<glm::vec3> positions = readPositions(model_, primitive);
         const std::size_t count = positions.size();
@@ -304,7 +304,7 @@ private:
         if (const auto accessor = findAttribute(primitive, "TEXCOORD_0")) {
             const auto coordinates =
                 matching(readTextureCoordinates(model_, *accessor), count, "TEXCOORD_0");
-            // For earlier vertices without any.
+            // Earlier vertices without coordinates get 0.
             mesh_.texture_coordinates.resize(first, glm::vec2(0.0f));
             mesh_.texture_coordinates.insert(
                 mesh_.texture_coordinates.end(), coordinates.begin(), coordinates.end());

@@ -31,7 +31,7 @@ namespace {
 // ---- Import assimp ------------------------------------------------------------------------------
 
 // Reads the formats of assimp, in a child process (mesh_reader.cpp). The faces of a PLY are checked
-// before, because assimp reads memory behind the vertices for indices out of range.
+// before, because assimp reads past the vertices for indices out of range.
 Mesh importAssimp(
     const std::filesystem::path& path, Textures textures, const NamedFileCheck& check) {
     if (lowerCaseExtension(path) == ".ply") {

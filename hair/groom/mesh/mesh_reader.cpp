@@ -29,7 +29,7 @@ namespace {
 // Node transforms are applied, polygons triangulated, points and lines left out. Parts are the
 // nodes that hold triangles, by their names or those of their meshes: objects and groups in most
 // formats. Vertex groups are the bones. Texture coordinates are the first set, 0 for parts without.
-// Materials have the diffuse colour, and its texture where that is a file.
+// Materials have the diffuse colour, and its texture if that is a file.
 constexpr unsigned kSteps = aiProcess_Triangulate | aiProcess_JoinIdenticalVertices |
                             aiProcess_GenSmoothNormals | aiProcess_SortByPType |
                             aiProcess_GlobalScale | aiProcess_RemoveComponent;
@@ -51,7 +51,7 @@ Material toMaterial(const aiMaterial& source) {
     return material;
 }
 
-// The file of the diffuse texture, relative to the mesh's folder; empty where there is none.
+// The file of the diffuse texture, relative to the mesh's folder; empty if there is none.
 std::string textureOf(const aiMaterial& source) {
     aiString name;
     unsigned coordinates = 0;
@@ -68,7 +68,7 @@ void checkVertex(unsigned vertex, const aiMesh& part, const std::string& what) {
     if (vertex < part.mNumVertices) return;
     throw engine::Error(
         what + " of mesh '" + part.mName.C_Str() + "' names vertex " + std::to_string(vertex) +
-        ", there are " + std::to_string(part.mNumVertices));
+        ", but there are " + std::to_string(part.mNumVertices));
 }
 
 // Positions, normals and texture coordinates.
@@ -232,7 +232,7 @@ void checkSizes(const aiScene& scene, std::uintmax_t file_size) {
         if (bytes > most)
             throw engine::Error(
                 std::to_string(scene.mNumMeshes) + " meshes at " + std::to_string(count) +
-                " nodes unfold to more than " + std::to_string(most >> 20) +
+                " nodes expand to more than " + std::to_string(most >> 20) +
                 " MiB, the limit of 16 times the file's size plus 32 MiB");
         nodes.insert(nodes.end(), node.mChildren, node.mChildren + node.mNumChildren);
     }

@@ -161,7 +161,7 @@ pairSides(std::span<const Triangle> triangles, std::span<const glm::vec3> positi
 
 // Leaves out triangles with equal corners, and flips the longest edge of triangles with corners on
 // a line. The surface stays the same and closed, and every triangle gets a normal. Throws as
-// pairSides does, and where flat triangles are left.
+// pairSides does, and if flat triangles are left.
 // Every round flips at least one edge. If the triangle behind the longest side of a flat triangle
 // is flat, too, its own longest side is at least as long. So following these sides ends at an edge
 // that can be flipped. A flip leaves fewer flat triangles, or flat ones with a shorter edge, so the
@@ -393,7 +393,8 @@ namespace {
 // ---- Nearest surface ----------------------------------------------------------------------------
 
 constexpr std::size_t kMostInLeaf = 4;
-constexpr std::size_t kNearestStackSize = 64;  // every split halves, and counts have 32 bits
+constexpr std::size_t kNearestStackSize =
+    64;  // enough: every split halves, and counts have 32 bits
 
 using CornerPoints = std::array<glm::vec3, 3>;
 
@@ -405,8 +406,8 @@ double squareDistance(const glm::dvec3& p, const glm::vec3& low, const glm::vec3
 
 using Candidate = NearestCandidate;
 
-// Compares the nearest point of a triangle with the best so far. That point is on the face where
-// `p` lies within the three planes through the edges, otherwise on the nearest edge (the regions of
+// Compares the nearest point of a triangle with the best so far. That point is on the face if `p`
+// lies within the three planes through the edges, otherwise on the nearest edge (the regions of
 // Ericson 2005, Real-time collision detection, 5.1.5). A triangle without area has only edges, one
 // without length only corners.
 void compare(const glm::dvec3& p, const CornerPoints& corners, std::size_t slot, Candidate& best) {

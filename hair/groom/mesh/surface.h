@@ -15,8 +15,8 @@
 namespace hair::groom {
 
 // Directions that tell outside from inside at a triangle's features: with p a point and c the point
-// of the surface nearest to it, p is inside where (p - c) . n < 0 for the n of the feature that c
-// lies on. Baerentzen and Aanaes 2005, Signed distance computation using the angle weighted
+// of the surface nearest to it, p is inside if (p - c) . n < 0 for the n of the feature that c lies
+// on. Baerentzen and Aanaes 2005, Signed distance computation using the angle weighted
 // pseudonormal.
 struct Pseudonormals {
     glm::dvec3 face;  // unit length
@@ -102,7 +102,7 @@ public:
         std::span<const std::array<std::uint32_t, 3>> triangles);
 
     MeshPoint operator()(const glm::dvec3& point) const;
-    // Returns nothing where that point is `reach` away or farther, which is known much sooner.
+    // Returns nothing if that point is `reach` away or farther, which is known much sooner.
     std::optional<MeshPoint> within(const glm::dvec3& point, double reach) const;
 
 private:

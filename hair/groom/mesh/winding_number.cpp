@@ -16,7 +16,8 @@ namespace {
 
 // The leaves are small, because the solid angle of a triangle costs more than that of a multipole.
 constexpr std::size_t kMostInWindingLeaf = 4;
-constexpr std::size_t kWindingStackSize = 64;  // every split halves, and counts have 32 bits
+constexpr std::size_t kWindingStackSize =
+    64;  // enough: every split halves, and counts have 32 bits
 
 using TriangleCorners = std::array<glm::dvec3, 3>;
 
@@ -43,7 +44,7 @@ std::array<double, 5> quadrupoleOf(const glm::dmat3& sum) {
     return {sum[0][0] - third, sum[1][1] - third, even(0, 1), even(0, 2), even(1, 2)};
 }
 
-// The same for a sum of n_i x_j x_k, [i].
+// Returns the same part of a sum of n_i x_j x_k, [i].
 std::array<double, 10> octupoleOf(const std::array<glm::dmat3, 3>& sum) {
     const auto even = [&](int i, int j, int k) {
         const auto at = [&](int n, int x, int y) { return sum[static_cast<std::size_t>(n)][x][y]; };

@@ -28,7 +28,7 @@ struct Multipole {
 // from one to the other, and across a triangle it jumps by 1. Jacobson et al. 2013, Robust
 // inside-outside segmentation using generalized winding numbers, eq. 5.
 //
-// A tree node counts as a multipole where its centre is farther away than kReach times its radius:
+// A tree node counts as a multipole if its centre is farther away than kReach times its radius:
 // Barill et al. 2018, Fast winding numbers for soups and clouds, with their three terms of the
 // Taylor series and their kReach (there beta). The error of a node with the area A and the radius r
 // at the distance d is at most A r^3 / (pi (d - r)^5) in sum: r^3 / 6 times the third derivatives

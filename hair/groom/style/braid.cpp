@@ -21,8 +21,9 @@
 namespace hair::groom {
 namespace {
 
-constexpr double kDepth = 0.6;  // of the parts' way into the braid, relative to the way across it
-constexpr double kSection = 0.42;  // radius of a part, relative to the way across
+constexpr double kDepth = 0.6;  // how far parts move into the braid, relative to how far they move
+                                // across it
+constexpr double kSection = 0.42;  // radius of a part, relative to its movement across the braid
 constexpr double kWidth = 2.0 * (1.0 + kSection);
 constexpr double kLeastLeft = 0.12;  // share of strands for which the braid is thick enough
 constexpr int kStepsPerPitch = 32;

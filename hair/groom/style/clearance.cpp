@@ -75,7 +75,7 @@ struct ClearStrand {
         const std::vector<glm::dvec3> old = points;
         bool moved = false;
         glm::dvec3 above(0.0);  // direction of the segment above
-        double depth = 0.0;  // of the vertex above, where it is inside
+        double depth = 0.0;  // of the vertex above, if it is inside
         for (std::size_t i = 1; i < points.size(); ++i) {
             const glm::dvec3 edge = old[i] - old[i - 1];
             glm::dvec3 direction = lengths[i] > 0.0 ? edge / lengths[i] : edge;
@@ -103,9 +103,9 @@ struct ClearStrand {
         return moved;
     }
 
-    // Clears the vertices that no turn of a single segment does, under a jaw or behind an ear.
-    // Alternately, vertices are pushed to their clearance, and lengths are restored from the root
-    // on.
+    // Clears vertices that no turn of a single segment can clear, such as those under a jaw or
+    // behind an ear. Alternately pushes vertices to their clearance and restores lengths from the
+    // root on.
     void pushVertices() {
         static constexpr int kMostPushes = 400;
         static constexpr double kNear = 1e-4;  // m

@@ -28,8 +28,8 @@ NearGround groundUnder(const glm::dvec3& point, const MeshPoint& nearest, const 
 // For an open mesh, inside means behind the nearest triangle.
 Groom keepClear(Groom groom, const Mesh& mesh, double clearance);
 
-// The same for the points of one strand, root first; returns whether they moved. `surface` is the
-// mesh's.
+// Does the same for the points of one strand, root first, and returns whether they moved. `surface`
+// is the mesh's.
 bool keepClear(
     std::vector<glm::dvec3>& points, const Mesh& mesh, const NearestSurface& surface,
     double clearance);

@@ -54,8 +54,8 @@ glm::dvec3 perpendicularPart(const glm::dvec3& vector, const glm::dvec3& unit) {
     return vector - glm::dot(vector, unit) * unit;
 }
 
-// Returns the tangent at each point: the direction of the chord between its neighbours or, where
-// those coincide, of the segment before.
+// Returns the tangent at each point: the direction of the chord between its neighbours or, if those
+// coincide, of the segment before.
 std::vector<glm::dvec3> tangents(std::span<const glm::vec3> points) {
     std::vector<glm::dvec3> tangents(points.size());
     glm::dvec3 last = rootDirection(points);
@@ -183,7 +183,7 @@ public:
     double operator()(std::uint32_t strand, double turns) const {
         const std::uint32_t like = centres_.empty() ? strand : centres_[strand];
         double phase = variation_ * random01(seed_, like, phase_purpose_);
-        static constexpr double kChanges = 0.5;  // of the drift, a turn
+        static constexpr double kChanges = 0.5;  // changes of the drift per turn
         if (drift_ != 0.0)
             phase +=
                 drift_ *

@@ -62,17 +62,17 @@ glm::dvec3 rootDirection(std::span<const glm::vec3> points);
 glm::dvec3 across(const glm::dvec3& direction);
 
 // Returns rotation-minimising frames of the strand, one at each point. The first normal is in the
-// plane of the strand's direction at the root and `root_normal`. Where the two are parallel (less
-// than 0.001 rad) or `root_normal` is null, it is towards the point that is farthest from the line
-// of that direction; on a straight strand, it is across(). Wang, Jüttler, Zheng and Liu 2008,
+// plane of the strand's direction at the root and `root_normal`. If the two are parallel (less than
+// 0.001 rad) or `root_normal` is null, it is towards the point that is farthest from the line of
+// that direction; on a straight strand, it is across(). Wang, Jüttler, Zheng and Liu 2008,
 // Computation of rotation minimizing frames, table I (double reflection).
 std::vector<StrandFrame>
 strandFrames(std::span<const glm::vec3> points, const glm::vec3* root_normal);
 
-// Adds a sine across the strand, in the plane of its tangent at the root and the root's normal.
-// Where those are parallel or there is no normal, it is in the strand's own plane. Its phase is
-// that of the strand's clump of `spacing`, and drifts along the strand by up to `drift` waves. The
-// helix of curl() has the same kind of phase.
+// Adds a sine across the strand, in the plane of its tangent at the root and the root's normal. If
+// those are parallel or there is no normal, it is in the strand's own plane. Its phase is that of
+// the strand's clump of `spacing`, and drifts along the strand by up to `drift` waves. The helix of
+// curl() has the same kind of phase.
 Groom wave(Groom groom, const WaveSettings& settings, std::uint32_t seed);
 
 // Winds the strand to a right-handed helix in its rotation-minimising frame (Wang et al. 2008,

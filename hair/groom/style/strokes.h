@@ -29,7 +29,7 @@ namespace hair::groom {
 // clump     Vertices move to the nearest place of the path by s w times their fraction of the
 //           strand's length.
 //
-// Where vertices moved, segments get back their lengths one after the other from the root on. Roots
+// If vertices moved, segments get back their lengths one after the other, from the root on. Roots
 // and numbers of points stay, and cut and lengthen keep the segments' proportions. After each
 // stroke, the strands that it changed are kept clear of the mesh. Other strands keep every bit, and
 // so do all strands for a strength of 0.
@@ -58,7 +58,7 @@ private:
     apply(const Stroke& stroke, std::vector<glm::dvec3>& points, std::span<float> widths) const;
 
     const Mesh* mesh_;
-    std::optional<NearestSurface> surface_;  // of the mesh, where there are strokes
+    std::optional<NearestSurface> surface_;  // of the mesh; only if there are strokes
     double clearance_;
     glm::dvec3 middle_;
     std::vector<Stroke> strokes_;
@@ -70,7 +70,7 @@ glm::vec3 middleOfRoots(const Groom& groom);
 // Replays the strokes on every strand of a groom, on all processors.
 Groom replay(Groom groom, const Strokes& strokes);
 
-// The same for strands with differing numbers of points; `ends` as in StrandSet.
+// Does the same for strands with differing numbers of points. `ends` is as in StrandSet.
 void replay(
     std::span<const std::uint32_t> ends, std::span<glm::vec3> points, const Strokes& strokes);
 

@@ -29,7 +29,7 @@ struct MovingVertex {
     vec3 position_on_head;
     vec3 before_on_head;
     vec4 plane;
-    float gap;  // distance to the plane; 0 where it touches
+    float gap;  // distance to the plane; 0 if the vertex touches it
     float share;  // share of its motion along the body that friction cancels
 };
 
@@ -100,8 +100,7 @@ void collideWithBody(inout MovingVertex vertex, Bodies bodies, uint body, float 
 
 // The bodies with the margin for a vertex of [strand][vertex], which may be smaller than theirs.
 Bodies bodiesAt(GuideParameters guides, uint vertex) {
-    // Mesa 22's llvmpipe reads x where only the last component is read, so the whole vector is
-    // read.
+    // Mesa 22's llvmpipe reads x if only the last component is read, so the whole vector is read.
     vec4 rest = Vectors(guides.rest_positions).at[vertex];
     Bodies bodies = guides.bodies;
     bodies.margin = rest.w;

@@ -46,7 +46,7 @@ float sampleDistance(DistanceField field, vec3 p, out vec3 gradient) {
 }
 
 // Distance of a point from the surface with its margin; negative inside. `normal`: the unit
-// gradient, or +y where the gradient has no direction. All in the field's frame.
+// gradient, or +y if the gradient has no direction. All in the field's frame.
 float gapTo(DistanceField field, float margin, vec3 position, out vec3 normal) {
     vec3 gradient;
     float gap = sampleDistance(field, position, gradient) - margin;

@@ -31,10 +31,9 @@ void projectLength(inout vec4 a, inout vec4 b, float rest_length) {
 // the walk that solves the other, so a pass is one walk down and one walk up.
 
 // Near a body a vertex has a plane, dot(n, x) >= plane.w. The walk down keeps the vertex outside of
-// it as far as the vertex above permits. Where it touches, the tensions treat it as nearly
-// infinitely heavy across the plane, with w (1 - kHeld n n^T) instead of w. Where it sticks, it is
-// as heavy in all directions. In between, the share of its motion that friction cancels
-// interpolates.
+// it as far as the vertex above permits. If it touches, the tensions treat it as nearly infinitely
+// heavy across the plane, with w (1 - kHeld n n^T) instead of w. If it sticks, it is as heavy in
+// all directions. In between, the share of its motion that friction cancels interpolates.
 
 // The largest part of a segment's compression that a pass pushes apart. The walk down does the
 // rest. The limit keeps the system of positions diagonally dominant, with every pivot >= 1 / 5.
@@ -73,8 +72,8 @@ LengthRow lengthRow(vec4 predicted, vec4 plane, float held) {
     return LengthRow(vec4(predicted.xyz, 0.0), vec2(0.0), plane, held);
 }
 
-// Compliance of a vertex along a body where friction cancels `share` of the motion, and its
-// reduction across the body; both relative to 1.
+// Compliance of a vertex along a body if friction cancels `share` of the motion, and its reduction
+// across the body; both relative to 1.
 float complianceAlong(float share) { return 1.0 - kHeld * max(share, 0.0); }
 float heldAcross(float share) {
     return share < 0.0 ? 0.0 : kHeld * (1.0 - share) / complianceAlong(share);

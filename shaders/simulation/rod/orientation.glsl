@@ -16,8 +16,8 @@ vec4 pullOfJoint(vec4 r, float bend_stiffness, float twist_stiffness) {
                      r.w < 0.0 ? -greatest : greatest);
 }
 
-// The same for the orientation of the joint's second segment. `half_rotation` is half of the rest
-// rotation between the two.
+// The bound's coefficients for the orientation of the joint's second segment. `half_rotation` is
+// half of the rest rotation between the two.
 vec4 pullFromAbove(
     vec4 above, vec4 orientation, vec4 half_rotation, float bend_stiffness,
     float twist_stiffness) {
@@ -27,7 +27,7 @@ vec4 pullFromAbove(
     return multiply(multiply(frame, pull), half_rotation);
 }
 
-// The same for the orientation of the joint's first segment.
+// The bound's coefficients for the orientation of the joint's first segment.
 vec4 pullFromBelow(
     vec4 orientation, vec4 below, vec4 half_rotation, float bend_stiffness,
     float twist_stiffness) {

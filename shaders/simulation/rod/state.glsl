@@ -89,7 +89,7 @@ vec4 turned(vec4 orientation, vec3 rotation) {
     return normalize(multiply(vec4(0.5 * rotation, 1.0), orientation));
 }
 
-// The change of a vector by turned(). It is exact where the difference of the two would be only
+// The change of a vector by turned(). It stays exact if the difference of the two would be lost in
 // rounding.
 vec3 gainOf(vec3 v, vec3 rotation) {
     vec3 t = 0.5 * rotation;

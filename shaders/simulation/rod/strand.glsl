@@ -49,7 +49,7 @@ void setScratch(uint i, uint row, vec4 value) {
     storeVector(rod.scratch, scratchIndex(i, row), value);
 }
 
-// Mesa 22's llvmpipe reads x where only the last component is read, so the whole vector is read.
+// Mesa 22's llvmpipe reads x if only the last component is read, so the whole vector is read.
 bool isPinned(uint i) {
     vec4 point = State(from.positions).at[root + i];
     return point.w == 0.0;

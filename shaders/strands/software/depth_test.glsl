@@ -1,5 +1,5 @@
-// Tests a piece's depth at a sample with 32-bit minima: first the nearness of the nearest piece
-// and, once all samples have it, the piece's number.
+// Tests a piece's depth at a sample by 32-bit atomic minima: first its nearness and, once all
+// samples have the least one, the piece's number.
 #include "common/vectors.glsl"
 
 #include "strands/software/software.glsl"

@@ -16,7 +16,7 @@ uint entry(uint table, uint index) { return table >> (4u * index) & 15u; }
 // The position along a row of its sample, and the sample's index.
 uint rowPositions() { return bySamples(0x8u, 0xC4u, 0xA2E6u, 0xB37D195Fu); }
 uint rowSamples() { return bySamples(0x0u, 0x01u, 0x3210u, 0x64125037u); }
-// The same for columns.
+// The position along a column of its sample, and the sample's index.
 uint columnPositions() { return bySamples(0x8u, 0xC4u, 0x6E2Au, 0x19F5B3D7u); }
 uint columnSamples() { return bySamples(0x0u, 0x01u, 0x1302u, 0x72601345u); }
 

@@ -36,7 +36,7 @@ while read -r target options; do
         cp "$fuzzers" "$program"
         first=$program
     else
-        ln -f "$first" "$program"  # they differ in their names alone
+        ln -f "$first" "$program"  # they differ only in their names
     fi
     {
         echo "[libfuzzer]"

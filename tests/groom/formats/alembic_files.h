@@ -9,7 +9,7 @@
 #include "tests/groom/formats/bytes.h"
 
 // Alembic archives byte by byte, as hair/groom/formats/ogawa.h describes them and independent of
-// hairbench's writer. Here numbers of headers have 4 bytes and metadata follow them; hairbench
+// hairbench's writer. Here, numbers in headers have 4 bytes and are followed by metadata. hairbench
 // writes 1 byte and numbered metadata.
 
 enum AlembicCode : std::uint32_t {  // Alembic's PlainOldDataType

@@ -81,7 +81,7 @@ TEST(Alembic, ReadsUnrealsParameters) {
     EXPECT_THAT(set.guides, ElementsAre(0, 1));
     EXPECT_THAT(set.root_uvs, ElementsAre(glm::vec2(0.25f, 0.5f), glm::vec2(0.75f, 1)));
     EXPECT_EQ(set.widths.everywhere, 3.0f);
-    // One colour for each curve, at its two and at its three points.
+    // One colour for each curve, at its two or three points.
     EXPECT_THAT(
         set.colors.values, ElementsAre(
                                glm::vec3(1, 0, 0), glm::vec3(1, 0, 0), glm::vec3(0, 1, 0),
@@ -290,8 +290,8 @@ TEST(AlembicCubic, CatmullRomCurvesRunThroughTheirVertices) {
         EXPECT_EQ(set.points[i], glm::vec3(points[3 * i], points[3 * i + 1], points[3 * i + 2]));
 }
 
-// With double vertices at each end the whole curve of the others is drawn: five vertices less two
-// segments.
+// With double vertices at each end, the whole curve of the inner vertices is drawn: five vertices
+// make two segments fewer.
 TEST(AlembicCubic, CatmullRomCurvesWithDoubledEndsAreDrawnBetweenThem) {
     const StrandSet set = readCubic(3, {0, 0, 0, 0, 0, 0, 2, 0, 0, 2, 2, 0, 2, 2, 0}, {5});
     ASSERT_THAT(set.ends, ElementsAre(5));
@@ -365,7 +365,8 @@ TEST(AlembicNurbs, KeepTheirParameterWithVerticesAtMeansOfKnots) {
     knots.insert(knots.end(), {0, 0, 1, 1});
     const StrandSet set =
         readMade({madeCurves("a", withKnots(points, {7, 3, 2}, knots, "\4\3\2"))});
-    // The cubic one has segments from 0 to 1, 1.5 and 4, each in 2 pieces, as the others have.
+    // The cubic curve has segments from 0 to 1, 1.5 and 4, each in 2 pieces like those of the
+    // others.
     ASSERT_THAT(set.ends, ElementsAre(7, 10, 13));
     const float cubic_expected[] = {0, 0.5f, 1, 1.25f, 1.5f, 2.75f, 4};
     for (std::size_t i = 0; i < 7; ++i) {
@@ -543,7 +544,7 @@ TEST(Ogawa, RefusesCountsThatTheFileDoesNotBearOut) {
     const std::uint64_t data = archive.data(Bytes().u32(4).text("abcd").u8(0).zeros(32).str());
     EXPECT_THAT(
         readError(importAlembic, archive.finish(archive.group({0, data}))),
-        HasSubstr("headers of more objects than the 0 there"));
+        HasSubstr("more headers than the 0 objects"));
 
     MadeProperty half = madeFloats("P", 3, kFivePoints);
     half.samples[0].pop_back();
@@ -696,7 +697,7 @@ TEST(AlembicExport, HasOneValueWhereAllAreOne) {
     EXPECT_EQ(errorText([] { writeText(exportAlembic, {}); }), "there are no strands");
 }
 
-// Each sample of ours has the hash that Alembic's own library has written for the same numbers.
+// Each of our samples has the hash that Alembic's own library wrote for the same numbers.
 TEST(AlembicExport, HasTheHashesOfAlembicsLibrary) {
     const std::string library = textOf(corpus("abc/alembic_groom.abc"));
     const StrandSet strands = readText(importAlembic, library);
@@ -719,13 +720,13 @@ TEST(AlembicExport, HasTheHashesOfAlembicsLibrary) {
     expectSame(textIn(strands.root_uvs));
 }
 
-// Alembic's own library reads our archives to the last bit.
+// Alembic's own library reads our archives exactly, to the last bit.
 TEST(AlembicExport, IsReadByAlembicsLibrary) {
     const std::string python = HAIRBENCH_SOURCE_DIR "/.deps/alembic/bin/python";
     if (!std::filesystem::exists(python))
         GTEST_SKIP() << "no Python environment for Alembic: run scripts/setup --alembic";
     StrandSet strands = hardStrands();
-    strands.points[2].x = 1e30f;  // corners of the bounds
+    strands.points[2].x = 1e30f;  // the bounds' corners
     strands.points[9].z = -2.0f;
     strands.groups = {-5, 1, 2};
     strands.guides = {0, 1, 0};

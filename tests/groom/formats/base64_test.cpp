@@ -16,7 +16,7 @@ TEST(DecodeBase64, GivesTheStandardsVectors) {
     EXPECT_EQ(decodeBase64("Zm9vYmFy"), "foobar");
 }
 
-// Section 4: the last two of the alphabet are the values 62 and 63.
+// Section 4: the last two characters of the alphabet have the values 62 and 63.
 TEST(DecodeBase64, KnowsTheWholeAlphabet) { EXPECT_EQ(decodeBase64("+/+/"), "\xfb\xff\xbf"); }
 
 TEST(DecodeBase64, RefusesOtherText) {

@@ -8,7 +8,7 @@ namespace hair::groom {
 namespace {
 
 TEST(FirstNotFinite, FindsEveryPlace) {
-    // More than a block, so that the last one is not full.
+    // More than one block, so that the last block is not full.
     std::vector<float> numbers(4096 + 7, std::numeric_limits<float>::max());
     numbers[3] = std::numeric_limits<float>::denorm_min();
     numbers[4] = std::numeric_limits<float>::lowest();

@@ -60,5 +60,5 @@ constexpr float kNotFinite[] = {
     std::numeric_limits<float>::quiet_NaN(), std::numeric_limits<float>::signaling_NaN(),
     std::numeric_limits<float>::infinity(), -std::numeric_limits<float>::infinity()};
 
-// Wrong values for counts and offsets: nothing, one, the greatest numbers, negative ones.
+// Wrong values for counts and offsets: zero, one, the greatest numbers, negative numbers.
 constexpr std::uint32_t kWrongCounts[] = {0, 1, 0x7fffffff, 0x80000000, 0xfffffffe, 0xffffffff};

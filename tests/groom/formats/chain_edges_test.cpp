@@ -41,7 +41,8 @@ TEST(ChainEdges, RefusesWhatIsNoChain) {
     EXPECT_THAT(chainError({{0, 1}, {1, 0}}), HasSubstr("closed loop"));
     EXPECT_THAT(chainError({{4, 4}}), HasSubstr("edge 0: the edge joins vertex 4 to itself"));
     EXPECT_THAT(
-        chainError({{0, 1}, {1, 10}}), HasSubstr("edge 1: the edge names vertex 10, there are 10"));
+        chainError({{0, 1}, {1, 10}}),
+        HasSubstr("edge 1: the edge names vertex 10, but there are 10"));
 }
 
 TEST(ChainEdges, HasNoStrandsWithoutEdges) { EXPECT_TRUE(chain({}).ends.empty()); }
@@ -62,8 +63,8 @@ TEST(EdgesOf, RefusesPointsOnly) {
     strands.ends = {1};
     strands.points.resize(1);
     std::vector<std::string> warnings;
-    EXPECT_THAT(errorText([&] { edgesOf(strands, warnings); }), HasSubstr("no strand has two"));
-    EXPECT_THAT(errorText([&] { edgesOf({}, warnings); }), HasSubstr("no strand has two"));
+    EXPECT_THAT(errorText([&] { edgesOf(strands, warnings); }), HasSubstr("no strand has the two"));
+    EXPECT_THAT(errorText([&] { edgesOf({}, warnings); }), HasSubstr("no strand has the two"));
 }
 
 }  // namespace

@@ -6,7 +6,7 @@
 #include "tests/groom/formats/strand_files.h"
 #include "tests/python.h"
 
-// tests/corpus/README.md says where its files come from.
+// tests/corpus/README.md gives the origin of the files.
 namespace hair::groom {
 namespace {
 
@@ -57,7 +57,7 @@ const std::map<std::string, std::uint32_t> kStrands{
     {"xml/linear.xml", 3},
 };
 
-// Files in the folders of formats, relative to `folder`, without those directly in `folder`.
+// Files in the folders of formats, relative to `folder`, except files directly in `folder`.
 std::vector<std::string> filesIn(const fs::path& folder) {
     std::vector<std::string> files;
     for (const auto& entry : fs::recursive_directory_iterator(folder)) {

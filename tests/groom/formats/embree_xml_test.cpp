@@ -79,7 +79,7 @@ TEST(EmbreeXml, SamplesBezierCurves) {
 }
 
 // Both bases have linear precision: the points are evenly spaced on a line, from the second vertex
-// to the last but one. Catmull and Rom's curve passes through them in any case.
+// to the last but one. Catmull and Rom's curve always passes through them.
 TEST(EmbreeXml, SamplesSplines) {
     const std::string even = "0 0 0 1 2 0 0 1 4 0 0 1 6 0 0 1 8 0 0 1";
     for (const char* basis : {"bspline", "catmull_rom"}) {
@@ -109,8 +109,9 @@ TEST(EmbreeXml, SamplesHermiteCurves) {
     }
     EXPECT_THAT(
         errorOfXml(replaced(text, "0 1</indices>", "2</indices>")),
-        HasSubstr("a segment of vertices 7 to 10, there are 9"));
-    EXPECT_THAT(errorOfXml(replaced(text, "12 1 0 0", "")), HasSubstr("2 tangents, there are 3"));
+        HasSubstr("a segment of vertices 7 to 10, but there are 9"));
+    EXPECT_THAT(
+        errorOfXml(replaced(text, "12 1 0 0", "")), HasSubstr("2 tangents, but there are 3"));
     // For moving curves the first shape counts.
     std::string moving = replaced(text, "<tangents>", "<animated_tangents><tangents>");
     moving = replaced(
@@ -129,7 +130,8 @@ TEST(EmbreeXml, FollowsGroupsAndTransforms) {
     const StrandSet set = readXml(text);
     EXPECT_EQ(set.points[2], glm::vec3(2 * 0.5f + 1, 2, 2 * 2 + 3));
     EXPECT_EQ(set.points[3], glm::vec3(1, 2 * 4 + 2, 3));
-    for (const float width : set.widths.values) EXPECT_FLOAT_EQ(width, 1.0f);  // by a cube root
+    // a cube root's rounding
+    for (const float width : set.widths.values) EXPECT_FLOAT_EQ(width, 1.0f);
     EXPECT_THAT(set.warnings, ElementsAre("the scene's 'PointLight' are left out"));
     EXPECT_THAT(
         errorOfXml(replaced(text, "<AffineSpace>", "<AffineSpace rotate=\"1 2 3\">")),
@@ -153,7 +155,7 @@ TEST(EmbreeXml, FollowsShortTransforms) {
         EXPECT_THAT(errorOfXml(placed(wrong)), StartsWith("line 3: ")) << wrong;
 }
 
-// The nodes of an `assign` appear only where the file refers to them, each time.
+// The nodes of an `assign` appear only at references, and at each of them.
 TEST(EmbreeXml, FollowsReferences) {
     std::string text = replaced(kLinear, "<scene>", "<scene><assign type=\"scene\" id=\"hair\">");
     text = replaced(text, "</scene>", "</assign><Group><ref id=\"hair\"/></Group></scene>");
@@ -165,7 +167,7 @@ TEST(EmbreeXml, FollowsReferences) {
     ASSERT_THAT(set.ends, ElementsAre(3, 5, 8, 10));
     EXPECT_EQ(set.points[0], glm::vec3(9, 0, 0));
     EXPECT_EQ(set.points[5], glm::vec3(0));
-    // A reference to an element's own id; the element itself is drawn, too.
+    // A reference to an element's own id. The element itself is drawn too.
     std::string own = replaced(kLinear, "<Curves", "<Curves id=\"own\"");
     own = replaced(own, "</scene>", "<ref id=\"own\"/></scene>");
     EXPECT_THAT(readXml(own).ends, ElementsAre(3, 5, 8, 10));
@@ -176,7 +178,7 @@ TEST(EmbreeXml, FollowsReferences) {
         errorOfXml(replaced(text, "<ref id=\"hair\"/>", "")), "line 3: the scene has no curves");
 }
 
-// A few lines that make 2^40 groups, and a group within itself.
+// A few lines that make 2^40 groups, and a group that contains itself.
 TEST(EmbreeXml, RefusesEndlessReferences) {
     std::string text = "<scene><assign id=\"0\"><Group/></assign>";
     for (int i = 0; i < 40; ++i) {
@@ -186,11 +188,11 @@ TEST(EmbreeXml, RefusesEndlessReferences) {
     }
     EXPECT_THAT(
         errorOfXml(text + "<ref id=\"40\"/></scene>"),
-        HasSubstr("the scene's references unfold to more than 32 MiB"));
+        HasSubstr("the scene's references expand to more than 32 MiB"));
     EXPECT_THAT(
         errorOfXml("<scene><assign id=\"a\"><Group><ref id=\"a\"/></Group></assign>"
                    "<ref id=\"a\"/></scene>"),
-        HasSubstr("one to itself?"));
+        HasSubstr("does one refer to itself?"));
 }
 
 // 16,000 bytes of points, 20,000 times: 320 MB from a file of 0.5 MB.
@@ -202,7 +204,7 @@ TEST(EmbreeXml, HoldsWhatIsReferredToAgainstTheFile) {
     for (int i = 0; i < 999; ++i) text += std::to_string(i) + ' ';
     text += "</indices></Curves></assign>";
     for (int i = 0; i < 20000; ++i) text += "<ref id=\"a\"/>";
-    EXPECT_THAT(errorOfXml(text + "</scene>"), HasSubstr("references unfold to more than"));
+    EXPECT_THAT(errorOfXml(text + "</scene>"), HasSubstr("references expand to more than"));
 }
 
 // All arrays read the same bytes of the file beside the scene.
@@ -216,7 +218,7 @@ TEST(EmbreeXml, HoldsArraysOfTheFileBesideItAgainstItsSize) {
     const auto path = folder.write("scene.xml", text + "</scene>");
     EXPECT_THAT(
         errorText([&] { importStrands(path); }),
-        HasSubstr("arrays in the file of bytes unfold to more than"));
+        HasSubstr("arrays in the file of bytes expand to more than"));
 }
 
 TEST(EmbreeXml, AsksBeforeItOpensTheFileBesideIt) {
@@ -284,7 +286,7 @@ TEST(EmbreeXml, NamesTheLineOfWhatIsWrong) {
     EXPECT_EQ(error("4 1 0", "4 inf 0"), "line 10: 'inf' is not a finite number");
     EXPECT_THAT(error("4 1 0", "4 1"), StartsWith("line 5: 'positions' is not made of groups"));
     EXPECT_THAT(error("0 1 0 0.25", "0 1 0 -1"), StartsWith("line 5: radius 1 is negative"));
-    EXPECT_EQ(error("0 1 3", "0 1 4"), "line 12: a segment of vertices 4 to 5, there are 5");
+    EXPECT_EQ(error("0 1 3", "0 1 4"), "line 12: a segment of vertices 4 to 5, but there are 5");
     EXPECT_EQ(error("0 1 3", "0 1 -3"), "line 12: '-3' is not an index");
     EXPECT_EQ(error("0 1 3", ""), "line 3: the scene has no curves");
     EXPECT_THAT(error("\"linear\"", "\"nurbs\""), StartsWith("line 4: curves of basis 'nurbs'"));

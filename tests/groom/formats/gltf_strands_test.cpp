@@ -113,7 +113,7 @@ TEST(ImportGltfStrands, ReadsWidthsAndColours) {
     EXPECT_EQ(strands.transparencies.at(4), 1.0f - 0.8f);
 }
 
-// A scale by 2, 2 and 16 changes volumes by 64 and so lengths, in the mean, by 4.
+// A scale by 2, 2 and 16 changes volumes by 64 and so lengths, on average, by 4.
 TEST(ImportGltfStrands, PlacesStrandsAsTheNodeSays) {
     const StrandSet strands = read(
         {.node = R"("mesh":0,"scale":[2,2,16],"translation":[10,0,0])",
@@ -147,12 +147,12 @@ TEST(ImportGltfStrands, RefusesWhatIsNoStrand) {
              .indices = R"("componentType":5123,"count":1,"type":"SCALAR")"}),
         StartsWith(place + "a strip of 1 points"));
     Document document;
-    document.data[104] = 0;  // lines 0 1, 1 2 become 0 1, 0 2, whose root is vertex 1
+    document.data[104] = 0;  // lines 0 1, 1 2 become 0 1, 0 2 with the root at vertex 1
     EXPECT_EQ(read(document).points[0], glm::vec3(0, 1, 0));
     document.data[106] = 0;
     EXPECT_THAT(error(document), StartsWith(place + "line 1: the edge joins vertex 0 to itself"));
     document.data[106] = 5;
-    EXPECT_THAT(error(document), StartsWith(place + "index 3 names vertex 5, there are 5"));
+    EXPECT_THAT(error(document), StartsWith(place + "index 3 names vertex 5, but there are 5"));
 }
 
 TEST(ImportGltfStrands, RefusesWrongAttributes) {
@@ -201,7 +201,7 @@ TEST(ImportGltfStrands, NamesTheByteOfWhatIsNoGltf) {
     EXPECT_THAT(errorOf(bytes), StartsWith("byte 12: truncated: the chunk has"));
 }
 
-// A stack overflow in a reader that calls itself, and images that lie outside their buffers.
+// A reader that recurses until the stack overflows, and images that lie outside their buffers.
 TEST(ImportGltfStrands, SurvivesWhatItDoesNotRead) {
     const std::string deep = std::string(200000, '[') + std::string(200000, ']');
     EXPECT_THAT(error({.extra = R"(,"extras":)" + deep}), HasSubstr("more than 64 levels"));
@@ -234,7 +234,7 @@ TEST(ImportGltfStrands, HoldsWhatNodesShareAgainstTheFile) {
     };
     for (const std::string& text : {file(20000, 1, 1000), file(1500, 1500, 3)})
         EXPECT_THAT(
-            readError(importGltfStrands, text), HasSubstr(" nodes with 1 meshes unfold to"));
+            readError(importGltfStrands, text), HasSubstr(" nodes with 1 meshes expand to"));
     EXPECT_EQ(readText(importGltfStrands, file(100, 1, 1000)).ends.size(), 100u);
 }
 

@@ -16,7 +16,7 @@ using testing::StartsWith;
 constexpr std::uint32_t kSegments = 1, kPoints = 2, kThickness = 4, kTransparency = 8, kColors = 16;
 
 // Two strands, of 3 and 2 points. The header's values for absent arrays differ from those of the
-// arrays, and no value is a default of ours.
+// arrays, and no value is one of our defaults.
 std::string fileWith(std::uint32_t arrays) {
     Bytes bytes;
     bytes.text("HAIR").u32(2).u32(arrays & kSegments ? 5 : 6).u32(arrays);
@@ -120,7 +120,7 @@ TEST(ImportHair, RefusesWrongHeaders) {
             EXPECT_THAT(errorOfHair(patched(bytes, count, right ^ 1u << bit)), StartsWith("byte "));
         }
     }
-    EXPECT_EQ(errorOfHair(patched(bytes, 4, 0)), "byte 4: 0 strands, at least 1 is needed");
+    EXPECT_EQ(errorOfHair(patched(bytes, 4, 0)), "byte 4: 0 strands; at least 1 is needed");
     EXPECT_EQ(
         errorOfHair(patched(bytes, 4, -1)),
         "byte 292: truncated: 4294967295 strands and 5 points with arrays 31 are 8589934878 bytes");
@@ -128,7 +128,7 @@ TEST(ImportHair, RefusesWrongHeaders) {
         EXPECT_THAT(errorOfHair(patched(bytes, 12, wrong)), StartsWith("byte ")) << wrong;
     EXPECT_EQ(
         errorOfHair(patched(bytes, 12, 63)), "byte 12: arrays 63: only the bits 0 to 4 are known");
-    // The header's default counts only without an array of segments.
+    // The header's default is used only without an array of segments.
     EXPECT_EQ(errorOfHair(patched(bytes, 16, -1)), "no error");
     EXPECT_EQ(
         errorOfHair(patched(fileWith(kPoints), 16, -1)),
@@ -142,10 +142,10 @@ TEST(ImportHair, RefusesSegmentsThatAreNotThePoints) {
         "byte 8: 5 points, but the strands' segments make 4");
     EXPECT_EQ(
         errorOfHair(patched<std::uint16_t>(bytes, 128, 65535)),
-        "byte 128: strand 0 ends after point 65536, there are 5");
+        "byte 128: strand 0 ends after point 65536, but there are 5");
     EXPECT_EQ(
         errorOfHair(patched<std::uint16_t>(bytes, 130, 2)),
-        "byte 130: strand 1 ends after point 6, there are 5");
+        "byte 130: strand 1 ends after point 6, but there are 5");
 }
 
 TEST(ImportHair, RefusesNumbersThatAreNotFinite) {
@@ -158,7 +158,7 @@ TEST(ImportHair, RefusesNumbersThatAreNotFinite) {
                 AllOf(StartsWith("byte " + std::to_string(at) + ": "), HasSubstr("not finite")));
         }
         for (std::size_t at = 20; at < 40; at += 4) {
-            EXPECT_EQ(errorOfHair(patched(bytes, at, wrong)), "no error");  // not of use
+            EXPECT_EQ(errorOfHair(patched(bytes, at, wrong)), "no error");  // the value is not used
             EXPECT_THAT(
                 errorOfHair(patched(fileWith(kPoints), at, wrong)),
                 AllOf(
@@ -179,7 +179,7 @@ TEST(ExportHair, WritesTheDescribedBytes) {
         const std::string bytes = fileWith(arrays);
         const auto [written, warnings] = writeText(exportHair, readHair(bytes));
         std::string expected = bytes;
-        // The writer puts our own defaults in for present arrays: unknown, opaque, white.
+        // The writer sets our own defaults for arrays that are present: unknown, opaque, white.
         if (arrays & kSegments) expected = patched(expected, 16, 0);
         if (arrays & kThickness) expected = patched(expected, 20, 0.0f);
         if (arrays & kTransparency) expected = patched(expected, 24, 0.0f);
@@ -212,7 +212,7 @@ TEST(ExportHair, RefusesWhatTheFormatCannotHold) {
     strands.ends = {65537, 65538};
     strands.points.resize(65538);
     EXPECT_THAT(errorText([&] { writeText(exportHair, strands); }), HasSubstr("65537"));
-    strands.ends = {65538};  // one size for all
+    strands.ends = {65538};  // one number of points for all strands
     EXPECT_EQ(readHair(writeText(exportHair, strands).bytes).ends, strands.ends);
 }
 

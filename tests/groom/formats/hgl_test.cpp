@@ -101,8 +101,8 @@ TEST(ImportHgl, RefusesPointsThatAreNotFinite) {
 TEST(ImportHgl, RefusesTrianglesOfGuidesThatAreNotThere) {
     for (const std::size_t corner : {84u, 88u, 92u}) {
         const std::string at = "byte " + std::to_string(corner) + ": triangle 0 names strand ";
-        EXPECT_EQ(errorOfHgl(patched(smallFile(), corner, 3)), at + "3, there are 3");
-        EXPECT_EQ(errorOfHgl(patched(smallFile(), corner, -1)), at + "-1, there are 3");
+        EXPECT_EQ(errorOfHgl(patched(smallFile(), corner, 3)), at + "3, but there are 3");
+        EXPECT_EQ(errorOfHgl(patched(smallFile(), corner, -1)), at + "-1, but there are 3");
     }
 }
 

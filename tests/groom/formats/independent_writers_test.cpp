@@ -10,8 +10,8 @@
 #include "hair/groom/mesh/import_mesh.h"
 #include "tests/groom/formats/strand_files.h"
 
-// Files that others' programs have written: tests/corpus/README.md says how, or assimp writes them
-// here.
+// Files that other programs wrote. tests/corpus/README.md says how; some are written here by
+// assimp.
 namespace hair::groom {
 namespace {
 
@@ -43,7 +43,7 @@ TEST(IndependentWriters, PlyfileEdges) {
     }
 }
 
-// Each list runs from the last of its vertices to the first.
+// Each list runs from its last vertex to its first.
 TEST(IndependentWriters, PlyfileLists) {
     constexpr std::array<std::size_t, 9> order{3, 2, 1, 0, 5, 4, 8, 7, 6};
     for (const char* kind : {"ascii", "little", "big"}) {
@@ -108,7 +108,8 @@ TEST(IndependentWriters, AlembicLibraryWithObjectsUnderTransforms) {
         const glm::vec3 p = kWritten[k];
         const glm::vec3 expected(1 - 2 * p.y, 2 + 2 * p.x, 3 + 2 * p.z);
         for (int axis = 0; axis < 3; ++axis)
-            EXPECT_NEAR(strands.points[k][axis], expected[axis], 1e-6f) << k;  // of cos 90 degrees
+            // rounding of cos 90 degrees
+            EXPECT_NEAR(strands.points[k][axis], expected[axis], 1e-6f) << k;
     }
     EXPECT_THAT(strands.warnings, ElementsAre(HasSubstr("the first sample of 2")));
 }

@@ -7,7 +7,8 @@ import numpy as np
 
 os.chdir(sys.argv[1])
 
-# Three strands of four points of numbers that no short decimal holds: madeFloat() of the test.
+# Three strands of four points with coordinates that no short decimal represents: madeFloat() of the
+# test.
 numbers = np.arange(36, dtype=np.float64)
 positions = ((numbers + 1) / 3 - numbers**2 / 7).reshape(3, 4, 3)
 floats = positions.astype(np.float32)

@@ -18,7 +18,7 @@ def new_stage(name, up="Y", unit=1.0):
 
 
 def points(count, first=0):
-    """Numbers that no short decimal and no coarser type holds."""
+    """Numbers that neither a short decimal nor a shorter type represents."""
     return [((k + 1) / 3, -k / 7, 1e-3 * k * k - 0.1) for k in range(first, first + count)]
 
 
@@ -40,7 +40,7 @@ def widths(prim, interpolation, values):
 
 
 def everything(name):
-    """Ragged linear curves with all that strands may have."""
+    """Linear curves with different numbers of points, and with all data that strands may have."""
     stage = new_stage(name, unit=0.01)
     stage.GetRootLayer().documentation = 'made by "usd-core": ä\nsecond line'
     hair = curves(stage, "/head/hair", "linear", [3, 1, 4], points(7) + [(-0.0, 1e-40, 3e38)])
@@ -115,7 +115,8 @@ def animated():
 
 
 def mixed():
-    """One has a primvar of widths with indices, one has none, one is an unread kind of curve."""
+    """One prim has a primvar of widths with indices, one has none, and one holds a kind of curve
+    that is not read."""
     stage = new_stage("mixed.usdc")
     first = curves(stage, "/first", "linear", [2], points(2))
     first.CreateDisplayColorPrimvar("constant").Set([(1, 0, 0)])
@@ -123,7 +124,7 @@ def mixed():
         "widths", Sdf.ValueTypeNames.FloatArray, "vertex")
     primvar.Set([0.5, 0.25])
     primvar.SetIndices(Vt.IntArray([1, 0]))
-    widths(first, "constant", [9.0])  # primvars:widths comes before it
+    widths(first, "constant", [9.0])  # primvars:widths takes precedence over it
     second = curves(stage, "/second", "linear", [2], points(2, 2))
     widths(second, "constant", [2.0])
     UsdGeom.NurbsCurves.Define(stage, "/third")
@@ -137,7 +138,7 @@ def primvar(prim, name, kind, interpolation, values):
 
 
 def groom():
-    """Unreal Engine's names: guides as curves of their own, a group that a parent has."""
+    """Unreal Engine's names: guides as separate curves, and a group from a parent."""
     stage = new_stage("groom.usda")
     primvar(UsdGeom.Xform.Define(stage, "/groom"), "groom_group_id", "IntArray", "constant", [7])
     strands = curves(stage, "/groom/strands", "linear", [2, 3], points(5))
@@ -166,8 +167,8 @@ def groups_of_floats():
 
 
 def float_units():
-    """The unit as a float, which usd-core itself never writes: the type of its value, a double that
-    a float holds, is another in the file's bytes."""
+    """Writes the unit as a float, which usd-core itself never does. In the file's bytes, the type
+    of its value is then different: a double that a float can represent."""
     for name, unit in ("float_unit", 0.5), ("float_centimetre", 0.5):
         stage = new_stage(f"{name}.usdc", unit=unit)
         curves(stage, "/hair", "linear", [2], points(2))

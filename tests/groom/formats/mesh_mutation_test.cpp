@@ -1,5 +1,5 @@
-// A process of its own reads each damaged mesh or picture. No process, including the ones it
-// starts to read, may end by a signal, take over 10 s of processor time or over 1 GB.
+// A separate process reads each damaged mesh or picture. Neither this process nor any that it
+// starts may end by a signal, or take more than 10 s of processor time or 1 GB.
 #include <cstdlib>
 #include <iostream>
 #include <map>
@@ -27,7 +27,7 @@ namespace {
 namespace fs = std::filesystem;
 
 struct Seed {
-    std::string name;  // with the extension by which it is read
+    std::string name;  // with the extension that selects the reader
     std::string bytes;
 };
 
@@ -76,7 +76,7 @@ std::vector<Seed> seeds(const TemporaryFolder& folder) {
     return all;
 }
 
-// In a child.
+// Runs in a child.
 void read(const fs::path& path) {
     const std::string extension = lowerCaseExtension(path);
     if (extension == ".png")
@@ -89,14 +89,14 @@ void read(const fs::path& path) {
 
 struct Reading {
     int status;  // of waitpid()
-    double seconds;  // of the processor
-    long kilobytes;  // at most, in memory
+    double seconds;  // s of processor time
+    long kilobytes;  // peak memory
 };
 
 Reading readApart(const fs::path& path) {
     const pid_t child = fork();
     if (child == 0) {
-        alarm(100);  // in case the process waits
+        alarm(100);  // ends a process that waits forever
         try {
             read(path);
         } catch (const engine::Error&) {
@@ -108,7 +108,7 @@ Reading readApart(const fs::path& path) {
     }
     Reading reading{};
     rusage use{};
-    wait4(child, &reading.status, 0, &use);  // its own use and that of its children
+    wait4(child, &reading.status, 0, &use);  // including that of its children
     reading.seconds = static_cast<double>(use.ru_utime.tv_sec + use.ru_stime.tv_sec) +
                       1e-6 * static_cast<double>(use.ru_utime.tv_usec + use.ru_stime.tv_usec);
     reading.kilobytes = use.ru_maxrss;
@@ -120,7 +120,7 @@ void readMutated(std::uint32_t count) {
     const std::vector<Seed> all = seeds(folder);
     for (const Seed& seed : all) {
         const Reading whole = readApart(folder.write(seed.name, seed.bytes));
-        EXPECT_EQ(whole.status, 0) << seed.name;  // else nothing of it is tried
+        EXPECT_EQ(whole.status, 0) << seed.name;  // otherwise none of its mutations would be tested
     }
     std::map<int, std::uint32_t> statuses;
     double longest = 0.0;

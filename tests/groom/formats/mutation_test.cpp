@@ -6,14 +6,14 @@
 #include "tests/groom/formats/mutations.h"
 #include "tests/groom/formats/strand_files.h"
 
-// A short, repeatable form of scripts/test --fuzz, which has coverage and more time: a damaged
+// A short, repeatable version of scripts/test --fuzz, which has coverage and more time. A damaged
 // file of the corpus must give an engine::Error or a valid set.
 namespace hair::groom {
 namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::uint32_t kMutations = 3000;  // of each importer
+constexpr std::uint32_t kMutations = 3000;  // for each importer
 
 std::vector<std::string> seedsOf(const StrandImporter& importer) {
     std::vector<fs::path> paths;

@@ -9,7 +9,7 @@
 #include "hair/random.h"
 #include "tests/groom/formats/bytes.h"
 
-// Damage to files, the same in every run.
+// Damage to files, identical in every run.
 namespace hair::groom {
 
 // A stream of hashes, the same on every machine.
@@ -26,7 +26,7 @@ private:
     std::uint32_t thrown_ = 0;
 };
 
-// The bytes with one thing about them changed, or with some of another file's among them.
+// The bytes with one change, or with some bytes from another file inserted.
 inline std::string mutated(std::string bytes, const std::string& other, Dice& dice) {
     const std::size_t at = dice.below(bytes.size());
     switch (bytes.empty() ? 4 : dice.below(6)) {

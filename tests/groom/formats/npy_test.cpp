@@ -51,11 +51,11 @@ TEST(Npz, RefusesMembersThatShareTheirBytes) {
     EXPECT_THAT(readError(importNpz, zipOf(1, 0, 1000, packed)), HasSubstr("checksum"));
 }
 
-// Deflate unfolds one byte to at most 1032 (RFC 1951), so 1 MB could stand for 1 GB.
+// Deflate expands one byte to at most 1032 (RFC 1951), so 1 MB could become 1 GB.
 TEST(Npz, HoldsWhatIsInflatedAgainstTheFile) {
     EXPECT_THAT(
         readError(importNpz, zipOf(1, 8, 1'000'000'000, std::string(1'000'000, '\0'))),
-        HasSubstr("the archive's arrays unfold to more than"));
+        HasSubstr("the archive's arrays expand to more than"));
 }
 
 // `positions` of make_npy.py.
@@ -162,8 +162,8 @@ TEST_F(NumpyFiles, ThatDoNotFitTogetherAreRefused) {
 }
 
 // A length, a signature or a checksum covers every byte of an archive, except dates, attributes
-// and versions. Names may change if the directory and the member agree; a change of one byte can't
-// do that.
+// and versions. Names may change only if the directory and the member agree, which a change of one
+// byte can't achieve.
 TEST_F(NumpyFiles, AreRefusedOrReadWithAnyByteChangedAndWhereverTheyEnd) {
     for (const char* name : {"difflocks.npz", "difflocks_deflated.npz"}) {
         SCOPED_TRACE(name);
@@ -185,7 +185,7 @@ TEST_F(NumpyFiles, AreRefusedOrReadWithAnyByteChangedAndWhereverTheyEnd) {
     }
 }
 
-// Python's zipfile checks the checksums, float.hex() spells every bit.
+// Python's zipfile checks the checksums, and float.hex() shows every bit.
 TEST_F(NumpyFiles, AreWrittenAsNumpyReadsThem) {
     StrandSet strands = hardStrands();
     strands.ends = {5, 10};

@@ -34,7 +34,7 @@ TEST(ImportObj, ReadsWhatEditorsWrite) {
 
 TEST(ImportObj, JoinsSegmentsThatContinueEachOther) {
     expectTheStrands(readObj(kVertices + "l 1 2\nl 2 3\nl 4 5\n"));
-    // Lines of more points, and lines on both sides of a group's beginning, are not joined.
+    // Lines with more points are not joined, nor are lines on both sides of a group's beginning.
     EXPECT_THAT(readObj(kVertices + "l 1 2 3\nl 3 4\n").ends, ElementsAre(3, 5));
     EXPECT_THAT(readObj(kVertices + "l 1 2\ng other\nl 2 3\n").ends, ElementsAre(2, 4));
     EXPECT_THAT(readObj(kVertices + "l 1 2\nl 3 2\n").ends, ElementsAre(2, 4));
@@ -84,10 +84,11 @@ TEST(ImportObj, NamesTheLineOfWhatIsWrong) {
         errorOfObj(kVertices + "l 1 x\n"), StartsWith("line 6: 'x' is not the index of a vertex"));
     EXPECT_THAT(errorOfObj(kVertices + "l 0 1\n"), StartsWith("line 6: vertex 0 is named"));
     EXPECT_THAT(
-        errorOfObj(kVertices + "l -6 1\n"), StartsWith("line 6: vertex -6 is named, there are 5"));
+        errorOfObj(kVertices + "l -6 1\n"),
+        StartsWith("line 6: vertex -6 is named, but there are 5"));
     EXPECT_THAT(
         errorOfObj(kVertices + "l 1 2\nl 1 6\nl 3 4\n"),
-        StartsWith("line 7: vertex 6 is named, there are 5"));
+        StartsWith("line 7: vertex 6 is named, but there are 5"));
     EXPECT_THAT(
         errorOfObj(kVertices + "l 1 4294967297\n"),
         StartsWith("line 6: vertex 4294967297 is named"));
@@ -124,7 +125,8 @@ TEST(ExportObj, LeavesOutSinglePoints) {
     const Written written = writeText(exportObj, strands);
     EXPECT_THAT(written.warnings, ElementsAre(HasSubstr("1 strands of a single point")));
     EXPECT_THAT(readObj(written.bytes).ends, ElementsAre(2));
-    EXPECT_THAT(errorText([] { writeText(exportObj, {}); }), HasSubstr("no strand has two points"));
+    EXPECT_THAT(
+        errorText([] { writeText(exportObj, {}); }), HasSubstr("no strand has the two points"));
 }
 
 }  // namespace

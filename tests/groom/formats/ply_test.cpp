@@ -184,10 +184,10 @@ TEST(ImportPly, RefusesWrongValues) {
         StartsWith("line 12: 'y' of vertex 1 is not a finite float"));
     EXPECT_THAT(
         errorOfPly(ascii(edges, kVertexRows + "0 1\n1 5\n3 4\n")),
-        StartsWith("line 17: vertex 5 is named, there are 5"));
+        StartsWith("line 17: vertex 5 is named, but there are 5"));
     EXPECT_THAT(
         errorOfPly(ascii(edges, kVertexRows + "0 1\n1 -1\n3 4\n")),
-        StartsWith("line 17: vertex -1 is named, there are 5"));
+        StartsWith("line 17: vertex -1 is named, but there are 5"));
     EXPECT_THAT(
         errorOfPly(ascii(edges, kVertexRows + "0 1\n1 2\n4 1\n")),
         StartsWith("line 18: this is a third edge at vertex 1"));
@@ -217,7 +217,7 @@ TEST(ImportPly, NamesTheByteInBinaryFiles) {
     const std::size_t last = bytes.size() - 2;
     bytes[last] = 5;
     EXPECT_EQ(
-        errorOfPly(bytes), "byte " + std::to_string(last) + ": vertex 5 is named, there are 5");
+        errorOfPly(bytes), "byte " + std::to_string(last) + ": vertex 5 is named, but there are 5");
     bytes = binary(false) + "x";
     EXPECT_EQ(
         errorOfPly(bytes),
@@ -289,7 +289,7 @@ TEST(ImportPly, MakesStrandsOfSoManyPointsEach) {
         HasSubstr("do not divide into strands"));
 }
 
-// The file's own strands come first; a mesh beside the points gives no strands.
+// The file's own strands take precedence. A mesh beside the points gives no strands.
 TEST(ImportPly, TakesTheNumberOfPointsWhereTheFileHasNoStrandsAlone) {
     expectTheStrands(
         readPlyOf(5, ascii(vertexElement() + kEdges, kVertexRows + "1 2\n0 1\n3 4\n")));

@@ -32,7 +32,7 @@ void expectCameBack(const StrandSet& read, const StrandSet& expected) {
     if (!expected.widths.values.empty()) expectBitEqual(read.widths.values, expected.widths.values);
 }
 
-// Three strands of four points, of hard floats, each strand with a width.
+// Three strands of four points with difficult floats. Each strand has one width.
 StrandSet uniformStrands() {
     StrandSet strands = hardStrands();
     strands.ends = {4, 8};

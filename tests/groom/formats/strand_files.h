@@ -54,8 +54,8 @@ void expectBitEqual(const std::vector<Value>& read, const std::vector<Value>& ex
     EXPECT_EQ(std::memcmp(read.data(), expected.data(), read.size() * sizeof(Value)), 0);
 }
 
-// Strands of 5, 2 and 3 points, with floats that are hard to keep: both zeros, the least and the
-// greatest, neighbours of round numbers.
+// Strands of 5, 2 and 3 points, with floats that are difficult to preserve: both zeros, the least
+// and the greatest, neighbours of round numbers.
 inline StrandSet hardStrands() {
     StrandSet set;
     set.ends = {5, 7, 10};
@@ -79,7 +79,7 @@ inline StrandSet hardStrands() {
     return set;
 }
 
-// The strands of the text formats' examples: three points in a plane, and two beside them.
+// The strands of the examples in text formats: three points in a plane, and two beside them.
 inline void expectTheStrands(const StrandSet& strands) {
     EXPECT_THAT(strands.ends, testing::ElementsAre(3, 5));
     EXPECT_THAT(

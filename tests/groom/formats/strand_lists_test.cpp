@@ -5,7 +5,7 @@
 #include "tests/groom/formats/bytes.h"
 #include "tests/groom/formats/strand_files.h"
 
-// The bytes are spelt as the public readers of the two formats take them.
+// The bytes are written as the public readers of the two formats read them.
 namespace hair::groom {
 namespace {
 
@@ -87,7 +87,7 @@ TEST(HairData, RefusesCountsThatTheFileDoesNotBearOut) {
     }
     EXPECT_EQ(
         readError(importHairData, patched(dataFile(), 0, 0u)),
-        "byte 0: 0 strands, at least 1 is needed");
+        "byte 0: 0 strands; at least 1 is needed");
     EXPECT_EQ(
         readError(importHairData, patched(dataFile(), 4, 0x80000000u)),
         "byte 4: the number of points of strand 0 is negative: -2147483648");
@@ -124,7 +124,7 @@ TEST(Ct2Hair, LeavesOutShortStrandsAndThoseThatAreNoNumbers) {
     addCt2Strand(bytes, 5, 0.5f);
     addCt2Strand(bytes, 0);
     addCt2Strand(bytes, 6);
-    // The last strand's second position, after 4 + 116 + 144 + 4 + 4 + 28 bytes.
+    // Place of the last strand's second position: after 4 + 116 + 144 + 4 + 4 + 28 bytes.
     const std::string damaged = patched(bytes.str(), 300, std::numeric_limits<float>::quiet_NaN());
     const StrandSet set = readText(importCt2Hair, damaged);
     EXPECT_THAT(set.ends, ElementsAre(5));

@@ -11,6 +11,7 @@
 #include "tests/groom/formats/bytes.h"
 #include "tests/groom/formats/strand_files.h"
 
+// Tests
 // importStrands and exportStrands: the choice of a row for a file, and the errors if there is
 // none.
 namespace hair::groom {
@@ -80,7 +81,7 @@ TEST(ImportStrands, ListsWhatItKnows) {
             ".glb, .usd, .usda, .usdc, .usdz, .data, .npy, .npz, .xml, .bin, .abc");
 }
 
-// The settings know no formats, so their help has a list of its own.
+// The settings do not know the formats, so their help has its own list.
 TEST(ImportStrands, IsListedInTheHelpOfItsSetting) {
     const std::vector<Field>& fields = tableOf(static_cast<const GroomSettings*>(nullptr)).fields();
     const auto file = std::ranges::find(fields, std::string_view("file"), &Field::name);
@@ -88,17 +89,16 @@ TEST(ImportStrands, IsListedInTheHelpOfItsSetting) {
     EXPECT_THAT(file->help, HasSubstr("(" + readExtensions() + ")"));
 }
 
-// The first bytes are those that the formats' own descriptions state.
+// The first bytes are those stated in the formats' own descriptions.
 TEST(ImportStrands, NamesWhatItDoesNotRead) {
     using namespace std::string_literals;
     const TemporaryFolder folder;
     const std::pair<std::string, const char*> kOthers[] = {
-        {"\x89HDF\r\n\x1a\n"s,
-         "an HDF5 file, such as an Alembic of before 2013, which is not read: convert it by "
-         "Alembic's \"abcconvert -toOgawa\""},
+        {"\x89HDF\r\n\x1a\n"s, "an HDF5 file, such as an Alembic file from before 2013, which is "
+                               "not read: convert it with Alembic's \"abcconvert -toOgawa\""},
         {"Kaydara FBX Binary  \0\x1a\0"s, "an FBX file"},
         {"BLENDER-v405"s, "a Blender file, which is not read: export"},
-        {"\x28\xb5\x2f\xfd"s, "compressed by Zstandard"},
+        {"\x28\xb5\x2f\xfd"s, "compressed with Zstandard"},
         {"//Maya ASCII 2024 scene\n"s, "a Maya scene (ASCII)"},
         {"FOR4\0\0\0\x28"s
          "CACH"s,
@@ -115,7 +115,8 @@ TEST(ImportStrands, NamesWhatItDoesNotRead) {
     }
     EXPECT_THAT(fileError(folder.write("a.tgz", "\x1f\x8b\x08\x01")), HasSubstr("by gzip"));
     EXPECT_THAT(fileError(folder.write("a.pkl", "\x80\x04\x95")), HasSubstr("Python pickle"));
-    // 559,903 strands of HairSalon begin as a file of gzip does, and an archive of NumPy is a zip.
+    // A HairSalon file with 559,903 strands begins like a gzip file, and NumPy archives are zip
+    // files.
     EXPECT_EQ(strandImporterOf(folder.write("a.data", "\x1f\x8b\x08")).extensions[0], ".data");
     EXPECT_EQ(strandImporterOf(folder.write("a.npz", "PK\3\4")).extensions[0], ".npz");
 }

@@ -122,9 +122,9 @@ TEST(ImportTfx, RefusesWrongHeaders) {
             EXPECT_THAT(errorOfTfx(patched(bytes, count, wrong)), StartsWith("byte ")) << wrong;
         }
     }
-    EXPECT_EQ(errorOfTfx(patched(bytes, 4, 0)), "byte 4: 0 strands, at least 1 is needed");
+    EXPECT_EQ(errorOfTfx(patched(bytes, 4, 0)), "byte 4: 0 strands; at least 1 is needed");
     EXPECT_EQ(
-        errorOfTfx(patched(bytes, 8, 1)), "byte 8: 1 vertices per strand, at least 2 are needed");
+        errorOfTfx(patched(bytes, 8, 1)), "byte 8: 1 vertices per strand; at least 2 are needed");
     EXPECT_EQ(errorOfTfx(patched(bytes, 12, 0)), "byte 12: there are no positions");
     EXPECT_THAT(
         errorOfTfx(patched(patched(bytes, 4, -1), 8, -1)),
@@ -268,7 +268,7 @@ TEST(ImportTfx3, RefusesWrongCountsAndOffsetsAndTruncation) {
                 << at << ' ' << wrong;
     }
     EXPECT_EQ(errorOfTfx(patched(whole, 144, 0u)), "byte 144: there are no positions");
-    EXPECT_EQ(errorOfTfx(patched(whole, 4, 0u)), "byte 4: 0 strands, at least 1 is needed");
+    EXPECT_EQ(errorOfTfx(patched(whole, 4, 0u)), "byte 4: 0 strands; at least 1 is needed");
     for (const float wrong : kNotFinite)
         EXPECT_THAT(errorOfTfx(patched(whole, 308, wrong)), StartsWith("byte 308: position 1 "));
 }
@@ -297,9 +297,9 @@ TEST(ImportTfx2, ReadsText) {
 TEST(ImportTfx2, IsKnownByItsFirstBytes) {
     const TemporaryFolder folder;
     expectTheStrands(importStrands(folder.write("strands.txt", kTfx2Header + kTfx2Strands)));
-    EXPECT_EQ(strandImporterOf(folder.file("strands.txt")).name, "TressFX of version 2");
+    EXPECT_EQ(strandImporterOf(folder.file("strands.txt")).name, "TressFX version 2");
     folder.write("strands.tfx", tfx3File());
-    EXPECT_EQ(strandImporterOf(folder.file("strands.tfx")).name, "TressFX of version 3");
+    EXPECT_EQ(strandImporterOf(folder.file("strands.tfx")).name, "TressFX version 3");
 }
 
 TEST(ImportTfx2, NamesTheLineOfWhatIsWrong) {
@@ -329,7 +329,7 @@ TEST(ImportTfx2, NamesTheLineOfWhatIsWrong) {
 
 TEST(ImportTfx2, IsRefusedWhereverItEnds) {
     const std::string whole = kTfx2Header + kTfx2Strands;
-    // A file without the last line's end is whole, and so is one with its last number cut.
+    // A file is complete even without the end of its last line, and even with its last number cut.
     for (std::size_t size = 7; size + 2 < whole.size(); ++size)
         EXPECT_THAT(errorOfTfx(whole.substr(0, size)), StartsWith("line ")) << size;
 }

@@ -19,7 +19,7 @@ struct Cubic {
     int step;  // control vertices from a segment to the next
     int between;  // points between two segments' ends
     bool pinned;
-    bool varying;  // widths: k + 1 at the ends of segments; else at the control vertices
+    bool varying;  // widths: k + 1 at the ends of segments; otherwise at the control vertices
     glm::dvec3 (*curve)(const std::array<glm::dvec3, 4>& p, double t);
 };
 

@@ -1,4 +1,4 @@
-// usd-core reads the files of exportUsda and UsdaAnimation.
+// Tests that usd-core reads the files of exportUsda and UsdaAnimation.
 #include <bit>
 #include <cstdint>
 #include <fstream>
@@ -32,7 +32,7 @@ std::string bits(const std::vector<Element>& elements) {
     return text + '\n';
 }
 
-// A float of any size: all bit patterns but infinities and NaNs.
+// A float of any size: all bit patterns except infinities and NaNs.
 float anyFloat(std::uint32_t index) {
     std::uint32_t word = pcg(index);
     if ((word & 0x7f800000u) == 0x7f800000u) word &= ~0x40000000u;
@@ -43,7 +43,7 @@ StrandSet everything() {
     StrandSet set;
     set.ends = {3, 4, 200};
     for (std::uint32_t k = 0; k < 200; ++k) {
-        // Below 2^126, for the extent adds the width.
+        // Below 2^126, because the extent adds the width.
         const auto small = [](float x) { return x * 0x1p-2f; };
         set.points.emplace_back(
             small(anyFloat(10 * k)), small(anyFloat(10 * k + 1)), small(anyFloat(10 * k + 2)));
@@ -51,8 +51,8 @@ StrandSet everything() {
         set.colors.values.emplace_back(0.1f, 1.0f / static_cast<float>(k + 1), 0.5f);
         set.transparencies.values.push_back(static_cast<float>(k) / 256.0f);
     }
-    // Numbers that decimals are likely to get wrong: -0, the least float, one that a double rounds
-    // wrongly.
+    // Numbers that decimals are likely to get wrong: -0, the least float, and a float that is
+    // wrongly rounded by way of a double.
     set.points[0] = {-0.0f, 0x1p-149f, 7.038531e-26f};
     set.points[1] = {16777216.0f, -1e20f, 0.1f};
     set.root_uvs = {{0.1f, 0.2f}, {0.3f, 0.4f}, {1.0f, 0.0f}};
@@ -161,7 +161,7 @@ TEST_F(UsdExportTest, SaysWhatItCannotHold) {
     EXPECT_THAT(
         warnings_, ElementsAre(
                        "the comment is not UTF-8: taken as Latin-1",
-                       "the unit of length is not known, the file says metres",
+                       "the unit of length is not known; the file says metres",
                        "the transparencies are rounded: USD holds opacities"));
     EXPECT_THAT(text, HasSubstr("doc b'br\\xc3\\xa4un'"));
 }

@@ -1,4 +1,4 @@
-// Files written by usd-core itself.
+// Tests reading files that usd-core itself wrote.
 #include <algorithm>
 #include <cmath>
 #include <regex>
@@ -112,7 +112,7 @@ TEST_F(UsdImportTest, SaysWhatItLeavesOut) {
                           "colors: left out, since some of the curves have none"));
 }
 
-// All files in one process, for a process takes half a second to begin.
+// All files are read in one process, because a process takes half a second to start.
 TEST_F(UsdImportTest, RefusesNamingThePrim) {
     const std::string refusals =
         runPython("tests/groom/formats/usd_refusals.py", "'" + folder().string() + "'").output;
@@ -162,7 +162,7 @@ TEST_F(UsdImportTest, FailsWithTheToolsWords) {
     EXPECT_EQ(errorText([] { read("nan.usda"); }), "/wig/hair: points: value 2 is not finite");
 }
 
-// Other layers must be in the scene's folders, and a pipe must not wait for its writer.
+// Other layers must be in the scene's folders. A pipe must not make the reader wait for its writer.
 TEST_F(UsdImportTest, OpensFilesOfItsFoldersAlone) {
     const TemporaryFolder files;
     const std::string curve = "#usda 1.0\n(defaultPrim = \"c\")\n" + basisCurves("c");
@@ -192,7 +192,7 @@ TEST_F(UsdImportTest, OpensFilesOfItsFoldersAlone) {
     errorOf(reference("../private.usda"));
     EXPECT_THAT(
         errorText([&] { importStrands(files.file("scene/a.usda")); }), HasSubstr("is outside"));
-    // The arguments of a format are no part of the file's name.
+    // The arguments of a format do not belong to the file's name.
     EXPECT_EQ(errorOf(reference("./own.usda:SDF_FORMAT_ARGS:a=b")), "no error");
     EXPECT_THAT(
         errorOf(reference("./link.usda:SDF_FORMAT_ARGS:a=b")),
@@ -200,7 +200,7 @@ TEST_F(UsdImportTest, OpensFilesOfItsFoldersAlone) {
     EXPECT_THAT(
         errorOf("(expressionVariables = { string A = \"li\" }\nsubLayers = "
                 "[@`\"./${A}nk.usda\"`@])\n"),
-        HasSubstr("names of layers by expressions are not read"));
+        HasSubstr("layer names given by expressions are not read"));
 }
 
 // USD opens the layers of value clips when values are read.
@@ -235,8 +235,8 @@ TEST_F(UsdImportTest, OpensClipsOfItsFoldersAlone) {
     EXPECT_THAT(
         errorOf("asset manifestAssetPath = @../private.usda@"),
         twice("is outside the scene's folder"));
-    EXPECT_THAT(errorOf("string templateAssetPath = \"p.#.usda\""), twice("by a template"));
-    EXPECT_THAT(errorOf("string[] assetPaths = [\"x\"]"), twice("its value clips are no assets"));
+    EXPECT_THAT(errorOf("string templateAssetPath = \"p.#.usda\""), twice("from a template"));
+    EXPECT_THAT(errorOf("string[] assetPaths = [\"x\"]"), twice("its value clips are not assets"));
 }
 
 // 8^9 curves in about 3 kB, and 1,000 prims that share 100,000 points.
@@ -258,7 +258,7 @@ TEST_F(UsdImportTest, HoldsReferencesAgainstTheFile) {
         large += "def \"c" + std::to_string(i) + "\" (references = </l>) {}\n";
     EXPECT_THAT(
         errorText([&] { importStrands(files.write("large.usda", large)); }),
-        HasSubstr("its instances unfold to more than"));
+        HasSubstr("its instances expand to more than"));
     // 1,000 prims that share a face of 3,000 corners, whose points are few.
     std::string corners = "0";
     for (int i = 1; i < 3000; ++i) corners += ", " + std::to_string(i % 3);
@@ -269,10 +269,10 @@ TEST_F(UsdImportTest, HoldsReferencesAgainstTheFile) {
         faces += "def \"c" + std::to_string(i) + "\" (references = </m>) {}\n";
     EXPECT_THAT(
         errorText([&] { importMesh(files.write("faces.usda", faces)); }),
-        HasSubstr("its instances unfold to more than"));
+        HasSubstr("its instances expand to more than"));
 }
 
-// 20 pairs of layers, each of both of the next pair: 2^20 ways.
+// 20 pairs of layers. Each layer contains both layers of the next pair, which makes 2^20 paths.
 TEST_F(UsdImportTest, RefusesSublayersInTooManyWays) {
     const TemporaryFolder files;
     for (int i = 0; i < 20; ++i) {
@@ -288,7 +288,8 @@ TEST_F(UsdImportTest, RefusesSublayersInTooManyWays) {
         HasSubstr("more than 256 sublayers, those of sublayers included"));
 }
 
-// Each prim is asked for what prims around it and prims that it is composed of have.
+// For each prim, USD looks up values in the prims around it and in the prims that it is composed
+// of.
 TEST_F(UsdImportTest, RefusesDeepNestsAndManyVariants) {
     const TemporaryFolder files;
     std::string deep = "#usda 1.0\n", names, sets;
@@ -297,7 +298,7 @@ TEST_F(UsdImportTest, RefusesDeepNestsAndManyVariants) {
     for (int i = 0; i < 150; ++i) deep += "}\n";
     EXPECT_THAT(
         errorText([&] { importStrands(files.write("deep.usda", deep)); }),
-        HasSubstr("more than 128 prims within each other"));
+        HasSubstr("more than 128 nested prims"));
     for (int i = 0; i < 300; ++i) {
         const std::string name = "\"s" + std::to_string(i) + "\"";
         names += (i > 0 ? ", " : "") + name;
@@ -324,8 +325,8 @@ TEST(UsdImport, SaysWhatItNeeds) {
     before ? setenv("HAIRBENCH_PYTHON", saved.c_str(), 1) : unsetenv("HAIRBENCH_PYTHON");
 }
 
-// The curves or their parent have the constants, as arrays or not; points or curves have the
-// colours.
+// The curves or their parent have the constants, as arrays or as single values. Points or curves
+// have the colours.
 TEST_F(UsdImportTest, ReadsWhatUnrealEngineNames) {
     const StrandSet set = read("groom.usda");
     EXPECT_THAT(set.ends, ElementsAre(2u, 5u, 7u));

@@ -90,7 +90,7 @@ TEST(BindStrands, IsExactForAffineGrooms) {
 // Tips go sideways by c |root|^2. Linear interpolation in a triangle is off by c (R^2 - d^2), d
 // from the centre of its circle of radius R, at most c h^2 / 2 in a lattice of spacing h. The
 // offset is linear along the strand. So the error falls with the square of the spacing. Binding
-// looks for the least sum of squares and gives up 1e-6 of the squares of the distances for a
+// minimises the sum of squares, but accepts 1e-6 of the squares of the distances in exchange for a
 // smaller triangle.
 TEST(BindStrands, ErrsWithTheSquareOfTheSpacing) {
     constexpr double curvature = 2.0;  // 1 / m
@@ -111,8 +111,9 @@ TEST(BindStrands, ErrsWithTheSquareOfTheSpacing) {
     EXPECT_NEAR(coarse / fine, 4.0, 1.0);
 }
 
-// Hair that falls to both sides of a parting: a strand between the two is like neither. Guides of
-// the other side differ by s in shape. With a weight w they bring a root up to w h nearer that is
+// Hair falls to both sides of a parting, and a strand between the two sides is like neither. Guides
+// of the other side differ by s in shape. With a weight w they bring a root up to w h nearer that
+// is
 // d <= h beyond the last guide. The sum of squares (d - w h)^2 + (w s)^2 is least at w = d h /
 // (h^2 + s^2).
 TEST(BindStrands, HardlyMixesTheSidesOfAParting) {
@@ -184,7 +185,7 @@ TEST(BindStrands, ErrsLessWithMoreGuides) {
     double last = 1.0;
     for (const std::uint32_t count : {30u, 120u, 480u}) {
         const double error = errorOf(dense, chooseGuides(dense, count, 1)).mean;
-        EXPECT_LT(error, 0.5 * last);  // a quarter, except outside of all guides
+        EXPECT_LT(error, 0.5 * last);  // a quarter, except outside all guides
         last = error;
     }
 }
@@ -205,7 +206,7 @@ TEST(ReconstructionError, MeasuresVertexAgainstVertex) {
     EXPECT_DOUBLE_EQ(error.relative, 0.5 / 3.0);
 }
 
-// The test tries all weights in steps: none is better than the search's result by more than the
+// The test tries all weights in steps. None is better than the search's result by more than the
 // weight of nearness.
 TEST(NearestMean, IsTheNearestOfAll) {
     for (std::uint32_t seed = 0; seed < 200; ++seed) {

@@ -75,8 +75,9 @@ TEST(ChooseGuides, TellsStrandsWithTheSameRootApart) {
         EXPECT_THAT(chooseGuides(dense, 2, seed), testing::Contains(42));
 }
 
-// A metre between shapes counts like a metre between roots. The first choice is a distant strand.
-// The second is the one farthest off the rest: by 0.3 m in shape, or by less or more at its root.
+// A metre between shapes counts as much as a metre between roots. The first choice is a distant
+// strand. The second is the one farthest off the rest: by 0.3 m in shape, or by less or more at its
+// root.
 TEST(ChooseGuides, WeighsShapesAsRoots) {
     const auto chosen = [](double away) {
         const Groom dense = sampleGroom(4, 5, [away](std::uint32_t strand, double t) {

@@ -70,9 +70,9 @@ TEST(Inspect, CountsStrandsAndRootsThatWereThereBefore) {
         strands.ends.push_back(static_cast<std::uint32_t>(strands.points.size()));
     };
     add({{0, 0, 0}, {0, 1, 0}});
-    add({{0, 0, 0}, {0, 2, 0}});              // its root alone
-    add({{-0.0f, 0, 0}, {0, 1, 0}});          // -0 is 0
-    add({{0, 0, 0}, {0, 1, 0}, {0, 1, 0}});   // a point more
+    add({{0, 0, 0}, {0, 2, 0}});              // a duplicate of only the root
+    add({{-0.0f, 0, 0}, {0, 1, 0}});          // -0 equals 0
+    add({{0, 0, 0}, {0, 1, 0}, {0, 1, 0}});   // one point more
     add({{1, 0, 0}, {0, 1, 0}});
     add({{0, 0, 0}, {0, 1, 0}});
     add({{0, 0, 0}});
@@ -151,7 +151,7 @@ TEST(Inspect, MeasuresAgainstAClosedMesh) {
     EXPECT_EQ(found.points_inside, 3u);  // the one at 0.5 mm counts as on the surface
     EXPECT_NEAR(found.deepest.value(), 0.25, 1e-7);
     EXPECT_TRUE(found.not_closed.empty());
-    // At ten times the size the others are outside, too.
+    // At ten times the size, the other points are outside too.
     EXPECT_EQ(inspect(strands, &box, 0.1).mesh->points_inside, 0u);
 }
 

@@ -70,7 +70,7 @@ TEST(Resample, StaysOnACircle) {
     for (std::uint32_t k = 0; k < 10; ++k) {
         const double angle = std::numbers::pi * k / 9.0;
         const glm::vec3 expected(std::cos(angle), std::sin(angle), 0.0);
-        // Chords of at most 2 pi / 2000 stray by an eighth of their square, and are shorter than
+        // Chords of at most 2 pi / 2000 deviate by an eighth of their square, and are shorter than
         // their arcs by a 24th of their square, over a length of pi.
         EXPECT_LT(glm::distance(even.points[k], expected), 4e-6) << k;
     }

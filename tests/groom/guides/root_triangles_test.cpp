@@ -21,7 +21,7 @@ using testing::ElementsAre;
 using Triangle = std::array<std::uint32_t, 3>;
 using TriangleList = std::vector<Triangle>;
 
-// Strands of a segment along `direction`.
+// Strands with one segment along `direction`.
 Groom rooted(const std::vector<glm::dvec3>& roots, const glm::dvec3& direction = {0, 0.1, 0}) {
     return sampleGroom(
         static_cast<std::uint32_t>(roots.size()), 2,
@@ -132,8 +132,9 @@ TEST(TriangulateRoots, LeavesOutRootsAtATakenPlace) {
     for (const Triangle& triangle : triangles) EXPECT_LT(std::ranges::max(triangle), 25u);
 }
 
-// A cap of half angle 100 degrees. Its hairline is as even as its inside, so the function drops
-// nothing: 2 n - 2 - h triangles of n roots, h of them on the hairline, one piece (Euler).
+// A cap of half angle 100 degrees. Its hairline is as even as its inside, so no triangle is left
+// out. By Euler's formula, n roots with h of them on the hairline make one piece of 2 n - 2 - h
+// triangles.
 TEST(TriangulateRoots, CoversACap) {
     const Groom groom = rooted(onSphere(800, std::cos(1.75)));
     const TriangleList triangles = triangulateRoots(groom, nullptr);
@@ -175,7 +176,7 @@ TEST(TriangulateRoots, LeavesAFaceFree) {
     for (const Triangle& triangle : triangles) {
         const auto [a, b, c] = cornersOf(groom, triangle);
         const glm::dvec3 centre = 0.1 * glm::normalize(a + b + c);
-        // TriangleList have edges of three spacings at most, so none is that deep in the face.
+        // Triangles have edges of at most three spacings, so none reaches so deep into the face.
         EXPECT_TRUE(centre.z <= 0.03 + 2.0 * spacing || centre.y >= 0.06 - 2.0 * spacing);
     }
     const auto edges = edgesOf(triangles);
@@ -191,13 +192,13 @@ TEST(TriangulateRoots, LeavesAFaceFree) {
 TEST(TriangulateRoots, LeavesAWidePartingFree) {
     std::vector<glm::dvec3> roots = square(10, 0.01);
     for (glm::dvec3& root : roots)
-        if (root.x > 0.045) root.x += 0.04;  // a gap of 5 rows: 3.5 diagonals
+        if (root.x > 0.045) root.x += 0.04;  // a gap of 5 rows, or 3.5 diagonals
     const Groom groom = rooted(roots);
     const TriangleList triangles = triangulateRoots(groom, nullptr);
     EXPECT_EQ(triangles.size(), 2u * 2u * 4u * 9u);
     EXPECT_NEAR(area(groom, triangles), 2.0 * 0.04 * 0.09, 1e-9);
     for (glm::dvec3& root : roots)
-        if (root.x > 0.045) root.x -= 0.03;  // of 2
+        if (root.x > 0.045) root.x -= 0.03;  // a gap of 2 rows
     EXPECT_EQ(triangulateRoots(rooted(roots), nullptr).size(), 2u * 9u * 9u);
 }
 
@@ -210,7 +211,7 @@ TEST(TriangulateRoots, GoesAllRoundASphere) {
     for (const auto& [edge, count] : edgesOf(triangles)) EXPECT_EQ(count, 2);
 }
 
-// Roots about a curve in space, like a moustache, are no sphere and no line.
+// Roots along a curve in space, like a moustache, lie neither on a sphere nor on a line.
 TEST(TriangulateRoots, TakesANarrowStrip) {
     std::vector<glm::dvec3> roots;
     for (int i = 0; i < 90; ++i) {
@@ -223,10 +224,10 @@ TEST(TriangulateRoots, TakesANarrowStrip) {
     for (const Triangle& triangle : triangles) EXPECT_GT(areaVector(groom, triangle).z, 0.0);
 }
 
-// White noise has no even spacing, but large gaps are rare: with density n, circles of radius r
+// Random roots have no even spacing, but large gaps are rare. With density n, circles of radius r
 // through three points are empty for a share (1 + x) exp(-x) of the triangles, x = pi r^2 n; an
-// edge of three times the median one, about 1 / sqrt(n), needs r = 1.5 / sqrt(n): 0.7 %, fewer
-// where the median is above that.
+// edge of three times the median one, about 1 / sqrt(n), needs r = 1.5 / sqrt(n): 0.7 %, or fewer
+// if the median is above that.
 TEST(TriangulateRoots, DropsFewTrianglesOfRandomRoots) {
     std::vector<glm::dvec3> roots;
     for (std::uint32_t i = 0; i < 3000; ++i)
@@ -238,7 +239,7 @@ TEST(TriangulateRoots, DropsFewTrianglesOfRandomRoots) {
     EXPECT_EQ(triangulateRoots(groom, nullptr), triangles);
 }
 
-// Inside of a bowl, which its mesh or the roots' normals tell.
+// Roots on the inside of a bowl. The bowl's mesh or the roots' normals show this.
 TEST(TriangulateRoots, TurnsToTheSideOfTheNormals) {
     Mesh bowl = makeCap();
     for (auto& triangle : bowl.triangles) std::swap(triangle[1], triangle[2]);

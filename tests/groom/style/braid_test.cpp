@@ -45,7 +45,7 @@ TEST(BraidStyle, WithoutAPitchChangesNothing) {
     EXPECT_EQ(braid(before, {}, 1, nullptr).points, before.points);
 }
 
-// The style lays points along a line with steps of 1/32 of a pitch, and a strand's segments of 1.5
+// The style places points along a line in steps of 1/32 of a pitch, and a strand's segments of 1.5
 // mm follow its chords. Each segment may cut a corner of the line, by less than a hundredth of it.
 TEST(BraidStyle, KeepsRootsAndLengths) {
     const Groom before = standing();
@@ -61,8 +61,8 @@ TEST(BraidStyle, KeepsRootsAndLengths) {
     EXPECT_LT(lengths.greatest(), 1.0 + 1e-6);
 }
 
-// No way over the head leads into it. The ball's flat sides lie up to 2.2e-4 m inside the sphere,
-// and chords between points 1.5 mm apart as much again.
+// No path over the head leads into it. The ball's flat sides lie up to 2.2e-4 m inside the sphere,
+// and chords between points 1.5 mm apart lie as much deeper.
 TEST(BraidStyle, LeadsOverTheHead) {
     const Mesh ball = makeSphere(kBallRadius, 96, 48);
     const Groom after = braid(standing(), plait(), 1, &ball);
@@ -73,8 +73,8 @@ TEST(BraidStyle, LeadsOverTheHead) {
     EXPECT_GT(heights.least(), -4.4e-4);
 }
 
-// A pitch below the tie every strand stays in the section of one of three parts. The parts'
-// middles are where style.h says, and every part has a third of the strands.
+// A pitch below the tie every strand stays in the section of one of three parts. style.h gives the
+// middles of the parts. Every part has a third of the strands.
 TEST(BraidStyle, StrandsKeepToThreeParts) {
     const Groom after = braid(standing(), plait(), 1, nullptr);
     const double reach = 0.03 / 2.84;

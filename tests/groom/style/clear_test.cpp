@@ -46,7 +46,7 @@ TEST(Clearance, LeadsStrandsRoundTheMesh) {
         EXPECT_LT(std::max(lengths.greatest(), -lengths.least()), 1e-7) << s;
         if (s == 3) continue;
         EXPECT_GT(gaps.least(), -2.2e-4 - 2e-6) << s;
-        // It follows the ball down.
+        // It follows the ball's surface down.
         EXPECT_EQ(gaps.greatest() < 0.01, s == 0) << s;
     }
     for (std::uint32_t s = 2; s < 4; ++s)
@@ -85,7 +85,8 @@ TEST(Clearance, TakesStrandsOutOfAClosingCleft) {
             glm::distance(point, glm::dvec3(after.points[i - 1])) -
             glm::distance(glm::dvec3(groom.points[i]), glm::dvec3(groom.points[i - 1])));
     }
-    EXPECT_GT(gaps.least(), kClearance - 2.2e-4 - 1e-4);  // of pushes, and of the balls' flat sides
+    EXPECT_GT(gaps.least(), kClearance - 2.2e-4 - 1e-4);  // tolerances of pushes, and of the balls'
+                                                          // flat sides
     EXPECT_LT(std::max(lengths.greatest(), -lengths.least()), 1e-7);
 }
 

@@ -20,7 +20,7 @@ Groom lawn(std::uint32_t strands) {
     });
 }
 
-// Strands that haven't moved: the tips of the others are elsewhere.
+// Only strands that haven't moved count, because the tips of the others are elsewhere.
 std::vector<std::uint32_t> unmoved(const Groom& after, const Groom& before) {
     std::vector<std::uint32_t> strands;
     for (std::uint32_t i = 0; i < after.strand_count; ++i)
@@ -50,8 +50,8 @@ TEST(Clump, BringsAllTipsToTheNearestCentres) {
 }
 
 // Per unit of area there are at most 2 / (sqrt 3 d^2) points at least d apart (Thue 1910, the
-// densest packing), and, where no other has room, at least 2 / (3 sqrt 3 d^2) (Kershner 1939, the
-// thinnest covering by discs of radius d).
+// densest packing), and, if there is no room for another, at least 2 / (3 sqrt 3 d^2) (Kershner
+// 1939, the thinnest covering by discs of radius d).
 TEST(Clump, SpreadsItsCentresOverTheRoots) {
     const ClumpSettings settings{.strength = 1.0f, .spacing = 0.05f};
     const Groom before = lawn(20000);
@@ -69,7 +69,7 @@ TEST(Clump, SpreadsItsCentresOverTheRoots) {
     EXPECT_LT(static_cast<double>(centres.size()), per_disc * with_rim * 2.0 / std::sqrt(3.0));
 }
 
-// Two strands 0.01 m apart at the root, drawn half way at the tip.
+// Two strands are 0.01 m apart at the root. The tip is drawn half of the way.
 TEST(Clump, GrowsFromItsStart) {
     const ClumpSettings settings{.strength = 0.5f, .spacing = 1.0f, .start = 0.5f};
     const Groom before = verticalStrands(2, 9, 0.2, 0.01);

@@ -15,8 +15,9 @@ using std::numbers::pi;
 
 const glm::vec3 kSideways(1.0f, 0.0f, 0.0f);
 
-// Straight up, the radius at its full size from the second vertex on. The helix starts towards the
-// normal, +x, and is right-handed: with y up it turns from +x towards y x x = -z.
+// The strands go straight up, and the radius has its full size from the second vertex on. The helix
+// starts towards the normal, +x, and is right-handed: with y up it turns from +x towards y x x =
+// -z.
 TEST(Curl, PutsAStraightStrandOnARightHandedHelix) {
     const CurlSettings settings{.radius = 0.01f, .frequency = 40.0f, .start = 0.0f};
     const Groom before = withNormals(verticalStrands(1, 65, 0.2, 0.0), kSideways);
@@ -39,7 +40,8 @@ TEST(Curl, GrowsOverItsStart) {
         EXPECT_NEAR(after.points[i].x, 0.01 * growth[i], kRounding) << i;
 }
 
-// On a bent strand, too, every point is at the radius from its old place, across the strand.
+// On a bent strand, too, each point is one radius away from its old place, perpendicular to the
+// strand.
 TEST(Curl, KeepsItsRadiusRoundABentStrand) {
     const Groom before = sampleGroom(1, 200, [](std::uint32_t, double t) {
         return glm::dvec3(0.3 * std::sin(3.0 * t), 0.3 * t, 0.2 * t * t);

@@ -21,7 +21,8 @@ TEST(Cut, LeavesShorterStrandsToTheBit) {
     EXPECT_EQ(cut(before, above).points, before.points);
 }
 
-// Right-angled: 0.1 m up, 0.1 m to the right, cut at 0.15 m. The new points are on the old lines.
+// A right-angled strand, 0.1 m up and 0.1 m to the right, is cut at 0.15 m. The new points are on
+// the old lines.
 TEST(Cut, KeepsToTheOldLine) {
     Groom before{.strand_count = 1, .vertices_per_strand = 3};
     before.points = {{0, 0, 0}, {0, 0.1f, 0}, {0.1f, 0.1f, 0}};
@@ -44,7 +45,7 @@ TEST(Cut, EndsAtThePlane) {
     }
 }
 
-// Up through the plane and down again: only the first part is left.
+// The strand goes up through the plane and down again. Only the first part is left.
 TEST(Cut, EndsWhereAStrandFirstPassesThePlane) {
     Groom before{.strand_count = 1, .vertices_per_strand = 4};
     before.points = {{0, 0, 0}, {0, 0.2f, 0}, {0.1f, 0.2f, 0}, {0.1f, 0, 0}};

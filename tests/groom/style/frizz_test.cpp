@@ -19,7 +19,7 @@ TEST(Frizz, MovesNoPointFurtherThanItsAmplitudeAndNoRoot) {
     const Groom after = frizz(before, kFrizz, 1);
     const double greatest = largestDifference(after.points, before.points);
     EXPECT_LE(greatest, 0.01 + kRounding);
-    EXPECT_GT(greatest, 0.009);  // of 12,000 random vectors some are near the limit
+    EXPECT_GT(greatest, 0.009);  // some of 12,000 random vectors are near the limit
     for (std::uint32_t i = 0; i < 1000; ++i) EXPECT_EQ(after.strand(i)[0], before.strand(i)[0]);
 }
 
@@ -75,7 +75,7 @@ TEST(Frizz, TakesStrandsLongerThanItsNoiseCanCount) {
     EXPECT_TRUE(allFinite(frizz(groom, {.amplitude = 1.0f, .frequency = 10000.0f}, 1)));
 }
 
-// A tenth of 2000 strands goes its own way, within `reach`, and not before `start`.
+// A tenth of 2000 strands departs from its path, within `reach`, and not before `start`.
 TEST(Flyaways, AreAShareOfTheStrands) {
     const FlyawaySettings settings{.share = 0.1f, .reach = 0.02f, .start = 0.5f};
     const Groom before = verticalStrands(2000, 9, 0.2, 0.0001);

@@ -34,7 +34,7 @@ inline Groom withNormals(Groom groom, const glm::vec3& normal) {
     return groom;
 }
 
-// All coordinates are at most 1 in size: a float's rounding, half of 2^-24 of it, in each of three.
+// All coordinates are at most 1 in size, so a float rounds each of the three by at most 2^-25.
 inline constexpr double kRounding = 1e-7;
 
 // Strands with coincident vertices, and a plain one.

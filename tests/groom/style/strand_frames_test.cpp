@@ -21,7 +21,7 @@ void expectOrthonormal(const StrandFrame& frame) {
 }
 
 TEST(StrandFrames, StandStillOnAStraightStrand) {
-    const glm::vec3 normal(1.0f, 1.0f, 0.0f);  // its part along the strand counts for nothing
+    const glm::vec3 normal(1.0f, 1.0f, 0.0f);  // its component along the strand has no effect
     for (const StrandFrame& frame : strandFrames(verticalStrands(1, 5, 0.2, 0.0).points, &normal)) {
         expectOrthonormal(frame);
         EXPECT_NEAR(glm::distance(frame.normal, glm::dvec3(1.0, 0.0, 0.0)), 0.0, 1e-12);

@@ -45,7 +45,7 @@ double lengthOf(const Groom& groom, std::uint32_t strand) {
     return sum;
 }
 
-// The weight of a place at this part of the radius from the path.
+// The weight of a place at this fraction of the radius from the path.
 double weightAt(double part) { return (1.0 - part * part) * (1.0 - part * part); }
 
 // Helices of 0.2 m and more, 1 cm apart.
@@ -63,7 +63,7 @@ const std::vector<glm::vec3> kAcross{
 
 // ---- What stays ---------------------------------------------------------------------------------
 
-// A length of 1e-2 m from floats of 0.2 m, each off by 7.5e-9 m: 1e-6 of it.
+// A length of 1e-2 m between floats of 0.2 m, each off by 7.5e-9 m, is known to 1e-6 of it.
 TEST(Strokes, KeepLengthsOfSegments) {
     const Groom before = helices(12);
     for (const BrushTool tool : {BrushTool::comb, BrushTool::push, BrushTool::clump}) {
@@ -80,7 +80,7 @@ TEST(Strokes, KeepLengthsOfSegments) {
 TEST(Strokes, KeepRootsCountsAndStrandsBeyondTheRadius) {
     Groom before = helices(12);
     before.widths.assign(before.points.size(), 1e-4f);
-    // 3 m away.
+    // The point is 3 m away.
     for (std::size_t i = 6 * 24; i < before.points.size(); ++i) before.points[i].z += 3.0f;
     for (const BrushTool tool : kTools) {
         const Groom after = brushed(before, {stroke(tool, 0.05f, 0.9f, kAcross)});
@@ -104,7 +104,7 @@ TEST(Strokes, OfNoStrengthOrWithoutAPathDoNothing) {
         EXPECT_EQ(brushed(before, {stroke(tool, 0.05f, 0.0f, kAcross)}).points, before.points);
         EXPECT_EQ(brushed(before, {stroke(tool, 0.05f, 1.0f, {})}).points, before.points);
     }
-    // A comb that stays where it is.
+    // A comb that does not move.
     const Groom after = brushed(before, {stroke(BrushTool::comb, 0.05f, 1.0f, {kAcross[1]})});
     EXPECT_LT(largestDifference(after.points, before.points), kRounding);
 }
@@ -145,11 +145,11 @@ TEST(Strokes, GoInTheirOrder) {
 
 // ---- What each does -----------------------------------------------------------------------------
 
-// A strand of one segment turns towards its tip's way.
+// A strand of one segment turns towards the movement of its tip.
 TEST(Strokes, CombTakesATipAlong) {
     const Groom before = verticalStrands(1, 2, 0.1, 0.0);
     const glm::dvec3 brush(0.01, 0.1, 0.0);
-    const glm::dvec3 way(0.002, 0.001, 0.003);  // one step: less than an eighth of the radius
+    const glm::dvec3 way(0.002, 0.001, 0.003);  // one step, less than an eighth of the radius
     const Groom after = brushed(
         before, {stroke(BrushTool::comb, 0.04f, 0.5f, {glm::vec3(brush), glm::vec3(brush + way)})});
     const glm::dvec3 tip = glm::dvec3(0.0, 0.1, 0.0) + 0.5 * weightAt(0.25) * way;
@@ -158,8 +158,8 @@ TEST(Strokes, CombTakesATipAlong) {
 
 // The result doesn't depend on the number of points on the path. The weight is that at a step's
 // start. Over an eighth of the radius it changes by a fifth at most (the slope of (1 - x^2)^2 is
-// 1.54), by a tenth in a step's mean, up on the way in and down on the way out. The tolerance is
-// half of that.
+// 1.54), by a tenth in a step's mean, which is an increase as the brush approaches and a decrease
+// as it leaves. The tolerance is half of that.
 TEST(Strokes, CombDoesNotDependOnPlacesOfItsPath) {
     const Groom before = helices(12);
     const glm::vec3 from{-0.05f, 0.12f, 0.0f}, to{0.15f, 0.08f, 0.02f};
@@ -197,7 +197,7 @@ TEST(Strokes, CutIsExactOnCurves) {
     for (std::size_t i = 0; i < 12; ++i) left += segmentsOf(before, 0)[i];
     EXPECT_NEAR(lengthOf(after, 0), left, 24 * kRounding);
     // The new vertices divide the old curve into equal parts. They cut its corners, by 2 pi / 12
-    // each, so they lie farther out: by less than 2 % of the length in all.
+    // each, so they lie farther out, by less than 2 % of the length in total.
     EXPECT_LT(differenceOf(after.strand(0)[23], place), 0.02 * left);
     EXPECT_NEAR(after.widths[23], before.widths[12], 1e-9);
     EXPECT_EQ(after.widths[0], before.widths[0]);
@@ -247,7 +247,7 @@ TEST(Strokes, ClumpDrawsTipsToThePath) {
 // ---- Bodies -------------------------------------------------------------------------------------
 
 // Strands from a ball, brushed through it. Its flat sides lie up to r (1 - cos(pi / 48)) = 2.2e-4 m
-// inside of the sphere, and strands are clear to 1e-4 m.
+// inside the sphere, and strands are kept clear to within 1e-4 m.
 TEST(Strokes, LeadNoVertexIntoTheMesh) {
     constexpr double kRadius = 0.1;
     const Mesh ball = makeSphere(kRadius, 96, 48);
@@ -273,10 +273,10 @@ TEST(Strokes, LeadNoVertexIntoTheMesh) {
     }
 }
 
-// The push goes away from a nearly flat side of a large ball, for roots anywhere.
+// The push goes away from a nearly flat side of a large ball, wherever the roots are.
 TEST(Strokes, PushGoesAwayFromTheMesh) {
     const Mesh ball = makeSphere(0.1, 96, 48);
-    // Along the ball's top.
+    // The path runs along the ball's top.
     Groom before{.strand_count = 1, .vertices_per_strand = 2};
     before.points = {{0.0f, 0.1f, 0.0f}, {0.05f, 0.12f, 0.0f}};
     const auto push = stroke(BrushTool::push, 0.05f, 1.0f, {{0.05f, 0.12f, 0.0f}});

@@ -60,8 +60,8 @@ TEST(Wave, MovesNeighboursAlikeUnlessPhasesVary) {
     EXPECT_FALSE(std::ranges::equal(unlike.strand(0), unlike.strand(1)));
 }
 
-// Roots 1 mm apart, clumps of 8 mm and more: swings are alike within a clump and few in all.
-// Without clumps each strand has its own.
+// Roots are 1 mm apart, clumps 8 mm or more. Swings are alike within a clump, so there are few
+// different ones. Without clumps each strand has its own.
 TEST(Wave, SharesPhasesWithinAClump) {
     WaveSettings settings{.amplitude = 0.005f, .frequency = 20.0f, .phase_variation = 1.0f};
     const Groom before = withNormals(verticalStrands(64, 17, 0.2, 0.001), {0.0f, 0.0f, 1.0f});
@@ -78,8 +78,8 @@ TEST(Wave, SharesPhasesWithinAClump) {
     EXPECT_GE(swings(), 4u);
 }
 
-// The phase drifts by up to a quarter of a wave, so zero may be up to an eighth of a strand of two
-// waves farther on; the swing stays within the amplitude.
+// The phase drifts by up to a quarter of a wave, so the zero may be shifted by up to an eighth of a
+// strand with two waves; the swing stays within the amplitude.
 TEST(Wave, DriftsAlongTheStrand) {
     WaveSettings settings{.amplitude = 0.005f, .frequency = 20.0f, .start = 0.0f};
     const Groom before = withNormals(verticalStrands(50, 65, 0.2, 0.01), {0.0f, 0.0f, 1.0f});
@@ -90,7 +90,7 @@ TEST(Wave, DriftsAlongTheStrand) {
     for (std::size_t i = 0; i < before.points.size(); ++i) {
         EXPECT_LE(std::abs(drifting.points[i].z), 0.005 + kRounding);
         const double arc = before.points[i].y;
-        // sin differs by at most the greatest turn of its argument.
+        // sin changes by at most the largest change of its argument.
         const double bound = 0.005 * std::min(2.0, 2.0 * pi * 0.25);
         EXPECT_LE(std::abs(drifting.points[i].z - steady.points[i].z), bound + kRounding) << arc;
         most = std::max(most, double{std::abs(drifting.points[i].z - steady.points[i].z)});

@@ -34,8 +34,8 @@ TEST_F(FanTest, AnalyticCoverageIsTheAreaWithFourSamples) {
         Settings settings = whiteStrands(width);
         settings.render.msaa = 4;
         expectArea(withAnalyticCoverage(settings, Transparency::weighted_blended), width);
-        // If two quads of a strand share a pixel, "over" takes their product off. For the 11
-        // joints of 27.3 px that is 1/4 of a pixel at the most.
+        // If two quads of a strand share a pixel, "over" subtracts their product. For the 11 joints
+        // of 27.3 px, that is at most 1/4 of a pixel.
         settings = withAnalyticCoverage(settings, Transparency::fragment_list);
         const double found = covered(draw(settings, fan())) / area(fan(), width);
         EXPECT_LT(found, 1.0 + kTolerance) << width;
@@ -43,7 +43,7 @@ TEST_F(FanTest, AnalyticCoverageIsTheAreaWithFourSamples) {
     }
 }
 
-// Samples 1/4 px apart find strands of 1 px and more to 2 %: every row of a strand has at least 4
+// Samples 1/4 px apart measure strands of 1 px or more to 2 %: every row of a strand has at least 4
 // of them across, and 25 strands have 2,700 rows, each off by less than a sample, at random.
 TEST_F(FanTest, SamplesFindTheAreaOfStrandsAsWideAsAPixel) {
     for (const double width : {1.0, 2.0, 4.0}) {
@@ -66,13 +66,13 @@ TEST_F(FanTest, ThinStrandsHaveNoGaps) {
     for (const Line& line : lines) {
         const glm::dvec2 root = glm::dvec2(line.root) / double{kPixel} * glm::dvec2(1, -1);
         const glm::dvec2 tip = glm::dvec2(line.tip) / double{kPixel} * glm::dvec2(1, -1);
-        // Up to a pixel from the ends, where the centre of a pixel may be beyond them.
+        // Up to a pixel from the ends, the centre of a pixel may lie beyond them.
         for (double part = 0.05; part < 0.95; part += 0.01) {
             const glm::dvec2 at = root + part * (tip - root) + 0.5 * kSide;
             const std::size_t i =
                 4 * (static_cast<std::size_t>(at.y) * kSide + static_cast<std::size_t>(at.x));
-            // A pixel that the strand only nicks has less than a step of 8-bit colours, so the
-            // test asks for a pixel with the strand within half a pixel of its centre.
+            // A pixel that the strand only grazes has less than a step of 8-bit colours, so the
+            // test requires the strand to be within half a pixel of the pixel's centre.
             const glm::dvec2 direction = glm::normalize(tip - root);
             const glm::dvec2 offset = glm::floor(at) + 0.5 - at;
             if (std::abs(direction.x * offset.y - direction.y * offset.x) > 0.5) continue;
@@ -80,7 +80,7 @@ TEST_F(FanTest, ThinStrandsHaveNoGaps) {
             gaps_when_sampled += sampled[i] == 0;
         }
     }
-    EXPECT_GT(gaps_when_sampled, 100);  // the test would see them
+    EXPECT_GT(gaps_when_sampled, 100);  // the test would detect gaps
 }
 
 // Each strand's samples are covered at random by at most 1 of 4 too many or too few, with variance

@@ -18,7 +18,7 @@ inline constexpr glm::dvec3 kLayerLight{0.3, 0.0, 0.05};
 
 inline glm::dvec3 layerEye() { return {0.0, 0.0, double{eyeDistance()}}; }
 
-// Lit by diffuse light from near by, so that each depth has a grey of its own.
+// Lit by nearby diffuse light, so that each depth has its own grey.
 inline Settings layered(float opacity) {
     Settings settings = whiteStrands(1.0);
     settings.strands.root_width = settings.strands.tip_width = kLayerWidth;

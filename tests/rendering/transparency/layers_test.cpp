@@ -27,7 +27,8 @@ TEST_F(LayersTest, ListsAreBlendedInOrderWhateverIsDrawnFirst) {
     expectInOrder({0.0, 0.04, -0.03, 0.02}, 1.0f);
 }
 
-// More than composite/list.frag sorts at a time, and each of them is seen: 0.95^50 = 0.08.
+// More layers than composite/list.frag sorts at a time, and all of them are visible: 0.95^50 =
+// 0.08.
 TEST_F(LayersTest, LongListsAreBlendedToTheirEnd) {
     std::vector<double> depths;
     for (int i = 0; i < 50; ++i) depths.push_back(0.0016 * (i * 17 % 50) - 0.04);
@@ -73,7 +74,7 @@ TEST_F(LayersTest, RandomSamplesOfSeveralLayersAreIndependent) {
     EXPECT_NEAR(sum / 4000, 1 - 0.7 * 0.7 * 0.7, 0.016);
 }
 
-// A wall in the middle hides the layers behind it, and not those before it.
+// A wall in the middle hides the layers behind it, but not those in front of it.
 TEST_F(LayersTest, MeshesHideWhatIsBehindThem) {
     const groom::Mesh wall{
         .positions = {{-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0}},

@@ -65,7 +65,7 @@ TEST_F(TransparentPictureTest, OpaqueListsAreTheOpaquePicture) {
     for (std::size_t i = 0; i < opaque.size(); ++i) ASSERT_NEAR(listed[i], opaque[i], 1) << i;
 }
 
-// Frames follow one another without waiting, so a frame must be done with the resources that they
+// Frames follow one another without waiting, so each must be finished with the resources that they
 // share. The fixture fails on a message of synchronisation validation.
 TEST_F(TransparentPictureTest, FramesInFlightAreAllTheSame) {
     for (const Settings& settings : allKinds()) {
@@ -82,7 +82,7 @@ TEST_F(TransparentPictureTest, FramesInFlightAreAllTheSame) {
     }
 }
 
-// Guides are drawn over hair that has left no depth.
+// Guides are drawn over hair that wrote no depth.
 TEST_F(TransparentPictureTest, OverlaysAreSeenThroughTheHair) {
     Settings settings = small();
     settings.render.transparency = Transparency::fragment_list;

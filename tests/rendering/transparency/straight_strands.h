@@ -77,7 +77,8 @@ inline groom::Groom straightStrands(const std::vector<Line>& lines) {
     return groom;
 }
 
-// Strands in the cells of a grid, at angles all round and at no special places in their pixels.
+// Strands in the cells of a grid, at angles all round and at arbitrary positions within their
+// pixels.
 inline constexpr int kCells = 5;  // along each side
 inline constexpr double kLength = 27.3;  // px
 
@@ -99,7 +100,7 @@ inline double area(const std::vector<Line>& lines, double width_in_pixels) {
     return static_cast<double>(lines.size()) * kLength * width_in_pixels;  // px^2
 }
 
-// Sum of a picture's red, in pixels that are all white.
+// Sum of a picture's red, in units of white pixels.
 inline double covered(const Pixels& pixels) {
     double sum = 0.0;
     for (std::size_t i = 0; i < pixels.size(); i += 4) sum += pixels[i] / 255.0;
