@@ -100,7 +100,9 @@ public:
         std::uint64_t mask;  // of the bits that count
     };
     // Needs a read() of at least one timestamp.
-    Ends ends() const { return {stamps_.front().ticks, stamps_[count_ - 1].ticks, period_, mask_}; }
+    Ends ends() const {
+        return {results_.front().ticks, results_[count_ - 1].ticks, period_, mask_};
+    }
 
 private:
     struct Result {

@@ -146,7 +146,7 @@ void judgeClocks(const Json& result, std::vector<Doubt>& doubts) {
 }
 
 // Since 1.3 there is a verdict on timestamps; before, there was only a sentence.
-bool areStampsWrong(const Json& result) {
+bool areTimestampsWrong(const Json& result) {
     return scene::textAt(result, "/trust/timestamps") == "wrong" ||
            std::ranges::any_of(arrayIn(result, "/trust/warnings"), [](const Json& each) {
                return each.is_string() &&
@@ -164,7 +164,7 @@ void judgePasses(const Json& environment, const Json& result, std::vector<Doubt>
                      .text = "the isolated passes add up to " + shareText(*sum) +
                              (software ? " of the wall clock" : " of the device's own time"),
                      .size = std::abs(*sum - 1.0)});
-    if (areStampsWrong(result))
+    if (areTimestampsWrong(result))
         add(doubts, {.check = "pass times",
                      .level = Trusted::untrusted,
                      .brief = "timestamps",
