@@ -100,7 +100,7 @@ std::vector<std::string> readThrottling(const std::filesystem::path& path) {
     std::memcpy(&status, table + kStatus, sizeof status);
     std::vector<std::string> reasons;
     if (status & 0xffffull) reasons.emplace_back(report::kPowerCap);
-    if (status & 0xffff0000ull) reasons.emplace_back("current limit");
+    if (status & 0xffff0000ull) reasons.emplace_back(report::kCurrentLimit);
     if (status & 0xffffff00000000ull) reasons.emplace_back("thermal limit");
     return reasons;
 }

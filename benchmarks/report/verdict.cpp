@@ -67,10 +67,19 @@ bool isHeatOrPower(std::string_view reason) {
 
 bool isFullyLoaded(const Conditions& round) { return round.load.value_or(0.0) >= 0.9; }
 
+namespace {
+
+// A board controls its clock so that it stays at these limits.
+bool isBoardLimit(std::string_view reason) {
+    return reason == kPowerCap || reason == kCurrentLimit;
+}
+
+}  // namespace
+
 bool isThrottled(const Conditions& round, double held, double held_before) {
     for (const std::string& reason : round.throttle_reasons)
         if (isHeatOrPower(reason) &&
-            (reason != kPowerCap || !round.clock_mhz || *round.clock_mhz < kCappedShare * held))
+            (!isBoardLimit(reason) || !round.clock_mhz || *round.clock_mhz < kCappedShare * held))
             return true;
     if (!round.lowest_clock_mhz) return false;
     return *round.lowest_clock_mhz < kHeldShare * held ||

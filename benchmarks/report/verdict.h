@@ -54,8 +54,9 @@ Trusted judgePassSum(double sum);
 // The device's clock over a whole case: throttled, or limited for another reason of the driver's.
 Trusted judgeClock(const Conditions& conditions);
 
-// The board's power limit as a throttle reason.
+// The board's limits of power and of current as throttle reasons.
 inline constexpr const char* kPowerCap = "power cap";
+inline constexpr const char* kCurrentLimit = "current limit";
 
 // True if a driver's throttle reason is heat or power. Others, like a clock that somebody set, are
 // not throttling.
@@ -71,8 +72,8 @@ inline constexpr double kHeldShare = 0.9;
 // of the highest in any case is throttled (nvbench's share).
 inline constexpr double kThrottledShare = 0.75;
 
-// A board at its power limit works as intended while its clock is steady. With this reason, a clock
-// below this share of the highest is throttled.
+// A board at its limit of power or current works as intended while its clock is steady. With such a
+// reason, a clock below this share of the highest is throttled.
 inline constexpr double kCappedShare = 0.97;
 
 // True if heat or power lowered the device's clock in a round, by its driver's reasons or its

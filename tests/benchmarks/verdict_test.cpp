@@ -74,9 +74,11 @@ TEST(CaseVerdict, FallsWithHeatAndOtherLimitsOfTheClock) {
     EXPECT_EQ(limited({}, 1500.0), Trusted::trusted);
     EXPECT_EQ(limited({"thermal slowdown"}, 1500.0), Trusted::untrusted);
     EXPECT_EQ(limited({"application clocks"}, 1500.0), Trusted::doubtful);
-    // A board at its power limit is as it should be while its clock is known to keep.
-    EXPECT_EQ(limited({kPowerCap}, 1500.0), Trusted::doubtful);
-    EXPECT_EQ(limited({kPowerCap}, {}), Trusted::untrusted);
+    // A board at its limit of power or current is as it should be while its clock is known to keep.
+    for (const char* limit : {kPowerCap, kCurrentLimit}) {
+        EXPECT_EQ(limited({limit}, 1500.0), Trusted::doubtful);
+        EXPECT_EQ(limited({limit}, {}), Trusted::untrusted);
+    }
 }
 
 TEST(CaseVerdict, FallsWithThePasses) {

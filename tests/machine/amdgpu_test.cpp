@@ -82,8 +82,8 @@ TEST_F(AmdgpuTest, NamesWhatHoldsTheClockBack) {
     EXPECT_EQ(reasons(-1), Reasons());
     EXPECT_EQ(reasons(0), Reasons{report::kPowerCap});
     EXPECT_EQ(reasons(15), Reasons{report::kPowerCap});
-    EXPECT_EQ(reasons(16), Reasons{"current limit"});
-    EXPECT_EQ(reasons(31), Reasons{"current limit"});
+    EXPECT_EQ(reasons(16), Reasons{report::kCurrentLimit});
+    EXPECT_EQ(reasons(31), Reasons{report::kCurrentLimit});
     EXPECT_EQ(reasons(32), Reasons{"thermal limit"});
     EXPECT_EQ(reasons(55), Reasons{"thermal limit"});
     EXPECT_EQ(reasons(56), Reasons());

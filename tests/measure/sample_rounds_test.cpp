@@ -266,15 +266,19 @@ TEST(SampleRounds, LeavesOutRoundsWithHeatOrPowerForAReason) {
     }
 }
 
-// A board at its power limit is measured at the clock that it maintains.
-TEST(SampleRounds, CountsRoundsAtThePowerLimitWhileTheClockHolds) {
-    Machine machine{
-        .time = [](int, int) { return 10.0; },
-        .clock = [](int round) { return round % 3 == 0 ? 960.0 : 980.0 + round % 2 * 20.0; },
-        .reasons = [](int) { return std::vector<std::string>{report::kPowerCap}; }};
-    const SampledRounds sampled = machine.sample({.precision = 0.0, .max_time = 3.0});
-    EXPECT_EQ(
-        sampled.sampling.throttled_rounds, static_cast<std::uint32_t>((machine.rounds + 2) / 3));
+// A board at its limit of power or current is measured at the clock that it maintains.
+TEST(SampleRounds, CountsRoundsAtTheBoardsLimitsWhileTheClockHolds) {
+    for (const char* limit : {report::kPowerCap, report::kCurrentLimit}) {
+        Machine machine{
+            .time = [](int, int) { return 10.0; },
+            .clock = [](int round) { return round % 3 == 0 ? 960.0 : 980.0 + round % 2 * 20.0; },
+            .reasons = [&](int) { return std::vector<std::string>{limit}; }};
+        const SampledRounds sampled = machine.sample({.precision = 0.0, .max_time = 3.0});
+        EXPECT_EQ(
+            sampled.sampling.throttled_rounds,
+            static_cast<std::uint32_t>((machine.rounds + 2) / 3))
+            << limit;
+    }
 }
 
 // A clock locked below the board's rated clock is as good as any.
