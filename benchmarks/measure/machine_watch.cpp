@@ -21,15 +21,43 @@ namespace {
 
 // ---- Medians of readings and rounds -------------------------------------------------------------
 
-// The median of one member over the items that have it; absent if none has.
+// One member of the items that have it.
 template <class Thing>
-std::optional<double>
-medianOf(const std::vector<Thing>& things, std::optional<double> Thing::* member) {
+std::vector<double>
+valuesOf(const std::vector<Thing>& things, std::optional<double> Thing::* member) {
     std::vector<double> known;
     for (const Thing& thing : things)
         if (thing.*member) known.push_back(*(thing.*member));
+    return known;
+}
+
+// The functions below return nothing if no item has the member.
+
+template <class Thing>
+std::optional<double>
+medianOf(const std::vector<Thing>& things, std::optional<double> Thing::* member) {
+    const std::vector<double> known = valuesOf(things, member);
     if (known.empty()) return std::nullopt;
     return report::summarize(known).median;
+}
+
+template <class Thing>
+std::optional<double>
+lowestOf(const std::vector<Thing>& things, std::optional<double> Thing::* member) {
+    const std::vector<double> known = valuesOf(things, member);
+    if (known.empty()) return std::nullopt;
+    return std::ranges::min(known);
+}
+
+// The value below which a quarter of the items are, and at least one of several. A driver may give
+// a wrong reading, or a device may pause for a moment; a throttled one stays slow.
+template <class Thing>
+std::optional<double>
+lowOf(const std::vector<Thing>& things, std::optional<double> Thing::* member) {
+    std::vector<double> known = valuesOf(things, member);
+    if (known.empty()) return std::nullopt;
+    std::ranges::sort(known);
+    return known[std::min(std::max<std::size_t>(known.size() / 4, 1), known.size() - 1)];
 }
 
 // All throttle reasons without repetition, in order of appearance.
@@ -110,10 +138,8 @@ std::vector<ClockReading> readingsAtWork(const std::vector<ClockReading>& readin
 
 void addClocks(const std::vector<ClockReading>& readings, report::Conditions& conditions) {
     const std::vector<ClockReading> busy = readingsAtWork(readings);
-    for (const ClockReading& each : busy)
-        if (each.clock_mhz)
-            conditions.lowest_clock_mhz =
-                std::min(*each.clock_mhz, conditions.lowest_clock_mhz.value_or(*each.clock_mhz));
+    conditions.lowest_clock_mhz = lowestOf(busy, &ClockReading::clock_mhz);
+    conditions.low_clock_mhz = lowOf(busy, &ClockReading::clock_mhz);
     conditions.clock_mhz = medianOf(busy, &ClockReading::clock_mhz);
     conditions.base_clock_mhz = medianOf(busy, &ClockReading::base_clock_mhz);
     conditions.memory_clock_mhz = medianOf(busy, &ClockReading::memory_clock_mhz);
@@ -163,22 +189,11 @@ loadBetween(const ProcessorTicks& before, const ProcessorTicks& after, double ow
 
 // ---- Conditions of a round ----------------------------------------------------------------------
 
-namespace {
-
-std::optional<double> lowestClock(const std::vector<report::Conditions>& rounds) {
-    std::optional<double> lowest;
-    for (const report::Conditions& round : rounds)
-        if (round.lowest_clock_mhz)
-            lowest = std::min(*round.lowest_clock_mhz, lowest.value_or(*round.lowest_clock_mhz));
-    return lowest;
-}
-
-}  // namespace
-
 report::Conditions medianConditions(const std::vector<report::Conditions>& rounds) {
     return {
         .clock_mhz = medianOf(rounds, &report::Conditions::clock_mhz),
-        .lowest_clock_mhz = lowestClock(rounds),
+        .lowest_clock_mhz = lowestOf(rounds, &report::Conditions::lowest_clock_mhz),
+        .low_clock_mhz = lowestOf(rounds, &report::Conditions::low_clock_mhz),
         .base_clock_mhz = medianOf(rounds, &report::Conditions::base_clock_mhz),
         .memory_clock_mhz = medianOf(rounds, &report::Conditions::memory_clock_mhz),
         .temperature = medianOf(rounds, &report::Conditions::temperature),

@@ -55,8 +55,8 @@ inline constexpr double kIdleLoad = 0.2;
 // them, it returns those with a load.
 std::vector<ClockReading> readingsAtWork(const std::vector<ClockReading>& readings);
 
-// Sets the medians over the readings taken at work, their lowest clock, and all their throttle
-// reasons without repetition.
+// Sets the medians over the readings taken at work, their lowest and low clocks, and all their
+// throttle reasons without repetition.
 void addClocks(const std::vector<ClockReading>& readings, report::Conditions& conditions);
 
 // Medians of all rounds' numbers, and all throttle reasons.

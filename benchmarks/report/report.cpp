@@ -138,6 +138,7 @@ scene::Json toJson(const Conditions& conditions) {
     scene::Json object = scene::Json::object();
     put(object, "clock_mhz", conditions.clock_mhz);
     put(object, "lowest_clock_mhz", conditions.lowest_clock_mhz);
+    put(object, "low_clock_mhz", conditions.low_clock_mhz);
     put(object, "base_clock_mhz", conditions.base_clock_mhz);
     put(object, "memory_clock_mhz", conditions.memory_clock_mhz);
     put(object, "temperature", conditions.temperature);

@@ -96,6 +96,9 @@ struct Sampling {
 struct Conditions {
     std::optional<double> clock_mhz;  // of the device's shaders
     std::optional<double> lowest_clock_mhz;  // lowest reading under load
+    // A quarter of a round's readings under load, and at least one if there are several, are lower.
+    // The lowest of all rounds.
+    std::optional<double> low_clock_mhz;
     std::optional<double> base_clock_mhz;
     std::optional<double> memory_clock_mhz;
     std::optional<double> temperature;  // degrees Celsius

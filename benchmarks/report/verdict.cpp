@@ -81,9 +81,9 @@ bool isThrottled(const Conditions& round, double held, double held_before) {
         if (isHeatOrPower(reason) &&
             (!isBoardLimit(reason) || !round.clock_mhz || *round.clock_mhz < kCappedShare * held))
             return true;
-    if (!round.lowest_clock_mhz) return false;
-    return *round.lowest_clock_mhz < kHeldShare * held ||
-           (isFullyLoaded(round) && *round.lowest_clock_mhz < kThrottledShare * held_before);
+    if (!round.low_clock_mhz) return false;
+    return *round.low_clock_mhz < kHeldShare * held ||
+           (isFullyLoaded(round) && *round.low_clock_mhz < kThrottledShare * held_before);
 }
 
 // ---- Verdict on a case --------------------------------------------------------------------------

@@ -76,8 +76,8 @@ inline constexpr double kThrottledShare = 0.75;
 // reason, a clock below this share of the highest is throttled.
 inline constexpr double kCappedShare = 0.97;
 
-// True if heat or power lowered the device's clock in a round, by its driver's reasons or its
-// lowest clock under load. `held` is the highest clock of the mode's rounds, `held_before` that of
+// True if heat or power lowered the device's clock in a round, by its driver's reasons or its low
+// clock under load; a single low reading is no throttling. `held` is the highest clock of the mode's rounds, `held_before` that of
 // other cases of the run, MHz; 0: unknown. The board's base clock is not used, because locked
 // clocks may be below it.
 bool isThrottled(const Conditions& round, double held, double held_before);

@@ -36,7 +36,7 @@ TEST(MedianConditions, OfNoRoundsAreUnknown) {
 
 TEST(IsThrottled, BelowNineTenthsOfTheClockThatOtherRoundsHeld) {
     const auto at = [](double clock) {
-        return report::Conditions{.clock_mhz = clock, .lowest_clock_mhz = clock};
+        return report::Conditions{.clock_mhz = clock, .low_clock_mhz = clock};
     };
     EXPECT_TRUE(report::isThrottled(at(1799), 2000, 0));
     EXPECT_FALSE(report::isThrottled(at(1800), 2000, 0));
@@ -47,12 +47,30 @@ TEST(IsThrottled, BelowNineTenthsOfTheClockThatOtherRoundsHeld) {
 // A locked clock may be half the base clock.
 TEST(IsThrottled, WhateverTheBaseClockIs) {
     EXPECT_FALSE(report::isThrottled(
-        {.clock_mhz = 1000, .lowest_clock_mhz = 1000, .base_clock_mhz = 2000, .load = 1.0}, 1000,
+        {.clock_mhz = 1000, .low_clock_mhz = 1000, .base_clock_mhz = 2000, .load = 1.0}, 1000,
         1000));
 }
 
-TEST(IsThrottled, ByOneReadingUnderLoad) {
-    EXPECT_TRUE(report::isThrottled({.clock_mhz = 2000, .lowest_clock_mhz = 1500}, 2000, 0));
+// The clock was low for part of a round only.
+TEST(IsThrottled, ByTheLowClockRatherThanTheMedian) {
+    EXPECT_TRUE(report::isThrottled({.clock_mhz = 2000, .low_clock_mhz = 1500}, 2000, 0));
+}
+
+// A round of 0.25 s has about five readings. Two of them are no accident, and one of a longer
+// round's twelve is, as are two of twelve.
+TEST(IsThrottled, NotByASingleLowReading) {
+    const auto with = [](std::size_t low, std::size_t all) {
+        std::vector<ClockReading> readings(all, {.clock_mhz = 2000});
+        for (std::size_t i = 0; i < low; ++i) readings[2 * i + 1].clock_mhz = 300;
+        report::Conditions round;
+        addClocks(readings, round);
+        EXPECT_EQ(round.lowest_clock_mhz, low > 0 ? 300 : 2000);
+        return report::isThrottled(round, 2000, 2000);
+    };
+    for (const std::size_t all : {2u, 3u, 4u, 5u, 12u}) EXPECT_FALSE(with(1, all)) << all;
+    EXPECT_TRUE(with(2, 5));
+    EXPECT_FALSE(with(2, 12));
+    EXPECT_TRUE(with(4, 12));
 }
 
 TEST(PciAddress, IsWrittenAsTheSystemDoes) {

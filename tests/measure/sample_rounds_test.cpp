@@ -67,7 +67,7 @@ struct Machine {
                  [&] {
                      return report::Conditions{
                          .clock_mhz = clock(rounds - 1),
-                         .lowest_clock_mhz = clock(rounds - 1),
+                         .low_clock_mhz = clock(rounds - 1),
                          .load = load,
                          .throttle_reasons = reasons(rounds - 1)};
                  },
