@@ -8,7 +8,6 @@
 #include <utility>
 
 #include "benchmarks/report/statistics.h"
-#include "benchmarks/report/verdict.h"
 
 namespace benchmarks::measure {
 
@@ -99,7 +98,7 @@ constexpr std::size_t kLookShare = 20;
 
 class Series {
 public:
-    explicit Series(const SamplingRule& rule, double held_before)
+    explicit Series(const SamplingRule& rule, const report::HighestClocks& held_before)
         : rule_(rule), held_before_(held_before) {}
 
     // Returns true if the round was throttled, by the knowledge so far.
@@ -108,7 +107,7 @@ public:
         for (const FrameRecord& frame : frames) times.push_back(frame.*rule_.time);
         times_.push_back(std::move(times));
         frames_.push_back(std::move(frames));
-        held_ = std::max(held_, conditions.clock_mhz.value_or(0.0));
+        held_.raise(conditions);
         conditions_.push_back(std::move(conditions));
         const std::size_t clean = cleanRounds().size();
         if (clean >= looked_at_ + std::max<std::size_t>(looked_at_ / kLookShare, 1)) look();
@@ -156,8 +155,7 @@ public:
         return result;
     }
 
-    // MHz; 0: the clock is unknown.
-    double held() const { return held_; }
+    const report::HighestClocks& held() const { return held_; }
 
 private:
     RoundTimes timesOf(const std::vector<std::size_t>& rounds) const {
@@ -180,8 +178,8 @@ private:
     }
 
     const SamplingRule& rule_;
-    double held_before_;
-    double held_ = 0.0;
+    report::HighestClocks held_before_;
+    report::HighestClocks held_;
     RoundTimes times_;
     std::vector<std::vector<FrameRecord>> frames_;  // [round][frame]
     std::vector<report::Conditions> conditions_;  // [round]
@@ -192,8 +190,9 @@ private:
 
 }  // namespace
 
-SampledRounds sampleRounds(const SamplingRule& rule, const SamplingTools& tools, double* held_mhz) {
-    Series series(rule, held_mhz ? *held_mhz : 0.0);
+SampledRounds
+sampleRounds(const SamplingRule& rule, const SamplingTools& tools, report::HighestClocks* held) {
+    Series series(rule, held ? *held : report::HighestClocks());
     const double begin = tools.seconds();
     double seconds = 0.0;
     std::uint32_t played = 0;
@@ -227,8 +226,8 @@ SampledRounds sampleRounds(const SamplingRule& rule, const SamplingTools& tools,
     }
     SampledRounds result = series.take();
     result.sampling.seconds = seconds;
-    if (held_mhz && report::isFullyLoaded(medianConditions(result.conditions)))
-        *held_mhz = std::max(*held_mhz, series.held());
+    if (held && report::isFullyLoaded(medianConditions(result.conditions)))
+        held->raise(series.held());
     return result;
 }
 
@@ -367,7 +366,8 @@ SampledMode sampleMode(
                 stage.pause(seconds);
             },
         .progress = hooks.progress};
-    double* const held = hooks.known ? &hooks.known->held_clock[run.clocks] : nullptr;
+    report::HighestClocks* const held =
+        hooks.known ? &hooks.known->held_clocks[run.clocks] : nullptr;
     SampledMode mode{sampleRounds(this_rule, tools, held), player.firstFrame(), {}};
     if (streams) player.drain();
     mode.sampling.plays = plays.value_or(1);

@@ -55,7 +55,7 @@ Trusted judgePassSum(double sum) {
 }
 
 Trusted judgeClock(const Conditions& conditions) {
-    if (isThrottled(conditions, 0.0, 0.0)) return Trusted::untrusted;
+    if (isThrottled(conditions, {}, {})) return Trusted::untrusted;
     return conditions.throttle_reasons.empty() ? Trusted::trusted : Trusted::doubtful;
 }
 
@@ -76,14 +76,27 @@ bool isBoardLimit(std::string_view reason) {
 
 }  // namespace
 
-bool isThrottled(const Conditions& round, double held, double held_before) {
+void HighestClocks::raise(const Conditions& round) {
+    raise(HighestClocks{round.clock_mhz.value_or(0.0), round.memory_clock_mhz.value_or(0.0)});
+}
+
+void HighestClocks::raise(const HighestClocks& others) {
+    shaders = std::max(shaders, others.shaders);
+    memory = std::max(memory, others.memory);
+}
+
+bool isThrottled(
+    const Conditions& round, const HighestClocks& held, const HighestClocks& held_before) {
     for (const std::string& reason : round.throttle_reasons)
-        if (isHeatOrPower(reason) &&
-            (!isBoardLimit(reason) || !round.clock_mhz || *round.clock_mhz < kCappedShare * held))
+        if (isHeatOrPower(reason) && (!isBoardLimit(reason) || !round.clock_mhz ||
+                                      *round.clock_mhz < kCappedShare * held.shaders))
             return true;
-    if (!round.low_clock_mhz) return false;
-    return *round.low_clock_mhz < kHeldShare * held ||
-           (isFullyLoaded(round) && *round.low_clock_mhz < kThrottledShare * held_before);
+    const auto is_low = [&](const std::optional<double>& clock, double highest, double before) {
+        return clock && (*clock < kHeldShare * highest ||
+                         (isFullyLoaded(round) && *clock < kThrottledShare * before));
+    };
+    return is_low(round.low_clock_mhz, held.shaders, held_before.shaders) ||
+           is_low(round.memory_clock_mhz, held.memory, held_before.memory);
 }
 
 // ---- Verdict on a case --------------------------------------------------------------------------

@@ -76,11 +76,23 @@ inline constexpr double kThrottledShare = 0.75;
 // reason, a clock below this share of the highest is throttled.
 inline constexpr double kCappedShare = 0.97;
 
-// True if heat or power lowered the device's clock in a round, by its driver's reasons or its low
-// clock under load; a single low reading is no throttling. `held` is the highest clock of the mode's rounds, `held_before` that of
-// other cases of the run, MHz; 0: unknown. The board's base clock is not used, because locked
-// clocks may be below it.
-bool isThrottled(const Conditions& round, double held, double held_before);
+// The highest clocks of a device that are known so far, MHz; 0: unknown.
+struct HighestClocks {
+    double shaders = 0.0;
+    double memory = 0.0;
+
+    // Raises both to the round's medians.
+    void raise(const Conditions& round);
+    void raise(const HighestClocks& others);
+};
+
+// True if heat or power lowered a clock of the device in a round, by its driver's reasons, the low
+// shader clock under load, or the memory's clock; a single low reading is no throttling. `held` are
+// the highest clocks of the mode's rounds, `held_before` those of other cases of the run. The
+// board's base clock is not used, because locked clocks may be below it. Nor is the greatest memory
+// clock, because drivers keep memory below it for compute.
+bool isThrottled(
+    const Conditions& round, const HighestClocks& held, const HighestClocks& held_before);
 
 // ---- Verdict on a case --------------------------------------------------------------------------
 

@@ -38,22 +38,36 @@ TEST(IsThrottled, BelowNineTenthsOfTheClockThatOtherRoundsHeld) {
     const auto at = [](double clock) {
         return report::Conditions{.clock_mhz = clock, .low_clock_mhz = clock};
     };
-    EXPECT_TRUE(report::isThrottled(at(1799), 2000, 0));
-    EXPECT_FALSE(report::isThrottled(at(1800), 2000, 0));
-    EXPECT_FALSE(report::isThrottled(at(100), 0, 0));
-    EXPECT_FALSE(report::isThrottled({.base_clock_mhz = 2000}, 2000, 2000));
+    EXPECT_TRUE(report::isThrottled(at(1799), {2000}, {}));
+    EXPECT_FALSE(report::isThrottled(at(1800), {2000}, {}));
+    EXPECT_FALSE(report::isThrottled(at(100), {}, {}));
+    EXPECT_FALSE(report::isThrottled({.base_clock_mhz = 2000}, {2000}, {2000}));
+}
+
+// The bounds are those of shaders. A light load may leave memory at a lower level.
+TEST(IsThrottled, BelowNineTenthsOfTheMemorysClockOfOtherRounds) {
+    const auto at = [](double clock, double load) {
+        return report::Conditions{
+            .clock_mhz = 2000, .low_clock_mhz = 2000, .memory_clock_mhz = clock, .load = load};
+    };
+    EXPECT_TRUE(report::isThrottled(at(899, 0.5), {2000, 1000}, {}));
+    EXPECT_FALSE(report::isThrottled(at(900, 0.5), {2000, 1000}, {}));
+    EXPECT_FALSE(report::isThrottled(at(100, 0.5), {2000, 0}, {}));
+    EXPECT_TRUE(report::isThrottled(at(749, 0.9), {2000, 749}, {2000, 1000}));
+    EXPECT_FALSE(report::isThrottled(at(750, 0.9), {2000, 750}, {2000, 1000}));
+    EXPECT_FALSE(report::isThrottled(at(100, 0.5), {2000, 100}, {2000, 1000}));
 }
 
 // A locked clock may be half the base clock.
 TEST(IsThrottled, WhateverTheBaseClockIs) {
     EXPECT_FALSE(report::isThrottled(
-        {.clock_mhz = 1000, .low_clock_mhz = 1000, .base_clock_mhz = 2000, .load = 1.0}, 1000,
-        1000));
+        {.clock_mhz = 1000, .low_clock_mhz = 1000, .base_clock_mhz = 2000, .load = 1.0}, {1000},
+        {1000}));
 }
 
 // The clock was low for part of a round only.
 TEST(IsThrottled, ByTheLowClockRatherThanTheMedian) {
-    EXPECT_TRUE(report::isThrottled({.clock_mhz = 2000, .low_clock_mhz = 1500}, 2000, 0));
+    EXPECT_TRUE(report::isThrottled({.clock_mhz = 2000, .low_clock_mhz = 1500}, {2000}, {}));
 }
 
 // A round of 0.25 s has about five readings. Two of them are no accident, and one of a longer
@@ -65,7 +79,7 @@ TEST(IsThrottled, NotByASingleLowReading) {
         report::Conditions round;
         addClocks(readings, round);
         EXPECT_EQ(round.lowest_clock_mhz, low > 0 ? 300 : 2000);
-        return report::isThrottled(round, 2000, 2000);
+        return report::isThrottled(round, {2000}, {2000});
     };
     for (const std::size_t all : {2u, 3u, 4u, 5u, 12u}) EXPECT_FALSE(with(1, all)) << all;
     EXPECT_TRUE(with(2, 5));
@@ -126,7 +140,7 @@ TEST_F(MachineWatchTest, KnowsNoClockOfASoftwareDevice) {
     const report::Conditions conditions = watch.take();
     EXPECT_EQ(conditions.clock_mhz, std::nullopt);
     EXPECT_EQ(conditions.base_clock_mhz, std::nullopt);
-    EXPECT_FALSE(report::isThrottled(conditions, 0, 0));
+    EXPECT_FALSE(report::isThrottled(conditions, {}, {}));
 }
 
 // Whether clocks can be locked, and whether they are.
