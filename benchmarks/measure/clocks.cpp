@@ -205,6 +205,7 @@ struct Utilization {
     unsigned int shaders;  // percent of the last period, which is between 1/6 and 1 s
     unsigned int memory;
 };
+constexpr double kLoadLag = 1.0;  // s, the longest of these periods
 using Load = int (*)(Device device, Utilization* utilization);
 using Lock = int (*)(Device device, unsigned int least_megahertz, unsigned int most_megahertz);
 using Unlock = int (*)(Device device);
@@ -312,8 +313,10 @@ public:
         reading.temperature = value(temperature_, kChipTemperature);
         if (unsigned int milliwatts = 0; power_ && power_(device_, &milliwatts) == kSuccess)
             reading.power_w = milliwatts * 1e-3;
-        if (Utilization use{}; load_ && load_(device_, &use) == kSuccess)
+        if (Utilization use{}; load_ && load_(device_, &use) == kSuccess) {
             reading.load = use.shaders * 1e-2;
+            reading.load_lag = kLoadLag;
+        }
         if (!reading.held) {
             reading.base_clock_mhz = value(applications_clock_, kShaderClock);
             if (!reading.base_clock_mhz)

@@ -22,6 +22,7 @@ struct ClockReading {
     std::optional<double> temperature;  // degrees Celsius
     std::optional<double> power_w;  // power draw of the board
     std::optional<double> load;  // share of the time with work on the device, 0 to 1
+    double load_lag = 0.0;  // s, by which the load may be late
     std::optional<double> age;  // age of the reading, s; absent: 0
     bool idle = false;  // the device was idle, so its clocks do not apply to a measurement
     bool held = false;  // an administrator set the clocks

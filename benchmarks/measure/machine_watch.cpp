@@ -95,7 +95,7 @@ void ClockSampler::begin() {
         readings_.clear();
         running_ = true;
         restarted_ = true;
-        since_ = std::chrono::steady_clock::now();
+        since_ = begun_ = std::chrono::steady_clock::now();
     }
     changed_.notify_one();
 }
@@ -119,9 +119,14 @@ void ClockSampler::sampleUntilStopped() {
         ClockReading reading = source_->read();
         lock.lock();
         const std::chrono::duration<double> age(reading.age.value_or(0.0));
-        if (running_ && !restarted_ && asked - age >= since_)
-            readings_.push_back(std::move(reading));
+        if (!running_ || restarted_ || asked - age < since_) continue;
+        forgetLateLoad(reading, std::chrono::duration<double>(asked - begun_).count());
+        readings_.push_back(std::move(reading));
     }
+}
+
+void forgetLateLoad(ClockReading& reading, double passed) {
+    if (passed < reading.load_lag && reading.load.value_or(1.0) < kIdleLoad) reading.load.reset();
 }
 
 std::vector<ClockReading> readingsAtWork(const std::vector<ClockReading>& readings) {

@@ -44,12 +44,17 @@ private:
     bool restarted_ = false;
     bool stopped_ = false;
     std::vector<ClockReading> readings_;
+    std::chrono::steady_clock::time_point begun_;
     std::chrono::steady_clock::time_point since_;  // start of the time that readings may cover
     std::thread thread_;
 };
 
 // A device with less load than this counts as idle.
 inline constexpr double kIdleLoad = 0.2;
+
+// Forgets the load of a reading, `passed` seconds after the device got work, if it may be that of
+// the idle device before.
+void forgetLateLoad(ClockReading& reading, double passed);
 
 // Returns the readings taken while the device was at work. If the driver reports idle in all of
 // them, it returns those with a load.

@@ -97,6 +97,7 @@ TEST(Nvml, ReadsPowerAndLoad) {
     fake->load = 93;
     EXPECT_DOUBLE_EQ(fake.read().power_w.value(), 431.5);
     EXPECT_DOUBLE_EQ(fake.read().load.value(), 0.93);
+    EXPECT_EQ(fake.read().load_lag, 1.0);  // s: a sample period is 1/6 s to 1 s
     fake->clock_result = kNotSupported;
     EXPECT_EQ(fake.read().power_w, std::nullopt);
     EXPECT_EQ(fake.read().load, std::nullopt);
