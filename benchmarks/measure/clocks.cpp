@@ -200,7 +200,10 @@ using HandleByAddress = int (*)(const char* address, Device* device);
 using ClockQuery = int (*)(Device device, int clock, unsigned int* megahertz);
 using Temperature = int (*)(Device device, int sensor, unsigned int* degrees);
 using Reasons = int (*)(Device device, unsigned long long* bits);
+// The mean of a second on Ampere and later, except for GA100.
 using Power = int (*)(Device device, unsigned int* milliwatts);
+// Since the driver was loaded; Volta and later.
+using Energy = int (*)(Device device, unsigned long long* millijoules);
 struct Utilization {
     unsigned int shaders;  // percent of the last period, which is between 1/6 and 1 s
     unsigned int memory;
@@ -268,6 +271,7 @@ public:
         greatest_clock_ = library_.find<ClockQuery>("nvmlDeviceGetMaxClockInfo");
         temperature_ = library_.find<Temperature>("nvmlDeviceGetTemperature");
         power_ = library_.find<Power>("nvmlDeviceGetPowerUsage");
+        energy_ = library_.find<Energy>("nvmlDeviceGetTotalEnergyConsumption");
         load_ = library_.find<Load>("nvmlDeviceGetUtilizationRates");
         lock_ = library_.find<Lock>("nvmlDeviceSetGpuLockedClocks");
         unlock_ = library_.find<Unlock>("nvmlDeviceResetGpuLockedClocks");
@@ -325,6 +329,12 @@ public:
         return reading;
     }
 
+    std::optional<double> energy() override {
+        unsigned long long millijoules = 0;
+        if (!energy_ || energy_(device_, &millijoules) != kSuccess) return std::nullopt;
+        return static_cast<double>(millijoules) * 1e-3;
+    }
+
 private:
     // Returns the result of an NVML function; absent if the function is missing, fails or returns
     // 0.
@@ -348,6 +358,7 @@ private:
     Temperature temperature_ = nullptr;
     Reasons reasons_ = nullptr;
     Power power_ = nullptr;
+    Energy energy_ = nullptr;
     Load load_ = nullptr;
     Lock lock_ = nullptr;
     Unlock unlock_ = nullptr;

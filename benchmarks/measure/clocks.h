@@ -36,6 +36,10 @@ public:
     // Changes no setting.
     virtual ClockReading read() = 0;
 
+    // Energy that the board has used since some moment, J. Absent without a counter. May be called
+    // while another thread calls read().
+    virtual std::optional<double> energy() { return std::nullopt; }
+
     // Locks the shaders' clock at the board's sustained clock under load, until unlock() or
     // destruction. Returns false if the driver refuses; then nothing has changed.
     virtual bool lock() { return false; }

@@ -209,6 +209,19 @@ report::Conditions medianConditions(const std::vector<report::Conditions>& round
         .throttle_reasons = everyReason(rounds)};
 }
 
+std::optional<MeanPower> meanPower(const std::vector<report::Conditions>& rounds) {
+    double joules = 0.0, seconds = 0.0;
+    for (const report::Conditions& round : rounds) {
+        if (!round.energy_j || !round.energy_s) continue;
+        joules += *round.energy_j;
+        seconds += *round.energy_s;
+    }
+    if (joules > 0.0 && seconds > 0.0) return MeanPower{joules / seconds, true};
+    const auto watts = medianOf(rounds, &report::Conditions::power_w);
+    if (!watts) return std::nullopt;
+    return MeanPower{*watts, false};
+}
+
 std::unique_ptr<ClockSource> openClockSource(const engine::DeviceInfo& device) {
     const std::optional<PciAddress> address = pciAddress(device);
     if (!address) return nullptr;
@@ -246,8 +259,24 @@ struct MachineWatch::Sources {
     std::optional<ProcessorTicks> ticks;  // at begin()
     double own = 0.0;  // CPU time of this process at begin(), ms
     bool is_processor = false;
-    std::vector<EnergyCounter> energy;  // at begin(); used if the device is a processor
+    std::vector<EnergyCounter> packages;  // at begin(); used if the device is a processor
+    std::optional<double> energy;  // J, at begin(), of other devices
     std::chrono::steady_clock::time_point energy_time;
+
+    // Energy since the last call, J; absent before the second.
+    std::optional<double> energySince() {
+        if (is_processor) {
+            std::vector<EnergyCounter> now = readEnergyCounters();
+            const auto joules = joulesBetween(packages, now);
+            packages = std::move(now);
+            return joules;
+        }
+        const std::optional<double> before = energy;
+        energy = clocks ? clocks->energy() : std::nullopt;
+        // A driver that was loaded again counts from 0.
+        if (!before || !energy || *energy < *before) return std::nullopt;
+        return *energy - *before;
+    }
 };
 
 MachineWatch::MachineWatch(const engine::Device& device) : sources_(std::make_unique<Sources>()) {
@@ -260,10 +289,8 @@ MachineWatch::~MachineWatch() = default;
 void MachineWatch::begin() {
     sources_->ticks = readProcessorTicks();
     sources_->own = engine::processUse().cpu;
-    if (sources_->is_processor) {
-        sources_->energy = readEnergyCounters();
-        sources_->energy_time = std::chrono::steady_clock::now();
-    }
+    sources_->energySince();
+    sources_->energy_time = std::chrono::steady_clock::now();
     if (sources_->clocks) sources_->clocks->begin();
 }
 
@@ -301,14 +328,14 @@ joulesBetween(const std::vector<EnergyCounter>& before, const std::vector<Energy
 report::Conditions MachineWatch::take() {
     report::Conditions conditions;
     if (sources_->clocks) addClocks(sources_->clocks->take(), conditions);
-    if (sources_->is_processor) {
-        const auto time = std::chrono::steady_clock::now();
-        std::vector<EnergyCounter> energy = readEnergyCounters();
-        const std::chrono::duration<double> passed = time - sources_->energy_time;
-        const auto joules = joulesBetween(sources_->energy, energy);
-        if (joules && passed.count() > 0.0) conditions.power_w = *joules / passed.count();
-        sources_->energy = std::move(energy);
-        sources_->energy_time = time;
+    const auto time = std::chrono::steady_clock::now();
+    const std::chrono::duration<double> passed = time - sources_->energy_time;
+    sources_->energy_time = time;
+    const std::optional<double> joules = sources_->energySince();
+    if (joules && passed.count() > 0.0) {
+        conditions.energy_j = joules;
+        conditions.energy_s = passed.count();
+        if (!conditions.power_w) conditions.power_w = *joules / passed.count();
     }
     const std::optional<ProcessorTicks> now = readProcessorTicks();
     const double used = engine::processUse().cpu;

@@ -33,6 +33,8 @@ public:
     void begin();
     // Returns the readings from the time since begin() or the last take(). Makes no reading itself.
     std::vector<ClockReading> take();
+    // The source's energy(). Does not wait for a reading.
+    std::optional<double> energy() { return source_->energy(); }
 
 private:
     void sampleUntilStopped();
@@ -103,6 +105,17 @@ private:
     struct Sources;
     std::unique_ptr<Sources> sources_;
 };
+
+// Mean power of the device.
+struct MeanPower {
+    double watts = 0.0;
+    bool counted = false;  // by an energy counter
+};
+
+// The power over all rounds together, by the energy counter if it moved. Otherwise the median of
+// the rounds' power readings, which contain what was before a round: NVML's are the means of a
+// second. Absent if both are unknown.
+std::optional<MeanPower> meanPower(const std::vector<report::Conditions>& rounds);
 
 // Processor time since the machine started, in ticks (10 ms on most machines), from the first line
 // of Linux's /proc/stat (proc_stat(5)).

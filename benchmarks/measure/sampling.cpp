@@ -147,6 +147,7 @@ public:
             of_counted.push_back(conditions_[counted[i]]);
         }
         result.clock_mhz = medianConditions(of_counted).clock_mhz;
+        result.power = meanPower(of_counted);
         result.sampling.rounds = static_cast<std::uint32_t>(counted.size() - assessment.settling);
         result.sampling.warmup_rounds = static_cast<std::uint32_t>(assessment.settling);
         result.sampling.steady = assessment.steady;

@@ -99,6 +99,7 @@ struct SampledRounds {
     // True if all rounds were throttled; `frames` is then from throttled rounds.
     bool all_throttled = false;
     std::optional<double> clock_mhz;  // of the shaders, median over the counted rounds
+    std::optional<MeanPower> power;  // over the counted rounds
 };
 
 inline constexpr double kThrottlePause = 0.05;  // s (as in nvbench)

@@ -143,6 +143,7 @@ scene::Json toJson(const Conditions& conditions) {
     put(object, "memory_clock_mhz", conditions.memory_clock_mhz);
     put(object, "temperature", conditions.temperature);
     put(object, "power_w", conditions.power_w);
+    put(object, "energy_source", conditions.energy_source);
     put(object, "load", conditions.load);
     put(object, "steal", conditions.steal);
     put(object, "other_load", conditions.other_load);

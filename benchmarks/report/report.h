@@ -103,6 +103,11 @@ struct Conditions {
     std::optional<double> memory_clock_mhz;
     std::optional<double> temperature;  // degrees Celsius
     std::optional<double> power_w;  // power draw of the device
+    // Energy in J that the device used in a round, by its counter, and the time in s for that. Not
+    // in reports.
+    std::optional<double> energy_j;
+    std::optional<double> energy_s;
+    std::string energy_source;  // of frame.energy: "counter", "power"; empty: there is none
     std::optional<double> load;  // share of the time in which the device was busy, as the driver
                                  // reports it
     std::optional<double>

@@ -60,7 +60,14 @@ struct Utilization {
     unsigned int memory;
 };
 int nvmlDeviceGetPowerUsage(void* handle, unsigned int* milliwatts);
+int nvmlDeviceGetTotalEnergyConsumption(void* handle, unsigned long long* millijoules);
 int nvmlDeviceGetUtilizationRates(void* handle, struct Utilization* utilization);
+
+int nvmlDeviceGetTotalEnergyConsumption(void* handle, unsigned long long* millijoules) {
+    if (handle != &device) return 2;
+    if (fakeNvml.energy_result == 0) *millijoules = fakeNvml.millijoules;
+    return fakeNvml.energy_result;
+}
 
 int nvmlDeviceGetPowerUsage(void* handle, unsigned int* milliwatts) {
     return answer(handle, 1, fakeNvml.clock_result, fakeNvml.milliwatts, milliwatts);

@@ -34,6 +34,23 @@ TEST(MedianConditions, OfNoRoundsAreUnknown) {
     EXPECT_THAT(median.throttle_reasons, IsEmpty());
 }
 
+// 90 J in 0.4 s are 225 W; a round without a counter adds nothing.
+TEST(MeanPower, IsThatOfTheCounterBeforeThatOfReadings) {
+    const auto power = meanPower(
+        {{.power_w = 80, .energy_j = 30, .energy_s = 0.3},
+         {.power_w = 70},
+         {.power_w = 90, .energy_j = 60, .energy_s = 0.1}});
+    ASSERT_TRUE(power);
+    EXPECT_DOUBLE_EQ(power->watts, 225.0);
+    EXPECT_TRUE(power->counted);
+    // A counter that did not move tells nothing.
+    const auto still = meanPower({{.power_w = 80, .energy_j = 0, .energy_s = 0.01}});
+    ASSERT_TRUE(still);
+    EXPECT_EQ(still->watts, 80.0);
+    EXPECT_FALSE(still->counted);
+    EXPECT_FALSE(meanPower({{.clock_mhz = 1000}}));
+}
+
 TEST(IsThrottled, BelowNineTenthsOfTheClockThatOtherRoundsHeld) {
     const auto at = [](double clock) {
         return report::Conditions{.clock_mhz = clock, .low_clock_mhz = clock};

@@ -103,6 +103,15 @@ TEST(Nvml, ReadsPowerAndLoad) {
     EXPECT_EQ(fake.read().load, std::nullopt);
 }
 
+TEST(Nvml, ReadsTheEnergyCounterWhereThereIsOne) {
+    const Fake fake(FAKE_NVML);
+    fake->millijoules = 5'000'000'000'123;  // more than 32 bits
+    EXPECT_DOUBLE_EQ(fake.open()->energy().value(), 5'000'000'000.123);
+    fake->energy_result = kNotSupported;  // before Volta
+    EXPECT_EQ(fake.open()->energy(), std::nullopt);
+    EXPECT_EQ(Fake(FAKE_NVML_BARE).open()->energy(), std::nullopt);
+}
+
 TEST(Nvml, TakesTheGreatestClockAsBaseOfABoardWithoutApplicationsClock) {
     const Fake fake(FAKE_NVML);
     fake->applications_clock_result = kNotSupported;

@@ -129,6 +129,31 @@ TEST(SimulatedGpu, ACaseThatIsThrottledThroughoutFailsAndKeepsItsSamples) {
     EXPECT_THAT(result.conditions.throttle_reasons, Contains("hardware thermal slowdown"));
 }
 
+// A frame of 1 ms at 300 W is 0.3 J. The device rested for 5 s at 60 W, and throttled rounds draw
+// 150 W: neither counts. Stretches of heat may begin in the last moments of a counted round, which
+// are less than a tenth of the counted time.
+TEST(SimulatedGpu, EnergyIsThatOfTheCountedRounds) {
+    GpuModel model;
+    model.passes = {{"simulate", 480e3}, {"strands", 1500e3}};
+    model.counts_energy = true;
+    SimulatedGpu cool(model, 3);
+    cool.pause(5.0);
+    const report::CaseResult result = measuredOn(cool);
+    EXPECT_EQ(result.conditions.energy_source, "counter");
+    EXPECT_NEAR(medianIn(result, "frame.energy"), 0.3, 0.003);
+
+    model.throttled_share = 0.3;
+    model.throttle_reason = "hardware thermal slowdown";
+    SimulatedGpu hot(model, 3);
+    const report::CaseResult heated = measuredOn(hot, {.precision = 0.0f, .max_time = 10.0f});
+    EXPECT_GT(heated.sampling[0].throttled_rounds, 0u);
+    EXPECT_NEAR(medianIn(heated, "frame.energy"), 0.3, 0.015);
+
+    model.counts_energy = false;
+    SimulatedGpu uncounted(model, 3);
+    EXPECT_EQ(measuredOn(uncounted).conditions.energy_source, "power");
+}
+
 // Rounds measure for at least a quarter of a second, for any frames. The device never waits for the
 // next round, or its clock would fall (it needs 2 ms to notice).
 TEST(SimulatedGpu, RoundsAreLongAndNothingIsBetweenThem) {
