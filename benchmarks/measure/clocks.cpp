@@ -133,6 +133,12 @@ public:
         return std::string("echo ") + kLocked + " > " + level_.string();
     }
 
+    std::optional<double> powerLimit() override {
+        const auto microwatts = readNumber(monitor_ / "power1_cap");
+        if (!microwatts) return std::nullopt;
+        return *microwatts / 1e6;
+    }
+
     ClockReading read() override {
         ClockReading reading;
         const ClockLevels shaders = readLevels(device_ / "pp_dpm_sclk");
@@ -271,6 +277,8 @@ public:
         greatest_clock_ = library_.find<ClockQuery>("nvmlDeviceGetMaxClockInfo");
         temperature_ = library_.find<Temperature>("nvmlDeviceGetTemperature");
         power_ = library_.find<Power>("nvmlDeviceGetPowerUsage");
+        power_limit_ = library_.find<Power>(
+            "nvmlDeviceGetEnforcedPowerLimit", "nvmlDeviceGetPowerManagementLimit");
         energy_ = library_.find<Energy>("nvmlDeviceGetTotalEnergyConsumption");
         load_ = library_.find<Load>("nvmlDeviceGetUtilizationRates");
         lock_ = library_.find<Lock>("nvmlDeviceSetGpuLockedClocks");
@@ -329,6 +337,12 @@ public:
         return reading;
     }
 
+    std::optional<double> powerLimit() override {
+        unsigned int milliwatts = 0;
+        if (!power_limit_ || power_limit_(device_, &milliwatts) != kSuccess) return std::nullopt;
+        return milliwatts * 1e-3;
+    }
+
     std::optional<double> energy() override {
         unsigned long long millijoules = 0;
         if (!energy_ || energy_(device_, &millijoules) != kSuccess) return std::nullopt;
@@ -358,6 +372,7 @@ private:
     Temperature temperature_ = nullptr;
     Reasons reasons_ = nullptr;
     Power power_ = nullptr;
+    Power power_limit_ = nullptr;
     Energy energy_ = nullptr;
     Load load_ = nullptr;
     Lock lock_ = nullptr;

@@ -40,6 +40,9 @@ public:
     // while another thread calls read().
     virtual std::optional<double> energy() { return std::nullopt; }
 
+    // Limit of the board's power that is in force, W. Absent if it is unknown.
+    virtual std::optional<double> powerLimit() { return std::nullopt; }
+
     // Locks the shaders' clock at the board's sustained clock under load, until unlock() or
     // destruction. Returns false if the driver refuses; then nothing has changed.
     virtual bool lock() { return false; }

@@ -13,6 +13,7 @@
 #include <unistd.h>
 
 #include "benchmarks/measure/clocks.h"
+#include "benchmarks/report/environment.h"
 #include "benchmarks/report/statistics.h"
 #include "engine/process.h"
 
@@ -227,6 +228,24 @@ std::unique_ptr<ClockSource> openClockSource(const engine::DeviceInfo& device) {
     if (!address) return nullptr;
     if (auto nvml = openNvml(*address)) return nvml;
     return openAmdgpu(*address);
+}
+
+std::string boardHash(std::span<const std::uint8_t> uuid) {
+    if (std::ranges::all_of(uuid, [](std::uint8_t each) { return each == 0; })) return {};
+    return report::hashBytes(std::as_bytes(uuid));
+}
+
+void addBoard(const engine::DeviceInfo& device, report::DeviceRecord& record) {
+    if (device.type == "cpu") return;
+    VkPhysicalDeviceIDProperties identity{};
+    identity.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_ID_PROPERTIES;
+    VkPhysicalDeviceProperties2 properties{};
+    properties.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROPERTIES_2;
+    properties.pNext = &identity;
+    vkGetPhysicalDeviceProperties2(device.handle, &properties);
+    record.board = boardHash(identity.deviceUUID);
+    if (const auto address = pciAddress(device)) record.pci_address = addressText(*address);
+    if (const auto source = openClockSource(device)) record.power_limit_w = source->powerLimit();
 }
 
 ClockHold::ClockHold(const engine::DeviceInfo& device, hair::Clocks clocks)

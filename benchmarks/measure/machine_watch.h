@@ -7,6 +7,8 @@
 #include <memory>
 #include <mutex>
 #include <optional>
+#include <span>
+#include <string>
 #include <thread>
 #include <vector>
 
@@ -17,6 +19,14 @@
 
 // Conditions of a measurement: clocks, throttling, steal time, load by other processes.
 namespace benchmarks::measure {
+
+// Adds the identity and power limit of the board to the record of its device. Leaves them out for a
+// software device, and whatever is unknown.
+void addBoard(const engine::DeviceInfo& device, report::DeviceRecord& record);
+
+// 16 hexadecimal digits for the board with this UUID; empty for a UUID of zeros, which some drivers
+// give.
+std::string boardHash(std::span<const std::uint8_t> uuid);
 
 // Samples a clock source while frames are played, because before and after that the device and its
 // clocks are idle. A reading takes some tens of microseconds of one processor, in a thread that

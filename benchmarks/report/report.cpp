@@ -57,6 +57,9 @@ scene::Json toJson(const DeviceRecord& device) {
     put(object, "timestamp_period_ns", device.timestamp_period_ns);
     put(object, "id", device.id);
     put(object, "timestamp_valid_bits", device.timestamp_valid_bits);
+    put(object, "board", device.board);
+    put(object, "pci_address", device.pci_address);
+    put(object, "power_limit_w", device.power_limit_w);
     for (const auto& [name, limit] : device.limits) put(object["limits"], name.c_str(), limit);
     return object;
 }

@@ -19,7 +19,7 @@
 // optionals and numbers that are not finite are left out.
 namespace benchmarks::report {
 
-inline constexpr const char* kReportSchema = "hairbench-report/1.7.0";
+inline constexpr const char* kReportSchema = "hairbench-report/1.8.0";
 
 struct DeviceRecord {
     std::string name;
@@ -30,6 +30,10 @@ struct DeviceRecord {
     std::optional<double> timestamp_period_ns;
     std::string id;  // "10005:0000", vendor and device in hex
     std::optional<std::uint32_t> timestamp_valid_bits;
+    // The board, to tell two boards of one model apart; empty for software devices.
+    std::string board;  // hash of its UUID, which is not published itself
+    std::string pci_address;  // "0000:65:00.0"
+    std::optional<double> power_limit_w;
     // Members of VkPhysicalDeviceLimits that decide which cases run here, under Vulkan's names.
     std::vector<std::pair<std::string, double>> limits;
 };

@@ -8,6 +8,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "benchmarks/measure/machine_watch.h"
 #include "benchmarks/measure/progress.h"
 #include "benchmarks/measure/quiet_wait.h"
 #include "benchmarks/report/environment.h"
@@ -29,6 +30,7 @@ headerOf(const RunOptions& options, const RunPlan& plan, const engine::Device& d
     report::ReportHeader header;
     header.environment = report::describeEnvironment(
         device, options.command, plan.seed, options.scene.device.validation);
+    measure::addBoard(device.info(), header.environment.device);
     header.scene = plan.scene;
     header.case_count = plan.case_count;
     header.order_seed = options.order_seed ? *options.order_seed : std::random_device()();

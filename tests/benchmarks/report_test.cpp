@@ -26,7 +26,7 @@ scene::Json written() { return scene::Json::parse(writtenText(sampleReport())); 
 
 TEST(Report, KeepsTheContractsNames) {
     const scene::Json report = written();
-    EXPECT_EQ(report["schema"], "hairbench-report/1.7.0");
+    EXPECT_EQ(report["schema"], "hairbench-report/1.8.0");
     EXPECT_EQ(
         report["environment"]["device"].dump(),
         R"({"name":"Soft","type":"cpu","driver":"llvmpipe","driver_version":"22.3.6",)"

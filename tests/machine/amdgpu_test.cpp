@@ -64,6 +64,13 @@ TEST_F(AmdgpuTest, ReadsPowerAndLoad) {
     EXPECT_EQ(reading.load, 0.97);
 }
 
+TEST_F(AmdgpuTest, ReadsThePowerLimit) {
+    write("pp_dpm_sclk", "0: 500Mhz\n1: 2100Mhz *\n");
+    EXPECT_EQ(open()->powerLimit(), std::nullopt);
+    write("hwmon/hwmon4/power1_cap", "203000000\n");
+    EXPECT_EQ(open()->powerLimit(), 203.0);
+}
+
 // The table has the layout of the kernel's headers: 120 bytes, version 1.3, and the status from
 // byte 112.
 TEST_F(AmdgpuTest, NamesWhatHoldsTheClockBack) {

@@ -79,6 +79,17 @@ int nvmlDeviceGetUtilizationRates(void* handle, struct Utilization* utilization)
 }
 
 #ifdef FAKE_NVML_OLD
+#define GET_POWER_LIMIT nvmlDeviceGetPowerManagementLimit
+#else
+#define GET_POWER_LIMIT nvmlDeviceGetEnforcedPowerLimit
+#endif
+int GET_POWER_LIMIT(void* handle, unsigned int* milliwatts);
+
+int GET_POWER_LIMIT(void* handle, unsigned int* milliwatts) {
+    return answer(handle, 1, fakeNvml.clock_result, fakeNvml.power_limit, milliwatts);
+}
+
+#ifdef FAKE_NVML_OLD
 #define GET_REASONS nvmlDeviceGetCurrentClocksThrottleReasons
 #else
 #define GET_REASONS nvmlDeviceGetCurrentClocksEventReasons

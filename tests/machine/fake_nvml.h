@@ -14,6 +14,7 @@ struct FakeNvml {
     unsigned int greatest_clock;
     unsigned int temperature;
     unsigned int milliwatts;
+    unsigned int power_limit; /* mW */
     unsigned long long millijoules;
     int energy_result;
     unsigned int load; /* percent */

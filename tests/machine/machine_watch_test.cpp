@@ -1,6 +1,9 @@
 #include "benchmarks/measure/machine_watch.h"
 
+#include <array>
 #include <chrono>
+#include <cstdint>
+#include <numeric>
 
 #include <gmock/gmock.h>
 
@@ -111,6 +114,14 @@ TEST(PciAddress, IsWrittenAsTheSystemDoes) {
         addressText({.domain = 0x10000, .bus = 2, .device = 0, .function = 0}), "10000:02:00.0");
 }
 
+// FNV-1a of the bytes 1 to 16, by a program of its own.
+TEST(BoardHash, TellsBoardsApartAndIsAbsentWithoutAUuid) {
+    std::array<std::uint8_t, 16> uuid{};
+    EXPECT_EQ(boardHash(uuid), "");
+    std::iota(uuid.begin(), uuid.end(), std::uint8_t{1});
+    EXPECT_EQ(boardHash(uuid), "e7ecfb4f6e006495");
+}
+
 // There are two packages, and one counter has wrapped: 3 J and 1.000001 J, worked out by hand.
 TEST(EnergyCounters, AddPackagesUp) {
     const TemporaryFolder folder;
@@ -158,6 +169,10 @@ TEST_F(MachineWatchTest, KnowsNoClockOfASoftwareDevice) {
     EXPECT_EQ(conditions.clock_mhz, std::nullopt);
     EXPECT_EQ(conditions.base_clock_mhz, std::nullopt);
     EXPECT_FALSE(report::isThrottled(conditions, {}, {}));
+    report::DeviceRecord record;
+    addBoard(device().info(), record);
+    EXPECT_EQ(record.board + record.pci_address, "");
+    EXPECT_EQ(record.power_limit_w, std::nullopt);
 }
 
 // Whether clocks can be locked, and whether they are.

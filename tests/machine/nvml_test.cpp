@@ -112,6 +112,17 @@ TEST(Nvml, ReadsTheEnergyCounterWhereThereIsOne) {
     EXPECT_EQ(Fake(FAKE_NVML_BARE).open()->energy(), std::nullopt);
 }
 
+TEST(Nvml, ReadsThePowerLimit) {
+    for (const char* library : {FAKE_NVML, FAKE_NVML_OLD}) {
+        const Fake fake(library);
+        fake->power_limit = 262500;
+        EXPECT_DOUBLE_EQ(fake.open()->powerLimit().value(), 262.5);
+        fake->clock_result = kNotSupported;
+        EXPECT_EQ(fake.open()->powerLimit(), std::nullopt);
+    }
+    EXPECT_EQ(Fake(FAKE_NVML_BARE).open()->powerLimit(), std::nullopt);
+}
+
 TEST(Nvml, TakesTheGreatestClockAsBaseOfABoardWithoutApplicationsClock) {
     const Fake fake(FAKE_NVML);
     fake->applications_clock_result = kNotSupported;
