@@ -58,7 +58,7 @@ Judgement judgeClocks(const Facts& facts) {
     if (isSoftware(facts)) return {Health::ok, "those of the processor: see there"};
     if (!facts.clocks)
         return {
-            Health::unknown, "neither NVML nor files of amdgpu",
+            Health::unknown, "neither NVML nor files of amdgpu, i915 or xe",
             "watch the clocks by other means: throttling would go unnoticed"};
     const ClockFacts& clocks = *facts.clocks;
     const std::string seen = clockText(clocks);

@@ -52,6 +52,32 @@ std::optional<PciAddress> pciAddress(const engine::DeviceInfo& device) {
 
 namespace {
 
+// ---- Files of sysfs -----------------------------------------------------------------------------
+
+// Reads one number; absent if the file does not exist or holds none.
+std::optional<double> readNumber(const std::filesystem::path& path) {
+    std::ifstream file(path);
+    double number = 0.0;
+    if (!(file >> number)) return std::nullopt;
+    return number;
+}
+
+// Reads a number in units of `unit`; absent also for 0.
+std::optional<double> readPositive(const std::filesystem::path& path, double unit = 1.0) {
+    const std::optional<double> number = readNumber(path);
+    if (!number || *number <= 0.0) return std::nullopt;
+    return *number * unit;
+}
+
+// Returns the last entry of a folder with this file or folder in it; empty if there is none.
+std::filesystem::path findIn(const std::filesystem::path& folder, const char* name) {
+    std::filesystem::path found;
+    std::error_code none;
+    for (const auto& entry : std::filesystem::directory_iterator(folder, none))
+        if (std::filesystem::exists(entry.path() / name, none)) found = entry.path();
+    return found;
+}
+
 // ---- AMD: sysfs of amdgpu -----------------------------------------------------------------------
 
 struct ClockLevels {
@@ -74,14 +100,6 @@ ClockLevels readLevels(const std::filesystem::path& path) {
         levels.greatest = std::max(levels.greatest.value_or(0.0), clock);
     }
     return levels;
-}
-
-// Reads one number; absent if the file does not exist or holds none.
-std::optional<double> readNumber(const std::filesystem::path& path) {
-    std::ifstream file(path);
-    double number = 0.0;
-    if (!(file >> number)) return std::nullopt;
-    return number;
 }
 
 // Reads the reasons for a lowered clock from the metrics table that the firmware writes (Linux,
@@ -107,12 +125,7 @@ std::vector<std::string> readThrottling(const std::filesystem::path& path) {
 
 class Amdgpu : public ClockSource {
 public:
-    explicit Amdgpu(std::filesystem::path device) : device_(std::move(device)) {
-        std::error_code none;
-        // The folder is hwmon0, or has another number.
-        for (const auto& entry : std::filesystem::directory_iterator(device_ / "hwmon", none))
-            monitor_ = entry.path();
-    }
+    explicit Amdgpu(std::filesystem::path device) : device_(std::move(device)) {}
 
     ~Amdgpu() override { unlock(); }
 
@@ -134,9 +147,7 @@ public:
     }
 
     std::optional<double> powerLimit() override {
-        const auto microwatts = readNumber(monitor_ / "power1_cap");
-        if (!microwatts) return std::nullopt;
-        return *microwatts / 1e6;
+        return readPositive(monitor_ / "power1_cap", 1e-6);
     }
 
     ClockReading read() override {
@@ -176,7 +187,7 @@ private:
 
     std::filesystem::path device_;
     std::filesystem::path level_ = device_ / "power_dpm_force_performance_level";
-    std::filesystem::path monitor_;
+    std::filesystem::path monitor_ = findIn(device_ / "hwmon", "");  // hwmon0, or another number
     std::optional<std::string> found_;  // the level before lock()
 };
 
@@ -187,6 +198,88 @@ openAmdgpu(const PciAddress& address, const std::filesystem::path& devices) {
     const std::filesystem::path device = devices / addressText(address);
     if (!readLevels(device / "pp_dpm_sclk").greatest) return nullptr;
     return std::make_unique<Amdgpu>(device);
+}
+
+namespace {
+
+// ---- Intel: sysfs of i915 and xe ----------------------------------------------------------------
+
+// The files of a driver, relative to its folder for a graphics unit.
+struct IntelNames {
+    const char* actual;
+    const char* least;  // limits that an administrator can set
+    const char* most;
+    const char* rated;
+    const char* reason;  // beginning of the names of throttle reasons
+};
+constexpr IntelNames kI915{
+    "rps_act_freq_mhz", "rps_min_freq_mhz", "rps_max_freq_mhz", "rps_RP0_freq_mhz",
+    "throttle_reason_"};
+constexpr IntelNames kXe{"act_freq", "min_freq", "max_freq", "rp0_freq", "throttle/reason_"};
+
+struct IntelReason {
+    const char* file;
+    const char* name;
+};
+constexpr IntelReason kIntelReasons[] = {
+    {"pl1", report::kPowerCap},         {"pl2", report::kPowerCap},
+    {"pl4", report::kCurrentLimit},  // the peak, also called iccmax
+    {"vr_tdc", report::kCurrentLimit},  // of the voltage regulator
+    {"thermal", "thermal limit"},       {"prochot", "thermal limit"},
+    {"ratl", "thermal limit"},  // a running average
+    {"vr_thermalert", "thermal limit"},
+};
+
+class Intel : public ClockSource {
+public:
+    Intel(const std::filesystem::path& device, std::filesystem::path unit, const IntelNames& names)
+        : monitor_(findIn(device / "hwmon", "")), unit_(std::move(unit)), names_(names) {}
+
+    std::optional<double> energy() override {
+        return readPositive(monitor_ / "energy1_input", 1e-6);
+    }
+    std::optional<double> powerLimit() override {
+        return readPositive(monitor_ / "power1_max", 1e-6);
+    }
+    std::string lockCommand() const override {
+        return "echo MHZ | tee " + (unit_ / names_.most).string() + ' ' +
+               (unit_ / names_.least).string();
+    }
+
+    ClockReading read() override {
+        ClockReading reading;
+        reading.clock_mhz = readPositive(unit_ / names_.actual);
+        reading.idle = !reading.clock_mhz;
+        const auto rated = readPositive(unit_ / names_.rated);
+        const auto most = readPositive(unit_ / names_.most);
+        reading.held =
+            most && ((rated && *most < *rated) || readPositive(unit_ / names_.least) == most);
+        if (!reading.held) reading.base_clock_mhz = rated;
+        for (const char* file : {"temp1_input", "temp2_input"})
+            if (!reading.temperature) reading.temperature = readPositive(monitor_ / file, 1e-3);
+        for (const auto& [file, name] : kIntelReasons)
+            if (readPositive(unit_ / (std::string(names_.reason) + file)) &&
+                std::ranges::find(reading.throttle_reasons, name) == reading.throttle_reasons.end())
+                reading.throttle_reasons.emplace_back(name);
+        return reading;
+    }
+
+private:
+    std::filesystem::path monitor_;
+    std::filesystem::path unit_;
+    const IntelNames& names_;
+};
+
+}  // namespace
+
+std::unique_ptr<ClockSource>
+openIntel(const PciAddress& address, const std::filesystem::path& devices) {
+    const std::filesystem::path device = devices / addressText(address);
+    const std::filesystem::path card = findIn(device / "drm", "gt/gt0/rps_act_freq_mhz");
+    if (!card.empty()) return std::make_unique<Intel>(device, card / "gt/gt0", kI915);
+    const std::filesystem::path unit = device / "tile0/gt0/freq0";
+    if (!readNumber(unit / kXe.actual)) return nullptr;
+    return std::make_unique<Intel>(device, unit, kXe);
 }
 
 namespace {

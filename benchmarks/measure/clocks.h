@@ -76,6 +76,15 @@ std::optional<PciAddress> pciAddress(const engine::DeviceInfo& device);
 std::unique_ptr<ClockSource> openAmdgpu(
     const PciAddress& address, const std::filesystem::path& devices = "/sys/bus/pci/devices");
 
+// Reads the sysfs files of the Linux drivers i915 (gt/gt0 of the card, with rps_act_freq_mhz) and
+// xe (tile0/gt0/freq0): Linux documentation, "Intel GPU sysfs", sysfs-driver-intel-i915-hwmon and
+// sysfs-driver-intel-xe-hwmon. The clock is that of the first graphics unit; it is 0 while the unit
+// sleeps. The base clock is RP0, the greatest that the hardware allows. Neither driver reports the
+// load, nor power other than by an energy counter. Returns null for a device without these files.
+// Locks nothing, because no file has the clock that a board sustains.
+std::unique_ptr<ClockSource>
+openIntel(const PciAddress& address, const std::filesystem::path& devices = "/sys/bus/pci/devices");
+
 // Uses the NVIDIA Management Library of the installed driver, which is loaded at run time and not
 // needed to build. Returns null if the library is missing or unusable, or does not know the device.
 // The base clock is the applications clock: the board's rated clock under load, or an

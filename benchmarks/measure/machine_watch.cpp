@@ -227,7 +227,8 @@ std::unique_ptr<ClockSource> openClockSource(const engine::DeviceInfo& device) {
     const std::optional<PciAddress> address = pciAddress(device);
     if (!address) return nullptr;
     if (auto nvml = openNvml(*address)) return nvml;
-    return openAmdgpu(*address);
+    if (auto amdgpu = openAmdgpu(*address)) return amdgpu;
+    return openIntel(*address);
 }
 
 std::string boardHash(std::span<const std::uint8_t> uuid) {
