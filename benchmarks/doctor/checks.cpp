@@ -106,7 +106,8 @@ Judgement judgeProcessor(const Facts& facts) {
 Judgement judgeOthers(const Facts& facts) {
     if (!facts.load.others) return {Health::unknown, "no /proc/stat"};
     const std::string seen = shareText(*facts.load.others) + " of all processors' time";
-    const Health health = healthOf(report::judgeOtherLoad(*facts.load.others, isSoftware(facts)));
+    const Health health = healthOf(
+        report::judgeOtherLoad(*facts.load.others, report::sharesProcessors(facts.device.type)));
     if (health == Health::ok) return {health, seen};
     return {health, seen, "end other programs, or measure when the machine is idle"};
 }

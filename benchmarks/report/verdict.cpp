@@ -29,15 +29,19 @@ const char* trustedName(Trusted level) {
 
 namespace {
 
-Trusted disturbance(double share, double little, double much, bool software) {
+Trusted disturbance(double share, double little, double much, bool of_frames) {
     if (share <= little) return Trusted::trusted;
-    return share > much && software ? Trusted::untrusted : Trusted::doubtful;
+    return share > much && of_frames ? Trusted::untrusted : Trusted::doubtful;
 }
 
 }  // namespace
 
-Trusted judgeOtherLoad(double share, bool software) {
-    return disturbance(share, kLittleLoad, kMuchLoad, software);
+bool sharesProcessors(std::string_view device_type) {
+    return device_type == "cpu" || device_type == "integrated";
+}
+
+Trusted judgeOtherLoad(double share, bool shares_processors) {
+    return disturbance(share, kLittleLoad, kMuchLoad, shares_processors);
 }
 
 Trusted judgeSteal(double share, bool software) {
@@ -134,16 +138,16 @@ void add(std::vector<Doubt>& doubts, Doubt doubt) {
 }
 
 void judgeLoad(const Json& environment, const Json& result, std::vector<Doubt>& doubts) {
-    const bool software = isSoftware(environment);
+    const bool shares = sharesProcessors(scene::textAt(environment, "/device/type"));
     if (const auto share = numberIn(result, "/conditions/other_load"))
         add(doubts, {.check = "other load",
-                     .level = judgeOtherLoad(*share, software),
+                     .level = judgeOtherLoad(*share, shares),
                      .brief = "other load " + briefShare(*share),
                      .text = shareText(*share) + " of all processors' time was used by others",
                      .size = *share});
     if (const auto share = numberIn(result, "/conditions/steal"))
         add(doubts, {.check = "steal",
-                     .level = judgeSteal(*share, software),
+                     .level = judgeSteal(*share, isSoftware(environment)),
                      .brief = "steal " + briefShare(*share),
                      .text = shareText(*share) +
                              " of all processors' time was given to others by the hypervisor",

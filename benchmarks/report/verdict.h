@@ -39,10 +39,17 @@ inline constexpr double kMuchSteal = 0.1;
 // A median with a wider 95 % interval, half of it over the median, is doubtful.
 inline constexpr double kWideInterval = 0.05;
 
-// `share` of all processors' time: used by other programs, or given to others by the hypervisor. On
-// a software device this disturbs the frames. On others it disturbs only their recording, and times
-// are never worse than doubtful.
-Trusted judgeOtherLoad(double share, bool software);
+// Whether other programs' work on the processors slows a device of this type (DeviceRecord::type).
+// A software device is made of them, and an integrated GPU shares their power limit and memory.
+bool sharesProcessors(std::string_view device_type);
+
+// `share` of all processors' time that other programs used. On a device that shares the processors
+// this disturbs the frames. On others it disturbs only their recording, and times are never worse
+// than doubtful.
+Trusted judgeOtherLoad(double share, bool shares_processors);
+
+// `share` of all processors' time that the hypervisor gave to others. This disturbs the frames of a
+// software device, and only the recording of others'.
 Trusted judgeSteal(double share, bool software);
 
 // Compiler flags and build type, as in a report. Times need a release build without sanitizers.

@@ -57,6 +57,10 @@ TEST(CaseVerdict, FallsWithOthersLoad) {
     EXPECT_EQ(levelOf(others(0.25)), Trusted::doubtful);
     EXPECT_EQ(levelOf(others(0.251)), Trusted::untrusted);
     EXPECT_EQ(levelOf(others(0.9, "discrete")), Trusted::doubtful);
+    // An integrated GPU shares the processors' power and memory.
+    EXPECT_EQ(levelOf(others(0.25, "integrated")), Trusted::doubtful);
+    EXPECT_EQ(levelOf(others(0.251, "integrated")), Trusted::untrusted);
+    EXPECT_EQ(levelOf(stolen(0.9, "integrated")), Trusted::doubtful);
     EXPECT_EQ(levelOf(stolen(0.01)), Trusted::trusted);
     EXPECT_EQ(levelOf(stolen(0.011)), Trusted::doubtful);
     EXPECT_EQ(levelOf(stolen(0.101)), Trusted::untrusted);
