@@ -104,7 +104,8 @@ public:
     // Returns true if the round was throttled, by the knowledge so far.
     bool add(std::vector<FrameRecord> frames, report::Conditions conditions) {
         std::vector<double> times;
-        for (const FrameRecord& frame : frames) times.push_back(frame.*rule_.time);
+        for (const FrameRecord& frame : frames)
+            times.push_back(rule_.passes && frame.device ? *frame.device : frame.*rule_.time);
         times_.push_back(std::move(times));
         frames_.push_back(std::move(frames));
         held_.raise(conditions);
@@ -140,7 +141,7 @@ public:
         result.all_throttled = counted.empty();
         if (counted.empty())
             for (std::size_t i = 0; i < conditions_.size(); ++i) counted.push_back(i);
-        const Assessment assessment = assess(timesOf(counted));
+        const Assessment assessment = assess(timesOf(counted), passesOf(counted));
         std::vector<report::Conditions> of_counted;
         for (std::size_t i = assessment.settling; i < counted.size(); ++i) {
             std::ranges::move(frames_[counted[i]], std::back_inserter(result.frames));
@@ -165,6 +166,21 @@ private:
         return times;
     }
 
+    // The times of each pass that all frames have; empty if passes do not decide.
+    std::vector<RoundTimes> passesOf(const std::vector<std::size_t>& rounds) const {
+        std::vector<RoundTimes> passes;
+        if (!rule_.passes) return passes;
+        for (const std::string& pass : passNames(frames_[rounds.front()])) {
+            RoundTimes times;
+            for (const std::size_t i : rounds) times.push_back(passTimes(frames_[i], pass));
+            const std::size_t frames = frames_[rounds.front()].size();
+            if (std::ranges::all_of(
+                    times, [&](const auto& round) { return round.size() == frames; }))
+                passes.push_back(std::move(times));
+        }
+        return passes;
+    }
+
     void look() {
         assessment();
         if (looking_.valid()) return;  // the last assessment is still running
@@ -172,9 +188,11 @@ private:
         looked_at_ = clean.size();
         if (rule_.looks_beside) {
             looking_ =
-                std::async(std::launch::async, [times = timesOf(clean)] { return assess(times); });
+                std::async(std::launch::async, [times = timesOf(clean), passes = passesOf(clean)] {
+                    return assess(times, passes);
+                });
         } else {
-            assessment_ = assess(timesOf(clean));
+            assessment_ = assess(timesOf(clean), passesOf(clean));
         }
     }
 

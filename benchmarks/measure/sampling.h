@@ -71,6 +71,9 @@ private:
 struct SamplingRule {
     std::string mode;  // "overlapped", "isolated", "wall_clock"
     double engine::FrameRecord::* time = nullptr;  // time of a frame, ms, that has to be known
+    // True if the device's times decide when there are any: those of the frame and of every pass
+    // that all frames have.
+    bool passes = false;
     double precision = 0.01;  // of half the median's interval, relative to it; 0: until max_time
     double max_time = 10.0;  // s, after which no new round begins; 0: one round
     std::uint32_t most_rounds = std::numeric_limits<std::uint32_t>::max();

@@ -91,8 +91,10 @@ struct Sampling {
     std::uint32_t throttled_rounds = 0;  // left out: heat or power held the device's clock back
     double seconds = 0.0;  // total time
     std::optional<bool> steady;  // no trend in the last samples; absent: too few to tell
-    // Half the 95 % interval of the median frame time over that median. The interval allows for the
-    // dependence between samples. Absent with too few samples for an interval.
+    // Half the 95 % interval of the median frame time over that median. In isolated frames of a GPU
+    // it is that of the least known of the frame and its larger passes (measure::SamplingRule). The
+    // interval allows for the dependence between samples. Absent with too few samples for an
+    // interval.
     std::optional<double> precision;
 };
 
