@@ -38,6 +38,7 @@ struct GpuModel {
     double decay = 0.05;  // s of idling back to slow
     double idle_after = 2e-3;  // s; the governor ignores shorter gaps
 
+    std::size_t frames_in_flight = 2;
     double record = 5e-6, submit = 2e-6;  // s of CPU time for a frame
     double least_latency = 20e-6, most_latency = 60e-6;  // s, of submitting and of waking up
     double tail = 0.01;  // share of latencies that are ten times as long
@@ -160,7 +161,6 @@ private:
     static constexpr double kLoadWindow = 0.1;  // s
     static constexpr double kPowerWindow = 1.0;  // s
     static constexpr double kNotes = 1e-3;  // s between two recorded states
-    static constexpr std::size_t kSlots = 2;
 
     struct State {
         double time;
@@ -185,7 +185,7 @@ private:
             if (!empty_) ++gpu_.frames_;
             const double start = gpu_.now_;
             const bool overlapped = timing_ == engine::Timing::overlapped;
-            if (overlapped && in_flight_.size() == kSlots) collect();
+            if (overlapped && in_flight_.size() == gpu_.model_.frames_in_flight) collect();
             if (!records_.empty()) records_.back().interval = (start - start_) * 1e3;
             start_ = start;
             engine::FrameRecord record;
