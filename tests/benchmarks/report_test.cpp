@@ -82,6 +82,32 @@ TEST(Report, SaysHowSamplesCameAbout) {
         R"("temperature":61.5,"steal":0.25,"other_load":0.5,"throttle_reasons":["power cap"]})");
 }
 
+TEST(Report, NamesTheBoardAndTheSourceOfItsEnergy) {
+    report::Report report = sampleReport();
+    report.environment.device.board = "00000000000000ff";
+    report.environment.device.pci_address = "0000:65:00.0";
+    report.environment.device.power_limit_w = 262.5;
+    report::Conditions& conditions = report.cases[0].conditions;
+    conditions.low_clock_mhz = 1450.0;
+    conditions.energy_j = conditions.energy_s = 1.0;  // of rounds only
+    conditions.energy_source = "counter";
+    const std::string text = writtenText(report);
+    EXPECT_THAT(report::schemaErrors(engine::readFile(kReportSchemaFile), text), IsEmpty());
+    const scene::Json json = scene::Json::parse(text);
+    const scene::Json& device = json["environment"]["device"];
+    EXPECT_EQ(device["board"], "00000000000000ff");
+    EXPECT_EQ(device["pci_address"], "0000:65:00.0");
+    EXPECT_EQ(device["power_limit_w"], 262.5);
+    const scene::Json& written_conditions = json["cases"][0]["conditions"];
+    EXPECT_EQ(written_conditions["low_clock_mhz"], 1450.0);
+    EXPECT_EQ(written_conditions["energy_source"], "counter");
+    EXPECT_FALSE(written_conditions.contains("energy_j"));
+    EXPECT_THAT(
+        json["methods"].get<std::string>(),
+        HasSubstr("Energies are by the device's energy counter over the rounds that count in 1 "
+                  "case."));
+}
+
 TEST(Report, SummarizesTheFiniteSamples) {
     const scene::Json frame = written()["cases"][0]["metrics"]["frame.time"];
     EXPECT_EQ(frame["unit"], "ms");
