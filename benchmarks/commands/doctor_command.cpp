@@ -7,6 +7,7 @@
 #include "benchmarks/doctor/report.h"
 #include "benchmarks/doctor/reports.h"
 #include "benchmarks/doctor/rules.h"
+#include "benchmarks/measure/machine_watch.h"
 #include "benchmarks/report/change.h"
 #include "benchmarks/report/environment.h"
 #include "benchmarks/report/report.h"
@@ -26,6 +27,7 @@ void examineDevice(const DoctorOptions& options, doctor::DoctorReport& report) {
     std::cerr << report::versionOnDevice(device) << '\n';
     report.environment = report::describeEnvironment(
         device, options.command, doctor::doctorSettings().seed, options.device.validation);
+    measure::addBoard(device.info(), report.environment.device);
     const measure::MeasureHooks hooks{.stop = engine::interrupted};
     const engine::Step step("examines the machine");
     report.findings =

@@ -84,9 +84,8 @@ int runScene(const run::RunOptions& options) {
     const auto print_short = [&](const char* why, const run::FinishedRun& finished) {
         printReport(finished, out);
         std::cerr << why << " after " << finished.done << " of " << plan.cases.size()
-                  << " cases; --resume continues
-                     ";
-            tellTrust(finished.verdicts);
+                  << " cases; --resume continues\n";
+        tellTrust(finished.verdicts);
     };
     const auto print_interrupted = [&](const run::FinishedRun& finished) {
         print_short("interrupted", finished);

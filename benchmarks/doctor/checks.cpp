@@ -58,7 +58,7 @@ Judgement judgeClocks(const Facts& facts) {
     if (isSoftware(facts)) return {Health::ok, "those of the processor: see there"};
     if (!facts.clocks)
         return {
-            Health::unknown, "neither NVML nor files of amdgpu",
+            Health::unknown, "neither NVML nor files of amdgpu, i915 or xe",
             "watch the clocks by other means: throttling would go unnoticed"};
     const ClockFacts& clocks = *facts.clocks;
     const std::string seen = clockText(clocks);
@@ -106,7 +106,8 @@ Judgement judgeProcessor(const Facts& facts) {
 Judgement judgeOthers(const Facts& facts) {
     if (!facts.load.others) return {Health::unknown, "no /proc/stat"};
     const std::string seen = shareText(*facts.load.others) + " of all processors' time";
-    const Health health = healthOf(report::judgeOtherLoad(*facts.load.others, isSoftware(facts)));
+    const Health health = healthOf(
+        report::judgeOtherLoad(*facts.load.others, report::sharesProcessors(facts.device.type)));
     if (health == Health::ok) return {health, seen};
     return {health, seen, "end other programs, or measure when the machine is idle"};
 }

@@ -10,7 +10,7 @@
 // Report of the doctor: findings, smallest detectable slowdowns, planted slowdowns.
 namespace benchmarks::doctor {
 
-inline constexpr const char* kDoctorSchema = "hairbench-doctor/2.0.0";
+inline constexpr const char* kDoctorSchema = "hairbench-doctor/2.1.0";
 
 struct DoctorReport {
     report::Environment environment;

@@ -52,6 +52,32 @@ std::optional<PciAddress> pciAddress(const engine::DeviceInfo& device) {
 
 namespace {
 
+// ---- Files of sysfs -----------------------------------------------------------------------------
+
+// Reads one number; absent if the file does not exist or holds none.
+std::optional<double> readNumber(const std::filesystem::path& path) {
+    std::ifstream file(path);
+    double number = 0.0;
+    if (!(file >> number)) return std::nullopt;
+    return number;
+}
+
+// Reads a number in units of `unit`; absent also for 0.
+std::optional<double> readPositive(const std::filesystem::path& path, double unit = 1.0) {
+    const std::optional<double> number = readNumber(path);
+    if (!number || *number <= 0.0) return std::nullopt;
+    return *number * unit;
+}
+
+// Returns the last entry of a folder with this file or folder in it; empty if there is none.
+std::filesystem::path findIn(const std::filesystem::path& folder, const char* name) {
+    std::filesystem::path found;
+    std::error_code none;
+    for (const auto& entry : std::filesystem::directory_iterator(folder, none))
+        if (std::filesystem::exists(entry.path() / name, none)) found = entry.path();
+    return found;
+}
+
 // ---- AMD: sysfs of amdgpu -----------------------------------------------------------------------
 
 struct ClockLevels {
@@ -76,14 +102,6 @@ ClockLevels readLevels(const std::filesystem::path& path) {
     return levels;
 }
 
-// Reads one number; absent if the file does not exist or holds none.
-std::optional<double> readNumber(const std::filesystem::path& path) {
-    std::ifstream file(path);
-    double number = 0.0;
-    if (!(file >> number)) return std::nullopt;
-    return number;
-}
-
 // Reads the reasons for a lowered clock from the metrics table that the firmware writes (Linux,
 // amdgpu's gpu_metrics; struct gpu_metrics_v1_3 of kgd_pp_interface.h, discrete boards). 64 bits
 // from byte 112 on: 0 to 15 are power limits, 16 to 31 current limits and 32 to 55 temperatures.
@@ -100,19 +118,14 @@ std::vector<std::string> readThrottling(const std::filesystem::path& path) {
     std::memcpy(&status, table + kStatus, sizeof status);
     std::vector<std::string> reasons;
     if (status & 0xffffull) reasons.emplace_back(report::kPowerCap);
-    if (status & 0xffff0000ull) reasons.emplace_back("current limit");
+    if (status & 0xffff0000ull) reasons.emplace_back(report::kCurrentLimit);
     if (status & 0xffffff00000000ull) reasons.emplace_back("thermal limit");
     return reasons;
 }
 
 class Amdgpu : public ClockSource {
 public:
-    explicit Amdgpu(std::filesystem::path device) : device_(std::move(device)) {
-        std::error_code none;
-        // The folder is hwmon0, or has another number.
-        for (const auto& entry : std::filesystem::directory_iterator(device_ / "hwmon", none))
-            monitor_ = entry.path();
-    }
+    explicit Amdgpu(std::filesystem::path device) : device_(std::move(device)) {}
 
     ~Amdgpu() override { unlock(); }
 
@@ -131,6 +144,10 @@ public:
 
     std::string lockCommand() const override {
         return std::string("echo ") + kLocked + " > " + level_.string();
+    }
+
+    std::optional<double> powerLimit() override {
+        return readPositive(monitor_ / "power1_cap", 1e-6);
     }
 
     ClockReading read() override {
@@ -170,7 +187,7 @@ private:
 
     std::filesystem::path device_;
     std::filesystem::path level_ = device_ / "power_dpm_force_performance_level";
-    std::filesystem::path monitor_;
+    std::filesystem::path monitor_ = findIn(device_ / "hwmon", "");  // hwmon0, or another number
     std::optional<std::string> found_;  // the level before lock()
 };
 
@@ -181,6 +198,88 @@ openAmdgpu(const PciAddress& address, const std::filesystem::path& devices) {
     const std::filesystem::path device = devices / addressText(address);
     if (!readLevels(device / "pp_dpm_sclk").greatest) return nullptr;
     return std::make_unique<Amdgpu>(device);
+}
+
+namespace {
+
+// ---- Intel: sysfs of i915 and xe ----------------------------------------------------------------
+
+// The files of a driver, relative to its folder for a graphics unit.
+struct IntelNames {
+    const char* actual;
+    const char* least;  // limits that an administrator can set
+    const char* most;
+    const char* rated;
+    const char* reason;  // beginning of the names of throttle reasons
+};
+constexpr IntelNames kI915{
+    "rps_act_freq_mhz", "rps_min_freq_mhz", "rps_max_freq_mhz", "rps_RP0_freq_mhz",
+    "throttle_reason_"};
+constexpr IntelNames kXe{"act_freq", "min_freq", "max_freq", "rp0_freq", "throttle/reason_"};
+
+struct IntelReason {
+    const char* file;
+    const char* name;
+};
+constexpr IntelReason kIntelReasons[] = {
+    {"pl1", report::kPowerCap},         {"pl2", report::kPowerCap},
+    {"pl4", report::kCurrentLimit},  // the peak, also called iccmax
+    {"vr_tdc", report::kCurrentLimit},  // of the voltage regulator
+    {"thermal", "thermal limit"},       {"prochot", "thermal limit"},
+    {"ratl", "thermal limit"},  // a running average
+    {"vr_thermalert", "thermal limit"},
+};
+
+class Intel : public ClockSource {
+public:
+    Intel(const std::filesystem::path& device, std::filesystem::path unit, const IntelNames& names)
+        : monitor_(findIn(device / "hwmon", "")), unit_(std::move(unit)), names_(names) {}
+
+    std::optional<double> energy() override {
+        return readPositive(monitor_ / "energy1_input", 1e-6);
+    }
+    std::optional<double> powerLimit() override {
+        return readPositive(monitor_ / "power1_max", 1e-6);
+    }
+    std::string lockCommand() const override {
+        return "echo MHZ | tee " + (unit_ / names_.most).string() + ' ' +
+               (unit_ / names_.least).string();
+    }
+
+    ClockReading read() override {
+        ClockReading reading;
+        reading.clock_mhz = readPositive(unit_ / names_.actual);
+        reading.idle = !reading.clock_mhz;
+        const auto rated = readPositive(unit_ / names_.rated);
+        const auto most = readPositive(unit_ / names_.most);
+        reading.held =
+            most && ((rated && *most < *rated) || readPositive(unit_ / names_.least) == most);
+        if (!reading.held) reading.base_clock_mhz = rated;
+        for (const char* file : {"temp1_input", "temp2_input"})
+            if (!reading.temperature) reading.temperature = readPositive(monitor_ / file, 1e-3);
+        for (const auto& [file, name] : kIntelReasons)
+            if (readPositive(unit_ / (std::string(names_.reason) + file)) &&
+                std::ranges::find(reading.throttle_reasons, name) == reading.throttle_reasons.end())
+                reading.throttle_reasons.emplace_back(name);
+        return reading;
+    }
+
+private:
+    std::filesystem::path monitor_;
+    std::filesystem::path unit_;
+    const IntelNames& names_;
+};
+
+}  // namespace
+
+std::unique_ptr<ClockSource>
+openIntel(const PciAddress& address, const std::filesystem::path& devices) {
+    const std::filesystem::path device = devices / addressText(address);
+    const std::filesystem::path card = findIn(device / "drm", "gt/gt0/rps_act_freq_mhz");
+    if (!card.empty()) return std::make_unique<Intel>(device, card / "gt/gt0", kI915);
+    const std::filesystem::path unit = device / "tile0/gt0/freq0";
+    if (!readNumber(unit / kXe.actual)) return nullptr;
+    return std::make_unique<Intel>(device, unit, kXe);
 }
 
 namespace {
@@ -200,11 +299,15 @@ using HandleByAddress = int (*)(const char* address, Device* device);
 using ClockQuery = int (*)(Device device, int clock, unsigned int* megahertz);
 using Temperature = int (*)(Device device, int sensor, unsigned int* degrees);
 using Reasons = int (*)(Device device, unsigned long long* bits);
+// The mean of a second on Ampere and later, except for GA100.
 using Power = int (*)(Device device, unsigned int* milliwatts);
+// Since the driver was loaded; Volta and later.
+using Energy = int (*)(Device device, unsigned long long* millijoules);
 struct Utilization {
     unsigned int shaders;  // percent of the last period, which is between 1/6 and 1 s
     unsigned int memory;
 };
+constexpr double kLoadLag = 1.0;  // s, the longest of these periods
 using Load = int (*)(Device device, Utilization* utilization);
 using Lock = int (*)(Device device, unsigned int least_megahertz, unsigned int most_megahertz);
 using Unlock = int (*)(Device device);
@@ -267,6 +370,9 @@ public:
         greatest_clock_ = library_.find<ClockQuery>("nvmlDeviceGetMaxClockInfo");
         temperature_ = library_.find<Temperature>("nvmlDeviceGetTemperature");
         power_ = library_.find<Power>("nvmlDeviceGetPowerUsage");
+        power_limit_ = library_.find<Power>(
+            "nvmlDeviceGetEnforcedPowerLimit", "nvmlDeviceGetPowerManagementLimit");
+        energy_ = library_.find<Energy>("nvmlDeviceGetTotalEnergyConsumption");
         load_ = library_.find<Load>("nvmlDeviceGetUtilizationRates");
         lock_ = library_.find<Lock>("nvmlDeviceSetGpuLockedClocks");
         unlock_ = library_.find<Unlock>("nvmlDeviceResetGpuLockedClocks");
@@ -312,14 +418,28 @@ public:
         reading.temperature = value(temperature_, kChipTemperature);
         if (unsigned int milliwatts = 0; power_ && power_(device_, &milliwatts) == kSuccess)
             reading.power_w = milliwatts * 1e-3;
-        if (Utilization use{}; load_ && load_(device_, &use) == kSuccess)
+        if (Utilization use{}; load_ && load_(device_, &use) == kSuccess) {
             reading.load = use.shaders * 1e-2;
+            reading.load_lag = kLoadLag;
+        }
         if (!reading.held) {
             reading.base_clock_mhz = value(applications_clock_, kShaderClock);
             if (!reading.base_clock_mhz)
                 reading.base_clock_mhz = value(greatest_clock_, kShaderClock);
         }
         return reading;
+    }
+
+    std::optional<double> powerLimit() override {
+        unsigned int milliwatts = 0;
+        if (!power_limit_ || power_limit_(device_, &milliwatts) != kSuccess) return std::nullopt;
+        return milliwatts * 1e-3;
+    }
+
+    std::optional<double> energy() override {
+        unsigned long long millijoules = 0;
+        if (!energy_ || energy_(device_, &millijoules) != kSuccess) return std::nullopt;
+        return static_cast<double>(millijoules) * 1e-3;
     }
 
 private:
@@ -345,6 +465,8 @@ private:
     Temperature temperature_ = nullptr;
     Reasons reasons_ = nullptr;
     Power power_ = nullptr;
+    Power power_limit_ = nullptr;
+    Energy energy_ = nullptr;
     Load load_ = nullptr;
     Lock lock_ = nullptr;
     Unlock unlock_ = nullptr;

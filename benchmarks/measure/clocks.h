@@ -22,6 +22,7 @@ struct ClockReading {
     std::optional<double> temperature;  // degrees Celsius
     std::optional<double> power_w;  // power draw of the board
     std::optional<double> load;  // share of the time with work on the device, 0 to 1
+    double load_lag = 0.0;  // s, by which the load may be late
     std::optional<double> age;  // age of the reading, s; absent: 0
     bool idle = false;  // the device was idle, so its clocks do not apply to a measurement
     bool held = false;  // an administrator set the clocks
@@ -34,6 +35,13 @@ public:
     virtual ~ClockSource() = default;
     // Changes no setting.
     virtual ClockReading read() = 0;
+
+    // Energy that the board has used since some moment, J. Absent without a counter. May be called
+    // while another thread calls read().
+    virtual std::optional<double> energy() { return std::nullopt; }
+
+    // Limit of the board's power that is in force, W. Absent if it is unknown.
+    virtual std::optional<double> powerLimit() { return std::nullopt; }
 
     // Locks the shaders' clock at the board's sustained clock under load, until unlock() or
     // destruction. Returns false if the driver refuses; then nothing has changed.
@@ -67,6 +75,15 @@ std::optional<PciAddress> pciAddress(const engine::DeviceInfo& device);
 // "profile_standard"; unlock() restores the previous value.
 std::unique_ptr<ClockSource> openAmdgpu(
     const PciAddress& address, const std::filesystem::path& devices = "/sys/bus/pci/devices");
+
+// Reads the sysfs files of the Linux drivers i915 (gt/gt0 of the card, with rps_act_freq_mhz) and
+// xe (tile0/gt0/freq0): Linux documentation, "Intel GPU sysfs", sysfs-driver-intel-i915-hwmon and
+// sysfs-driver-intel-xe-hwmon. The clock is that of the first graphics unit; it is 0 while the unit
+// sleeps. The base clock is RP0, the greatest that the hardware allows. Neither driver reports the
+// load, nor power other than by an energy counter. Returns null for a device without these files.
+// Locks nothing, because no file has the clock that a board sustains.
+std::unique_ptr<ClockSource>
+openIntel(const PciAddress& address, const std::filesystem::path& devices = "/sys/bus/pci/devices");
 
 // Uses the NVIDIA Management Library of the installed driver, which is loaded at run time and not
 // needed to build. Returns null if the library is missing or unusable, or does not know the device.

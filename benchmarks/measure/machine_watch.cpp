@@ -13,6 +13,7 @@
 #include <unistd.h>
 
 #include "benchmarks/measure/clocks.h"
+#include "benchmarks/report/environment.h"
 #include "benchmarks/report/statistics.h"
 #include "engine/process.h"
 
@@ -21,15 +22,43 @@ namespace {
 
 // ---- Medians of readings and rounds -------------------------------------------------------------
 
-// The median of one member over the items that have it; absent if none has.
+// One member of the items that have it.
 template <class Thing>
-std::optional<double>
-medianOf(const std::vector<Thing>& things, std::optional<double> Thing::* member) {
+std::vector<double>
+valuesOf(const std::vector<Thing>& things, std::optional<double> Thing::* member) {
     std::vector<double> known;
     for (const Thing& thing : things)
         if (thing.*member) known.push_back(*(thing.*member));
+    return known;
+}
+
+// The functions below return nothing if no item has the member.
+
+template <class Thing>
+std::optional<double>
+medianOf(const std::vector<Thing>& things, std::optional<double> Thing::* member) {
+    const std::vector<double> known = valuesOf(things, member);
     if (known.empty()) return std::nullopt;
     return report::summarize(known).median;
+}
+
+template <class Thing>
+std::optional<double>
+lowestOf(const std::vector<Thing>& things, std::optional<double> Thing::* member) {
+    const std::vector<double> known = valuesOf(things, member);
+    if (known.empty()) return std::nullopt;
+    return std::ranges::min(known);
+}
+
+// The value below which a quarter of the items are, and at least one of several. A driver may give
+// a wrong reading, or a device may pause for a moment; a throttled one stays slow.
+template <class Thing>
+std::optional<double>
+lowOf(const std::vector<Thing>& things, std::optional<double> Thing::* member) {
+    std::vector<double> known = valuesOf(things, member);
+    if (known.empty()) return std::nullopt;
+    std::ranges::sort(known);
+    return known[std::min(std::max<std::size_t>(known.size() / 4, 1), known.size() - 1)];
 }
 
 // All throttle reasons without repetition, in order of appearance.
@@ -67,7 +96,7 @@ void ClockSampler::begin() {
         readings_.clear();
         running_ = true;
         restarted_ = true;
-        since_ = std::chrono::steady_clock::now();
+        since_ = begun_ = std::chrono::steady_clock::now();
     }
     changed_.notify_one();
 }
@@ -91,9 +120,14 @@ void ClockSampler::sampleUntilStopped() {
         ClockReading reading = source_->read();
         lock.lock();
         const std::chrono::duration<double> age(reading.age.value_or(0.0));
-        if (running_ && !restarted_ && asked - age >= since_)
-            readings_.push_back(std::move(reading));
+        if (!running_ || restarted_ || asked - age < since_) continue;
+        forgetLateLoad(reading, std::chrono::duration<double>(asked - begun_).count());
+        readings_.push_back(std::move(reading));
     }
+}
+
+void forgetLateLoad(ClockReading& reading, double passed) {
+    if (passed < reading.load_lag && reading.load.value_or(1.0) < kIdleLoad) reading.load.reset();
 }
 
 std::vector<ClockReading> readingsAtWork(const std::vector<ClockReading>& readings) {
@@ -110,10 +144,8 @@ std::vector<ClockReading> readingsAtWork(const std::vector<ClockReading>& readin
 
 void addClocks(const std::vector<ClockReading>& readings, report::Conditions& conditions) {
     const std::vector<ClockReading> busy = readingsAtWork(readings);
-    for (const ClockReading& each : busy)
-        if (each.clock_mhz)
-            conditions.lowest_clock_mhz =
-                std::min(*each.clock_mhz, conditions.lowest_clock_mhz.value_or(*each.clock_mhz));
+    conditions.lowest_clock_mhz = lowestOf(busy, &ClockReading::clock_mhz);
+    conditions.low_clock_mhz = lowOf(busy, &ClockReading::clock_mhz);
     conditions.clock_mhz = medianOf(busy, &ClockReading::clock_mhz);
     conditions.base_clock_mhz = medianOf(busy, &ClockReading::base_clock_mhz);
     conditions.memory_clock_mhz = medianOf(busy, &ClockReading::memory_clock_mhz);
@@ -163,22 +195,11 @@ loadBetween(const ProcessorTicks& before, const ProcessorTicks& after, double ow
 
 // ---- Conditions of a round ----------------------------------------------------------------------
 
-namespace {
-
-std::optional<double> lowestClock(const std::vector<report::Conditions>& rounds) {
-    std::optional<double> lowest;
-    for (const report::Conditions& round : rounds)
-        if (round.lowest_clock_mhz)
-            lowest = std::min(*round.lowest_clock_mhz, lowest.value_or(*round.lowest_clock_mhz));
-    return lowest;
-}
-
-}  // namespace
-
 report::Conditions medianConditions(const std::vector<report::Conditions>& rounds) {
     return {
         .clock_mhz = medianOf(rounds, &report::Conditions::clock_mhz),
-        .lowest_clock_mhz = lowestClock(rounds),
+        .lowest_clock_mhz = lowestOf(rounds, &report::Conditions::lowest_clock_mhz),
+        .low_clock_mhz = lowestOf(rounds, &report::Conditions::low_clock_mhz),
         .base_clock_mhz = medianOf(rounds, &report::Conditions::base_clock_mhz),
         .memory_clock_mhz = medianOf(rounds, &report::Conditions::memory_clock_mhz),
         .temperature = medianOf(rounds, &report::Conditions::temperature),
@@ -189,11 +210,43 @@ report::Conditions medianConditions(const std::vector<report::Conditions>& round
         .throttle_reasons = everyReason(rounds)};
 }
 
+std::optional<MeanPower> meanPower(const std::vector<report::Conditions>& rounds) {
+    double joules = 0.0, seconds = 0.0;
+    for (const report::Conditions& round : rounds) {
+        if (!round.energy_j || !round.energy_s) continue;
+        joules += *round.energy_j;
+        seconds += *round.energy_s;
+    }
+    if (joules > 0.0 && seconds > 0.0) return MeanPower{joules / seconds, true};
+    const auto watts = medianOf(rounds, &report::Conditions::power_w);
+    if (!watts) return std::nullopt;
+    return MeanPower{*watts, false};
+}
+
 std::unique_ptr<ClockSource> openClockSource(const engine::DeviceInfo& device) {
     const std::optional<PciAddress> address = pciAddress(device);
     if (!address) return nullptr;
     if (auto nvml = openNvml(*address)) return nvml;
-    return openAmdgpu(*address);
+    if (auto amdgpu = openAmdgpu(*address)) return amdgpu;
+    return openIntel(*address);
+}
+
+std::string boardHash(std::span<const std::uint8_t> uuid) {
+    if (std::ranges::all_of(uuid, [](std::uint8_t each) { return each == 0; })) return {};
+    return report::hashBytes(std::as_bytes(uuid));
+}
+
+void addBoard(const engine::DeviceInfo& device, report::DeviceRecord& record) {
+    if (device.type == "cpu") return;
+    VkPhysicalDeviceIDProperties identity{};
+    identity.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_ID_PROPERTIES;
+    VkPhysicalDeviceProperties2 properties{};
+    properties.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROPERTIES_2;
+    properties.pNext = &identity;
+    vkGetPhysicalDeviceProperties2(device.handle, &properties);
+    record.board = boardHash(identity.deviceUUID);
+    if (const auto address = pciAddress(device)) record.pci_address = addressText(*address);
+    if (const auto source = openClockSource(device)) record.power_limit_w = source->powerLimit();
 }
 
 ClockHold::ClockHold(const engine::DeviceInfo& device, hair::Clocks clocks)
@@ -226,8 +279,24 @@ struct MachineWatch::Sources {
     std::optional<ProcessorTicks> ticks;  // at begin()
     double own = 0.0;  // CPU time of this process at begin(), ms
     bool is_processor = false;
-    std::vector<EnergyCounter> energy;  // at begin(); used if the device is a processor
+    std::vector<EnergyCounter> packages;  // at begin(); used if the device is a processor
+    std::optional<double> energy;  // J, at begin(), of other devices
     std::chrono::steady_clock::time_point energy_time;
+
+    // Energy since the last call, J; absent before the second.
+    std::optional<double> energySince() {
+        if (is_processor) {
+            std::vector<EnergyCounter> now = readEnergyCounters();
+            const auto joules = joulesBetween(packages, now);
+            packages = std::move(now);
+            return joules;
+        }
+        const std::optional<double> before = energy;
+        energy = clocks ? clocks->energy() : std::nullopt;
+        // A driver that was loaded again counts from 0.
+        if (!before || !energy || *energy < *before) return std::nullopt;
+        return *energy - *before;
+    }
 };
 
 MachineWatch::MachineWatch(const engine::Device& device) : sources_(std::make_unique<Sources>()) {
@@ -240,10 +309,8 @@ MachineWatch::~MachineWatch() = default;
 void MachineWatch::begin() {
     sources_->ticks = readProcessorTicks();
     sources_->own = engine::processUse().cpu;
-    if (sources_->is_processor) {
-        sources_->energy = readEnergyCounters();
-        sources_->energy_time = std::chrono::steady_clock::now();
-    }
+    sources_->energySince();
+    sources_->energy_time = std::chrono::steady_clock::now();
     if (sources_->clocks) sources_->clocks->begin();
 }
 
@@ -281,14 +348,14 @@ joulesBetween(const std::vector<EnergyCounter>& before, const std::vector<Energy
 report::Conditions MachineWatch::take() {
     report::Conditions conditions;
     if (sources_->clocks) addClocks(sources_->clocks->take(), conditions);
-    if (sources_->is_processor) {
-        const auto time = std::chrono::steady_clock::now();
-        std::vector<EnergyCounter> energy = readEnergyCounters();
-        const std::chrono::duration<double> passed = time - sources_->energy_time;
-        const auto joules = joulesBetween(sources_->energy, energy);
-        if (joules && passed.count() > 0.0) conditions.power_w = *joules / passed.count();
-        sources_->energy = std::move(energy);
-        sources_->energy_time = time;
+    const auto time = std::chrono::steady_clock::now();
+    const std::chrono::duration<double> passed = time - sources_->energy_time;
+    sources_->energy_time = time;
+    const std::optional<double> joules = sources_->energySince();
+    if (joules && passed.count() > 0.0) {
+        conditions.energy_j = joules;
+        conditions.energy_s = passed.count();
+        if (!conditions.power_w) conditions.power_w = *joules / passed.count();
     }
     const std::optional<ProcessorTicks> now = readProcessorTicks();
     const double used = engine::processUse().cpu;

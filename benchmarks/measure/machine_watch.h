@@ -7,6 +7,8 @@
 #include <memory>
 #include <mutex>
 #include <optional>
+#include <span>
+#include <string>
 #include <thread>
 #include <vector>
 
@@ -17,6 +19,14 @@
 
 // Conditions of a measurement: clocks, throttling, steal time, load by other processes.
 namespace benchmarks::measure {
+
+// Adds the identity and power limit of the board to the record of its device. Leaves them out for a
+// software device, and whatever is unknown.
+void addBoard(const engine::DeviceInfo& device, report::DeviceRecord& record);
+
+// 16 hexadecimal digits for the board with this UUID; empty for a UUID of zeros, which some drivers
+// give.
+std::string boardHash(std::span<const std::uint8_t> uuid);
 
 // Samples a clock source while frames are played, because before and after that the device and its
 // clocks are idle. A reading takes some tens of microseconds of one processor, in a thread that
@@ -33,6 +43,8 @@ public:
     void begin();
     // Returns the readings from the time since begin() or the last take(). Makes no reading itself.
     std::vector<ClockReading> take();
+    // The source's energy(). Does not wait for a reading.
+    std::optional<double> energy() { return source_->energy(); }
 
 private:
     void sampleUntilStopped();
@@ -44,6 +56,7 @@ private:
     bool restarted_ = false;
     bool stopped_ = false;
     std::vector<ClockReading> readings_;
+    std::chrono::steady_clock::time_point begun_;
     std::chrono::steady_clock::time_point since_;  // start of the time that readings may cover
     std::thread thread_;
 };
@@ -51,12 +64,16 @@ private:
 // A device with less load than this counts as idle.
 inline constexpr double kIdleLoad = 0.2;
 
+// Forgets the load of a reading, `passed` seconds after the device got work, if it may be that of
+// the idle device before.
+void forgetLateLoad(ClockReading& reading, double passed);
+
 // Returns the readings taken while the device was at work. If the driver reports idle in all of
 // them, it returns those with a load.
 std::vector<ClockReading> readingsAtWork(const std::vector<ClockReading>& readings);
 
-// Sets the medians over the readings taken at work, their lowest clock, and all their throttle
-// reasons without repetition.
+// Sets the medians over the readings taken at work, their lowest and low clocks, and all their
+// throttle reasons without repetition.
 void addClocks(const std::vector<ClockReading>& readings, report::Conditions& conditions);
 
 // Medians of all rounds' numbers, and all throttle reasons.
@@ -98,6 +115,17 @@ private:
     struct Sources;
     std::unique_ptr<Sources> sources_;
 };
+
+// Mean power of the device.
+struct MeanPower {
+    double watts = 0.0;
+    bool counted = false;  // by an energy counter
+};
+
+// The power over all rounds together, by the energy counter if it moved. Otherwise the median of
+// the rounds' power readings, which contain what was before a round: NVML's are the means of a
+// second. Absent if both are unknown.
+std::optional<MeanPower> meanPower(const std::vector<report::Conditions>& rounds);
 
 // Processor time since the machine started, in ticks (10 ms on most machines), from the first line
 // of Linux's /proc/stat (proc_stat(5)).

@@ -99,6 +99,8 @@ std::vector<std::uint8_t> measureFrames(
     const auto sample = [&](Timing timing) {
         SamplingRule rule = samplingRule(timing, run);
         rule.counts = timing == Timing::isolated;
+        // The host's part of an isolated frame is long and irregular, and no metric of a GPU.
+        rule.passes = rule.counts && !stage.isProcessor();
         return sampleMode(stage, timing, rule, run, hooks, result);
     };
     SampledMode overlapped = sample(Timing::overlapped);
@@ -124,10 +126,11 @@ std::vector<std::uint8_t> measureFrames(
             stage, medianOf(isolated.frames, [](auto& f) { return f.device.value_or(f.wall); })),
         stage.isProcessor(), result);
     // Includes other work on the device; on an otherwise idle machine there is none.
-    if (const auto watts = medianConditions(overlapped.conditions).power_w)
+    if (const auto power = overlapped.power)
         result.metrics.push_back(
             {report::ofFrame(report::Measured::energy),
-             {*watts * 1e-3 * medianOf(overlapped.frames, [](auto& f) { return f.interval; })},
+             {power->watts * 1e-3 *
+              medianOf(overlapped.frames, [](auto& f) { return f.interval; })},
              report::Mode::overlapped});
     // A processor's passes cost CPU time, and its clock is not reported by the device.
     if (!stage.isProcessor())
@@ -139,6 +142,8 @@ std::vector<std::uint8_t> measureFrames(
     std::ranges::move(
         addPasses(stage, isolated, run, hooks, result), std::back_inserter(conditions));
     result.conditions = medianConditions(conditions);
+    if (overlapped.power)
+        result.conditions.energy_source = overlapped.power->counted ? "counter" : "power";
     addIsolatedMetrics(isolated.frames, result);
     if (stage.isProcessor()) addFrameUse(isolated.frames, result);
     addOverlap(isolated.frames, overlapped.frames, result.trust.empty_pass, result);

@@ -94,6 +94,8 @@ using engine::ProcessUse;
 
 // ---- Pipeline statistics and fragment lists -----------------------------------------------------
 
+constexpr std::string_view kStrands = "strands";  // the pass with counts that follow from settings
+
 std::optional<std::uint64_t>
 expectedOf(const std::optional<hair::rendering::ExpectedCounts>& expected, std::string_view name) {
     if (!expected) return std::nullopt;
@@ -121,11 +123,42 @@ std::optional<std::string> missedCount(
     return (may_repeat ? "expected at least " : "expected ") + std::to_string(*expected);
 }
 
+namespace {
+
+constexpr const char* kApproximate = "approximate: this driver counts too many";
+
+bool isApproximate(std::string_view statistic, const engine::Device& device) {
+    return statistic == "fragment_invocations" && device.fragmentCountsAreApproximate();
+}
+
+}  // namespace
+
+void addPassStatistics(
+    const engine::FrameRecord& frame, const engine::Device& device, report::CaseResult& result) {
+    const std::span<const std::string_view> names = engine::statisticNames(device);
+    for (const engine::PassStatistics& pass : frame.statistics) {
+        if (pass.name == kStrands) continue;
+        for (std::size_t i = 0; i < names.size(); ++i) {
+            if (pass.counts[i] == 0) continue;
+            const std::string name = pass.name + '.' + std::string(names[i]);
+            const auto found = std::ranges::find(result.statistics, name, &report::Statistic::name);
+            if (found != result.statistics.end())
+                found->measured += pass.counts[i];
+            else
+                result.statistics.push_back(
+                    {.name = name,
+                     .measured = pass.counts[i],
+                     .expected = std::nullopt,
+                     .note = isApproximate(names[i], device) ? kApproximate : ""});
+        }
+    }
+}
+
 void addStatistics(
     const engine::FrameRecord& frame, const engine::Device& device, const Case& test_case,
     report::CaseResult& result) {
     const auto strands =
-        std::ranges::find(frame.statistics, "strands", &engine::PassStatistics::name);
+        std::ranges::find(frame.statistics, kStrands, &engine::PassStatistics::name);
     if (strands == frame.statistics.end()) return;
 
     const std::optional<hair::rendering::ExpectedCounts> expected = test_case.expected();
@@ -136,10 +169,7 @@ void addStatistics(
             .measured = strands->counts[i],
             .expected = expectedOf(expected, names[i]),
             .note = ""};
-        const bool fragments = statistic.name == "fragment_invocations";
-        if (fragments && device.fragmentCountsAreApproximate()) {
-            statistic.note = "approximate: this driver counts too many";
-        }
+        if (isApproximate(names[i], device)) statistic.note = kApproximate;
         const std::optional<std::string> missed =
             missedCount(statistic.name, statistic.measured, statistic.expected, device.info());
         if (missed) {

@@ -62,11 +62,16 @@ std::optional<std::string> missedCount(
     std::string_view statistic, std::uint64_t measured, std::optional<std::uint64_t> expected,
     const engine::DeviceInfo& device);
 
-// Adds the statistics of a frame played with Timing::statistics, and compares them with the counts
-// expected from the settings. Does nothing for a frame without strands.
+// Adds the statistics of the pass "strands" of a frame played with Timing::statistics, and compares
+// them with the counts expected from the settings. Does nothing for a frame without strands.
 void addStatistics(
     const engine::FrameRecord& frame, const engine::Device& device, const Case& test_case,
     report::CaseResult& result);
+
+// Adds the statistics of the other passes as "<pass>.<statistic>", summed over passes of one name.
+// Nothing is expected of them. Counts of 0 are left out.
+void addPassStatistics(
+    const engine::FrameRecord& frame, const engine::Device& device, report::CaseResult& result);
 
 // Adds the memory of blended fragments and the number that did not fit the lists, for the last
 // frame.

@@ -8,7 +8,6 @@
 #include <utility>
 
 #include "benchmarks/report/statistics.h"
-#include "benchmarks/report/verdict.h"
 
 namespace benchmarks::measure {
 
@@ -99,16 +98,17 @@ constexpr std::size_t kLookShare = 20;
 
 class Series {
 public:
-    explicit Series(const SamplingRule& rule, double held_before)
+    explicit Series(const SamplingRule& rule, const report::HighestClocks& held_before)
         : rule_(rule), held_before_(held_before) {}
 
     // Returns true if the round was throttled, by the knowledge so far.
     bool add(std::vector<FrameRecord> frames, report::Conditions conditions) {
         std::vector<double> times;
-        for (const FrameRecord& frame : frames) times.push_back(frame.*rule_.time);
+        for (const FrameRecord& frame : frames)
+            times.push_back(rule_.passes && frame.device ? *frame.device : frame.*rule_.time);
         times_.push_back(std::move(times));
         frames_.push_back(std::move(frames));
-        held_ = std::max(held_, conditions.clock_mhz.value_or(0.0));
+        held_.raise(conditions);
         conditions_.push_back(std::move(conditions));
         const std::size_t clean = cleanRounds().size();
         if (clean >= looked_at_ + std::max<std::size_t>(looked_at_ / kLookShare, 1)) look();
@@ -141,13 +141,14 @@ public:
         result.all_throttled = counted.empty();
         if (counted.empty())
             for (std::size_t i = 0; i < conditions_.size(); ++i) counted.push_back(i);
-        const Assessment assessment = assess(timesOf(counted));
+        const Assessment assessment = assess(timesOf(counted), passesOf(counted));
         std::vector<report::Conditions> of_counted;
         for (std::size_t i = assessment.settling; i < counted.size(); ++i) {
             std::ranges::move(frames_[counted[i]], std::back_inserter(result.frames));
             of_counted.push_back(conditions_[counted[i]]);
         }
         result.clock_mhz = medianConditions(of_counted).clock_mhz;
+        result.power = meanPower(of_counted);
         result.sampling.rounds = static_cast<std::uint32_t>(counted.size() - assessment.settling);
         result.sampling.warmup_rounds = static_cast<std::uint32_t>(assessment.settling);
         result.sampling.steady = assessment.steady;
@@ -156,14 +157,28 @@ public:
         return result;
     }
 
-    // MHz; 0: the clock is unknown.
-    double held() const { return held_; }
+    const report::HighestClocks& held() const { return held_; }
 
 private:
     RoundTimes timesOf(const std::vector<std::size_t>& rounds) const {
         RoundTimes times;
         for (const std::size_t i : rounds) times.push_back(times_[i]);
         return times;
+    }
+
+    // The times of each pass that all frames have; empty if passes do not decide.
+    std::vector<RoundTimes> passesOf(const std::vector<std::size_t>& rounds) const {
+        std::vector<RoundTimes> passes;
+        if (!rule_.passes) return passes;
+        for (const std::string& pass : passNames(frames_[rounds.front()])) {
+            RoundTimes times;
+            for (const std::size_t i : rounds) times.push_back(passTimes(frames_[i], pass));
+            const std::size_t frames = frames_[rounds.front()].size();
+            if (std::ranges::all_of(
+                    times, [&](const auto& round) { return round.size() == frames; }))
+                passes.push_back(std::move(times));
+        }
+        return passes;
     }
 
     void look() {
@@ -173,15 +188,17 @@ private:
         looked_at_ = clean.size();
         if (rule_.overlaps_assessment) {
             looking_ =
-                std::async(std::launch::async, [times = timesOf(clean)] { return assess(times); });
+                std::async(std::launch::async, [times = timesOf(clean), passes = passesOf(clean)] {
+                    return assess(times, passes);
+                });
         } else {
-            assessment_ = assess(timesOf(clean));
+            assessment_ = assess(timesOf(clean), passesOf(clean));
         }
     }
 
     const SamplingRule& rule_;
-    double held_before_;
-    double held_ = 0.0;
+    report::HighestClocks held_before_;
+    report::HighestClocks held_;
     RoundTimes times_;
     std::vector<std::vector<FrameRecord>> frames_;  // [round][frame]
     std::vector<report::Conditions> conditions_;  // [round]
@@ -192,8 +209,9 @@ private:
 
 }  // namespace
 
-SampledRounds sampleRounds(const SamplingRule& rule, const SamplingTools& tools, double* held_mhz) {
-    Series series(rule, held_mhz ? *held_mhz : 0.0);
+SampledRounds
+sampleRounds(const SamplingRule& rule, const SamplingTools& tools, report::HighestClocks* held) {
+    Series series(rule, held ? *held : report::HighestClocks());
     const double begin = tools.seconds();
     double seconds = 0.0;
     std::uint32_t played = 0;
@@ -227,8 +245,8 @@ SampledRounds sampleRounds(const SamplingRule& rule, const SamplingTools& tools,
     }
     SampledRounds result = series.take();
     result.sampling.seconds = seconds;
-    if (held_mhz && report::isFullyLoaded(medianConditions(result.conditions)))
-        *held_mhz = std::max(*held_mhz, series.held());
+    if (held && report::isFullyLoaded(medianConditions(result.conditions)))
+        held->raise(series.held());
     return result;
 }
 
@@ -367,7 +385,8 @@ SampledMode sampleMode(
                 stage.pause(seconds);
             },
         .progress = hooks.progress};
-    double* const held = hooks.known ? &hooks.known->held_clock[run.clocks] : nullptr;
+    report::HighestClocks* const held =
+        hooks.known ? &hooks.known->held_clocks[run.clocks] : nullptr;
     SampledMode mode{sampleRounds(this_rule, tools, held), player.firstFrame(), {}};
     if (streams) player.drain();
     mode.sampling.plays = plays.value_or(1);

@@ -11,6 +11,7 @@
 #include "benchmarks/measure/stage.h"
 #include "benchmarks/measure/steady_state.h"
 #include "benchmarks/report/report.h"
+#include "benchmarks/report/verdict.h"
 #include "engine/frame_loop.h"
 
 // Rounds of one mode of a case, until its median frame time is known.
@@ -71,6 +72,9 @@ struct SamplingRule {
     std::string mode;  // "overlapped", "isolated", "wall_clock"
     double engine::FrameRecord::* time = nullptr;  // the time of a frame, ms, that is to be
                                                    // determined
+    // True if the device's times decide when there are any: those of the frame and of every pass
+    // that all frames have.
+    bool passes = false;
     double precision = 0.01;  // target for half of the median's interval, relative to the median;
                               // 0: until max_time
     double max_time = 10.0;  // s; no new round begins after it; 0: one round
@@ -100,6 +104,7 @@ struct SampledRounds {
     // True if all rounds were throttled; `frames` is then from throttled rounds.
     bool all_throttled = false;
     std::optional<double> clock_mhz;  // of the shaders, median over the counted rounds
+    std::optional<MeanPower> power;  // over the counted rounds
 };
 
 inline constexpr double kThrottlePause = 0.05;  // s (as in nvbench)
@@ -108,14 +113,14 @@ inline constexpr double kThrottlePause = 0.05;  // s (as in nvbench)
 inline constexpr std::uint32_t kThrottledTries = 10;
 
 // Plays rounds until the median time is known to the precision and the last times were steady
-// (steady_state.h), until there are most_rounds, or until max_time has passed. `held_mhz` is the
-// highest device clock so far under such a load, and is raised to the highest here; it may be null.
-// Throttled rounds (report::isThrottled()) are left out, and each is followed by a pause. A round
-// is judged again when a later one has a higher clock. The first rounds are also left out while
-// times settle. If all rounds were throttled, after at least kThrottledTries and max_time, they are
-// the result.
-SampledRounds
-sampleRounds(const SamplingRule& rule, const SamplingTools& tools, double* held_mhz = nullptr);
+// (steady_state.h), until there are most_rounds, or until max_time has passed. `held` has the
+// highest device clocks so far under such a load, and is raised to the highest here; it may be
+// null. Throttled rounds (report::isThrottled()) are left out, and each is followed by a pause. A
+// round is judged again when a later one has a higher clock. The first rounds are also left out
+// while times settle. If all rounds were throttled, after at least kThrottledTries and max_time,
+// they are the result.
+SampledRounds sampleRounds(
+    const SamplingRule& rule, const SamplingTools& tools, report::HighestClocks* held = nullptr);
 
 // The samples of a mode of a case.
 struct SampledMode : SampledRounds {

@@ -54,6 +54,7 @@ public:
         counted_ = {};
         addTransparency(test_case_, counted_);
         addStatistics(frame, device_, test_case_, counted_);
+        addPassStatistics(frame, device_, counted_);
     }
 
     std::vector<engine::FrameRecord> completed() override { return loop_.completed(); }

@@ -15,6 +15,7 @@
 #include "benchmarks/measure/machine_watch.h"
 #include "benchmarks/measure/metrics.h"
 #include "benchmarks/report/report.h"
+#include "benchmarks/report/verdict.h"
 #include "engine/frame_loop.h"
 
 // The stage on which frames are played and timed: a device and the machine's clock, or a model of
@@ -33,8 +34,8 @@ struct SamplingState {
 
 // Facts about its device that a run has learnt in earlier cases.
 struct DeviceKnowledge {
-    // MHz, the highest shader clock under full load, by /run/clocks.
-    std::map<hair::Clocks, double> held_clock;
+    // The highest clocks under full load, by /run/clocks.
+    std::map<hair::Clocks, report::HighestClocks> held_clocks;
     // Names of the passes of frames whose timestamps were checked and are right.
     std::vector<std::vector<std::string>> trusted_passes;
     // For frames with these passes: the number of passes in which planted work was found so far.

@@ -196,21 +196,35 @@ namespace {
 
 constexpr double kAlpha = 0.05;  // of the interval
 
+// With a single round, frames have no counterpart to compare with.
+bool isComparable(const RoundTimes& rounds) { return rounds.size() > 1; }
+
+// Half of the median's interval over the median; infinite if there are too few times.
+double halfWidth(const RoundTimes& rounds) {
+    const std::vector<double> times = allTimes(rounds);
+    return report::relativeHalfWidth(report::medianInterval(
+        times, kAlpha,
+        report::effectiveSamples(isComparable(rounds) ? withoutProfile(rounds) : times)));
+}
+
 }  // namespace
 
-Assessment assess(const RoundTimes& rounds) {
+Assessment assess(const RoundTimes& rounds, std::span<const RoundTimes> parts) {
     Assessment result{.settling = settlingRounds(roundLevels(rounds))};
     const RoundTimes kept(
         rounds.begin() + static_cast<std::ptrdiff_t>(result.settling), rounds.end());
-    const std::vector<double> times = allTimes(kept);
     const std::vector<double> relative = withoutProfile(kept);
     const SteadyRule rule;
-    const bool comparable = kept.size() > 1;  // with a single round, frames have no counterpart to
-                                              // compare with
-    if (comparable && relative.size() >= rule.window) result.steady = isSteady(relative, rule);
-    result.median = report::quantile(times, 0.5);
-    const double width = report::relativeHalfWidth(report::medianInterval(
-        times, kAlpha, report::effectiveSamples(comparable ? relative : times)));
+    if (isComparable(kept) && relative.size() >= rule.window)
+        result.steady = isSteady(relative, rule);
+    result.median = report::quantile(allTimes(kept), 0.5);
+    double width = halfWidth(kept);
+    for (const RoundTimes& part : parts) {
+        const RoundTimes kept_part(
+            part.begin() + static_cast<std::ptrdiff_t>(result.settling), part.end());
+        if (report::quantile(allTimes(kept_part), 0.5) >= kLeastPart * result.median)
+            width = std::max(width, halfWidth(kept_part));
+    }
     if (std::isfinite(width)) result.relative_half_width = width;
     return result;
 }

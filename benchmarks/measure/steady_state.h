@@ -61,8 +61,13 @@ struct Assessment {
     std::optional<double> relative_half_width;
 };
 
-// Needs at least one round. All rounds must have the same number of frames.
-Assessment assess(const RoundTimes& rounds);
+// Parts below this share of the whole need not be known to a precision.
+inline constexpr double kLeastPart = 0.02;
+
+// Needs at least one round. All rounds must have the same number of frames. `parts` are the times
+// of parts of the same frames: the relative half width is then that of the least known among them
+// and the whole. Parts below kLeastPart of the whole do not count.
+Assessment assess(const RoundTimes& rounds, std::span<const RoundTimes> parts = {});
 
 // True if no more rounds are needed: the last frames were steady, and the interval is narrow.
 bool isEnough(const Assessment& assessment, double precision);

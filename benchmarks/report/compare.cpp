@@ -25,6 +25,9 @@ struct Place {
 constexpr Place kPlaces[] = {
     {"device", "/environment/device/name"},
     {"kind of device", "/environment/device/type"},
+    {"board", "/environment/device/board"},
+    {"PCI address", "/environment/device/pci_address"},
+    {"board's power limit in W", "/environment/device/power_limit_w"},
     {"driver", "/environment/device/driver"},
     {"driver's version", "/environment/device/driver_version"},
     {"processor", "/environment/host/processor"},

@@ -66,6 +66,9 @@ DeviceRecord describeDevice(const engine::Device& of) {
         .timestamp_period_ns = double{device.limits.timestampPeriod},
         .id = idOf(device.handle),
         .timestamp_valid_bits = device.timestamp_valid_bits,
+        .board = {},
+        .pci_address = {},
+        .power_limit_w = {},
         .limits = {}};
     for (const auto& [name, member] : kCounts)
         record.limits.emplace_back(name, device.limits.*member);

@@ -62,6 +62,9 @@ void Methods::add(const Json& result) {
         lowest_clocks_.add(*clock);
     if (const auto degrees = numberAt(result, "/conditions/temperature"))
         temperatures_.add(*degrees);
+    const std::string energy_source = textAt(result, "/conditions/energy_source");
+    counted_energies_ += energy_source == "counter";
+    power_energies_ += energy_source == "power";
     if (const Json::json_pointer place("/trust/warnings");
         result.contains(place) && !result.at(place).empty())
         ++warned_;
@@ -157,6 +160,17 @@ std::string Methods::clocksText() const {
     return text + ". ";
 }
 
+std::string Methods::energyText() const {
+    std::string text;
+    if (counted_energies_ > 0)
+        text += "Energies are by the device's energy counter over the rounds that count in " +
+                countText(counted_energies_, "case") + ". ";
+    if (power_energies_ > 0)
+        text += "Energies are the device's power readings times the frame time in " +
+                countText(power_energies_, "case") + ". ";
+    return text;
+}
+
 std::string Methods::trustText() const {
     std::string text = "In each case all modes had to end with the same picture and the same "
                        "guides, and the passes' timestamps were checked against the host's clock";
@@ -167,7 +181,7 @@ std::string Methods::trustText() const {
 
 std::string Methods::text() const {
     return machineText() + casesText() + roundsText() + clocksChoiceText() + clocksText() +
-           statisticText() + trustText();
+           energyText() + statisticText() + trustText();
 }
 
 std::string methodsText(const Json& report) {

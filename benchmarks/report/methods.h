@@ -41,6 +41,7 @@ private:
     std::string roundsText() const;
     std::string clocksChoiceText() const;
     std::string clocksText() const;
+    std::string energyText() const;
     std::string statisticText() const;
     std::string trustText() const;
 
@@ -49,6 +50,7 @@ private:
     std::uint64_t warned_ = 0;
     std::uint64_t warmup_rounds_ = 0, throttled_rounds_ = 0;
     std::uint64_t locked_ = 0, free_ = 0;  // measured cases, by the choice in /run/clocks
+    std::uint64_t counted_energies_ = 0, power_energies_ = 0;  // cases, by source
     Range plays_;
     Range clocks_, lowest_clocks_;  // MHz
     Range temperatures_;  // degrees Celsius

@@ -59,6 +59,9 @@ scene::Json toJson(const DeviceRecord& device) {
     put(object, "timestamp_period_ns", device.timestamp_period_ns);
     put(object, "id", device.id);
     put(object, "timestamp_valid_bits", device.timestamp_valid_bits);
+    put(object, "board", device.board);
+    put(object, "pci_address", device.pci_address);
+    put(object, "power_limit_w", device.power_limit_w);
     for (const auto& [name, limit] : device.limits) put(object["limits"], name.c_str(), limit);
     return object;
 }
@@ -140,10 +143,12 @@ scene::Json toJson(const Conditions& conditions) {
     scene::Json object = scene::Json::object();
     put(object, "clock_mhz", conditions.clock_mhz);
     put(object, "lowest_clock_mhz", conditions.lowest_clock_mhz);
+    put(object, "low_clock_mhz", conditions.low_clock_mhz);
     put(object, "base_clock_mhz", conditions.base_clock_mhz);
     put(object, "memory_clock_mhz", conditions.memory_clock_mhz);
     put(object, "temperature", conditions.temperature);
     put(object, "power_w", conditions.power_w);
+    put(object, "energy_source", conditions.energy_source);
     put(object, "load", conditions.load);
     put(object, "steal", conditions.steal);
     put(object, "other_load", conditions.other_load);

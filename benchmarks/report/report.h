@@ -19,7 +19,7 @@
 // optionals and numbers that are not finite are left out.
 namespace benchmarks::report {
 
-inline constexpr const char* kReportSchema = "hairbench-report/1.7.0";
+inline constexpr const char* kReportSchema = "hairbench-report/1.8.0";
 
 struct DeviceRecord {
     std::string name;
@@ -30,6 +30,10 @@ struct DeviceRecord {
     std::optional<double> timestamp_period_ns;
     std::string id;  // "10005:0000", vendor and device in hex
     std::optional<std::uint32_t> timestamp_valid_bits;
+    // The board, to tell two boards of one model apart; empty for software devices.
+    std::string board;  // hash of its UUID, which is not published itself
+    std::string pci_address;  // "0000:65:00.0"
+    std::optional<double> power_limit_w;
     // Members of VkPhysicalDeviceLimits that decide which cases run here, under Vulkan's names.
     std::vector<std::pair<std::string, double>> limits;
 };
@@ -87,8 +91,10 @@ struct Sampling {
     std::uint32_t throttled_rounds = 0;  // left out: heat or power held the device's clock back
     double seconds = 0.0;  // total time
     std::optional<bool> steady;  // no trend in the last samples; absent: too few to tell
-    // Half the 95 % interval of the median frame time over that median. The interval allows for the
-    // dependence between samples. Absent with too few samples for an interval.
+    // Half the 95 % interval of the median frame time over that median. In isolated frames of a GPU
+    // it is that of the least known of the frame and its larger passes (measure::SamplingRule). The
+    // interval allows for the dependence between samples. Absent with too few samples for an
+    // interval.
     std::optional<double> precision;
 };
 
@@ -96,10 +102,18 @@ struct Sampling {
 struct Conditions {
     std::optional<double> clock_mhz;  // of the device's shaders
     std::optional<double> lowest_clock_mhz;  // lowest reading under load
+    // A quarter of a round's readings under load, and at least one if there are several, are lower.
+    // The lowest of all rounds.
+    std::optional<double> low_clock_mhz;
     std::optional<double> base_clock_mhz;
     std::optional<double> memory_clock_mhz;
     std::optional<double> temperature;  // degrees Celsius
     std::optional<double> power_w;  // power draw of the device
+    // Energy in J that the device used in a round, by its counter, and the time in s for that. Not
+    // in reports.
+    std::optional<double> energy_j;
+    std::optional<double> energy_s;
+    std::string energy_source;  // of frame.energy: "counter", "power"; empty: there is none
     std::optional<double> load;  // share of the time in which the device was busy, as the driver
                                  // reports it
     std::optional<double>

@@ -29,15 +29,19 @@ const char* trustedName(Trusted level) {
 
 namespace {
 
-Trusted disturbance(double share, double little, double much, bool software) {
+Trusted disturbance(double share, double little, double much, bool of_frames) {
     if (share <= little) return Trusted::trusted;
-    return share > much && software ? Trusted::untrusted : Trusted::doubtful;
+    return share > much && of_frames ? Trusted::untrusted : Trusted::doubtful;
 }
 
 }  // namespace
 
-Trusted judgeOtherLoad(double share, bool software) {
-    return disturbance(share, kLittleLoad, kMuchLoad, software);
+bool sharesProcessors(std::string_view device_type) {
+    return device_type == "cpu" || device_type == "integrated";
+}
+
+Trusted judgeOtherLoad(double share, bool shares_processors) {
+    return disturbance(share, kLittleLoad, kMuchLoad, shares_processors);
 }
 
 Trusted judgeSteal(double share, bool software) {
@@ -55,7 +59,7 @@ Trusted judgePassSum(double sum) {
 }
 
 Trusted judgeClock(const Conditions& conditions) {
-    if (isThrottled(conditions, 0.0, 0.0)) return Trusted::untrusted;
+    if (isThrottled(conditions, {}, {})) return Trusted::untrusted;
     return conditions.throttle_reasons.empty() ? Trusted::trusted : Trusted::doubtful;
 }
 
@@ -67,14 +71,36 @@ bool isHeatOrPower(std::string_view reason) {
 
 bool isFullyLoaded(const Conditions& round) { return round.load.value_or(0.0) >= 0.9; }
 
-bool isThrottled(const Conditions& round, double held, double held_before) {
+namespace {
+
+// A board controls its clock so that it stays at these limits.
+bool isBoardLimit(std::string_view reason) {
+    return reason == kPowerCap || reason == kCurrentLimit;
+}
+
+}  // namespace
+
+void HighestClocks::raise(const Conditions& round) {
+    raise(HighestClocks{round.clock_mhz.value_or(0.0), round.memory_clock_mhz.value_or(0.0)});
+}
+
+void HighestClocks::raise(const HighestClocks& others) {
+    shaders = std::max(shaders, others.shaders);
+    memory = std::max(memory, others.memory);
+}
+
+bool isThrottled(
+    const Conditions& round, const HighestClocks& held, const HighestClocks& held_before) {
     for (const std::string& reason : round.throttle_reasons)
-        if (isHeatOrPower(reason) &&
-            (reason != kPowerCap || !round.clock_mhz || *round.clock_mhz < kCappedShare * held))
+        if (isHeatOrPower(reason) && (!isBoardLimit(reason) || !round.clock_mhz ||
+                                      *round.clock_mhz < kCappedShare * held.shaders))
             return true;
-    if (!round.lowest_clock_mhz) return false;
-    return *round.lowest_clock_mhz < kHeldShare * held ||
-           (isFullyLoaded(round) && *round.lowest_clock_mhz < kThrottledShare * held_before);
+    const auto is_low = [&](const std::optional<double>& clock, double highest, double before) {
+        return clock && (*clock < kHeldShare * highest ||
+                         (isFullyLoaded(round) && *clock < kThrottledShare * before));
+    };
+    return is_low(round.low_clock_mhz, held.shaders, held_before.shaders) ||
+           is_low(round.memory_clock_mhz, held.memory, held_before.memory);
 }
 
 // ---- Verdict on a case --------------------------------------------------------------------------
@@ -112,16 +138,16 @@ void add(std::vector<Doubt>& doubts, Doubt doubt) {
 }
 
 void judgeLoad(const Json& environment, const Json& result, std::vector<Doubt>& doubts) {
-    const bool software = isSoftware(environment);
+    const bool shares = sharesProcessors(scene::textAt(environment, "/device/type"));
     if (const auto share = numberIn(result, "/conditions/other_load"))
         add(doubts, {.check = "other load",
-                     .level = judgeOtherLoad(*share, software),
+                     .level = judgeOtherLoad(*share, shares),
                      .brief = "other load " + briefShare(*share),
                      .text = shareText(*share) + " of all processors' time was used by others",
                      .size = *share});
     if (const auto share = numberIn(result, "/conditions/steal"))
         add(doubts, {.check = "steal",
-                     .level = judgeSteal(*share, software),
+                     .level = judgeSteal(*share, isSoftware(environment)),
                      .brief = "steal " + briefShare(*share),
                      .text = shareText(*share) +
                              " of all processors' time was given to others by the hypervisor",

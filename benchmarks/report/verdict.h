@@ -39,10 +39,17 @@ inline constexpr double kMuchSteal = 0.1;
 // A median with a wider 95 % interval, half of it over the median, is doubtful.
 inline constexpr double kWideInterval = 0.05;
 
-// `share` of all processors' time: used by other programs, or given to others by the hypervisor. On
-// a software device this disturbs the frames. On others it disturbs only their recording, and times
-// are never worse than doubtful.
-Trusted judgeOtherLoad(double share, bool software);
+// Whether other programs' work on the processors slows a device of this type (DeviceRecord::type).
+// A software device is made of them, and an integrated GPU shares their power limit and memory.
+bool sharesProcessors(std::string_view device_type);
+
+// `share` of all processors' time that other programs used. On a device that shares the processors
+// this disturbs the frames. On others it disturbs only their recording, and times are never worse
+// than doubtful.
+Trusted judgeOtherLoad(double share, bool shares_processors);
+
+// `share` of all processors' time that the hypervisor gave to others. This disturbs the frames of a
+// software device, and only the recording of others'.
 Trusted judgeSteal(double share, bool software);
 
 // Compiler flags and build type, as in a report. Times need a release build without sanitizers.
@@ -54,8 +61,9 @@ Trusted judgePassSum(double sum);
 // The device's clock over a whole case: throttled, or limited for another reason of the driver's.
 Trusted judgeClock(const Conditions& conditions);
 
-// The board's power limit as a throttle reason.
+// The board's limits of power and of current as throttle reasons.
 inline constexpr const char* kPowerCap = "power cap";
+inline constexpr const char* kCurrentLimit = "current limit";
 
 // True if a driver's throttle reason is heat or power. Others, like a clock that somebody set, are
 // not throttling.
@@ -71,15 +79,27 @@ inline constexpr double kHeldShare = 0.9;
 // of the highest in any case is throttled (nvbench's share).
 inline constexpr double kThrottledShare = 0.75;
 
-// A board at its power limit works as intended while its clock is steady. With this reason, a clock
-// below this share of the highest is throttled.
+// A board at its limit of power or current works as intended while its clock is steady. With such a
+// reason, a clock below this share of the highest is throttled.
 inline constexpr double kCappedShare = 0.97;
 
-// True if heat or power lowered the device's clock in a round, by its driver's reasons or its
-// lowest clock under load. `held` is the highest clock of the mode's rounds, `held_before` that of
-// other cases of the run, MHz; 0: unknown. The board's base clock is not used, because locked
-// clocks may be below it.
-bool isThrottled(const Conditions& round, double held, double held_before);
+// The highest clocks of a device that are known so far, MHz; 0: unknown.
+struct HighestClocks {
+    double shaders = 0.0;
+    double memory = 0.0;
+
+    // Raises both to the round's medians.
+    void raise(const Conditions& round);
+    void raise(const HighestClocks& others);
+};
+
+// True if heat or power lowered a clock of the device in a round, by its driver's reasons, the low
+// shader clock under load, or the memory's clock; a single low reading is no throttling. `held` are
+// the highest clocks of the mode's rounds, `held_before` those of other cases of the run. The
+// board's base clock is not used, because locked clocks may be below it. Nor is the greatest memory
+// clock, because drivers keep memory below it for compute.
+bool isThrottled(
+    const Conditions& round, const HighestClocks& held, const HighestClocks& held_before);
 
 // ---- Verdict on a case --------------------------------------------------------------------------
 

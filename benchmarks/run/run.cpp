@@ -8,12 +8,14 @@
 
 #include <nlohmann/json.hpp>
 
+#include "benchmarks/measure/machine_watch.h"
 #include "benchmarks/measure/progress.h"
 #include "benchmarks/measure/quiet_wait.h"
 #include "benchmarks/report/environment.h"
 #include "benchmarks/report/report.h"
 #include "benchmarks/report/table.h"
 #include "benchmarks/report/text.h"
+#include "benchmarks/report/verdict.h"
 #include "benchmarks/run/case.h"
 #include "benchmarks/run/record.h"
 #include "benchmarks/scene/json.h"
@@ -29,6 +31,7 @@ headerOf(const RunOptions& options, const RunPlan& plan, const engine::Device& d
     report::ReportHeader header;
     header.environment = report::describeEnvironment(
         device, options.command, plan.seed, options.scene.device.validation);
+    measure::addBoard(device.info(), header.environment.device);
     header.scene = plan.scene;
     header.case_count = plan.case_count;
     header.order_seed = options.order_seed ? *options.order_seed : std::random_device()();
@@ -42,13 +45,13 @@ struct Ended {
     std::string no_device;  // why no device is left
 };
 
-// The work of other programs lengthens all frames of a software device, so the run waits before
-// each case. On another device it disturbs only the host's part, so the run waits once, before it
-// begins.
+// The work of other programs lengthens all frames of a device that shares the processors, so the
+// run waits before each case. On another device it disturbs only the host's part, so the run waits
+// once, before it begins.
 void waitForOthers(
     const engine::Device& device, const hair::RunSettings& run, bool is_first,
     measure::QuietWait& quiet, measure::Progress& progress) {
-    if (!is_first && device.info().type != "cpu") return;
+    if (!is_first && !report::sharesProcessors(device.info().type)) return;
     progress.clear();
     quiet.wait(double{run.max_time});
 }

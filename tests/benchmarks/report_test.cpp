@@ -70,7 +70,7 @@ TEST(Report, CorrectsNothingOfTheNewest) {
 
 TEST(Report, KeepsTheContractsNames) {
     const scene::Json report = written();
-    EXPECT_EQ(report["schema"], "hairbench-report/1.7.0");
+    EXPECT_EQ(report["schema"], "hairbench-report/1.8.0");
     EXPECT_EQ(
         report["environment"]["device"].dump(),
         R"({"name":"Soft","type":"cpu","driver":"llvmpipe","driver_version":"22.3.6",)"
@@ -124,6 +124,32 @@ TEST(Report, SaysHowSamplesCameAbout) {
         result["conditions"].dump(),
         R"({"clock_mhz":1500.0,"base_clock_mhz":1400.0,"memory_clock_mhz":5000.0,)"
         R"("temperature":61.5,"steal":0.25,"other_load":0.5,"throttle_reasons":["power cap"]})");
+}
+
+TEST(Report, NamesTheBoardAndTheSourceOfItsEnergy) {
+    report::Report report = sampleReport();
+    report.environment.device.board = "00000000000000ff";
+    report.environment.device.pci_address = "0000:65:00.0";
+    report.environment.device.power_limit_w = 262.5;
+    report::Conditions& conditions = report.cases[0].conditions;
+    conditions.low_clock_mhz = 1450.0;
+    conditions.energy_j = conditions.energy_s = 1.0;  // of rounds only
+    conditions.energy_source = "counter";
+    const std::string text = writtenText(report);
+    EXPECT_THAT(report::schemaErrors(engine::readFile(kReportSchemaFile), text), IsEmpty());
+    const scene::Json json = scene::Json::parse(text);
+    const scene::Json& device = json["environment"]["device"];
+    EXPECT_EQ(device["board"], "00000000000000ff");
+    EXPECT_EQ(device["pci_address"], "0000:65:00.0");
+    EXPECT_EQ(device["power_limit_w"], 262.5);
+    const scene::Json& written_conditions = json["cases"][0]["conditions"];
+    EXPECT_EQ(written_conditions["low_clock_mhz"], 1450.0);
+    EXPECT_EQ(written_conditions["energy_source"], "counter");
+    EXPECT_FALSE(written_conditions.contains("energy_j"));
+    EXPECT_THAT(
+        json["methods"].get<std::string>(),
+        HasSubstr("Energies are by the device's energy counter over the rounds that count in 1 "
+                  "case."));
 }
 
 TEST(Report, SummarizesTheFiniteSamples) {

@@ -57,6 +57,10 @@ TEST(CaseVerdict, FallsWithOthersLoad) {
     EXPECT_EQ(levelOf(others(0.25)), Trusted::doubtful);
     EXPECT_EQ(levelOf(others(0.251)), Trusted::untrusted);
     EXPECT_EQ(levelOf(others(0.9, "discrete")), Trusted::doubtful);
+    // An integrated GPU shares the processors' power and memory.
+    EXPECT_EQ(levelOf(others(0.25, "integrated")), Trusted::doubtful);
+    EXPECT_EQ(levelOf(others(0.251, "integrated")), Trusted::untrusted);
+    EXPECT_EQ(levelOf(stolen(0.9, "integrated")), Trusted::doubtful);
     EXPECT_EQ(levelOf(stolen(0.01)), Trusted::trusted);
     EXPECT_EQ(levelOf(stolen(0.011)), Trusted::doubtful);
     EXPECT_EQ(levelOf(stolen(0.101)), Trusted::untrusted);
@@ -74,9 +78,11 @@ TEST(CaseVerdict, FallsWithHeatAndOtherLimitsOfTheClock) {
     EXPECT_EQ(limited({}, 1500.0), Trusted::trusted);
     EXPECT_EQ(limited({"thermal slowdown"}, 1500.0), Trusted::untrusted);
     EXPECT_EQ(limited({"application clocks"}, 1500.0), Trusted::doubtful);
-    // A board at its power limit is as it should be while its clock is known to keep.
-    EXPECT_EQ(limited({kPowerCap}, 1500.0), Trusted::doubtful);
-    EXPECT_EQ(limited({kPowerCap}, {}), Trusted::untrusted);
+    // A board at its limit of power or current is as it should be while its clock is known to keep.
+    for (const char* limit : {kPowerCap, kCurrentLimit}) {
+        EXPECT_EQ(limited({limit}, 1500.0), Trusted::doubtful);
+        EXPECT_EQ(limited({limit}, {}), Trusted::untrusted);
+    }
 }
 
 TEST(CaseVerdict, FallsWithThePasses) {

@@ -123,6 +123,24 @@ TEST(ReportComparison, WarnsOfOtherSurroundings) {
                             "scene: 0123456789abcdef and fedcba9876543210"));
 }
 
+TEST(ReportComparison, WarnsOfAnotherBoardOfTheSameModel) {
+    scene::Json a = reportOf({frameCase("x", 10.0)}), b = a;
+    a["environment"]["device"].update(
+        {{"board", "00000000000000aa"}, {"pci_address", "0000:65:00.0"}, {"power_limit_w", 300.0}});
+    b["environment"]["device"].update(
+        {{"board", "00000000000000bb"}, {"pci_address", "0000:b3:00.0"}, {"power_limit_w", 250.0}});
+    const ReportComparison found = compareReports(a, b, {});
+    EXPECT_TRUE(found.same_device);
+    EXPECT_THAT(
+        found.warnings, ElementsAre(
+                            "board: 00000000000000aa and 00000000000000bb",
+                            "PCI address: 0000:65:00.0 and 0000:b3:00.0",
+                            "board's power limit in W: 300.0 and 250.0"));
+    b = a;
+    b["environment"]["device"].erase("board");  // an older report
+    EXPECT_THAT(compareReports(a, b, {}).warnings, testing::IsEmpty());
+}
+
 TEST(ReportComparison, ComparesNoTwoWaysOfTiming) {
     const scene::Json a = reportOf({madeCase("x", {{"pass.wind.time", about(1.0)}})});
     const scene::Json b =

@@ -74,6 +74,40 @@ TEST(ClockSampler, LeavesOutWhatIsOlderThanTheRound) {
     EXPECT_THAT(sampler.take(), IsEmpty());
 }
 
+// NVML's load is that of the last sixth of a second to a second (NVML API Reference,
+// nvmlUtilization_t). A device at work seems idle for as long, and a driver without a lag is right.
+TEST(ClockSampler, KeepsReadingsWithALoadOfBefore) {
+    struct Late : ClockSource {
+        Late(std::atomic<int>& count, double seconds) : reads(count), lag(seconds) {}
+        ClockReading read() override {
+            ++reads;
+            return {.clock_mhz = 1980.0, .load = 0.0, .load_lag = lag};
+        }
+        std::atomic<int>& reads;
+        double lag;
+    };
+    for (const double lag : {60.0, 0.0}) {
+        std::atomic<int> reads = 0;
+        ClockSampler sampler(std::make_unique<Late>(reads, lag));
+        sampler.begin();
+        waitForReads(reads, 2);
+        const std::vector<ClockReading> readings = sampler.take();
+        ASSERT_FALSE(readings.empty());
+        EXPECT_EQ(readingsAtWork(readings).size(), lag > 0.0 ? readings.size() : 0u);
+    }
+}
+
+TEST(ForgetLateLoad, BelievesALoadThatIsHighOrLateEnough) {
+    const auto known = [](double load, double passed) {
+        ClockReading reading{.load = load, .load_lag = 1.0};
+        forgetLateLoad(reading, passed);
+        return reading.load;
+    };
+    EXPECT_EQ(known(0.1, 0.9), std::nullopt);
+    EXPECT_EQ(known(0.1, 1.0), 0.1);
+    EXPECT_EQ(known(0.9, 0.1), 0.9);
+}
+
 TEST(AddClocks, LeavesOutReadingsOfAnIdleDevice) {
     report::Conditions conditions;
     addClocks(

@@ -60,7 +60,14 @@ struct Utilization {
     unsigned int memory;
 };
 int nvmlDeviceGetPowerUsage(void* handle, unsigned int* milliwatts);
+int nvmlDeviceGetTotalEnergyConsumption(void* handle, unsigned long long* millijoules);
 int nvmlDeviceGetUtilizationRates(void* handle, struct Utilization* utilization);
+
+int nvmlDeviceGetTotalEnergyConsumption(void* handle, unsigned long long* millijoules) {
+    if (handle != &device) return 2;
+    if (fakeNvml.energy_result == 0) *millijoules = fakeNvml.millijoules;
+    return fakeNvml.energy_result;
+}
 
 int nvmlDeviceGetPowerUsage(void* handle, unsigned int* milliwatts) {
     return answer(handle, 1, fakeNvml.clock_result, fakeNvml.milliwatts, milliwatts);
@@ -69,6 +76,17 @@ int nvmlDeviceGetPowerUsage(void* handle, unsigned int* milliwatts) {
 int nvmlDeviceGetUtilizationRates(void* handle, struct Utilization* utilization) {
     if (utilization) utilization->memory = 7;
     return answer(handle, 1, fakeNvml.clock_result, fakeNvml.load, &utilization->shaders);
+}
+
+#ifdef FAKE_NVML_OLD
+#define GET_POWER_LIMIT nvmlDeviceGetPowerManagementLimit
+#else
+#define GET_POWER_LIMIT nvmlDeviceGetEnforcedPowerLimit
+#endif
+int GET_POWER_LIMIT(void* handle, unsigned int* milliwatts);
+
+int GET_POWER_LIMIT(void* handle, unsigned int* milliwatts) {
+    return answer(handle, 1, fakeNvml.clock_result, fakeNvml.power_limit, milliwatts);
 }
 
 #ifdef FAKE_NVML_OLD

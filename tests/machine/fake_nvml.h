@@ -14,6 +14,9 @@ struct FakeNvml {
     unsigned int greatest_clock;
     unsigned int temperature;
     unsigned int milliwatts;
+    unsigned int power_limit; /* mW */
+    unsigned long long millijoules;
+    int energy_result;
     unsigned int load; /* percent */
     unsigned long long reasons;
     char address[64]; /* that was asked for */

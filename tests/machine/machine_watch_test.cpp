@@ -1,6 +1,9 @@
 #include "benchmarks/measure/machine_watch.h"
 
+#include <array>
 #include <chrono>
+#include <cstdint>
+#include <numeric>
 
 #include <gmock/gmock.h>
 
@@ -34,25 +37,74 @@ TEST(MedianConditions, OfNoRoundsAreUnknown) {
     EXPECT_THAT(median.throttle_reasons, IsEmpty());
 }
 
+// 90 J in 0.4 s are 225 W; a round without a counter adds nothing.
+TEST(MeanPower, IsThatOfTheCounterBeforeThatOfReadings) {
+    const auto power = meanPower(
+        {{.power_w = 80, .energy_j = 30, .energy_s = 0.3},
+         {.power_w = 70},
+         {.power_w = 90, .energy_j = 60, .energy_s = 0.1}});
+    ASSERT_TRUE(power);
+    EXPECT_DOUBLE_EQ(power->watts, 225.0);
+    EXPECT_TRUE(power->counted);
+    // A counter that did not move tells nothing.
+    const auto still = meanPower({{.power_w = 80, .energy_j = 0, .energy_s = 0.01}});
+    ASSERT_TRUE(still);
+    EXPECT_EQ(still->watts, 80.0);
+    EXPECT_FALSE(still->counted);
+    EXPECT_FALSE(meanPower({{.clock_mhz = 1000}}));
+}
+
 TEST(IsThrottled, BelowNineTenthsOfTheClockThatOtherRoundsHeld) {
     const auto at = [](double clock) {
-        return report::Conditions{.clock_mhz = clock, .lowest_clock_mhz = clock};
+        return report::Conditions{.clock_mhz = clock, .low_clock_mhz = clock};
     };
-    EXPECT_TRUE(report::isThrottled(at(1799), 2000, 0));
-    EXPECT_FALSE(report::isThrottled(at(1800), 2000, 0));
-    EXPECT_FALSE(report::isThrottled(at(100), 0, 0));
-    EXPECT_FALSE(report::isThrottled({.base_clock_mhz = 2000}, 2000, 2000));
+    EXPECT_TRUE(report::isThrottled(at(1799), {2000}, {}));
+    EXPECT_FALSE(report::isThrottled(at(1800), {2000}, {}));
+    EXPECT_FALSE(report::isThrottled(at(100), {}, {}));
+    EXPECT_FALSE(report::isThrottled({.base_clock_mhz = 2000}, {2000}, {2000}));
+}
+
+// The bounds are those of shaders. A light load may leave memory at a lower level.
+TEST(IsThrottled, BelowNineTenthsOfTheMemorysClockOfOtherRounds) {
+    const auto at = [](double clock, double load) {
+        return report::Conditions{
+            .clock_mhz = 2000, .low_clock_mhz = 2000, .memory_clock_mhz = clock, .load = load};
+    };
+    EXPECT_TRUE(report::isThrottled(at(899, 0.5), {2000, 1000}, {}));
+    EXPECT_FALSE(report::isThrottled(at(900, 0.5), {2000, 1000}, {}));
+    EXPECT_FALSE(report::isThrottled(at(100, 0.5), {2000, 0}, {}));
+    EXPECT_TRUE(report::isThrottled(at(749, 0.9), {2000, 749}, {2000, 1000}));
+    EXPECT_FALSE(report::isThrottled(at(750, 0.9), {2000, 750}, {2000, 1000}));
+    EXPECT_FALSE(report::isThrottled(at(100, 0.5), {2000, 100}, {2000, 1000}));
 }
 
 // A locked clock may be half the base clock.
 TEST(IsThrottled, WhateverTheBaseClockIs) {
     EXPECT_FALSE(report::isThrottled(
-        {.clock_mhz = 1000, .lowest_clock_mhz = 1000, .base_clock_mhz = 2000, .load = 1.0}, 1000,
-        1000));
+        {.clock_mhz = 1000, .low_clock_mhz = 1000, .base_clock_mhz = 2000, .load = 1.0}, {1000},
+        {1000}));
 }
 
-TEST(IsThrottled, ByOneReadingUnderLoad) {
-    EXPECT_TRUE(report::isThrottled({.clock_mhz = 2000, .lowest_clock_mhz = 1500}, 2000, 0));
+// The clock was low for part of a round only.
+TEST(IsThrottled, ByTheLowClockRatherThanTheMedian) {
+    EXPECT_TRUE(report::isThrottled({.clock_mhz = 2000, .low_clock_mhz = 1500}, {2000}, {}));
+}
+
+// A round of 0.25 s has about five readings. Two of them are no accident, and one of a longer
+// round's twelve is, as are two of twelve.
+TEST(IsThrottled, NotByASingleLowReading) {
+    const auto with = [](std::size_t low, std::size_t all) {
+        std::vector<ClockReading> readings(all, {.clock_mhz = 2000});
+        for (std::size_t i = 0; i < low; ++i) readings[2 * i + 1].clock_mhz = 300;
+        report::Conditions round;
+        addClocks(readings, round);
+        EXPECT_EQ(round.lowest_clock_mhz, low > 0 ? 300 : 2000);
+        return report::isThrottled(round, {2000}, {2000});
+    };
+    for (const std::size_t all : {2u, 3u, 4u, 5u, 12u}) EXPECT_FALSE(with(1, all)) << all;
+    EXPECT_TRUE(with(2, 5));
+    EXPECT_FALSE(with(2, 12));
+    EXPECT_TRUE(with(4, 12));
 }
 
 TEST(PciAddress, IsWrittenAsTheSystemDoes) {
@@ -60,6 +112,14 @@ TEST(PciAddress, IsWrittenAsTheSystemDoes) {
         addressText({.domain = 0, .bus = 0xc1, .device = 0x1f, .function = 7}), "0000:c1:1f.7");
     EXPECT_EQ(
         addressText({.domain = 0x10000, .bus = 2, .device = 0, .function = 0}), "10000:02:00.0");
+}
+
+// FNV-1a of the bytes 1 to 16, by a program of its own.
+TEST(BoardHash, TellsBoardsApartAndIsAbsentWithoutAUuid) {
+    std::array<std::uint8_t, 16> uuid{};
+    EXPECT_EQ(boardHash(uuid), "");
+    std::iota(uuid.begin(), uuid.end(), std::uint8_t{1});
+    EXPECT_EQ(boardHash(uuid), "e7ecfb4f6e006495");
 }
 
 // There are two packages, and one counter has wrapped: 3 J and 1.000001 J, worked out by hand.
@@ -108,7 +168,11 @@ TEST_F(MachineWatchTest, KnowsNoClockOfASoftwareDevice) {
     const report::Conditions conditions = watch.take();
     EXPECT_EQ(conditions.clock_mhz, std::nullopt);
     EXPECT_EQ(conditions.base_clock_mhz, std::nullopt);
-    EXPECT_FALSE(report::isThrottled(conditions, 0, 0));
+    EXPECT_FALSE(report::isThrottled(conditions, {}, {}));
+    report::DeviceRecord record;
+    addBoard(device().info(), record);
+    EXPECT_EQ(record.board + record.pci_address, "");
+    EXPECT_EQ(record.power_limit_w, std::nullopt);
 }
 
 // Whether clocks can be locked, and whether they are.

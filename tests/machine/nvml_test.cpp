@@ -97,9 +97,30 @@ TEST(Nvml, ReadsPowerAndLoad) {
     fake->load = 93;
     EXPECT_DOUBLE_EQ(fake.read().power_w.value(), 431.5);
     EXPECT_DOUBLE_EQ(fake.read().load.value(), 0.93);
+    EXPECT_EQ(fake.read().load_lag, 1.0);  // s: a sample period is 1/6 s to 1 s
     fake->clock_result = kNotSupported;
     EXPECT_EQ(fake.read().power_w, std::nullopt);
     EXPECT_EQ(fake.read().load, std::nullopt);
+}
+
+TEST(Nvml, ReadsTheEnergyCounterWhereThereIsOne) {
+    const Fake fake(FAKE_NVML);
+    fake->millijoules = 5'000'000'000'123;  // more than 32 bits
+    EXPECT_DOUBLE_EQ(fake.open()->energy().value(), 5'000'000'000.123);
+    fake->energy_result = kNotSupported;  // before Volta
+    EXPECT_EQ(fake.open()->energy(), std::nullopt);
+    EXPECT_EQ(Fake(FAKE_NVML_BARE).open()->energy(), std::nullopt);
+}
+
+TEST(Nvml, ReadsThePowerLimit) {
+    for (const char* library : {FAKE_NVML, FAKE_NVML_OLD}) {
+        const Fake fake(library);
+        fake->power_limit = 262500;
+        EXPECT_DOUBLE_EQ(fake.open()->powerLimit().value(), 262.5);
+        fake->clock_result = kNotSupported;
+        EXPECT_EQ(fake.open()->powerLimit(), std::nullopt);
+    }
+    EXPECT_EQ(Fake(FAKE_NVML_BARE).open()->powerLimit(), std::nullopt);
 }
 
 TEST(Nvml, TakesTheGreatestClockAsBaseOfABoardWithoutApplicationsClock) {

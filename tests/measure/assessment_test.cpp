@@ -2,6 +2,8 @@
 
 #include <cmath>
 #include <functional>
+#include <span>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -86,6 +88,27 @@ TEST(Assessment, CountsTimesForAsManyAsTheyAre) {
                        })).relative_half_width.value_or(1.0);
     }
     EXPECT_GT(dependent, 2.5 * independent);
+}
+
+// The whole has noise of 0.1 %. A part of a tenth with noise of 5 % decides, and one of a hundredth
+// does not. 200 independent normal times know their median to 1.96 * 1.2533 / sqrt(200) = 17 % of
+// their deviation: 0.87 % and 0.017 %. A factor of two allows for the interval's own scatter.
+TEST(Assessment, KnowsThePartsToo) {
+    Noise noise(5);
+    const auto times = [&](double level, double deviation) {
+        return roundsOf(
+            8, 25, [&](double, double) { return level * (1.0 + deviation * noise.normal()); });
+    };
+    const RoundTimes whole = times(1.0, 0.001);
+    const std::vector<RoundTimes> small{times(0.01, 0.05)},
+        large{times(0.9, 0.001), times(0.1, 0.05)};
+    const auto width = [&](std::span<const RoundTimes> parts) {
+        return assess(whole, parts).relative_half_width.value_or(1.0);
+    };
+    EXPECT_LT(width({}), 0.00035);
+    EXPECT_EQ(width(small), width({}));
+    EXPECT_GT(width(large), 0.0043);
+    EXPECT_LT(width(large), 0.0174);
 }
 
 TEST(Assessment, IsEnoughWhenSteadyAndPrecise) {

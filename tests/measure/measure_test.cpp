@@ -236,6 +236,20 @@ TEST_F(MeasureTest, EndsWithTheSameHairAfterAnyNumberOfRounds) {
     EXPECT_NE(measured(settings).state_hash, one.state_hash);
 }
 
+// The scene is drawn as lists of triangles: three vertices each.
+TEST_F(MeasureTest, CountsEveryPassThatDraws) {
+    if (!device().hasPipelineStatistics()) GTEST_SKIP() << "this device counts nothing";
+    const report::CaseResult result = measured(smallCase());
+    const auto count = [&](const std::string& name) {
+        const auto found = std::ranges::find(result.statistics, name, &report::Statistic::name);
+        return found == result.statistics.end() ? 0 : found->measured;
+    };
+    EXPECT_GT(count("tessellation_control_patches"), 0u);
+    EXPECT_GT(count("scene.input_assembly_primitives"), 0u);
+    EXPECT_EQ(count("scene.input_assembly_vertices"), 3 * count("scene.input_assembly_primitives"));
+    EXPECT_EQ(count("strands.vertex_invocations"), 0u);
+}
+
 TEST_F(MeasureTest, BusyWorkChangesNoPictureNoStateAndNoCount) {
     hair::Settings settings = smallCase();
     settings.render.ssaa = 2;  // so that there is a resolve pass

@@ -32,11 +32,12 @@ constexpr FrameTime kFrameTimes[] = {
 struct Machine {
     std::function<double(int round, int frame)> time;                       // ms
     std::function<double(int round)> clock = [](int) { return kFullClock; };  // MHz
+    std::function<double(int round)> memory_clock = [](int) { return kFullClock; };  // MHz
     std::optional<double> load{};
     std::function<std::vector<std::string>(int round)> reasons = [](int) {
         return std::vector<std::string>();
     };
-    double held = 0.0;  // MHz, before and then after
+    report::HighestClocks held{};  // before and then after
     // Times other than the judged one are those of a machine that slows down.
     FrameTime judged = &engine::FrameRecord::wall;
     int frames = 10;
@@ -67,7 +68,8 @@ struct Machine {
                  [&] {
                      return report::Conditions{
                          .clock_mhz = clock(rounds - 1),
-                         .lowest_clock_mhz = clock(rounds - 1),
+                         .low_clock_mhz = clock(rounds - 1),
+                         .memory_clock_mhz = memory_clock(rounds - 1),
                          .load = load,
                          .throttle_reasons = reasons(rounds - 1)};
                  },
@@ -249,6 +251,19 @@ TEST(SampleRounds, LeavesOutThrottledRounds) {
     EXPECT_FALSE(sampled.all_throttled);
 }
 
+// Memory falls to its next lower level while the shaders keep their clock.
+TEST(SampleRounds, LeavesOutRoundsWithSlowMemory) {
+    Machine machine{
+        .time = [](int round, int) { return round % 3 == 0 ? 20.0 : 10.0; },
+        .memory_clock = [](int round) { return round % 3 == 0 ? 500.0 : 1000.0; },
+        .load = 1.0};
+    const SampledRounds sampled = machine.sample({.precision = 0.0, .max_time = 3.0});
+    EXPECT_THAT(walls(sampled), testing::Each(10.0));
+    EXPECT_EQ(
+        sampled.sampling.throttled_rounds, static_cast<std::uint32_t>((machine.rounds + 2) / 3));
+    EXPECT_EQ(machine.held.memory, 1000.0);
+}
+
 // Heat throttles a device at any clock.
 TEST(SampleRounds, LeavesOutRoundsWithHeatOrPowerForAReason) {
     for (const char* reason :
@@ -267,15 +282,18 @@ TEST(SampleRounds, LeavesOutRoundsWithHeatOrPowerForAReason) {
     }
 }
 
-// A board at its power limit is measured at the clock that it maintains.
-TEST(SampleRounds, CountsRoundsAtThePowerLimitWhileTheClockHolds) {
-    Machine machine{
-        .time = [](int, int) { return 10.0; },
-        .clock = [](int round) { return round % 3 == 0 ? 960.0 : 980.0 + round % 2 * 20.0; },
-        .reasons = [](int) { return std::vector<std::string>{report::kPowerCap}; }};
-    const SampledRounds sampled = machine.sample({.precision = 0.0, .max_time = 3.0});
-    EXPECT_EQ(
-        sampled.sampling.throttled_rounds, static_cast<std::uint32_t>((machine.rounds + 2) / 3));
+// A board at its limit of power or current is measured at the clock that it maintains.
+TEST(SampleRounds, CountsRoundsAtTheBoardsLimitsWhileTheClockHolds) {
+    for (const char* limit : {report::kPowerCap, report::kCurrentLimit}) {
+        Machine machine{
+            .time = [](int, int) { return 10.0; },
+            .clock = [](int round) { return round % 3 == 0 ? 960.0 : 980.0 + round % 2 * 20.0; },
+            .reasons = [&](int) { return std::vector<std::string>{limit}; }};
+        const SampledRounds sampled = machine.sample({.precision = 0.0, .max_time = 3.0});
+        EXPECT_EQ(
+            sampled.sampling.throttled_rounds, static_cast<std::uint32_t>((machine.rounds + 2) / 3))
+            << limit;
+    }
 }
 
 // A clock locked below the board's rated clock is accepted like any other.
@@ -283,7 +301,7 @@ TEST(SampleRounds, TakesALockedClockForWhatItIs) {
     Machine machine{
         .time = [](int, int) { return 10.0; }, .clock = [](int) { return 300.0; }, .load = 1.0};
     EXPECT_EQ(machine.sample({.max_time = 0.0}).sampling.throttled_rounds, 0u);
-    EXPECT_EQ(machine.held, 300.0);
+    EXPECT_EQ(machine.held.shaders, 300.0);
 }
 
 // Under full load, the device reached 1,000 MHz in an earlier case.
@@ -292,11 +310,11 @@ TEST(SampleRounds, WaitsForADeviceToReachItsClock) {
         .time = [](int, int) { return 10.0; },
         .clock = [](int round) { return round < 4 ? 700.0 : 800.0; },
         .load = 1.0,
-        .held = 1000.0};
+        .held = {.shaders = 1000.0}};
     const SampledRounds sampled = machine.sample({.max_time = 0.0});
     EXPECT_EQ(sampled.sampling.rounds, 1u);
     EXPECT_EQ(sampled.sampling.throttled_rounds, 4u);
-    EXPECT_EQ(machine.held, 1000.0);
+    EXPECT_EQ(machine.held.shaders, 1000.0);
 }
 
 // A case with little work may run at a low clock, and does not tell the highest possible clock.
@@ -306,9 +324,9 @@ TEST(SampleRounds, DoesNotExpectAFullClockOfALightLoad) {
             .time = [](int, int) { return 10.0; },
             .clock = [](int) { return 500.0; },
             .load = load,
-            .held = 1000.0};
+            .held = {.shaders = 1000.0}};
         EXPECT_EQ(machine.sample({.max_time = 0.0}).sampling.throttled_rounds, 0u);
-        EXPECT_EQ(machine.held, 1000.0);
+        EXPECT_EQ(machine.held.shaders, 1000.0);
     }
 }
 
@@ -317,7 +335,7 @@ TEST(SampleRounds, KeepsAndMarksWhatIsThrottledThroughout) {
         .time = [](int, int) { return 10.0; },
         .clock = [](int) { return 500.0; },
         .load = 1.0,
-        .held = 1000.0};
+        .held = {.shaders = 1000.0}};
     const SampledRounds sampled = machine.sample({.max_time = 0.0});
     EXPECT_TRUE(sampled.all_throttled);
     EXPECT_EQ(sampled.sampling.throttled_rounds, kThrottledTries);

@@ -38,6 +38,7 @@ struct GpuModel {
     double decay = 0.05;  // s of idling back to slow
     double idle_after = 2e-3;  // s; the governor ignores shorter gaps
 
+    std::size_t frames_in_flight = 2;
     double record = 5e-6, submit = 2e-6;  // s of CPU time for a frame
     double least_latency = 20e-6, most_latency = 60e-6;  // s, of submitting and of waking up
     double tail = 0.01;  // share of latencies that are ten times as long
@@ -49,6 +50,9 @@ struct GpuModel {
     double throttled_share = 0.0;  // of the time, in stretches of 0.5 to 1.5 s
     double throttled_clock = 0.7;  // of fast
     std::string throttle_reason;  // reason reported by the driver; empty: none
+
+    double watts = 300.0, idle_watts = 60.0, throttled_watts = 150.0;
+    bool counts_energy = false;
 
     double period = 1.0;  // ns, of a timestamp's tick
     std::uint32_t valid_bits = 64;
@@ -108,6 +112,7 @@ public:
 
     void beginWatch() override {
         since_ = now_;
+        counted_ = energy_;
         next_reading_ = now_ + kReadingPeriod;
         if (history_.empty()) note();
     }
@@ -122,7 +127,9 @@ public:
                 if (each.time <= next_reading_ - age) seen = &each;
             // Clocks come in steps of 15 MHz.
             ClockReading reading{
-                .clock_mhz = 15.0 * std::round(seen->clock / 15e6), .load = seen->load};
+                .clock_mhz = 15.0 * std::round(seen->clock / 15e6),
+                .power_w = seen->power,
+                .load = seen->load};
             if (model_.tells_age) reading.age = age;
             if (seen->throttled && !model_.throttle_reason.empty())
                 reading.throttle_reasons = {model_.throttle_reason};
@@ -133,6 +140,11 @@ public:
             history_.pop_front();
         report::Conditions conditions;
         addClocks(readings, conditions);
+        if (model_.counts_energy) {
+            conditions.energy_j = energy_ - counted_;
+            conditions.energy_s = now_ - since_;
+        }
+        counted_ = energy_;
         since_ = now_;
         return conditions;
     }
@@ -147,13 +159,14 @@ private:
     static constexpr double kNever = std::numeric_limits<double>::infinity();
     static constexpr double kReadingPeriod = 0.05;  // s
     static constexpr double kLoadWindow = 0.1;  // s
+    static constexpr double kPowerWindow = 1.0;  // s
     static constexpr double kNotes = 1e-3;  // s between two recorded states
-    static constexpr std::size_t kSlots = 2;
 
     struct State {
         double time;
         double clock;
         double load;
+        double power;  // W
         bool throttled;
     };
 
@@ -172,7 +185,7 @@ private:
             if (!empty_) ++gpu_.frames_;
             const double start = gpu_.now_;
             const bool overlapped = timing_ == engine::Timing::overlapped;
-            if (overlapped && in_flight_.size() == kSlots) collect();
+            if (overlapped && in_flight_.size() == gpu_.model_.frames_in_flight) collect();
             if (!records_.empty()) records_.back().interval = (start - start_) * 1e3;
             start_ = start;
             engine::FrameRecord record;
@@ -327,8 +340,12 @@ private:
         if (window > 0.0)
             load_ += (std::clamp(busy_ / window, 0.0, 1.0) - load_) *
                      (1.0 - std::exp(-window / kLoadWindow));
-        history_.push_back({busy_until_, clock_, load_, isThrottledAt(busy_until_)});
+        if (window > 0.0)
+            power_ += ((energy_ - noted_energy_) / window - power_) *
+                      (1.0 - std::exp(-window / kPowerWindow));
+        history_.push_back({busy_until_, clock_, load_, power_, isThrottledAt(busy_until_)});
         noted_ = busy_until_;
+        noted_energy_ = energy_;
         busy_ = 0.0;
     }
 
@@ -338,10 +355,12 @@ private:
         if (idle > model_.idle_after)
             clock_ =
                 std::max(model_.slow, clock_ - (model_.fast - model_.slow) * idle / model_.decay);
+        energy_ += idle * model_.idle_watts;
         const double begin = time;
         while (cycles > 0.0) {
             if (time >= next_stall_) {
                 time += model_.stall;
+                energy_ += model_.stall * model_.watts;
                 next_stall_ = time + exponential(1.0 / model_.stalls);
             }
             const bool throttled = isThrottledAt(time);
@@ -351,6 +370,7 @@ private:
             cycles -= std::max(step * clock_, 1e-6);
             clock_ = std::min(clock_ + (model_.fast - model_.slow) / model_.rise * step, most);
             time += step;
+            energy_ += step * (throttled ? model_.throttled_watts : model_.watts);
             if (throttled) throttled_ += step;
         }
         busy_ += time - begin;
@@ -367,6 +387,10 @@ private:
     double busy_ = 0.0;  // busy time since the last recorded state, s
     double noted_ = 0.0;
     double load_ = 0.0;
+    double energy_ = 0.0;  // J
+    double counted_ = 0.0;  // J, when the last conditions ended
+    double noted_energy_ = 0.0;
+    double power_ = 0.0;  // W, the mean of about a second
     double next_stall_;
     double throttle_from_;
     double throttle_to_ = 0.0;

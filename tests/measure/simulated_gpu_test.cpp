@@ -129,6 +129,49 @@ TEST(SimulatedGpu, ACaseThatIsThrottledThroughoutFailsAndKeepsItsSamples) {
     EXPECT_THAT(result.conditions.throttle_reasons, Contains("hardware thermal slowdown"));
 }
 
+// A frame of 1 ms at 300 W is 0.3 J. The device rested for 5 s at 60 W, and throttled rounds draw
+// 150 W: neither counts. Stretches of heat may begin in the last moments of a counted round, which
+// are less than a tenth of the counted time.
+TEST(SimulatedGpu, EnergyIsThatOfTheCountedRounds) {
+    GpuModel model;
+    model.passes = {{"simulate", 480e3}, {"strands", 1500e3}};
+    model.counts_energy = true;
+    SimulatedGpu cool(model, 3);
+    cool.pause(5.0);
+    const report::CaseResult result = measuredOn(cool);
+    EXPECT_EQ(result.conditions.energy_source, "counter");
+    EXPECT_NEAR(medianIn(result, "frame.energy"), 0.3, 0.003);
+
+    model.throttled_share = 0.3;
+    model.throttle_reason = "hardware thermal slowdown";
+    SimulatedGpu hot(model, 3);
+    const report::CaseResult heated = measuredOn(hot, {.precision = 0.0f, .max_time = 10.0f});
+    EXPECT_GT(heated.sampling[0].throttled_rounds, 0u);
+    EXPECT_NEAR(medianIn(heated, "frame.energy"), 0.3, 0.015);
+
+    model.counts_energy = false;
+    SimulatedGpu uncounted(model, 3);
+    EXPECT_EQ(measuredOn(uncounted).conditions.energy_source, "power");
+}
+
+// The host wakes up 20 us to 1 ms late, so the wall clock of an isolated frame of 0.2 ms is known
+// to 1 % only after many thousand frames. The passes' times do not depend on it. Two rounds of a
+// quarter of a second and the warm-up are enough; two seconds are a generous bound.
+TEST(SimulatedGpu, IsolatedFramesEndWhenTheirPassesAreKnown) {
+    GpuModel model;
+    model.most_latency = 1e-3;
+    SimulatedGpu gpu(model, 5);
+    const report::CaseResult result = measuredOn(gpu);
+    ASSERT_EQ(result.sampling[1].mode, "isolated");
+    EXPECT_LT(result.sampling[1].seconds, 2.0);
+    EXPECT_EQ(result.sampling[1].steady, true);
+    EXPECT_LE(result.sampling[1].precision.value(), 0.01);
+    for (const char* pass : {"wind", "simulate", "strands"})
+        EXPECT_NEAR(
+            medianIn(result, "pass." + std::string(pass) + ".time") / gpu.truth(pass), 1.0, 0.01)
+            << pass;
+}
+
 // Rounds measure for at least a quarter of a second, for any frames. The device never waits for the
 // next round, or its clock would fall (it needs 2 ms to notice).
 TEST(SimulatedGpu, RoundsAreLongAndNothingIsBetweenThem) {
@@ -242,6 +285,35 @@ TEST(SimulatedGpu, AHostThatWakesUpLateIsNoWaitOfTheDevice) {
     SimulatedGpu gpu(GpuModel{}, 9);
     const report::CaseResult result = measuredOn(gpu);
     EXPECT_LT(medianIn(result, "gpu.wait.time"), 1e-5);
+}
+
+// A frame takes the device 0.089 ms. With two frames in flight the next one has 0.089 ms to be
+// submitted after a wait, and two latencies of 20 to 60 us and 7 us of recording need 0.087 ms on
+// average: the device often waits, and that time is in the mean of several intervals too. With four
+// frames in flight there is three times as long, which is always enough but for the tail.
+TEST(SimulatedGpu, FourFramesInFlightHideTheHostOfShortFrames) {
+    for (const std::uint32_t in_flight : {2u, 4u}) {
+        GpuModel model;
+        model.passes = {{"strands", 89e-6 * model.fast}};
+        model.frames_in_flight = in_flight;
+        SimulatedGpu gpu(model, 5);
+        const report::CaseResult result = measuredOn(gpu, {.frames_in_flight = in_flight});
+        const report::Metric* times = metricIn(result, "frame.time");
+        ASSERT_TRUE(times);
+        std::vector<double> means;  // of three intervals, more than 0.2 ms
+        for (std::size_t i = 0; i + 3 <= times->samples.size(); i += 3)
+            means.push_back(
+                (times->samples[i] + times->samples[i + 1] + times->samples[i + 2]) / 3.0);
+        const double error = medianIn(result, "frame.time") / gpu.truth() - 1.0;
+        const double error_of_means = report::quantile(means, 0.5) / gpu.truth() - 1.0;
+        if (in_flight == 2) {
+            EXPECT_GT(error, 0.03);
+            EXPECT_GT(error_of_means, 0.03);
+        } else {
+            EXPECT_NEAR(error, 0.0, 0.01);
+        }
+        EXPECT_NEAR(medianIn(result, "frame.device.time") / gpu.truth(), 1.0, 0.01);
+    }
 }
 
 // ---- Gates of processes on the simulated GPU ----------------------------------------------------
