@@ -52,7 +52,7 @@ struct Layout {
 inline constexpr float kNarrowestColumn = 18.0f;
 inline constexpr float kNarrowestPicture = 22.0f;
 
-// Returns the layout of a window of this size with a menu that ends at `top`; `letter` is the
+// Returns the layout of a window of this size with a menu that ends at `top`; `em` is the
 // height of a letter. The picture has priority over columns, and two columns without enough room
 // become one.
 Layout

@@ -119,7 +119,7 @@ void addPieces(
 }
 
 // Returns where a ray enters the piece, beyond `begin`; kNoHit if it doesn't.
-double intersect(const Piece& piece, const Ray& ray, double begin) {
+double intersectPiece(const Piece& piece, const Ray& ray, double begin) {
     const glm::dvec3 a(piece.a);
     const glm::dvec3 offset = glm::dvec3(piece.b) - a;
     const double length = glm::length(offset);
@@ -356,7 +356,7 @@ private:
 
     Hit intersect(const Ray& ray, std::uint32_t primitive) const {
         if (primitive < pieces_.size())
-            return {intersect(pieces_[primitive], ray, ray_offset_), primitive};
+            return {intersectPiece(pieces_[primitive], ray, ray_offset_), primitive};
         const Corners& corners = corners_[primitive - pieces_.size()];
         const MattMesh& mesh = scene_.meshes[corners.mesh];
         const auto& [a, b, c] = mesh.triangles[corners.triangle];

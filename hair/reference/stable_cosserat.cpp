@@ -91,7 +91,7 @@ struct CosseratStep {
         return std::max(total / static_cast<double>(size() - 1), 1e-6);
     }
     // h k, where k is the double eigenvalue of K.
-    double brakeAt(std::size_t i) const {
+    double dragAt(std::size_t i) const {
         return parameters.substep * (drag[i][0][0] + drag[i][1][1] + drag[i][2][2]) / 2.0;
     }
 
@@ -148,9 +148,9 @@ void CosseratStep::place() {
     std::vector<glm::dvec3> right(size(), glm::dvec3(0.0));
     const double shortest = kLeastSpringLength * mean();
     for (std::size_t i = 1; i < size(); ++i) {
-        const double heavier = 1.0 + brakeAt(i);
+        const double heavier = 1.0 + dragAt(i);
         const glm::dvec3 ahead = positions[i] - predicted[i];
-        const glm::dvec3 excess = brakeAt(i) * ahead - parameters.substep * (drag[i] * ahead);
+        const glm::dvec3 excess = dragAt(i) * ahead - parameters.substep * (drag[i] * ahead);
         diagonal[i] += rest.masses[i] * per_square * heavier;
         right[i] += rest.masses[i] * per_square * (heavier * predicted[i] + excess);
         const double spring = parameters.stretch_stiffness / std::max(rest.lengths[i], shortest);

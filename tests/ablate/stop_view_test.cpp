@@ -53,7 +53,7 @@ protected:
         engine::FrameLoop loop(device(), engine::Timing::isolated);
         view.draw(loop);
         loop.finish();
-        const std::uint32_t sum = watch_->seen().sum;
+        const std::uint32_t sum = watch_->counts().sum;
         watch_->countNone();
         return sum;
     }
@@ -169,7 +169,7 @@ TEST_F(StopViewTest, WatchesAlmostNothingWhileItIsTimed) {
     engine::FrameLoop loop(device(), engine::Timing::isolated);
     EXPECT_EQ(all.at(Stop::geometry)->visit(loop, 3).size(), 3u);
     // The chance to see one of the 60,928 invocations in each of 4 frames is 6e-5.
-    EXPECT_EQ(watch_->seen().invocations, 0u);
+    EXPECT_EQ(watch_->counts().invocations, 0u);
 }
 
 TEST_F(StopViewTest, LeavesOtherBackEndsAlone) {

@@ -9,7 +9,7 @@
 layout(buffer_reference, scalar) readonly buffer Probes { ShadowProbe at[]; };
 layout(push_constant, scalar) uniform Push { ShadowProbePush push; };
 layout(location = 0) out vec4 path;  // meshes, strands, visibility, direct
-layout(location = 1) out vec4 behind;  // met, ended, returned, kept
+layout(location = 1) out vec4 behind;  // scatter_count, ended, returned, multiple_scattering
 
 void main() {
     PictureParameters picture = PictureReference(push.picture).parameters;
@@ -22,5 +22,5 @@ void main() {
             probe.position, probe.normal, probe.tangent, probe.width,
             opaqueTransmittance(picture)));
     path = vec4(found.meshes, found.strands, visibility(found), found.direct);
-    behind = vec4(found.met, found.ended.g, found.returned.g, found.kept);
+    behind = vec4(found.scatter_count, found.ended.g, found.returned.g, found.multiple_scattering);
 }
