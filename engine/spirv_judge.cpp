@@ -335,7 +335,7 @@ private:
         case op::kTypeInt:
         case op::kTypeFloat:
             if (!has(1) || words[1] != 32)
-                return declared(noPlace("a number of other than 32 bits"), id);
+                return declared(noPlace("a number that does not have 32 bits"), id);
             break;
         case op::kTypeVector:
         case op::kTypeMatrix:

@@ -164,7 +164,7 @@ void addGroomCommands(const CommandLine& line) {
             command
                 .add_option(
                     "--scale", options.scale,
-                    "metres per unit of the file (default: as it states, or a guess)")
+                    "metres per unit of the file (default: as the file states, or a guess)")
                 ->check(CLI::PositiveNumber);
             addPointsPerStrand(command, options.points_per_strand);
             command.add_flag("--json", options.json, "print JSON");
@@ -186,7 +186,7 @@ void addGroomCommands(const CommandLine& line) {
             command
                 .add_option(
                     "--scale", options.scale,
-                    "metres per unit of FILE (default: as it states, or a guess)")
+                    "metres per unit of FILE (default: as the file states, or a guess)")
                 ->check(CLI::PositiveNumber);
             command.add_option("--up", options.up, "upward axis of FILE (default: a guess)")
                 ->check(CLI::IsMember({"x", "y", "z"}));
@@ -269,12 +269,12 @@ void addGroomCommands(const CommandLine& line) {
             command
                 .add_option(
                     "--scale-a", options.first_scale,
-                    "metres per unit of A (default: as it states, or a guess)")
+                    "metres per unit of A (default: as the file states, or a guess)")
                 ->check(CLI::PositiveNumber);
             command
                 .add_option(
                     "--scale-b", options.second_scale,
-                    "metres per unit of B (default: as it states, or a guess)")
+                    "metres per unit of B (default: as the file states, or a guess)")
                 ->check(CLI::PositiveNumber);
             addPointsPerStrand(command, options.first_points_per_strand, "--points-per-strand-a");
             addPointsPerStrand(command, options.second_points_per_strand, "--points-per-strand-b");

@@ -147,7 +147,7 @@ void addVerdictOptions(CLI::App& command, report::VerdictOptions& options) {
                 options.pass_without_verdicts = what == "regressed";
             },
             "inconclusive: exit with status 11 if nothing is slower but a metric is inconclusive; "
-            "regressed: exit with status 0 then, even if a gate had no time for a verdict")
+            "regressed: exit with status 0 in that case, even if a gate had no time for a verdict")
         ->check(CLI::IsMember({"inconclusive", "regressed"}));
 }
 

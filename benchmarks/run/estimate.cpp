@@ -212,7 +212,7 @@ public:
 
     // Tries cases until the time is up. Throws Interrupted.
     void play();
-    // Estimates the cases that were not tried from the trials.
+    // Estimates from the trials the cases that were not tried.
     void estimateOthers();
 
     const std::vector<Estimate>& estimates() const { return estimates_; }

@@ -273,7 +273,7 @@ TEST_F(SceneExtensions, AreTheSameInEveryStage) {
     // Doubles are optional for devices.
     EXPECT_EQ(
         shading("double exact = 2.0LF; point.color *= float(exact);"),
-        at + "a number of other than 32 bits" + no_place);
+        at + "a number that does not have 32 bits" + no_place);
 
     folder.write(
         "in/offset.glsl", "// @parameter reach 0.02 [0, 0.1] m: most\n"

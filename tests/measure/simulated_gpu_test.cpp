@@ -415,7 +415,7 @@ TEST(SimulatedGpu, AFewFramesInTheFirstRoundHaveTheirWholeTime) {
             }
 }
 
-// For any time limit and any frame length. Whatever had time was checked.
+// Tests all time limits and frame lengths. Every pass that had enough time was checked.
 TEST(SimulatedGpu, CheckingTimestampsTakesNoMoreThanItsTime) {
     for (const bool is_processor : {false, true})
         for (const double scale : {0.1, 1.0, 30.0})

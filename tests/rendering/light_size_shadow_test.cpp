@@ -121,7 +121,7 @@ TEST_F(LightSizeShadow, OneSampleIsTheShadowOfTheMiddle) {
         const std::vector<double> lit = penumbra(device(), type, 1);
         const std::vector<float> places = penumbraPlaces();
         for (std::size_t i = 0; i < lit.size(); ++i) {
-            if (std::abs(places[i]) < 0.2f) continue;  // the filter
+            if (std::abs(places[i]) < 0.2f) continue;  // the filter blurs this part
             EXPECT_EQ(lit[i], places[i] > 0 ? 1.0 : 0.0) << i;
         }
     }

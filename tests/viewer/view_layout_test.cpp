@@ -31,7 +31,7 @@ std::string popupsAndSettings() {
              R"({"click": "##search"}, {"type": "e"})";
     for (int i = 0; i < 8; ++i)
         steps += R"(, {"scroll": {"window": "Left/Scene/fields", "by": [0, -12]}}, )" + kGood;
-    // It floats above the others.
+    // The panel floats above the others.
     steps += R"(, {"perform": "Keys and mouse"}, {"expect": {"nothing_clipped": true}})";
     return steps;
 }

@@ -29,7 +29,7 @@ public:
     // `file_size` is in bytes and includes the files that it names.
     explicit Unfolding(std::uint64_t file_size) : most_(kAnyway + kTimes * file_size) {}
 
-    // Adds a file of this size.
+    // Raises the limit for arrays by the size of one more file.
     void allow(std::uint64_t file_size) { most_ += kTimes * file_size; }
 
     // Counts `bytes` more. `what` names them in the error, e.g. "the arrays". Throws engine::Error.

@@ -285,7 +285,7 @@ void checkVertex(const Source& source, double index, std::uint64_t vertices) {
 
 std::string truncated(const PlyElement& element, std::size_t room) {
     return "truncated: " + std::to_string(element.count) + " of element " + inQuotes(element.name) +
-           " are expected, " + std::to_string(room) + " bytes are left";
+           " are expected, but " + std::to_string(room) + " bytes are left";
 }
 
 void checkLength(const std::string& place, double length, std::size_t most) {
@@ -297,7 +297,7 @@ void checkLength(const std::string& place, double length, std::size_t most) {
     if (length > static_cast<double>(most)) {
         throw engine::Error(
             place, "truncated: a list of " + std::to_string(static_cast<std::int64_t>(length)) +
-                       " values is expected, there is room for " + std::to_string(most));
+                       " values is expected, but there is room for " + std::to_string(most));
     }
 }
 

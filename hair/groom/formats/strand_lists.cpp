@@ -62,7 +62,7 @@ std::vector<ListedStrand> listStrands(std::span<const std::byte> bytes, std::uin
             failAt(
                 start - kCountSize, "truncated: strand " + std::to_string(i) + " of " +
                                         std::to_string(size) + " points ends at byte " +
-                                        std::to_string(end) + ", the file at " +
+                                        std::to_string(end) + ", but the file ends at byte " +
                                         std::to_string(bytes.size()));
         }
         points += size;

@@ -111,7 +111,7 @@ class Layers:
                 count += 1
                 if count > MOST_SUBLAYERS:
                     raise Refused(
-                        f"{name}: more than {MOST_SUBLAYERS} sublayers, those of sublayers included"
+                        f"{name}: more than {MOST_SUBLAYERS} sublayers, including those of sublayers"
                     )
                 for path in below.subLayerPaths:
                     below_name = Sdf.ComputeAssetPathRelativeToLayer(below, path) if path else ""

@@ -91,7 +91,7 @@ class Prim:
         values = rows(values, np.float32, components)
         if values.shape != (count, components):
             found = " x ".join(map(str, values.shape))
-            self.refuse(f"{name}: {found} numbers, {count} x {components} are needed")
+            self.refuse(f"{name}: {found} numbers, but {count} x {components} are needed")
         wrong = np.flatnonzero(~np.isfinite(values).all(1))
         if wrong.size:
             self.refuse(f"{name}: value {wrong[0]} is not finite")
@@ -176,7 +176,7 @@ class Prim:
             self.refuse(f"primvars:{name}: integers are needed")
         count = self.sizes.size if primvar.GetInterpolation() == "uniform" else 1
         if values.shape != (count,):
-            self.refuse(f"primvars:{name}: {values.size} numbers, {count} are needed")
+            self.refuse(f"primvars:{name}: {values.size} numbers, but {count} are needed")
         values = values.astype(np.int64)
         if (np.abs(values) > np.iinfo(np.int32).max).any():
             self.refuse(f"primvars:{name}: a number is not an int32")

@@ -64,7 +64,7 @@ std::size_t countPieces(const Scalp& scalp, const Edges& edges) {
 void checkDisc(const Scalp& scalp, const Edges& edges, std::size_t loops, std::size_t open_edges) {
     if (loops != 1) {
         throw engine::Error(
-            "the scalp has " + std::to_string(loops) + " boundary loops, 1 is needed");
+            "the scalp has " + std::to_string(loops) + " boundary loops, but 1 is needed");
     }
     const std::size_t edge_count = (edges.size() + open_edges) / 2;
     const auto euler =

@@ -285,7 +285,7 @@ TEST_F(UsdImportTest, RefusesSublayersInTooManyWays) {
     EXPECT_EQ(errorText([&] { importStrands(files.file("l18.usda")); }), "no error");
     EXPECT_THAT(
         errorText([&] { importStrands(files.file("l0.usda")); }),
-        HasSubstr("more than 256 sublayers, those of sublayers included"));
+        HasSubstr("more than 256 sublayers, including those of sublayers"));
 }
 
 // For each prim, USD looks up values in the prims around it and in the prims that it is composed
