@@ -71,7 +71,7 @@ public:
     // Plays the next frame untimed and without planted work, and counts its work in the stage. All
     // frames must be finished.
     virtual void count() = 0;
-    // Like engine::FrameLoop's: the complete frames without waiting, and all remaining frames.
+    // As in engine::FrameLoop: the complete frames without waiting, and all remaining frames.
     virtual std::vector<engine::FrameRecord> completed() = 0;
     virtual std::vector<engine::FrameRecord> finish() = 0;
     // Picture and state of the last frame. All frames must be finished.

@@ -54,7 +54,7 @@ dragAcceleration(const WindSettings& settings, const MaterialSettings& material,
 // both segments, or that of the segment above if they fold back on each other. It is 0 if neither
 // has a direction, and at the root.
 std::vector<glm::dvec3> tangentsBetween(ConstPoints directions);
-// Returns the tangents of a strand at these positions, computed as at rest.
+// Returns the tangents at a strand's vertices, from the directions between these positions.
 std::vector<glm::dvec3> tangentsAt(ConstPoints positions);
 
 // Returns K of the acceleration K (U - v), 1/s, by air with the velocity U on vertices with these

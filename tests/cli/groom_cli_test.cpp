@@ -72,7 +72,7 @@ TEST_F(GroomCli, ConvertChoosesGuidesAndSaysHowGoodTheyAre) {
     EXPECT_THAT(
         outcome.output,
         ContainsRegex(
-            "chose: 20 guides of 400 strands\nerror: .* nm in the mean .* % of the mean length"));
+            "chose: 20 guides of 400 strands\nerror: .* nm on average .* % of the mean length"));
     EXPECT_THAT(
         outcome.output, ContainsRegex("left: of the file's strands as /strands/source groom draws "
                                       "them with these guides .* on average, .* at most"));

@@ -279,7 +279,7 @@ TEST(Grow, DroopsByItsFormula) {
     }
 }
 
-// The differential equation itself, by Runge-Kutta in 20,000 steps; The midpoint rule with 63
+// The differential equation itself, by Runge-Kutta in 20,000 steps. The midpoint rule with 63
 // segments stays within (droop l)^2 / 24 of the length in total.
 TEST(Grow, DroopsByItsDifferentialEquation) {
     const Mesh head = headMesh();

@@ -155,8 +155,8 @@ glm::dvec3 slopeOfCubic(const std::array<glm::dvec3, 7>& points, std::uint32_t i
     return slope;
 }
 
-// As above for tangents. The tangents of ends that stay are the curve's slopes. On the way to the
-// line a tangent goes to a mean of those of the line's ends.
+// Tests tangents. The tangents of ends that stay are the curve's slopes. On the way to the line a
+// tangent goes to a mean of those of the line's ends.
 TEST_F(LodStrandsTest, TangentsMoveWithTheirEnds) {
     const StrandSettings strands{.density = 4, .tessellation = 6};
     const StrandPoints fine = evaluateAt(strands, 0.0f);

@@ -329,7 +329,7 @@ long peakMemoryOf(const std::function<void()>& play) {
     return peak;
 }
 
-// 10,000 cases take no more memory than a few: each needs only some bytes to find it by.
+// 10,000 cases take no more memory than a few, because each keeps only the place of its line.
 TEST_F(Record, IsFlatInMemory) {
     constexpr std::size_t kFew = 100;
     constexpr std::size_t kMany = 10'000;

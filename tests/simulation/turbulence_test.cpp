@@ -126,7 +126,8 @@ TEST(Turbulence, HasOctavesAsInKolmogorovsSpectrum) {
             if (octaves > 0) less = std::sqrt(energy) * reference::turbulence(point, octaves, 1);
             return std::sqrt(next) * reference::turbulence(point, octaves + 1, 1) - less;
         });
-        // As above, for the mean of three components of n samples, and half of that for the root.
+        // The tolerance for the mean of three components of n samples, and half of that for the
+        // root.
         const double tolerance = 2.0 * std::sqrt(2.0 / (3.0 * static_cast<double>(points.size())));
         EXPECT_NEAR(std::sqrt(added) / amplitude, 1.0, tolerance) << octaves;
         energy = next;

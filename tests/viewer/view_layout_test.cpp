@@ -21,7 +21,8 @@ std::string panels() {
     return steps + R"(, {"perform": "Compare two settings"}, {"perform": "Timings"}, )" + kGood;
 }
 
-// Menus and boxes above the panels, and every setting; almost all contain an "e".
+// Returns steps that open the menus and the boxes above the panels, and show every setting; nearly
+// all settings have an "e" in their names.
 std::string popupsAndSettings() {
     std::string steps;
     for (const char* menu : {"File", "Camera", "Tools", "View", "Window"})

@@ -22,7 +22,7 @@ namespace hair::groom {
 
 static_assert(std::endian::native == std::endian::little, "files are read as they lie in memory");
 
-// Bounds the bytes that a file unfolds to, by shared or compressed data, in proportion to its size.
+// Bounds the bytes that a file expands to, by shared or compressed data, in proportion to its size.
 // Counted before they are made, so that a small file can't take all memory.
 class Unfolding {
 public:

@@ -706,8 +706,7 @@ private:
         const std::size_t size = takeLength(source_, list);
         const std::string place = Source::place(source_.position());
         if (size == 0) throw engine::Error(place, "a strand of no points, expected 1 at least");
-        if (!hasRoomFor(lines_, size))
-            throw engine::Error(place, "2^32 points of strands, or more");
+        if (!hasRoomFor(lines_, size)) throw engine::Error(place, "2^32 strand points or more");
         for (std::size_t i = 0; i < size; ++i) lines_.vertices.push_back(takeVertex(list.type));
         lines_.ends.push_back(static_cast<std::uint32_t>(lines_.vertices.size()));
     }

@@ -144,7 +144,8 @@ class Layers:
             for variants in spec.variantSets
         ]
         targets = [self._weigh(*arc) for arc in self._arcs(layer, spec)]
-        same = targets + [variant for each in variants for variant in each]  # at the same place
+        # variants lie at the prim's own place, not below it
+        same = targets + [variant for each in variants for variant in each]
         weight = Weight(
             prims=1 + sum(each.prims for each in children + same),
             depth=1 + max([each.depth for each in children] + [each.depth - 1 for each in same], default=0),
