@@ -47,9 +47,10 @@ hair::SimulationSettings inWind(hair::Solver solver, double speed) {
     return settings;
 }
 
-// The same hair with the energy method for the local constraint of `shape`. The stiffness is that
-// of the material, so that theory predicts the same rest as for rods: K = EI / (lambda l^4).
-// hair/simulation/stiffness.h has it as -4 * 10 ln(1 - k) / (2 h0^2) at segments of l0.
+// The hair of the check above, with the energy method for the local constraint of `shape`. The
+// stiffness is that of the material, so that theory predicts the same rest as for rods: K = EI /
+// (lambda l^4). hair/simulation/stiffness.h has it as -4 * 10 ln(1 - k) / (2 h0^2) at segments of
+// l0.
 hair::SimulationSettings withEnergy(hair::SimulationSettings settings) {
     const double square = std::pow(hair::simulation::kReferenceStep, 2.0);
     const double stiffness = bendingStiffness(settings.material) / lineDensity(settings.material) /

@@ -129,8 +129,8 @@ void frameFigures(const ShownSide& side, const ShownSide* compared) {
     };
     row("FPS",
         "Number of isolated frames divided by their total time, by the CPU's clock from submission "
-        "to completion. One frame and one pass run at a time. 'Measure' gives the runner's: two "
-        "frames in flight",
+        "to completion. One frame and one pass run at a time. 'Measure' gives the runner's rate, "
+        "with two frames in flight",
         [](const FrameRate& rate) { return std::optional(rate.fps); });
     row("1 % low FPS", lowHelp(side).c_str(), lowOf);
     row("Frame, ms", "Median of the isolated frames' time",

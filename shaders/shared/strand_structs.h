@@ -167,7 +167,8 @@ struct StrandPointsPush {
     Address picture;  // PictureParameters
     Address records;  // StrandPointRecord [count], written
     uint count;
-    uint first;  // of all points, [triangle][strand][guide segment][0 .. tessellation]
+    uint first;  // number of the first point among all points, [triangle][strand][guide segment][0
+                 // .. tessellation]
 };
 
 #endif

@@ -169,7 +169,8 @@ StrandSet importCt2Hair(const StrandFile& file) {
     }
     warnOfStrands(short_strands, "of fewer than 5 points", set);
     warnOfStrands(not_numbers, "with a position that is not a number", set);
-    requireSomeStrand(set, "every strand has fewer than 5 points or no numbers for positions");
+    requireSomeStrand(
+        set, "every strand has fewer than 5 points or a position that is not a number");
     if (has_more) set.warnings.emplace_back("the points' tangents, or colours, are left out");
     return set;
 }

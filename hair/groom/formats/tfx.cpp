@@ -195,7 +195,7 @@ TfxHeader readHeader(std::span<const std::byte> bytes, const TfxForm& form) {
 // An array that the header names.
 struct Array {
     std::string_view name;
-    std::uint64_t header_offset;  // of its offset
+    std::uint64_t header_offset;  // byte of the header that holds the array's offset
     std::uint64_t start;
     std::uint64_t size;  // bytes
 };

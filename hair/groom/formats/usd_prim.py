@@ -193,7 +193,7 @@ class Prim:
             return None
         values = rows(values, np.int64, 3)
         if values.shape[1] != 3 or (values < 0).any() or (values >= self.sizes.size).any():
-            self.refuse("hairbench:rootTriangles: three strands of its own are needed for each")
+            self.refuse("hairbench:rootTriangles: each needs three of the prim's own strands")
         return values
 
     def left_out(self):

@@ -137,7 +137,7 @@ TEST_F(UsdImportTest, RefusesNamingThePrim) {
         {"negative_width.usda", "/wig/hair: a width is negative: -3.0"},
         {"nan_width.usda", "/wig/hair: widths (constant): value 0 is not finite"},
         {"triangles.usda",
-         "/wig/hair: hairbench:rootTriangles: three strands of its own are needed"},
+         "/wig/hair: hairbench:rootTriangles: each needs three of the prim's own strands"},
         {"groups_of_floats.usda", "/wig/hair: primvars:groom_group_id: integers are needed"},
         {"groups_of_some.usda", "/wig/hair: primvars:groom_group_id: 1 numbers, 2 are needed"},
         {"syntax.usda", "line 2:13: Expected }"},
