@@ -96,7 +96,7 @@ public:
     virtual std::unique_ptr<Player> player(engine::Timing timing) = 0;
     // Plays the case's frames with only this work.
     virtual std::unique_ptr<Player> player(engine::Timing timing, const PlantedWork& planted) = 0;
-    // Plays frames with nothing but a pass of `steps` steps of BusyWork; with 0 steps there is no
+    // Plays frames with only a pass of `steps` steps of BusyWork; with 0 steps there is no
     // pass.
     virtual std::unique_ptr<Player> emptyPlayer(engine::Timing timing, std::uint32_t steps) = 0;
 

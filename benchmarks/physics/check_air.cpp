@@ -33,7 +33,7 @@ struct SteadyWind {
     std::size_t lengths;  // the first of kWindLengths, those that come to rest
 };
 constexpr SteadyWind kSteadyWinds[] = {{0.5, 3}, {2.0, 3}, {8.0, 1}};
-// Time steps, 1/s. Substeps of rods are the same in all but the last.
+// Time steps, 1/s. Substeps of rods are the same in all except the last.
 constexpr std::array kWindRates = {30.0, 60.0, 480.0, 1920.0};
 constexpr double kWindPatience = 20.0;  // s
 constexpr double kWindStill = 1e-6;  // m in a tenth of a second

@@ -80,7 +80,7 @@ void checkBoundary(
                  "1",
                  {{"gamma", gamma, "1"},
                   {"curvature * length", (1.0 + side) * boundary, "rad"},
-                  {"where it leaves", boundary, "rad"}}},
+                  {"curvature * length at which it leaves", boundary, "rad"}}},
                 error, tolerance);
             if (!still && outcome.reason.empty()) outcome.reason = "still moving after 60 s";
         };
@@ -88,7 +88,7 @@ void checkBoundary(
             "distance from its plane / length", -kBoundaryBracket, below.extent, kStays,
             below.still);
         report(
-            "distance from its plane / length, short of 0.05", kBoundaryBracket,
+            "distance from its plane / length, shortfall below 0.05", kBoundaryBracket,
             worst(kLeaves - above.extent, 0.0), 0.0, above.still);
     }
 }

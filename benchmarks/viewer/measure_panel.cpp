@@ -237,7 +237,8 @@ void MeasurePanel::progress() {
     }
     if (ImGui::Button("Cancel")) link_.cancel();
     ImGui::SameLine();
-    ImGui::TextDisabled("%s", link_.isCancelled() ? "ending" : "takes effect after each round");
+    ImGui::TextDisabled(
+        "%s", link_.isCancelled() ? "ending" : "takes effect after the current round");
     ImGui::EndPopup();
 }
 

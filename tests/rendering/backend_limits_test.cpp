@@ -104,7 +104,7 @@ TEST(BackendOrder, IsThatOfTheDocumentation) {
         (std::set{orderRow("processors", "cpu"), orderRow("graphics processors", "discrete")}));
 }
 
-// Every device's order has all back ends that draw the same strands: all but `lines`.
+// Every device's order has all back ends that draw the same strands, which are all except `lines`.
 TEST(BackendOrder, HasEveryBackEndOfTheSamePicture) {
     for (const char* type : {"cpu", "discrete", "integrated", "virtual", "other"})
         EXPECT_THAT(

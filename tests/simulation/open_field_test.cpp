@@ -198,7 +198,8 @@ TEST_F(OpenFieldTest, OfBallsThatCrossIsThatOfBoth) {
         const auto depthIn = [&](const glm::dvec3& centre, double side) {
             const glm::dvec3 to = p - centre;
             const double length = glm::length(to);
-            const bool seen = side * (to.x / length - side * 0.45) <= 0.0;  // on the surface
+            const bool seen = side * (to.x / length - side * 0.45) <=
+                              0.0;  // the nearest point of the sphere belongs to the surface
             return seen && length > 1e-9 ? 1.0 - length : 10.0;
         };
         const double depth = std::min({ring, depthIn({0, 0, 0}, 1), depthIn(other, -1)});

@@ -16,7 +16,7 @@ const float kRests = 0.99;
 
 // The part of a vertex's motion that a body holds back.
 const float kHeldWhole = 1.0;
-const float kHeldAcross = 0.0;  // everything but the direction of friction: it slides
+const float kHeldAcross = 0.0;  // everything except the direction of friction: it slides
 const float kHeldOut = -1.0;    // only along the normal
 
 // How a body holds a vertex.

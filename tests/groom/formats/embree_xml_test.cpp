@@ -218,7 +218,7 @@ TEST(EmbreeXml, HoldsArraysOfTheFileBesideItAgainstItsSize) {
     const auto path = folder.write("scene.xml", text + "</scene>");
     EXPECT_THAT(
         errorText([&] { importStrands(path); }),
-        HasSubstr("arrays in the file of bytes expand to more than"));
+        HasSubstr("the arrays in the binary file expand to more than"));
 }
 
 TEST(EmbreeXml, AsksBeforeItOpensTheFileBesideIt) {
