@@ -79,8 +79,10 @@ void addGroomEdits(const CommandLine& line, CLI::App& groom) {
          .notes = kFilterNotes},
         filterGroom, [](CLI::App& command, EditGroomOptions& options) {
             addEditedFiles(command, options);
-            addPositive(command, "--shortest", options.shortest, "leave out shorter strands, mm");
-            addPositive(command, "--longest", options.longest, "leave out longer strands, mm");
+            addPositive(
+                command, "--shortest", options.shortest, "leave out strands shorter than this, mm");
+            addPositive(
+                command, "--longest", options.longest, "leave out strands longer than this, mm");
             addPositive(
                 command, "--fewest-points", options.fewest_points,
                 "leave out strands with fewer points");
@@ -90,10 +92,10 @@ void addGroomEdits(const CommandLine& line, CLI::App& groom) {
             command.add_option("--mesh", options.mesh, "head, in metres")->type_name("FILE");
             addPositive(
                 command, "--farthest-root", options.farthest_root,
-                "leave out strands whose root is farther from the mesh, mm");
+                "leave out strands whose root is farther than this from the mesh, mm");
             addPositive(
                 command, "--deepest", options.deepest,
-                "leave out strands with a point deeper inside the mesh, mm");
+                "leave out strands with a point deeper than this inside the mesh, mm");
         });
     addCommand<EditGroomOptions>(
         line, groom,

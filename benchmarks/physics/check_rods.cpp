@@ -317,8 +317,8 @@ void checkBendingDecay(const engine::Device& device, hair::Solver solver, Findin
             kDecaySpeed * cantileverShape(static_cast<double>(i) / kBendingSegments) *
             kBendingSideways);
     for (const auto& [integrator, name] :
-         {std::pair{hair::RodIntegrator::implicit_euler, "half-life by implicit_euler"},
-          std::pair{hair::RodIntegrator::generalized_alpha, "half-life by generalized_alpha"}})
+         {std::pair{hair::RodIntegrator::implicit_euler, "half-life with implicit_euler"},
+          std::pair{hair::RodIntegrator::generalized_alpha, "half-life with generalized_alpha"}})
         for (const double half_life : kHalfLives)
             for (const float rate : kDecayRates) {
                 settings.rod.integrator = integrator;

@@ -25,8 +25,8 @@ struct VolumeState {
 };
 
 // Returns the acceleration by hair-hair contact over the next step, [strand][vertex], m/s^2: the
-// equations of hair/simulation/hair_hair.h on sparse grids in double. Zero if settings.hair_hair is
-// off.
+// equations of hair/simulation/hair_hair.h on sparse grids in double precision. Zero if
+// settings.hair_hair is off.
 std::vector<glm::dvec3>
 volumeAccelerations(const SimulationSettings& settings, const VolumeState& state);
 

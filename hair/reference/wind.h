@@ -10,8 +10,9 @@
 #include "hair/reference/constraints.h"
 #include "hair/settings.h"
 
-// Effects of air on hair, in double and straight from the equations. The turbulence is the curl of
-// a potential. The derivatives come from the chain rule, term by term, and are never written out.
+// Effects of air on hair, in double precision, written directly from the equations. The turbulence
+// is the curl of a potential. The derivatives come from the chain rule, term by term, and are never
+// written out.
 namespace hair::reference {
 
 // Returns the velocity of eddies of one size; `point` is in cells. Divergence-free, mean 0 and

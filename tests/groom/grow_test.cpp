@@ -33,7 +33,7 @@ Groom grow(
 
 Mesh headMesh() { return importMesh(std::string(HAIRBENCH_SCENES_DIR) + "/assets/head.glb"); }
 
-// Ericson 2004, Real-time collision detection, section 5.1.5, in double.
+// Ericson 2004, Real-time collision detection, section 5.1.5, in double precision.
 double distanceToTriangle(
     const glm::dvec3& p, const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c) {
     const auto toSegment = [&](const glm::dvec3& from, const glm::dvec3& to) {

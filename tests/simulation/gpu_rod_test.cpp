@@ -15,7 +15,7 @@
 #include "tests/simulation/strands.h"
 
 // Tests the rod solvers on the device, in 32 bits, against theory and against the references in
-// double.
+// double precision.
 namespace hair::simulation {
 namespace {
 
@@ -90,8 +90,9 @@ INSTANTIATE_TEST_SUITE_P(
                                                        : "AugmentedMassSpring");
     });
 
-// The requirement is 2 %, and 5 % at 1000. 64 segments err by 0.02 % and 0.07 % in double. 32 bits
-// leave 1e-7 rad in every joint, which is 1e-4 of a joint's bend if gamma is 0.1.
+// The requirement is 2 %, and 5 % at 1000. 64 segments err by 0.02 % and 0.07 % in double
+// precision. 32 bits leave 1e-7 rad in every joint, which is 1e-4 of a joint's bend if gamma is
+// 0.1.
 TEST_F(GpuRod, HangsAsACantileverDoes) {
     const std::vector<double> gammas{0.1, 1.0, 5.0, 10.0, 50.0, 100.0, 1000.0};
     const auto ratios = hangingRatios(64, gammas);

@@ -175,7 +175,8 @@ Span longestOver(const Projection& projection) {
     return longest;
 }
 
-// Fractions from the first to the last, closer together where the line runs far below the surface.
+// Returns fractions of the line from `first` to `last`, closer together where it runs far below the
+// surface.
 std::vector<double> evenFractions(const Projection& projection, double first, double last) {
     std::vector<double> fractions{first, last};
     std::vector<glm::dvec3> points{projection.at(first).position, projection.at(last).position};

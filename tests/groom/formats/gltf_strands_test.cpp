@@ -94,7 +94,7 @@ TEST(ImportGltfStrands, ReadsStrips) {
 
 TEST(ImportGltfStrands, JoinsLinesWithoutIndicesWhereTheyTouch) {
     Document document{.primitive = R"("mode":1)"};
-    // Four of the five points as lines a b, b c.
+    // Keeps four of the five points, as the lines a b and b c.
     document.data.replace(24, 12, document.data.substr(12, 12));
     std::string bytes = glb(document);
     const std::size_t at = bytes.find(R"("count":5)");

@@ -58,7 +58,7 @@ TEST_P(UsdImportFormatTest, ReadsAllThatStrandsHaveToTheLastBit) {
 INSTANTIATE_TEST_SUITE_P(, UsdImportFormatTest, testing::Values("usda", "usdc", "usd", "usdz"));
 
 // p scaled by 2, turned by 90 degrees about z, moved by (1, 2, 3); then z up becomes y up. cos(90)
-// is 6e-17 in double, so sums round to the expected whole numbers.
+// is 6e-17 in double precision, so sums round to the expected whole numbers.
 TEST_F(UsdImportTest, AppliesTransformsOfParentsAndInstances) {
     const StrandSet set = read("transforms.usda");
     const auto expected = [](glm::vec3 p) {
