@@ -163,7 +163,7 @@ std::vector<Edge> edgesOf(const StrandSet& strands, std::vector<std::string>& wa
     if (single > 0) {
         warnings.push_back(
             std::to_string(single) +
-            " strands of a single point are left out; only their points are written");
+            " strands of a single point are written as points, not as lines");
     }
     return edges;
 }
