@@ -218,7 +218,7 @@ private:
         return fault(what + " is not permitted in a file that a scene names");
     }
 
-    // Keeps a fault outside of functions until an instruction uses the faulty id, because only the
+    // Keeps a fault outside functions until an instruction uses the faulty id, because only the
     // instruction has a line. A fault without an id, such as a capability, gives way to one with an
     // id.
     std::optional<SpirvFault>
@@ -493,7 +493,7 @@ private:
     std::map<std::uint32_t, std::uint64_t> pointed_;  // size of what a pointer type points to
     std::map<std::uint32_t, std::uint64_t> sizes_;  // of values
     std::map<std::uint32_t, std::uint32_t> constants_;
-    std::uint32_t current_ = 0;  // function; 0: outside of functions
+    std::uint32_t current_ = 0;  // function; 0: outside functions
     Function function_;
     std::vector<std::uint32_t> open_;  // labels at the ends of open blocks
     std::map<std::uint32_t, Function> functions_;

@@ -93,7 +93,7 @@ void addCacheOption(CLI::App& command, scene::SceneOptions& options) {
 void addOutsideOption(CLI::App& command, scene::Outside& outside) {
     command.add_flag_callback(
         "--allow-outside", [&outside] { outside = scene::Outside::allowed; },
-        "let scenes name files outside of their folder");
+        "let scenes name files outside their folder");
 }
 
 void addSceneOptions(CLI::App& command, scene::SceneOptions& options) {

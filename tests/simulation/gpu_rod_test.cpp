@@ -105,7 +105,7 @@ TEST_F(GpuRod, HangsAsACantileverDoes) {
 // A step rounds positions to some 1e-7 of the strand's length. If stiffness keeps a strand
 // together, the errors of a hundred steps add up. A limp strand of many segments is a pendulum of
 // many links, which is chaotic. So it is followed for a single step, as is a strand that a few
-// corrections leave limp. Sweeps over orientations round each by some 3e-7 in each of nine sweeps,
+// corrections leave limp. Sweeps over orientations round each by about 3e-7 in each of nine sweeps,
 // starting from its neighbours' rounded ones, and an orientation turns everything below it. In long
 // steps, springs are so much stiffer than masses that 32 bits do not resolve both: they are
 // followed in their own substep.

@@ -108,7 +108,7 @@ TEST(Turbulence, IsSmooth) {
         const auto at = [&](int steps) {
             return reference::curlNoise(face + static_cast<double>(steps) * step, 1);
         };
-        // First derivatives are some tens, second ones some hundreds.
+        // First derivatives are a few tens, second ones a few hundred.
         EXPECT_LT(glm::distance(at(-1), at(1)), 1e-4);
         EXPECT_LT(glm::distance((at(2) - at(1)) / 1e-6, (at(-1) - at(-2)) / 1e-6), 1e-2);
     }

@@ -282,7 +282,7 @@ AlembicArchive::readProperties(std::uint64_t byte, const std::string& path, std:
                 cursor.fail("values of the unknown type " + std::to_string(info.type()));
             property.type = static_cast<AlembicType>(info.type());
             property.extent = info.extent();
-            if (property.extent == 0) cursor.fail("elements of no numbers");
+            if (property.extent == 0) cursor.fail("elements with no numbers");
             property.samples = cursor.number(number_size, "the number of samples");
             property.stored = storedSamples(cursor, info, number_size, property.samples);
             if (info.hasTimeSampling()) cursor.number(number_size, "the time sampling");

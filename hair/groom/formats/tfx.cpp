@@ -263,7 +263,7 @@ void readPositions(const TfxHeader& header, std::span<const std::byte> bytes, St
     if (fixed > 0) {
         strands.warnings.push_back(
             std::to_string(fixed) +
-            " vertices beyond the first two of their strand are fixed (w = 0), which is left out");
+            " vertices beyond the first two of their strand are fixed (w = 0); this is not read");
     }
 }
 

@@ -118,7 +118,7 @@ private:
     using Interpolation = MeshAnimation::Interpolation;
     using Property = MeshAnimation::Property;
 
-    // Reads all nodes of the file, including those of other scenes and joints outside of the scene.
+    // Reads all nodes of the file, including those of other scenes and joints outside the scene.
     void readNodes() {
         const std::size_t count = model_.nodes.size();
         std::vector<int> parents(count, -1);

@@ -221,7 +221,7 @@ std::string takeData(json& document) {
 }
 
 // Takes the images out of the document, without their contents, because tinygltf would look for
-// their bytes outside of buffers.
+// their bytes outside buffers.
 std::vector<tinygltf::Image> takeImages(json& document) {
     std::vector<tinygltf::Image> images;
     const auto section = document.find("images");
