@@ -246,7 +246,7 @@ private:
         if (!pending_ || operation < op::kExtension) return std::nullopt;
         if (std::ranges::none_of(words, [&](auto word) { return refused_.contains(word); }))
             return std::nullopt;
-        // Variables are at the head of a function and would give its line.
+        // Variables are declared at the beginning of a function, so they would give that line.
         if (line_ > 0 && operation != op::kVariable)
             return SpirvFault{.file = file_, .line = line_, .text = pending_->text};
         if (isIn(kNames, operation)) refused_.insert(words[0]);

@@ -165,7 +165,7 @@ const Table& tableOf(const WindSettings*) {
              "drag mode: size of the largest eddies, which are the gusts"),
          number(
              "turbulence_octaves", &S::turbulence_octaves, 1, 8, "count",
-             "drag mode: number of sizes of eddies, each half the one before"),
+             "drag mode: number of sizes of eddies, each half the size of the previous one"),
          number("air_density", &S::air_density, 0, 1000, "kg/m^3", "drag mode: density of the air"),
          number(
              "air_viscosity", &S::air_viscosity, 1e-7, 1, "Pa s",

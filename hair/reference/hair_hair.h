@@ -19,8 +19,8 @@ struct VolumeState {
     std::span<const glm::dvec3> previous;    // m, a substep earlier
     Step step;
     simulation::RigidMotion frame;                       // of the head at the end of the step
-    // Velocity difference of each vertex that friction left in the step before, m/s; becomes that
-    // of this step. Empty: no step before. Null: not wanted.
+    // Velocity difference of each vertex that friction left in the previous step, m/s; becomes
+    // that of this step. Empty: no previous step. Null: not wanted.
     std::vector<glm::dvec3>* kept = nullptr;
 };
 

@@ -51,8 +51,8 @@ vec2 lightnessOf(uint i, vec4 brake) {
     return vec2(across, 1.0 / mass - across);
 }
 
-// The inverse of a quarter of a segment's inertia. That quarter is the mass of the orientation if its
-// four numbers are treated as a position.
+// The inverse of a quarter of a segment's inertia. That quarter is the mass of the orientation if
+// its four numbers are treated as a position.
 float turningLightness(uint i) {
     if (i == 0) return 0.0;
     float len = max(restLength(i), kLeastLength);

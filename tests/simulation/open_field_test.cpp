@@ -75,10 +75,10 @@ double boxDistanceTo(const glm::dvec3& p, const glm::dvec3& half) {
     return glm::length(glm::max(apart, 0.0)) + std::min(std::max({apart.x, apart.y, apart.z}), 0.0);
 }
 
-// The opening covers half a sphere only from its own plane: so the cap is flat, and the field is
-// the closed box's. The cap's vertices are found to half of 1/256 of an edge, which is at most a
-// cell's diagonal. Within a cell of the rim the cap cuts the corner between opening and sides,
-// which changes distances up to a few cells from the rim.
+// The opening is seen as half a sphere only from its own plane, so the cap is flat, and the field
+// is that of the closed box. The cap's vertices are found to half of 1/256 of an edge, which is at
+// most a cell's diagonal. Within a cell of the rim the cap cuts the corner between opening and
+// sides, which changes distances up to a few cells from the rim.
 TEST_F(OpenFieldTest, OfABoxWithoutAFaceIsThatOfTheBox) {
     const glm::dvec3 half{0.5, 0.31, 0.73};
     groom::Mesh mesh = makeBox(-half, half);

@@ -28,7 +28,7 @@ class LinearCurves:
 
 def rows(values, dtype, components):
     """Returns a row for each value. `components`: columns of the result if there are no values."""
-    values = np.atleast_1d(np.asarray(values, dtype))  # a constant may be no array
+    values = np.atleast_1d(np.asarray(values, dtype))  # a constant may be a scalar
     return values.reshape(len(values), -1 if len(values) else components)
 
 
@@ -171,7 +171,7 @@ class Prim:
         values = primvar.ComputeFlattened(self.time) if primvar else None
         if values is None:
             return None
-        values = np.atleast_1d(values)  # a constant may be no array
+        values = np.atleast_1d(values)  # a constant may be a scalar
         if values.dtype.kind not in "iub":
             self.refuse(f"primvars:{name}: integers are needed")
         count = self.sizes.size if primvar.GetInterpolation() == "uniform" else 1
