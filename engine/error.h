@@ -15,7 +15,7 @@ public:
         : std::runtime_error(context + ": " + reason) {}
 };
 
-// The device lacks a feature that a case needs. The case is skipped and the sweep goes on.
+// The device lacks a feature that a case needs. The case is skipped and the sweep continues.
 class Unsupported : public Error {
 public:
     using Error::Error;

@@ -60,7 +60,8 @@ void writeFileAtomically(
     const std::filesystem::path& path, const std::function<void(std::ostream&)>& write,
     const WritePoll& poll = {});
 
-// Does the same for a file of a cache, but replaces whatever the path is, even a link or a pipe.
+// Writes a file of a cache in the same way, but replaces whatever the path is, even a link or a
+// pipe.
 void replaceFile(
     const std::filesystem::path& path, const std::function<void(std::ostream&)>& write);
 

@@ -49,7 +49,7 @@ struct RecordedBarrier {
 };
 
 struct Recorded {
-    std::string pass;  // empty: outside of passes
+    std::string pass;  // empty: outside passes
     std::vector<RecordedUse> uses;  // of one command; they don't depend on one another
     std::vector<RecordedBarrier> barriers;  // of one command; they don't chain; instead of uses
 };

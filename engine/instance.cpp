@@ -139,7 +139,7 @@ constexpr std::array kFeatures{
         Feature::float_blend, "blending of 32-bit floats", nullptr, nullptr,
         VK_FORMAT_R32G32B32A32_SFLOAT},
     FeatureRow{
-        Feature::multi_draw, "several draws by one command",
+        Feature::multi_draw, "several draws in one command",
         &VkPhysicalDeviceFeatures::multiDrawIndirect, nullptr},
     FeatureRow{
         Feature::long_integers, "64-bit integers in shaders",

@@ -35,7 +35,7 @@ const ChildLimits kLimits{.seconds = kSeconds, .bytes = std::size_t{2} << 30};
     _exit(written > 0 ? 1 : 2);
 }
 
-// Returns null if there is no such device: then nothing is tried, and the parent goes on.
+// Returns null if there is no such device: then nothing is tried, and the parent continues.
 std::unique_ptr<Device> deviceNamed(const std::string& name) {
     try {
         return std::make_unique<Device>(DeviceOptions{.wanted = name});

@@ -201,8 +201,8 @@ ShaderError linkError(const std::string& log, const ShaderExtension& extension) 
     return {extension.name, 0, "'" + function + "' is declared but not defined"};
 }
 
-// Judges an extension linked with its stand-in instead of the program's shaders. So the code that
-// is judged holds nothing of the program's, which may use more than an extension may.
+// Judges an extension linked with its stand-in instead of the program's shaders. So the judged code
+// contains none of the program's own code, which may use more than an extension may.
 std::optional<ShaderError>
 judge(const ShaderExtension& extension, const ReadShader& read, const Stage& stage) {
     ExtensionUnit unit(extension, read, stage);

@@ -218,7 +218,7 @@ private:
         return fault(what + " is not permitted in a file that a scene names");
     }
 
-    // Keeps a fault outside of functions until an instruction uses the faulty id, because only the
+    // Keeps a fault outside functions until an instruction uses the faulty id, because only the
     // instruction has a line. A fault without an id, such as a capability, gives way to one with an
     // id.
     std::optional<SpirvFault>
@@ -246,7 +246,7 @@ private:
         if (!pending_ || operation < op::kExtension) return std::nullopt;
         if (std::ranges::none_of(words, [&](auto word) { return refused_.contains(word); }))
             return std::nullopt;
-        // Variables are at the head of a function and would give its line.
+        // Variables are declared at the beginning of a function, so they would give that line.
         if (line_ > 0 && operation != op::kVariable)
             return SpirvFault{.file = file_, .line = line_, .text = pending_->text};
         if (isIn(kNames, operation)) refused_.insert(words[0]);
@@ -335,7 +335,7 @@ private:
         case op::kTypeInt:
         case op::kTypeFloat:
             if (!has(1) || words[1] != 32)
-                return declared(noPlace("a number of other than 32 bits"), id);
+                return declared(noPlace("a number that does not have 32 bits"), id);
             break;
         case op::kTypeVector:
         case op::kTypeMatrix:
@@ -493,7 +493,7 @@ private:
     std::map<std::uint32_t, std::uint64_t> pointed_;  // size of what a pointer type points to
     std::map<std::uint32_t, std::uint64_t> sizes_;  // of values
     std::map<std::uint32_t, std::uint32_t> constants_;
-    std::uint32_t current_ = 0;  // function; 0: outside of functions
+    std::uint32_t current_ = 0;  // function; 0: outside functions
     Function function_;
     std::vector<std::uint32_t> open_;  // labels at the ends of open blocks
     std::map<std::uint32_t, Function> functions_;

@@ -18,10 +18,10 @@ struct SpirvFault {
 // Judges a module with one entry point. It may hold functions that compute with values and local
 // variables and read nothing but their parameters and constants. Capabilities, storage classes
 // (only Function), instructions and decorations that are not on an allow list are faults, as are
-// numbers of other than 32 bits and pointers in memory. Bounds the size too, with the body of each
-// function counted at each call, because drivers inline calls. Returns none for a module without
-// faults. `code` may be any words. The judge is no validator: it may pass code that spirv-val
-// refuses.
+// numbers that don't have 32 bits and pointers in memory. Bounds the size too, with the body of
+// each function counted at each call, because drivers inline calls. Returns none for a module
+// without faults. `code` may be any words. The judge is no validator: it may pass code that
+// spirv-val refuses.
 std::optional<SpirvFault> judgeSpirv(std::span<const std::uint32_t> code);
 
 }  // namespace engine

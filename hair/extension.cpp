@@ -181,8 +181,8 @@ void checkFunctions(const std::string& name, const std::string& text) {
             if (start < i && tokens[start].text != "const" && !is_struct)
                 throw errorAt(
                     name, tokens[start].line,
-                    "a declaration outside functions must be const, because it would otherwise be "
-                    "the program's own of that name");
+                    "a declaration outside functions must be const, because otherwise it would be "
+                    "the program's own variable of that name");
             start = i + 1;
         }
         if (tokens[i].text != "(" || i == 0 || !tokens[i - 1].isWord() ||

@@ -178,9 +178,8 @@ const Table& tableOf(const RunSettings*) {
              "passes may then overlap less"),
          toggle(
              "async_compute", &S::async_compute,
-             "simulate overlapped frames on a second queue of the device, beside the drawing of "
-             "the "
-             "frame before"),
+             "simulate overlapped frames on a second queue of the device, while the previous frame "
+             "is drawn"),
          choice(
              "clocks", &S::clocks,
              {{Clocks::as_found, "as_found"}, {Clocks::locked, "locked"}, {Clocks::free, "free"}},

@@ -24,7 +24,7 @@ const Table& tableOf(const LocalSettings*) {
          number(
              "stiffness", &S::stiffness, 0, 1, "1",
              "k_L per iteration at 10 iterations, 1/60 s and segments of 21.4285 mm; used up to "
-             "0.95. energy: hair sags under its weight as much as such hair of 7 segments"),
+             "0.95. energy: hair sags under its weight as much as with iterate and 7 segments"),
          number(
              "iterations", &S::iterations, 0, 64, "count",
              "iterations per step; energy: one solve; 0 switches it off")});
@@ -51,7 +51,7 @@ const Table& tableOf(const FtlSettings*) {
     using S = FtlSettings;
     static const Table table = tableWith<S>({number(
         "velocity_correction", &S::velocity_correction, 0, 1, "1",
-        "fraction of the next vertex's position correction that a velocity gets back")});
+        "part of the next vertex's position correction that is added back to a velocity")});
     return table;
 }
 
@@ -122,14 +122,15 @@ const Table& tableOf(const MaterialSettings*) {
          number(
              "ellipticity", &S::ellipticity, 1, 10, "1",
              "longer over shorter axis of the cross-section, whose area stays that of `radius`, "
-             "for the stiffness of `rod`: people's hair has 1 to 1.8. The longer axis is upright "
+             "for the stiffness of `rod`; human hair has 1 to 1.8. The longer axis is upright "
              "at roots that are level, and goes along strands without twisting"),
          number("youngs_modulus", &S::youngs_modulus, 1, 1e12, "Pa", "E: resists bending"),
          number("shear_modulus", &S::shear_modulus, 1, 1e12, "Pa", "G: resists twist"),
          number(
              "damping", &S::damping, 0, 1, "s",
-             "damping of `rod` (Kelvin-Voigt): strain counts as strain plus this times its rate, "
-             "so that the amplitude of a mode of w rad/s halves in 1.386 / (w^2 damping) seconds; "
+             "damping of `rod` (Kelvin-Voigt): this times the rate of strain is added to the "
+             "strain, so that the amplitude of a mode of w rad/s halves in 1.386 / (w^2 damping) "
+             "seconds; "
              "an implicit Euler substep damps by at least its own length")});
     return table;
 }
@@ -164,7 +165,7 @@ const Table& tableOf(const WindSettings*) {
              "drag mode: size of the largest eddies, which are the gusts"),
          number(
              "turbulence_octaves", &S::turbulence_octaves, 1, 8, "count",
-             "drag mode: number of sizes of eddies, each half the one before"),
+             "drag mode: number of sizes of eddies, each half the size of the previous one"),
          number("air_density", &S::air_density, 0, 1000, "kg/m^3", "drag mode: density of the air"),
          number(
              "air_viscosity", &S::air_viscosity, 1e-7, 1, "Pa s",
@@ -277,7 +278,7 @@ const Table& tableOf(const AnimationSettings*) {
              "clip", &S::clip,
              "animation of the mesh's file (skin, morph targets, nodes) that deforms the head and "
              "carries each root with its triangle, before /simulation/motion moves all of it: its "
-             "name, or its number where it has none; empty: none"),
+             "name, or its number if it has no name; empty: none"),
          number("speed", &S::speed, 0, 100, "1", "speed relative to the file's"),
          toggle("repeat", &S::repeat, "start again at the time of the last keyframe")});
     return table;

@@ -97,7 +97,7 @@ const Table& tableOf(const StrandSettings*) {
              "thesis: one pattern for all triangles, from a sine"),
          number(
              "density", &S::density, 1, 4096, "count",
-             "strands per root triangle; a source of groom has its own strands"),
+             "strands per root triangle; not used if source is groom, which has its own strands"),
          number(
              "tessellation", &S::tessellation, 1, 64, "count", "drawn segments per guide segment"),
          choice(
@@ -125,7 +125,8 @@ const Table& tableOf(const StrandSettings*) {
          fileName(
              "texture", &S::texture,
              "picture (.png, ...) on strands: across them and, downward, from root to tip; its "
-             "colour is a factor, its alpha one of the opacity; relative to the scene file; empty: "
+             "colour multiplies that of the strand, its alpha the opacity; relative to the scene "
+             "file; empty: "
              "none"),
          choice(
              "curve", &S::curve,

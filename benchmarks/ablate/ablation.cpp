@@ -235,7 +235,8 @@ std::string rest(const Attribution& attribution) {
     text += costLine("  minus the geometry rung", residual.discard);
     if (residual.multisampling)
         text += costLine(
-            "cost of samples with a fragment shader minus without", *residual.multisampling);
+            "cost of samples with a fragment shader, minus their cost without one",
+            *residual.multisampling);
     text += costLine("interaction residual, the sum of these", residual.interaction);
     for (const auto& [stop, cost] : attribution.watching) text += costLine(stopName(stop), cost);
     return text;

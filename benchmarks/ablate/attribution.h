@@ -77,7 +77,7 @@ struct UnitCost {
     std::string note;  // empty: the count is exact
 };
 
-// Per strand and segment for all but the empty rung, and per item of the stage's own kind.
+// Per strand and segment for all except the empty rung, and per item of the stage's own kind.
 std::vector<UnitCost> unitCosts(const std::vector<RungCost>& rungs, const WorkCounts& work);
 
 }  // namespace benchmarks::ablate

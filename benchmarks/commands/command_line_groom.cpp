@@ -79,8 +79,10 @@ void addGroomEdits(const CommandLine& line, CLI::App& groom) {
          .notes = kFilterNotes},
         filterGroom, [](CLI::App& command, EditGroomOptions& options) {
             addEditedFiles(command, options);
-            addPositive(command, "--shortest", options.shortest, "leave out shorter strands, mm");
-            addPositive(command, "--longest", options.longest, "leave out longer strands, mm");
+            addPositive(
+                command, "--shortest", options.shortest, "leave out strands shorter than this, mm");
+            addPositive(
+                command, "--longest", options.longest, "leave out strands longer than this, mm");
             addPositive(
                 command, "--fewest-points", options.fewest_points,
                 "leave out strands with fewer points");
@@ -90,10 +92,10 @@ void addGroomEdits(const CommandLine& line, CLI::App& groom) {
             command.add_option("--mesh", options.mesh, "head, in metres")->type_name("FILE");
             addPositive(
                 command, "--farthest-root", options.farthest_root,
-                "leave out strands whose root is farther from the mesh, mm");
+                "leave out strands whose root is farther than this from the mesh, mm");
             addPositive(
                 command, "--deepest", options.deepest,
-                "leave out strands with a point deeper inside the mesh, mm");
+                "leave out strands with a point deeper than this inside the mesh, mm");
         });
     addCommand<EditGroomOptions>(
         line, groom,
@@ -164,7 +166,7 @@ void addGroomCommands(const CommandLine& line) {
             command
                 .add_option(
                     "--scale", options.scale,
-                    "metres per unit of the file (default: as it states, or a guess)")
+                    "metres per unit of the file (default: as the file states, or a guess)")
                 ->check(CLI::PositiveNumber);
             addPointsPerStrand(command, options.points_per_strand);
             command.add_flag("--json", options.json, "print JSON");
@@ -186,7 +188,7 @@ void addGroomCommands(const CommandLine& line) {
             command
                 .add_option(
                     "--scale", options.scale,
-                    "metres per unit of FILE (default: as it states, or a guess)")
+                    "metres per unit of FILE (default: as the file states, or a guess)")
                 ->check(CLI::PositiveNumber);
             command.add_option("--up", options.up, "upward axis of FILE (default: a guess)")
                 ->check(CLI::IsMember({"x", "y", "z"}));
@@ -269,12 +271,12 @@ void addGroomCommands(const CommandLine& line) {
             command
                 .add_option(
                     "--scale-a", options.first_scale,
-                    "metres per unit of A (default: as it states, or a guess)")
+                    "metres per unit of A (default: as the file states, or a guess)")
                 ->check(CLI::PositiveNumber);
             command
                 .add_option(
                     "--scale-b", options.second_scale,
-                    "metres per unit of B (default: as it states, or a guess)")
+                    "metres per unit of B (default: as the file states, or a guess)")
                 ->check(CLI::PositiveNumber);
             addPointsPerStrand(command, options.first_points_per_strand, "--points-per-strand-a");
             addPointsPerStrand(command, options.second_points_per_strand, "--points-per-strand-b");

@@ -191,8 +191,8 @@ void addDoctorOptions(CLI::App& command, DoctorOptions& options) {
     command
         .add_option(
             "--reports", options.reports,
-            "check instead whether reports may be kept: they match their schema, and they can be "
-            "trusted or are marked")
+            "check instead whether reports may be kept: they must match their schema, and be "
+            "trustworthy or marked as not to be trusted")
         ->type_name("REPORT...")
         ->excludes("--pairs")
         ->excludes("--planted")

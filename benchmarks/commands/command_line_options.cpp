@@ -93,7 +93,7 @@ void addCacheOption(CLI::App& command, scene::SceneOptions& options) {
 void addOutsideOption(CLI::App& command, scene::Outside& outside) {
     command.add_flag_callback(
         "--allow-outside", [&outside] { outside = scene::Outside::allowed; },
-        "let scenes name files outside of their folder");
+        "let scenes name files outside their folder");
 }
 
 void addSceneOptions(CLI::App& command, scene::SceneOptions& options) {
@@ -151,7 +151,7 @@ void addFailOnInconclusive(CLI::App& command, report::VerdictOptions& options) {
                 options.pass_without_verdicts = what == "regressed";
             },
             "inconclusive: exit with status 11 if nothing is slower but a metric is inconclusive; "
-            "regressed: exit with status 0 then, even if a gate had no time for a verdict")
+            "regressed: exit with status 0 in that case, even if a gate had no time for a verdict")
         ->check(CLI::IsMember({"inconclusive", "regressed"}));
 }
 

@@ -31,7 +31,7 @@ void addPictureCommands(const CommandLine& line) {
                 "--scale", options.scale, "scale of text and widgets (default: the screen's)");
             command.add_option(
                 "--frames", options.frames,
-                "frames that the window draws before it closes (default: until it is closed)");
+                "frames that the window draws before it closes (default: it stays open)");
             command
                 .add_option(
                     "--screenshot", options.screenshot, "picture of the window's last frame (.png)")

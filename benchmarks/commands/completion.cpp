@@ -47,7 +47,7 @@ std::string functionName(const CommandHelp& command) { return '_' + joined(comma
 constexpr const char* kBashStart =
     R"sh(# Completions of hairbench for bash, made by 'hairbench completion bash'.
 
-# Names of files that go on with the word, folders with a slash.
+# Names of files that begin with the word; folders end in a slash.
 _hairbench_files() {
     compopt -o filenames 2>/dev/null
     mapfile -t COMPREPLY < <(compgen "$1" -- "$2")

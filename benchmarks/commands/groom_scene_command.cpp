@@ -141,7 +141,8 @@ int makeGroomScene(const GroomSceneOptions& options) {
     refuseToReplace(options.out, options);
     if (!options.sheet.empty()) {
         if (hair::groom::lowerCaseExtension(options.sheet) != ".png")
-            throw engine::Error(options.sheet.string(), "is not a .png file, as --sheet writes");
+            throw engine::Error(
+                options.sheet.string(), "is not a .png file, the only format that --sheet writes");
         refuseToReplace(options.sheet, options);
     }
     hair::groom::StrandSet strands =

@@ -158,8 +158,8 @@ std::string fileText(char name, const ComparedFile& file, const SampledStrands& 
         report::countText(sampled.strands, "strand") + ", " + report::lengthText(sampled.length) +
         " in all, in " + file.unit.name + ". " + file.unit.reason + '\n';
     if (sampled.without_length > 0)
-        text += "   " + report::countText(sampled.without_length, "strand") +
-                " without length left out\n";
+        text += "   left out: " + report::countText(sampled.without_length, "strand") +
+                " of zero length\n";
     return text;
 }
 

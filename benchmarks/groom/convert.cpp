@@ -94,9 +94,9 @@ edited(hair::groom::StrandSet strands, const ConvertOptions& options, const Conv
         log.say(
             "chose: " + report::countText(*options.guides, "guide") + " of " +
             report::countText(strands.strandCount(), "strand"));
-        log.say("error: of the strands made from them " + choice.error);
+        log.say("error of the strands made from them: " + choice.error);
         log.say(
-            "left: of the file's strands as /strands/source groom draws them with these guides " +
+            "error of the file's strands, as /strands/source groom draws them with these guides: " +
             choice.left);
         strands = std::move(choice.guides);
     }

@@ -204,7 +204,7 @@ void chooseColor(const StrandSet& strands, GroomScene& scene) {
     glm::vec3& color = scene.settings.shading.color;
     color = {0.45f, 0.29f, 0.18f};
     if (!strands.colors.known()) {
-        scene.choices.push_back({"colour", "brown: the file has none"});
+        scene.choices.push_back({"colour", "brown: the file has no colours"});
         return;
     }
     glm::dvec3 sum(0.0);
@@ -213,12 +213,13 @@ void chooseColor(const StrandSet& strands, GroomScene& scene) {
                                 ? glm::dvec3(*strands.colors.everywhere)
                                 : sum / static_cast<double>(strands.colors.values.size());
     if (std::max({mean.x, mean.y, mean.z}) < 0.02 || std::min({mean.x, mean.y, mean.z}) > 0.98) {
-        scene.choices.push_back({"colour", "brown: the file's is black or white throughout"});
+        scene.choices.push_back(
+            {"colour", "brown: the file's colour is black or white throughout"});
         return;
     }
     for (int i = 0; i < 3; ++i)
         color[i] = static_cast<float>(0.001 * std::round(1e3 * std::clamp(mean[i], 0.02, 0.98)));
-    scene.choices.push_back({"colour", "the mean of the file's"});
+    scene.choices.push_back({"colour", "the mean of the file's colours"});
 }
 
 // ---- View ---------------------------------------------------------------------------------------
@@ -332,7 +333,7 @@ void chooseView(const StrandSet& strands, const Mesh* head, GroomScene& scene) {
     settings.render.tone_map = hair::ToneMap::agx;
     settings.render.background = {0.3f, 0.31f, 0.34f};
     scene.choices.push_back(
-        {"camera", "from the front quarter, which shows all hair; front is " + front.reason});
+        {"camera", "a three-quarter view of all hair; the front is " + front.reason});
 
     hair::ShadingSettings& shading = settings.shading;
     shading.model = hair::ShadingModel::dual_scattering;
@@ -393,7 +394,7 @@ void findOnHead(
     }
     const bool can_be_mended = guess.hair.rotation() == glm::dmat3(1.0);
     const std::string mend =
-        (can_be_mended ? "" : "turn the hair to +y up where it is made, then ") +
+        (can_be_mended ? "" : "make +y the upward axis in the program that makes the hair, then ") +
         ("hairbench groom fix HAIR OUT --scale " + report::plainNumber(guess.hair.metres_per_unit) +
          " --mesh HEAD");
     if (off > 0)
@@ -404,7 +405,7 @@ void findOnHead(
         scene.warnings.push_back(
             shareText(inside, count) +
             " of the strands are deeper than 1 mm inside the head, up to " +
-            report::lengthText(deepest) + "; to have their points on it: " + mend);
+            report::lengthText(deepest) + "; this moves their points onto it: " + mend);
 }
 
 void findPlacement(const LayGuess& guess, GroomScene& scene) {

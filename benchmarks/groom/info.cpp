@@ -102,12 +102,12 @@ void findInStrands(const hair::groom::StrandFindings& found, Oddities& odd) {
     odd.add(
         "single_point_strands", found.single_point_strands,
         report::countText(found.single_point_strands, "strand") + " of a single point",
-        "leave them out where the hair is made: nothing of them is drawn");
+        "leave them out in the program that makes the hair: they are not drawn");
     odd.add(
         "zero_length_strands", found.zero_length_strands,
         report::countText(found.zero_length_strands, "strand") +
             " without length, all points at one place",
-        "leave them out where the hair is made: nothing of them is drawn");
+        "leave them out in the program that makes the hair: they are not drawn");
     odd.add(
         "zero_length_segments", found.zero_length_segments,
         report::countText(found.zero_length_segments, "segment") + " without length",
@@ -115,7 +115,7 @@ void findInStrands(const hair::groom::StrandFindings& found, Oddities& odd) {
     odd.add(
         "duplicate_strands", found.duplicate_strands,
         report::countText(found.duplicate_strands, "strand") + " equal to another, point for point",
-        "leave them out where the hair is made: they cost time and show nothing");
+        "leave them out in the program that makes the hair: they cost time and show nothing");
     if (found.duplicate_roots > found.duplicate_strands) {
         const std::uint32_t more = found.duplicate_roots - found.duplicate_strands;
         odd.add(
@@ -128,7 +128,8 @@ void findInStrands(const hair::groom::StrandFindings& found, Oddities& odd) {
     odd.add(
         "long_strands", most > kLongestGuide ? most : 0,
         "strands of up to " + report::countText(most, "point"),
-        "guides have at most 256 and are resampled; do it once: hairbench groom convert IN OUT "
+        "guides have at most 256 points and are resampled; to do this once: hairbench groom "
+        "convert IN OUT "
         "--vertices 256");
 }
 
@@ -145,7 +146,7 @@ void findInUnits(
     const double length = found.lengths.median * found.metres_per_unit;
     odd.add(
         "lengths", found.unit_stated && (length < kShortest || length > kLongest) ? 1 : 0,
-        "a median strand of " + report::lengthText(length) + ", in the unit that is stated",
+        "a median strand of " + report::lengthText(length) + ", in the stated unit",
         "if this is hair, the unit is wrong: --scale overrides it here and in hairbench groom "
         "convert");
     const double width = found.widths.median * found.metres_per_unit;
@@ -153,7 +154,8 @@ void findInUnits(
         "widths", strands.widths.known() && (width < kThinnest || width > kThickest) ? 1 : 0,
         "widths of " + report::lengthText(width) +
             " (median); human hair is 0.017 to 0.181 mm wide",
-        "scale them to the unit of the points where the hair is made, or ignore this: they affect "
+        "scale them to the unit of the points in the program that makes the hair, or ignore this: "
+        "they affect "
         "only drawing");
 }
 
@@ -169,7 +171,8 @@ void findOnMesh(const hair::groom::MeshFindings& found, Oddities& odd) {
         report::countText(found.strands_inside.value_or(0), "strand") + " deeper than " +
             report::lengthText(found.tolerance) + " inside the mesh, up to " +
             report::lengthText(found.deepest.value_or(0.0)),
-        "push them out where the hair is made, or let a simulation with collision do it");
+        "push them out in the program that makes the hair, or let a simulation with collision do "
+        "it");
     odd.add(
         "mesh_not_closed", found.not_closed.empty() ? 0 : 1,
         "a mesh that is not closed: " + found.not_closed,

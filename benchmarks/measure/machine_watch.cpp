@@ -267,8 +267,8 @@ ClockHold::ClockHold(
         throw engine::Unsupported(context, "the clocks of " + device.name + " are not known");
     if (clocks == hair::Clocks::locked && !source_->lock())
         throw engine::Unsupported(
-            context, "the driver does not let this user lock clocks; as administrator: " +
-                         source_->lockCommand() + ", and then without /run/clocks");
+            context, "the driver does not let this user lock clocks; as administrator, run " +
+                         source_->lockCommand() + " and then measure without /run/clocks");
     if (clocks == hair::Clocks::free && source_->read().held)
         throw engine::Unsupported(
             context, "an administrator has locked the clocks of " + device.name);

@@ -29,7 +29,7 @@ void addBoard(const engine::DeviceInfo& device, report::DeviceRecord& record);
 std::string boardHash(std::span<const std::uint8_t> uuid);
 
 // Samples a clock source while frames are played, because before and after that the device and its
-// clocks are idle. A reading takes some tens of microseconds of one processor, in a thread that
+// clocks are idle. A reading takes a few tens of microseconds of one processor, in a thread that
 // otherwise sleeps.
 class ClockSampler {
 public:

@@ -35,7 +35,7 @@ namespace fs = std::filesystem;
 constexpr std::uint64_t kMeshGrowth = 8;
 // B per triangle while its distance field is baked: its part of the tree, its corners and normals.
 constexpr std::uint64_t kBakedTriangle = 160;
-// For pictures of few colours.
+// Ratio of decoded to stored size, for pictures of few colours.
 constexpr std::uint64_t kPictureGrowth = 32;
 constexpr std::uint64_t kEnvironmentGrowth = 16;
 

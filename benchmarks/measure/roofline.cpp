@@ -114,7 +114,7 @@ StrandWork expandedWork(const StrandCounts& counts) {
     return work;
 }
 
-// Its stages count as compute up to the rasteriser.
+// Stages before the rasteriser count as compute.
 StrandWork meshWork(const StrandCounts& counts) {
     StrandWork work = rasterised(counts, 0.0);
     work.operations[StageKind::compute] =

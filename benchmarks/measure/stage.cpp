@@ -130,7 +130,7 @@ std::uint32_t calibratedSteps(Stage& stage, double wanted) {
         if (!last.device) return 0;
         const double time = *last.device;
         if (time >= 0.8 * wanted || last.wall >= 4.0 * kLongestWait) break;
-        // A time well above that of a barrier tells how much more is needed.
+        // If the time is well above that of a barrier, it is proportional to the steps.
         const double factor = time > 0.25 * wanted ? wanted / time : 4.0;
         steps = static_cast<std::uint32_t>(factor * steps) + 1;
     }

@@ -72,7 +72,7 @@ public:
     // Plays the next frame untimed and without planted work, and counts its work in the stage. All
     // frames must be finished.
     virtual void count() = 0;
-    // Like engine::FrameLoop's: the complete frames without waiting, and all remaining frames.
+    // As in engine::FrameLoop: the complete frames without waiting, and all remaining frames.
     virtual std::vector<engine::FrameRecord> completed() = 0;
     virtual std::vector<engine::FrameRecord> finish() = 0;
     // Picture and state of the last frame. All frames must be finished.
@@ -97,7 +97,7 @@ public:
     virtual std::unique_ptr<Player> player(engine::Timing timing) = 0;
     // Plays the case's frames with only this work.
     virtual std::unique_ptr<Player> player(engine::Timing timing, const PlantedWork& planted) = 0;
-    // Plays frames with nothing but a pass of `steps` steps of BusyWork; with 0 steps there is no
+    // Plays frames with only a pass of `steps` steps of BusyWork; with 0 steps there is no
     // pass.
     virtual std::unique_ptr<Player> emptyPlayer(engine::Timing timing, std::uint32_t steps) = 0;
 

@@ -18,7 +18,7 @@ struct StartInspection {
 // For a case that has played no frame. Waits for the device.
 StartInspection inspectStart(const Case& test_case);
 
-// Judges the given state in the same way.
+// Judges this state as inspectStart() does.
 StartInspection judgeStart(
     const hair::simulation::GuideCondition& condition, const hair::simulation::RestBalance* balance,
     const hair::Settings& settings);

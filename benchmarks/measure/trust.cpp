@@ -55,7 +55,7 @@ constexpr std::uint32_t kFewestPairs = 4;
 constexpr double kPlantedTime = 10.0;  // ms
 constexpr double kMostPlantedSteps = 1u << 30;
 
-// Clocks of a device and its host drift apart by some 1e-5; real faults are large.
+// Clocks of a device and its host drift apart by about 1e-5; real faults are large.
 constexpr double kRateTolerance = 0.01;
 
 }  // namespace

@@ -33,7 +33,7 @@ struct SteadyWind {
     std::size_t lengths;  // the first of kWindLengths, those that come to rest
 };
 constexpr SteadyWind kSteadyWinds[] = {{0.5, 3}, {2.0, 3}, {8.0, 1}};
-// Time steps, 1/s. Substeps of rods are the same in all but the last.
+// Time steps, 1/s. Substeps of rods are the same in all except the last.
 constexpr std::array kWindRates = {30.0, 60.0, 480.0, 1920.0};
 constexpr double kWindPatience = 20.0;  // s
 constexpr double kWindStill = 1e-6;  // m in a tenth of a second
@@ -47,9 +47,10 @@ hair::SimulationSettings inWind(hair::Solver solver, double speed) {
     return settings;
 }
 
-// The same hair with the energy method for the local constraint of `shape`. The stiffness is that
-// of the material, so that theory predicts the same rest as for rods: K = EI / (lambda l^4).
-// hair/simulation/stiffness.h has it as -4 * 10 ln(1 - k) / (2 h0^2) at segments of l0.
+// The hair of the check above, with the energy method for the local constraint of `shape`. The
+// stiffness is that of the material, so that theory predicts the same rest as for rods: K = EI /
+// (lambda l^4). hair/simulation/stiffness.h has it as -4 * 10 ln(1 - k) / (2 h0^2) at segments of
+// l0.
 hair::SimulationSettings withEnergy(hair::SimulationSettings settings) {
     const double square = std::pow(hair::simulation::kReferenceStep, 2.0);
     const double stiffness = bendingStiffness(settings.material) / lineDensity(settings.material) /

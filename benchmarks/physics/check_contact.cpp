@@ -104,12 +104,12 @@ void checkContactMomentum(const engine::Device& device, hair::Solver solver, Fin
 
     settings.hair_hair.friction = 0.5f;
     findings.deviation(
-        {"momentum that friction loses / exchanged", "1", {{"closing", kClosing, "m/s"}}},
+        {"momentum lost to friction / momentum exchanged", "1", {{"closing", kClosing, "m/s"}}},
         worstPlacement(device, settings, kClosing), kFrictionTolerance);
     settings.hair_hair.friction = 0.0f;
     settings.hair_hair.repulsion = 0.5f;
     findings.deviation(
-        {"momentum that repulsion loses / exchanged", "1", {}},
+        {"momentum lost to repulsion / momentum exchanged", "1", {}},
         worstPlacement(device, settings, 0.0));
 }
 
@@ -323,7 +323,8 @@ void checkStickSlip(const engine::Device& device, hair::Solver solver, Findings&
     double slid = 0.0;
     for (const Pressed& at : states) slid = worst(slid, at.slid);
     findings.deviation(
-        {"tip's way / length", "1", {{"friction", kSticking, "1"}}}, slid, promised(kSlipped));
+        {"distance that the tip slides / length", "1", {{"friction", kSticking, "1"}}}, slid,
+        promised(kSlipped));
     for (const double ratio : kPressedFrictions) {
         const auto theory = pressedRod(ratio);
         double off = kNothing;

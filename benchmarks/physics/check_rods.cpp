@@ -80,7 +80,7 @@ void checkBoundary(
                  "1",
                  {{"gamma", gamma, "1"},
                   {"curvature * length", (1.0 + side) * boundary, "rad"},
-                  {"where it leaves", boundary, "rad"}}},
+                  {"curvature * length at which it leaves", boundary, "rad"}}},
                 error, tolerance);
             if (!still && outcome.reason.empty()) outcome.reason = "still moving after 60 s";
         };
@@ -88,7 +88,7 @@ void checkBoundary(
             "distance from its plane / length", -kBoundaryBracket, below.extent, kStays,
             below.still);
         report(
-            "distance from its plane / length, short of 0.05", kBoundaryBracket,
+            "distance from its plane / length, shortfall below 0.05", kBoundaryBracket,
             worst(kLeaves - above.extent, 0.0), 0.0, above.still);
     }
 }
@@ -317,8 +317,8 @@ void checkBendingDecay(const engine::Device& device, hair::Solver solver, Findin
             kDecaySpeed * cantileverShape(static_cast<double>(i) / kBendingSegments) *
             kBendingSideways);
     for (const auto& [integrator, name] :
-         {std::pair{hair::RodIntegrator::implicit_euler, "half-life by implicit_euler"},
-          std::pair{hair::RodIntegrator::generalized_alpha, "half-life by generalized_alpha"}})
+         {std::pair{hair::RodIntegrator::implicit_euler, "half-life with implicit_euler"},
+          std::pair{hair::RodIntegrator::generalized_alpha, "half-life with generalized_alpha"}})
         for (const double half_life : kHalfLives)
             for (const float rate : kDecayRates) {
                 settings.rod.integrator = integrator;

@@ -217,9 +217,9 @@ void checkEnergy(const engine::Device& device, hair::Solver solver, Findings& fi
     settings.rod.integrator = hair::RodIntegrator::generalized_alpha;
     const std::vector<double> samples = energies(device, settings, 4.0);
     findings.value(
-        {"drift by generalized_alpha, per second", "1/s", parameters}, slopeOf(samples) / step);
+        {"drift with generalized_alpha, per second", "1/s", parameters}, slopeOf(samples) / step);
     findings.deviation(
-        {"growth by generalized_alpha without friction", "1", parameters},
+        {"growth with generalized_alpha without friction", "1", parameters},
         greatestGrowth(samples, static_cast<std::size_t>(std::lround(kEnergyWindow / step))),
         kEnergyTolerance);
 }
@@ -314,7 +314,7 @@ void checkSubstepInvariance(const engine::Device& device, hair::Solver solver, F
     const Trajectory finest = play(64);
     for (const std::uint32_t substeps : {4u, 8u, 16u})
         findings.deviation(
-            {"difference by generalized_alpha / length",
+            {"difference with generalized_alpha / length",
              "1",
              {{"substeps", static_cast<double>(substeps), "count"},
               {"finest substeps", 64.0, "count"}}},

@@ -56,7 +56,7 @@ double rootNear(double at, double most, const Function& function) {
     return std::nan("");
 }
 
-// Finds a root of a system of equations in the same way.
+// Finds a root of a system of equations by Newton's method with differences.
 template <class Vector, class Matrix, class Function>
 std::optional<Vector> rootsNear(Vector at, double most, const Function& function) {
     constexpr double kStep = 1e-6;

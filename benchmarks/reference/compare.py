@@ -1,6 +1,6 @@
 """Compares two pictures, PNG or EXR: compare.py REFERENCE PICTURE [DIFFERENCE.png]
 
-Writes figures as JSON to stdout. All but the ratio of mean linear light are of display values
+Writes figures as JSON to stdout. All except the ratio of mean linear light are of display values
 (sRGB, 0 to 1); linear pictures are converted. Alpha is ignored. DIFFERENCE is FLIP's error map. A
 failure is one line on stderr.
 """

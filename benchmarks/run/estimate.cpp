@@ -159,7 +159,7 @@ constexpr std::chrono::seconds kTrials{4};
 
 struct Estimate {
     std::optional<double> frame;  // ms
-    double creation = 0.0;  // s, with the first frame
+    double creation = 0.0;  // s, including the first frame
     std::optional<std::uint64_t> bytes;  // of the device's memory
     bool was_tried = false;  // unchanged, not made smaller
     std::string problem;
@@ -169,7 +169,7 @@ struct Trial {
     CaseKind kind;
     FrameWork work;
     double frame = 0.0;  // ms, of the second frame: the first one compiles pipelines
-    double creation = 0.0;  // s, with the first frame
+    double creation = 0.0;  // s, including the first frame
 };
 
 // Creates the case and draws two frames. Sets the memory that it holds on the device.
@@ -212,7 +212,7 @@ public:
 
     // Tries cases until the time is up. Throws Interrupted.
     void play();
-    // Estimates the cases that were not tried from the trials.
+    // Estimates from the trials the cases that were not tried.
     void estimateOthers();
 
     const std::vector<Estimate>& estimates() const { return estimates_; }

@@ -149,12 +149,12 @@ Journal::Journal(std::filesystem::path path, Lasts lasts) : path_(std::move(path
     if (path_.has_parent_path()) std::filesystem::create_directories(path_.parent_path(), error);
     file_ = open(path_.c_str(), O_RDWR | O_CREAT | O_NOFOLLOW | O_CLOEXEC, 0666);
     if (file_ < 0 && errno == ELOOP)
-        throw engine::Error(path_.string(), "is a link, where the journal must be written");
+        throw engine::Error(path_.string(), "is a link, but the journal must be written there");
     if (file_ < 0) throw engine::Error(path_.string(), std::strerror(errno));
     struct stat status{};
     if (fstat(file_, &status) == 0 && !S_ISREG(status.st_mode)) {
         close(file_);
-        throw engine::Error(path_.string(), "is not a file, and its place is the journal's");
+        throw engine::Error(path_.string(), "is not a file, but the journal must be written there");
     }
     // Some file systems have no locks; continues without one there.
     if (flock(file_, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK) {
@@ -368,10 +368,11 @@ RunRecord::RunRecord(
             head = *std::move(found);
             for (const std::size_t line : journal_->damaged())
                 std::cerr << engine::shownText(name) << ": line " << line
-                          << " is damaged: left out\n";
+                          << " is damaged and left out\n";
             for (; strays > 0; --strays)
-                std::cerr << engine::shownText(name)
-                          << ": a line is not a case of this run, or repeats one: left out\n";
+                std::cerr
+                    << engine::shownText(name)
+                    << ": a line is not a case of this run, or repeats one, and is left out\n";
         } else {
             left = CasesLeft(plan);
             done_.clear();

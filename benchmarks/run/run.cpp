@@ -178,7 +178,7 @@ FinishedRun playRun(
     RunRecord record(
         plan, header, {.out = out, .filter = options.filter, .resume = options.resume});
     if (record.done() > 0)
-        std::cerr << "going on after " << record.done() << " of " << plan.cases.size()
+        std::cerr << "continuing after " << record.done() << " of " << plan.cases.size()
                   << " cases\n";
     const bool keeps_pictures = options.pictures && record.hasJournal();
     const auto finish = [&](const Ended& ended) {

@@ -38,7 +38,7 @@ public:
         const hair::Settings& settings, const std::filesystem::path& directory,
         const Reach& reach = {});
 
-    // Return the same if it is in the store, otherwise null.
+    // Return the loaded mesh or groom if it is in the store, otherwise null.
     const std::optional<hair::groom::Mesh>*
     knownMesh(const hair::Settings& settings, const std::filesystem::path& directory);
     const hair::groom::Groom*

@@ -37,8 +37,8 @@ public:
     // Throws engine::Error "<file>: <reason>" for a file elsewhere.
     void check(const std::filesystem::path& file) const;
 
-    // The same for a file that `owner` names. Files in the owner's folder and below always belong
-    // to it.
+    // Reach of a file that `owner` names. Files in the owner's folder and below always belong to
+    // it.
     void check(const std::filesystem::path& file, const std::filesystem::path& owner) const;
 
     // Returns the canonical folders in which the files that `owner` names may be; empty:

@@ -406,8 +406,8 @@ Json sweepSchema(const Json& members) {
         "fields that change together: each object is one axis, and its fields all have the same "
         "number of values",
         values);
-    axes["cases"] =
-        rows("one axis, given by rows: each object holds the values of all its fields", true);
+    axes["cases"] = rows(
+        "one axis as a list of combinations: each object holds a value for all its fields", true);
     axes["exclude"] = rows(
         "combinations that are left out: those in which every field of an object has one of its "
         "values",

@@ -36,7 +36,7 @@ void compare(
     std::vector<SettingDifference>& differences) {
     if (a && b && *a == *b) return;
     if (a && b && a->is_object() && b->is_object()) {
-        // Both are written from the same tables, so they have the same members.
+        // Both documents are written from the same tables, so they have the same members.
         for (const auto& [key, value] : a->items())
             compare(pointer + '/' + scene::escapedToken(key), &value, &b->at(key), differences);
         return;

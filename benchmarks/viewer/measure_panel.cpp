@@ -195,7 +195,7 @@ void MeasurePanel::buttons(std::size_t sides) {
         helpMarker("Measures the settings as 'hairbench run' does: rounds of /run/warmup and "
                    "/run/frames frames from the first frame on, in each mode until the median is "
                    "known to /run/precision or /run/max_time is over. The shown scene waits "
-                   "meanwhile and then goes on unchanged");
+                   "meanwhile and then continues unchanged");
     }
 }
 
@@ -237,7 +237,8 @@ void MeasurePanel::progress() {
     }
     if (ImGui::Button("Cancel")) link_.cancel();
     ImGui::SameLine();
-    ImGui::TextDisabled("%s", link_.isCancelled() ? "ending" : "takes effect after each round");
+    ImGui::TextDisabled(
+        "%s", link_.isCancelled() ? "ending" : "takes effect after the current round");
     ImGui::EndPopup();
 }
 

@@ -79,7 +79,7 @@ Side* OpenScene::find(std::uint64_t id) {
 void OpenScene::startComparing() {
     if (b_) return;
     a_->settle();
-    // Does not copy refused settings either.
+    // Does not copy settings that were refused.
     auto side =
         makeSide(a_->problem().empty() ? a_->wanted() : a_->shown().settings, file_.directory);
     side->setOriginal(file_.settings);

@@ -159,7 +159,7 @@ void Player::replace(std::unique_ptr<measure::Case> other, const hair::Settings&
     coarse_ = {};
     case_ = std::move(other);
     settings_ = settings;
-    // Everything is new and starts again, so it is no longer a preview.
+    // Everything is new and starts again, so the picture is no longer a preview.
     previews_ = false;
     seek(frame_);
 }

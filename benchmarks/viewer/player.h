@@ -120,8 +120,8 @@ public:
     // Recreates everything after shaders have changed, up to the current frame. Throws like Case
     // and then keeps the previous state.
     void rebuild();
-    // Does the same if one of the scene's GLSL files was saved since it was read; otherwise returns
-    // false. Checks a few times per second.
+    // Recreates everything if one of the scene's GLSL files was saved since it was read; otherwise
+    // returns false. Checks a few times per second.
     bool reread();
 
     // Plays and draws the next frame. `timing` is isolated or overlapped.

@@ -51,7 +51,7 @@ void selectableText(const char* id, const std::string& text, const ImVec4& color
     ImGui::PushStyleColor(ImGuiCol_Text, color);
     ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, ImVec2(0, 0));
     ImGui::PushStyleVar(ImGuiStyleVar_FrameBorderSize, 0.0f);
-    // Slightly higher than its lines; otherwise it gets a scroll bar.
+    // Slightly taller than its lines; otherwise it gets a scroll bar.
     ImGui::InputTextMultiline(
         id, lines.data(), lines.size() + 1,
         ImVec2(-1.0f, (count + 0.2f) * ImGui::GetTextLineHeight()),

@@ -192,7 +192,7 @@ Edit StrokeTool::update(
     else if (settings.groom.edits.size() >= mostOf(&hair::GroomSettings::edits) && !drags)
         handles.hint("The limit of strokes is reached: save the strands, or clear the strokes.");
     else if (drags)
-        handles.hint("Lines show the guides; the hair follows when the brush is let go.");
+        handles.hint("Lines show the guides; the hair follows when you release the brush.");
     return edit;
 }
 

@@ -111,7 +111,7 @@ void timeline(PlayState& state, const Shown& shown) {
             text.data(), text.size(), "plays to frame %u: at %u", *state.scrub, shown.frame);
     else
         std::snprintf(
-            text.data(), text.size(), "frame %u of %u, %.3f s; drag plays to another", under, end,
+            text.data(), text.size(), "frame %u of %u, %.3f s; drag to play to another", under, end,
             (static_cast<double>(under) + 1.0) * double{shown.settings.run.frame_time});
     ImGui::SetTooltip("%s", text.data());
 }

@@ -120,7 +120,7 @@ class OwnMemory {
 public:
     explicit OwnMemory(const engine::MemoryLedger& all) : all_(all), others_(all.bytes()) {}
 
-    // Runs an action that allocates for others.
+    // Runs an action whose allocations belong to others.
     void others(const std::function<void()>& action);
 
     // Returns memory.device and memoryMetrics() of the owner alone.

@@ -114,7 +114,8 @@ std::string lowHelp(const ShownSide& side) {
 void trustFigure(const ShownSide& side, const ShownSide* compared, FigureTable& table) {
     table.row(
         "Passes / frame",
-        "The isolated passes' sum over the frame by the CPU's clock: 1 if the device's timestamps "
+        "Sum of the isolated passes divided by the frame's time on the CPU's clock: 1 if the "
+        "device's timestamps "
         "are right and nothing else is running. A deviation of 10 % gives a warning",
         side.metrics.trust.pass_sum_over_wall,
         compared ? compared->metrics.trust.pass_sum_over_wall : std::nullopt);
@@ -127,8 +128,9 @@ void frameFigures(const ShownSide& side, const ShownSide* compared) {
         table.row(name, help, ofRate(&side, get), ofRate(compared, get));
     };
     row("FPS",
-        "Isolated frames over their total time, by the CPU's clock from submission to completion: "
-        "one frame at a time, a pass at a time. 'Measure' gives the runner's: two frames in flight",
+        "Number of isolated frames divided by their total time, by the CPU's clock from submission "
+        "to completion. One frame and one pass run at a time. 'Measure' gives the runner's rate, "
+        "with two frames in flight",
         [](const FrameRate& rate) { return std::optional(rate.fps); });
     row("1 % low FPS", lowHelp(side).c_str(), lowOf);
     row("Frame, ms", "Median of the isolated frames' time",
@@ -178,7 +180,7 @@ void splitFigures(const ShownSide& side, const ShownSide* compared) {
         [](const FrameSplit& split) { return Known(split.pass_sum); });
     row("Overlapped",
         "From the first to the last timestamp of an overlapped frame, whose passes the device may "
-        "overlap. Software devices stamp early, so that this may be too short there",
+        "overlap. Software devices write timestamps early, so this may be too short there",
         [](const FrameSplit& split) { return split.device_overlapped; });
     row("Saved",
         "Time that overlap within a frame saves the device: the passes alone minus the overlapped "
@@ -548,7 +550,7 @@ void TimingsPanel::controls(Side& side, Side* compared, const ReportOrigin& orig
         }
         if (freeze && compared) frozen_compared_ = shownSide(*compared, type);
     }
-    helpMarker("Holds these figures. The scene plays on");
+    helpMarker("Holds these figures. The scene continues to play");
     ImGui::SameLine();
     if (ImGui::Button("Clear")) {
         side.timings().clear();

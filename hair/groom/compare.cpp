@@ -283,7 +283,7 @@ private:
 struct Found {
     std::vector<float> distances;  // [sample], m
     std::vector<std::vector<std::uint32_t>> matched;  // [threshold][strand], matched samples
-    // the most matched samples that one strand of the other groom has
+    // Greatest number of matched samples that lie in one strand of the other groom.
     std::vector<std::vector<std::uint32_t>> together;
 };
 

@@ -152,8 +152,8 @@ void putOnMesh(
              " off the mesh",
          too_far});
     edited.notes.push_back(
-        {"put onto the mesh: points deeper than " + millimetres(kSurfaceTolerance) +
-             " inside, of " + std::to_string(pushed_strands) + " strands",
+        {"moved onto the mesh: points deeper than " + millimetres(kSurfaceTolerance) +
+             " inside it, on " + std::to_string(pushed_strands) + " strands",
          pushed});
 }
 
@@ -292,7 +292,8 @@ EditedStrands fixStrands(
          {"strands equal to one before them",
           [&](std::uint32_t i) { return std::ranges::binary_search(duplicates, i); }}});
     edited.notes.push_back(
-        {"left out: points at the place of the one before", dropRepeatedPoints(edited.strands)});
+        {"left out: points at the same place as the previous one",
+         dropRepeatedPoints(edited.strands)});
 
     std::vector<std::uint32_t> sizes;
     std::uint64_t longer = 0;
@@ -301,7 +302,7 @@ EditedStrands fixStrands(
         sizes.push_back(std::min(edited.strands.size(i), kMostPointsOfAGuide));
     }
     if (longer > 0) edited.strands = resample(std::move(edited.strands), sizes);
-    edited.notes.push_back({"resampled to 256 points: strands of more", longer});
+    edited.notes.push_back({"resampled to 256 points: strands with more", longer});
     if (mesh) putOnMesh(edited, *mesh, metres_per_unit, farthest_root);
     return edited;
 }

@@ -35,7 +35,7 @@ std::filesystem::path placeOf(const std::filesystem::path& path);
 // True if the file lies in the folder or below. Both paths are from placeOf().
 bool isBelow(const std::filesystem::path& file, const std::filesystem::path& folder);
 
-// Returns a check that refuses files outside of the folder of `file`, after links are followed.
+// Returns a check that refuses files outside the folder of `file`, after links are followed.
 NamedFileCheck ownFolderOnly(const std::filesystem::path& file);
 
 // Returns the check, or ownFolderOnly() if it is empty.

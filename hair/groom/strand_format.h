@@ -35,7 +35,7 @@ struct StrandFile {
 
 // A reader of strands. Its errors begin with the place in the file, "byte N" or "line N", and don't
 // name the file. It refuses files that are not exactly of the format, and checks counts against the
-// file's size before it allocates by them.
+// file's size before it allocates memory for them.
 struct StrandImporter {
     std::string_view name;  // for messages
     std::span<const std::string_view> extensions;  // lower case, with the dot

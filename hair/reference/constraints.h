@@ -17,8 +17,9 @@
 #include "hair/settings.h"
 #include "hair/simulation/head_motion.h"
 
-// The simulation's equations, one function each, in double and straight from the papers: references
-// for the GPU. Nothing here is shared with the shaders or with the code that feeds them.
+// The simulation's equations, one function each, in double precision, written directly from the
+// papers: references for the GPU. Nothing here is shared with the shaders or with the code that
+// feeds them.
 //
 // Every span is the vertices of one strand, root first, in m. The root is pinned: it has infinite
 // mass, every other vertex mass 1. Segment i ends in vertex i, so segment 1 starts at the root.
@@ -206,7 +207,8 @@ void stepFtl(
     Points positions, Points previous, ConstPoints rest, const FtlStep& step,
     const PushOut& push_out);
 
-// Pulls by hands, in double and straight from the equations of hair/simulation/pulls.h.
+// Pulls by hands, in double precision, written directly from the equations of
+// hair/simulation/pulls.h.
 
 // All strands at the start of a time step, [strand][vertex], m.
 struct PulledHair {

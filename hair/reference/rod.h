@@ -117,7 +117,7 @@ void stepRod(
     const RodRoot& root, double substep, double velocity_kept, const RodScheme& scheme,
     const RodAir* air = nullptr);
 
-// Takes the same step by implicit Euler, without further damping.
+// Takes a step by implicit Euler, without further damping.
 void stepRod(
     RodState& state, const RodRest& rest, std::span<const glm::dvec3> accelerations,
     const RodRoot& root, double substep, double velocity_kept, std::uint32_t iterations,

@@ -47,8 +47,8 @@ public:
 std::unique_ptr<Solver>
 makeSolver(const groom::Groom& groom, const SimulationSettings& settings, const Step& step);
 
-// The simulation on the CPU in double, on a moving head: a Solver, substep by substep. Simple and
-// slow; hair/simulation/simulation.h has the measured one.
+// The simulation on the CPU in double precision, on a moving head: a Solver, substep by substep.
+// Simple and slow; hair/simulation/simulation.h has the measured one.
 class Reference {
 public:
     Reference(const groom::Groom& groom, const SimulationSettings& settings, std::uint32_t seed);

@@ -10,8 +10,9 @@
 #include "hair/reference/constraints.h"
 #include "hair/settings.h"
 
-// Effects of air on hair, in double and straight from the equations. The turbulence is the curl of
-// a potential. The derivatives come from the chain rule, term by term, and are never written out.
+// Effects of air on hair, in double precision, written directly from the equations. The turbulence
+// is the curl of a potential. The derivatives come from the chain rule, term by term, and are never
+// written out.
 namespace hair::reference {
 
 // Returns the velocity of eddies of one size; `point` is in cells. Divergence-free, mean 0 and
@@ -54,7 +55,7 @@ dragAcceleration(const WindSettings& settings, const MaterialSettings& material,
 // both segments, or that of the segment above if they fold back on each other. It is 0 if neither
 // has a direction, and at the root.
 std::vector<glm::dvec3> tangentsBetween(ConstPoints directions);
-// Returns the tangents of a strand at these positions in the same way.
+// Returns the tangents at a strand's vertices, from the directions between these positions.
 std::vector<glm::dvec3> tangentsAt(ConstPoints positions);
 
 // Returns K of the acceleration K (U - v), 1/s, by air with the velocity U on vertices with these

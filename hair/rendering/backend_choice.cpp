@@ -19,7 +19,8 @@ constexpr std::array kBackendLimits{
         "it keeps one strand per sample",
         [](const Settings& s) { return s.render.transparency != Transparency::none; }},
     BackendLimit{
-        Backend::software, "a `/render/show` other than `shading`", "it only shades",
+        Backend::software, "a `/render/show` other than `shading`",
+        "it can only draw shaded strands",
         [](const Settings& s) { return s.render.show != Show::shading; }},
     BackendLimit{
         Backend::software, "`/strands/texture`", "its strands have no holes",

@@ -50,7 +50,7 @@ public:
 
 private:
     MeshSizes sizes_;
-    gpu::StrandMeshPush push_;  // all but the picture's address
+    gpu::StrandMeshPush push_;  // all except the picture's address
     std::uint32_t groups_;  // work groups of the task stage
     engine::GraphicsPipeline pipeline_;
 };

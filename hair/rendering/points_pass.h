@@ -44,7 +44,7 @@ public:
     std::uint64_t bytes() const { return points_.size() + pieces_.size(); }
 
 private:
-    gpu::PointsPush push_;  // all but the picture's address
+    gpu::PointsPush push_;  // all except the picture's address
     std::uint32_t blocks_;  // blocks of strands; one per invocation
     engine::Buffer points_;
     std::optional<engine::TexelView> texels_;

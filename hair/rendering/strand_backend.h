@@ -47,7 +47,7 @@ inline bool discards(const StrandStages& stages) { return stages.last < StrandSt
 struct StrandPicture {
     std::uint64_t address = 0;  // of `parameters` on the device
     const gpu::PictureParameters& parameters;
-    std::span<const engine::SampledImage> images{};  // StrandOutput::sampled_images of them
+    std::span<const engine::SampledImage> images{};  // those of StrandOutput::sampled_images
 };
 
 // Draws all strands of a picture into the target that is being rendered to. Every back end draws

@@ -102,7 +102,7 @@ public:
     void record(
         engine::Commands& commands, const GuideAddresses& guides, const RigidMotion& later) const;
 
-    // Makes the next step ignore the step before, after other code wrote the positions.
+    // Makes the next step ignore the previous one, after other code wrote the positions.
     void forget(const engine::Device& device);
 
     // State kept between steps.

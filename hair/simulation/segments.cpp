@@ -26,7 +26,8 @@ SegmentPass::SegmentPass(
                    .push_size = sizeof(gpu::SegmentPush)}) {}
 
 void SegmentPass::recordStart(engine::Commands& commands, const engine::Buffer& positions) const {
-    // Waits for the previous substep, which wrote the positions and read its own starts.
+    // Waits for the previous substep, which wrote the positions and read the copies of the
+    // positions at its start.
     commands.barrier(
         {{Access::compute_write, Access::transfer_read},
          {Access::compute_write, Access::transfer_write}});

@@ -375,7 +375,7 @@ GuideView Simulation::guides() const {
 //
 // The barriers at the end are for the next step. They are recorded here, before this step is drawn,
 // so that the next step does not wait for that drawing or for anything in between. It waits only
-// for pictures of the frame before, which were drawn from the copy that it overwrites.
+// for pictures of the previous frame, which were drawn from the copy that it overwrites.
 void Simulation::recordSubsteps(
     engine::Commands& commands, std::uint32_t count, std::uint32_t from_copy, double from,
     double to) const {

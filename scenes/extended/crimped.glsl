@@ -8,7 +8,7 @@
 // @parameter start 0.25 [0, 1] 1: part of the strand over which bends grow from none
 // @parameter disorder 0.12 [0, 1] 1: how far strands are out of step, in bends
 
-// From -1 to 1 and back along 2, with edges.
+// A triangle wave with sharp edges: from -1 to 1 and back over a length of 2.
 float zigzag(float x) { return 4.0 * abs(fract(0.5 * x + 0.25) - 0.5) - 1.0; }
 
 vec3 offsetHair(HairPlace place) {

@@ -13,7 +13,7 @@ install(FILES scripts/requirements.txt scripts/requirements-module.txt
 install(DIRECTORY scenes DESTINATION share/hairbench PATTERN "make_*.py" EXCLUDE)
 install(DIRECTORY shaders DESTINATION share/hairbench PATTERN "CMakeLists.txt" EXCLUDE)
 install(DIRECTORY benchmarks/report/page DESTINATION share/hairbench/benchmarks/report)
-# Pages draw with it. Everything else works without it if scripts/setup could not fetch it.
+# Report pages need this library. If scripts/setup could not fetch it, everything else still works.
 install(FILES .deps/plotly/plotly.min.js.gz
     DESTINATION share/hairbench/benchmarks/report/page OPTIONAL)
 install(FILES .deps/plotly/LICENSE

@@ -37,7 +37,7 @@ vec3 perpendicular(vec3 v) {
 // is half a turn round perpendicular(from).
 vec4 rotationBetween(vec3 from, vec3 to) {
     vec4 rotation = vec4(cross(from, to), 1.0 + dot(from, to));
-    // Unit vectors are off by some 1e-7, so a shorter rotation has no direction.
+    // Unit vectors are off by about 1e-7, so a shorter rotation has no direction.
     if (dot(rotation, rotation) < 1.0e-12) rotation = vec4(crossLeastAxis(from), 0.0);
     return rotation * inversesqrt(dot(rotation, rotation));
 }

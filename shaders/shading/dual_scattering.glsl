@@ -90,7 +90,7 @@ vec3 dualScattering(HairOptics optics, FiberView view, vec3 to_eye, vec3 to_ligh
     float forward_shift = path.scatter_count * average.shifts.x;
     float forward_variance = path.scatter_count * average.forward.w;
 
-    // Shifts of the mean of theta_i: none, forward, backward there, both.
+    // Shifts of the mean of theta_i: none, forward, backward, both.
     vec4 changes =
         vec4(0.0, forward_shift, average.shifts.y, forward_shift + average.shifts.y);
     vec4 sines = sin(changes);

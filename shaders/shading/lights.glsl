@@ -11,7 +11,7 @@ layout(buffer_reference, scalar) readonly buffer Lights { Light lights[]; };
 // A light as a point sees it.
 struct LightSample {
     vec3 to_light;  // unit length
-    vec3 color;  // what a white matt surface facing it shows: irradiance / pi
+    vec3 color;  // light that a white matt surface facing it shows: irradiance / pi
     float angular_radius;  // rad; 0 for points; for rectangles, the radius of the disc with equal
                            // variance
     // Rectangles only:

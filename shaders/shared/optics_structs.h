@@ -15,7 +15,7 @@ struct HairOptics {
     float own_row;  // row of the strand's own averages; shaders set it
     float least_power;  // of row 0: strands/own_color.glsl
     float rows_per_power;
-    vec3 body;  // factor on light that has been in the fibre: all but R. 1; shaders set it
+    vec3 body;  // factor on light that has been in the fibre: all except R. 1; shaders set it
     Address averages;  // FiberAverage [row][kFiberAverages]; read by dual_scattering
 };
 

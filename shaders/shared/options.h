@@ -153,7 +153,7 @@ const uint kResolveExposureConstant = 3u;
 // Invocations along each side of a work group of post/resolve.glsl and post/develop.glsl.
 const uint kResolveGroupSide = 8u;
 
-// Constants of simulation/shape.glsl. simulation/shape_serial.glsl uses all but the last.
+// Constants of simulation/shape.glsl. simulation/shape_serial.glsl uses all except the last.
 const uint kShapeGroupSizeConstant = 0u;
 const uint kShapeVerticesPerStrandConstant = 1u;
 const uint kShapeCollidesConstant = 2u;

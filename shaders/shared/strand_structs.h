@@ -73,7 +73,8 @@ struct PictureParameters {
     uint vertices_per_guide;
     uint density;  // strands per root triangle at level 0, or all strands of the groom
     uint tessellation;  // segments per guide segment at level 0
-    uint patches_per_triangle;  // per guide segment: density beyond the device's isolines is split
+    uint patches_per_triangle;  // per guide segment: several if density exceeds the device's
+                                // isolines
     uint strands_per_patch;
     uint forced_density;  // most strands that are drawn: those of the forced level, or of level 0
     uint forced_tessellation;
@@ -167,7 +168,8 @@ struct StrandPointsPush {
     Address picture;  // PictureParameters
     Address records;  // StrandPointRecord [count], written
     uint count;
-    uint first;  // of all points, [triangle][strand][guide segment][0 .. tessellation]
+    uint first;  // number of the first point among all points, [triangle][strand][guide segment][0
+                 // .. tessellation]
 };
 
 #endif

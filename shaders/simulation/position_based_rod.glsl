@@ -51,8 +51,8 @@ vec2 inverseMassOf(uint i, vec4 drag) {
     return vec2(across, 1.0 / mass - across);
 }
 
-// The inverse of a quarter of a segment's inertia, which is the mass of its orientation as four
-// numbers.
+// The inverse of a quarter of a segment's inertia. That quarter is the mass of the orientation if
+// its four numbers are treated as a position.
 float inverseInertiaOf(uint i) {
     if (i == 0) return 0.0;
     float len = max(restLength(i), kLeastLength);

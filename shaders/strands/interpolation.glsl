@@ -8,9 +8,10 @@
 
 layout(buffer_reference, scalar) readonly buffer GuideContacts { float values[]; };
 
-// Control point `index` of a guide, from -1 to vertices_per_guide. The extra points reflect the
-// second point in the end, so that the curve starts exactly at the root and ends exactly at the
-// tip. The published program repeats the end, and its hair floats off the scalp.
+// Control point `index` of a guide, from -1 to vertices_per_guide. The two extra points
+// mirror the neighbour of the first or last point about that point, so that the curve starts
+// exactly at the root and ends exactly at the tip. The published program repeats the first and last
+// points, and its hair floats off the scalp.
 vec3 guideControlPoint(PictureParameters picture, uint guide, int index) {
     int last = int(picture.vertices_per_guide) - 1;
     int inside = clamp(index, 0, last);

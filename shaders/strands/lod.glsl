@@ -82,7 +82,7 @@ StrandLod forcedLod(PictureParameters picture) {
 
 uint drawnStrands(StrandLod lod) { return uint(ceil(lod.density)); }
 
-// The share of a strand's width that is drawn. It is 1 for all but the last strand, which fades in.
+// The share of a strand's width that is drawn. It is 1 except for the last strand, which fades in.
 float strandShare(StrandLod lod, uint strand) {
     return clamp(lod.density - float(strand), 0.0, 1.0);
 }

@@ -65,7 +65,7 @@ StrandOffset strandResidual(PictureParameters picture, BoundStrand strand, float
     ResidualSample c = residualSample(table, first + 1u);
     ResidualSample d = residualSample(table, is_last ? first + 1u : first + 2u);
 
-    // Changes over the interval if it were as steep throughout as at its ends.
+    // Changes over the interval if the curve were as steep throughout as at either end.
     precise float size = c.place - b.place;
     precise vec3 change = c.value - b.value;
     precise float part_before = is_first ? 0.0 : size / (c.place - a.place);

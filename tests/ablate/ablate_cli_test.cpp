@@ -47,7 +47,8 @@ TEST_F(AblateCli, WritesAReport) {
     const nlohmann::json cases = nlohmann::json::parse(text).at("cases");
     ASSERT_EQ(cases.size(), 2u);
     EXPECT_EQ(cases[0].at("status"), "ok");
-    EXPECT_EQ(cases[0].at("frame"), 3);  // the second of 1 + 1 frames, after 2 of warm-up
+    EXPECT_EQ(cases[0].at("frame"), 3);  // frames 0 and 1 warm up; of the two played frames, 3 is
+                                         // the second
     EXPECT_EQ(cases[0].at("rungs").size(), 7u);
     EXPECT_EQ(cases[0].at("rungs")[2].at("time").at("laps").size(), 2u);
     EXPECT_EQ(cases[1].at("status"), "skipped");

@@ -65,7 +65,7 @@ protected:
         return view.picture();
     }
 
-    // For invocations of a stage that makes vertices. On a GPU there may be more.
+    // Counts of a stage that makes vertices. A GPU may run it more often.
     static void expectRun(std::uint64_t count, std::uint64_t expected) {
         if (device().info().type == "cpu")
             EXPECT_EQ(count, expected);

@@ -303,7 +303,7 @@ private:
     void readNamespace(const std::string& scope, const Tokens& declaration) {
         const auto key = std::ranges::find(declaration, "namespace");
         const std::string name = joined(key + 1, declaration.end());
-        if (name.empty()) {  // everything in it belongs to the file
+        if (name.empty()) {  // a namespace without a name: everything in it belongs to the file
             skipBrackets();
             return;
         }

@@ -37,7 +37,8 @@ TEST(Pictures, AreThoseThatTheScriptDraws) {
     EXPECT_EQ(committed, drawn);
 }
 
-// Takes ninety minutes to draw, and is older than the texts that name a picture's commands.
+// This picture takes ninety minutes to draw, and is older than the texts that name a picture's
+// commands.
 const std::string kOlder = "shading_models_path_traced.png";
 
 // A program of an unmodified commit drew each picture with today's commands.

@@ -47,7 +47,7 @@ TEST(CheckSettings, WantsAPassForBusyWork) {
     };
     EXPECT_EQ(busy("", 1), "/run/busy_work: is above 0, but /run/busy_pass is empty");
     EXPECT_EQ(busy("strands", 1), "no error");
-    EXPECT_EQ(busy("strands", 0), "no error");  // as at the start of a sweep of it
+    EXPECT_EQ(busy("strands", 0), "no error");  // a sweep of /run/busy_work may start with this
 }
 
 TEST(CheckSettings, WantsCoverageToBeSeen) {
@@ -130,7 +130,7 @@ TEST(CheckSettings, WantsSolversThatKnowSectionsAndForcesOfContact) {
         });
     };
     EXPECT_EQ(with(hair::Solver::rod, 1.8f, true), "no error");
-    EXPECT_EQ(with(hair::Solver::shape, 1.8f, false), "no error");  // it has no material
+    EXPECT_EQ(with(hair::Solver::shape, 1.8f, false), "no error");  // `shape` has no material
     EXPECT_EQ(
         with(hair::Solver::stable_cosserat, 1.8f, false),
         "/simulation/material/ellipticity: is not 1, but of the rod solvers only rod supports "

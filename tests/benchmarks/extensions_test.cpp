@@ -196,7 +196,8 @@ TEST_F(SceneExtensions, SeesItsInterfaceAlone) {
         at + "#extension is not permitted in a file that a scene names");
     EXPECT_EQ(body("ab\\"), at + "'\\' is not permitted in a file that a scene names");
     EXPECT_EQ(body("#define AB 1"), at + "#define is not permitted in a file that a scene names");
-    // Otherwise the linker would find the program's functions, some of which take addresses.
+    // A function that is declared but not defined is refused. Otherwise the linker would use the
+    // program's function of that name, and some of these take addresses.
     for (const char* const declaration :
          {"void storePair(uvec2 at, uint index, uvec2 pair);", "float[2] storePair(uvec2 at);",
           "struct S { float x; } storePair(uvec2 at);", "const vec3 storePair(uvec2 at) ;"})
@@ -273,7 +274,7 @@ TEST_F(SceneExtensions, AreTheSameInEveryStage) {
     // Doubles are optional for devices.
     EXPECT_EQ(
         shading("double exact = 2.0LF; point.color *= float(exact);"),
-        at + "a number of other than 32 bits" + no_place);
+        at + "a number that does not have 32 bits" + no_place);
 
     folder.write(
         "in/offset.glsl", "// @parameter reach 0.02 [0, 0.1] m: most\n"

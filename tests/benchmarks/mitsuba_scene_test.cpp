@@ -99,7 +99,8 @@ TEST(MitsubaOptics, LightsHaveTheirColorsAsRadianceOfMattWhite) {
     const hair::LightSettings light{
         .position = {1, 0, 2}, .color = {1.0f, 0.5f, 0.0f}, .strength = 2.0f, .radius = 0.5f};
     EXPECT_NEAR(reference::lightColor(linear, light).y, 2.0 * 0.21404114, 1e-7);
-    EXPECT_NEAR(reference::lightColor(display, light).y, 1.0, 1e-12);  // twice 0.5 of a display
+    // twice the light of 0.5 in display colours
+    EXPECT_NEAR(reference::lightColor(display, light).y, 1.0, 1e-12);
     const glm::dvec3 target(1, 0, 0), color(1.0, 0.25, 0.0);
     EXPECT_NEAR(
         reference::lightIntensity(light, color, target).y, std::numbers::pi, 1e-12);  // pi 4 / 4

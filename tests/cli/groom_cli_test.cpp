@@ -71,11 +71,11 @@ TEST_F(GroomCli, ConvertChoosesGuidesAndSaysHowGoodTheyAre) {
     EXPECT_EQ(outcome.status, 0) << outcome.output;
     EXPECT_THAT(
         outcome.output,
-        ContainsRegex(
-            "chose: 20 guides of 400 strands\nerror: .* nm in the mean .* % of the mean length"));
+        ContainsRegex("chose: 20 guides of 400 strands\nerror of the strands made from them: .* nm "
+                      "on average .* % of the mean length"));
     EXPECT_THAT(
-        outcome.output, ContainsRegex("left: of the file's strands as /strands/source groom draws "
-                                      "them with these guides .* on average, .* at most"));
+        outcome.output, ContainsRegex("error of the file's strands, as /strands/source groom "
+                                      "draws them with these guides: .* on average, .* at most"));
     EXPECT_EQ(json("guides.hgl")["strands"], 20);
 }
 

@@ -180,7 +180,7 @@ TEST_F(GroomCompareCli, SaysWhatIsInsideAHead) {
             "four.hair", "four.hair",
             "--scale-a 0.01 --scale-b 0.01 --spacing 4 --mesh " + quoted("box.obj"))
             .output,
-        HasSubstr("A inside the mesh: 57.1 % of its length, 4 strands, 50.0 mm deep in the mean"));
+        HasSubstr("A inside the mesh: 57.1 % of its length, 4 strands, 50.0 mm deep on average"));
 }
 
 TEST_F(GroomCompareCli, RefusesInOneLineWithStatus2) {

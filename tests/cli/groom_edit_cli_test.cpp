@@ -83,11 +83,12 @@ TEST_F(GroomEditCli, FixLeavesNothingThatInfoFindsInStrands) {
     const Outcome outcome = edit("fix", "odd.hair", "--scale 0.01");
     EXPECT_EQ(outcome.status, 0);
     EXPECT_THAT(
-        outcome.output, AllOf(
-                            HasSubstr("left out: strands without length: 1\n"),
-                            HasSubstr("left out: strands equal to one before them: 1\n"),
-                            HasSubstr("left out: points at the place of the one before: 1\n"),
-                            ContainsRegex("wrote: .*out.hair, 5 strands, 15 points\n")));
+        outcome.output,
+        AllOf(
+            HasSubstr("left out: strands without length: 1\n"),
+            HasSubstr("left out: strands equal to one before them: 1\n"),
+            HasSubstr("left out: points at the same place as the previous one: 1\n"),
+            ContainsRegex("wrote: .*out.hair, 5 strands, 15 points\n")));
     EXPECT_TRUE(json("out.hair", "--scale 1")["odd"].empty());  // "out.hair" is in metres
 }
 

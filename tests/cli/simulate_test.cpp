@@ -94,8 +94,8 @@ TEST_F(SimulateCli, LeavesNoHalfFileWhenItIsInterrupted) {
     EXPECT_TRUE(fs::is_empty(folder_.file("out")));
 }
 
-// Invalid outcomes, NaN and impossible strand lengths, in every command that measures or writes
-// them.
+// Tests invalid outcomes, NaN and impossible strand lengths, in every command that measures or
+// writes them.
 class WrongOutcome : public SimulateCli {
 protected:
     // Writes the smoke scene with these members and one small case.

@@ -29,7 +29,7 @@ def fail(reason):
 
 
 def check_files(wheel):
-    """Checks that it has no path of the build machine, and that each library is its own or the system's."""
+    """Refuses paths of the build machine, and libraries that are neither the wheel's own nor the system's."""
     with zipfile.ZipFile(wheel) as archive, tempfile.TemporaryDirectory() as folder:
         archive.extractall(folder)
         names = archive.namelist()

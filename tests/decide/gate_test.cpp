@@ -70,7 +70,7 @@ TEST(Gate, EndsAt8WhenAChangeIsLargeInEveryPair) {
     gate::Gate noisy(std::vector<gate::GateMetric>{{.calibration = {0.4, -0.4, 0.4, -0.4}}});
     play(noisy, [](std::size_t i) { return 1.5 + 0.001 * wobble(i); });
     EXPECT_GE(noisy.pairs(), 12u);
-    // If 24 pairs are requested, it decides nothing before them.
+    // If 24 pairs are requested, the gate makes no decision before it has them.
     gate::Gate late(kOneMetric, {.first_pairs = 24});
     EXPECT_EQ(play(late, [](std::size_t) { return 1.5; }), 48u);
 }

@@ -42,8 +42,8 @@ def signed_rank(values, alpha):
     p = [stats.wilcoxon(x - point, method="exact").pvalue for point in points]
     kept = [i for i in range(len(p)) if p[i] > alpha]
     row["lower"], row["upper"] = ends[kept[0] - 1], ends[kept[-1]]
-    # Medians just outside are rejected at their own p-value, the greatest error rate of the
-    # interval.
+    # Medians just outside the interval are rejected at their own p-value, the greatest error rate
+    # of the interval.
     row["confidence"] = 1 - p[kept[0] - 1]
     return row
 

@@ -27,7 +27,8 @@ TEST(Trend, OfNothingIsNone) {
     EXPECT_EQ(measure::trend(std::vector{1.0}).p, 1.0);
     EXPECT_EQ(measure::trend(std::vector(32, 1.0)).p, 1.0);
     EXPECT_DOUBLE_EQ(
-        measure::trend(std::vector{1.0, 2.0, 3.0}).p, 2.0 / 6.0);  // one order of six, twice
+        measure::trend(std::vector{1.0, 2.0, 3.0}).p, 2.0 / 6.0);  // one of six orders, and two
+                                                                   // sides
     EXPECT_EQ(
         errorText([] { measure::medianSlope(std::vector{1.0}); }),
         "median slope: fewer than two samples");

@@ -464,7 +464,7 @@ TEST_F(LesserDevice, BindsAnyNumberOfImagesWithoutPushDescriptors) {
 
 // A shader's capabilities list the features that it needs: SPIR-V specification, 3.31.
 TEST(ShaderCapabilities, AreThoseThatFeaturesStandFor) {
-    constexpr std::uint32_t kCapability = 17;  // the operation
+    constexpr std::uint32_t kCapability = 17;  // OpCapability
     constexpr std::uint32_t kShader = 1, kGeometry = 2, kTessellation = 3, kLongIntegers = 11,
                             kLongAtomics = 12, kSampledBuffer = 46, kImageQuery = 50,
                             kMeshShading = 5283, kPhysicalAddresses = 5347;

@@ -44,7 +44,7 @@ TEST(DoctorCommand, SaysTheSameInItsTableItsReportAndItsStatus) {
         bad = bad || finding["verdict"] == "bad";
     }
     EXPECT_EQ(outcome.status == 3, bad);
-    // It needs no file and leaves only the requested one.
+    // The doctor needs no file and leaves only the requested one.
     EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder.path()), {}), 1);
 }
 

@@ -100,7 +100,7 @@ TEST(RunTool, HandsOverLines) {
     EXPECT_EQ(lines, (std::vector<std::string>{"a", "bc", "", "end"}));
 }
 
-// Without that, this would take a minute.
+// If the error did not end the program, this would take a minute.
 TEST(RunTool, EndsTheProgramWhereALineIsRefused) {
     EXPECT_EQ(
         errorText([] {
@@ -111,7 +111,7 @@ TEST(RunTool, EndsTheProgramWhereALineIsRefused) {
         "no");
 }
 
-// Tests the same for a program without output.
+// Tests a program without output.
 TEST(RunTool, EndsTheProgramWhereAPollThrows) {
     EXPECT_EQ(
         errorText([] {

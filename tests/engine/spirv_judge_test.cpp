@@ -180,7 +180,7 @@ TEST(SpirvJudge, RefusesWhatIsNoMathematics) {
     for (const char* const type : {"OpTypeFloat 64", "OpTypeFloat 16", "OpTypeInt 64 0"})
         EXPECT_EQ(
             faultOf(Module{.types = std::string("%other = ") + type}),
-            "a number of other than 32 bits" + kNoPlace);
+            "a number that does not have 32 bits" + kNoPlace);
 }
 
 TEST(SpirvJudge, RefusesDecorationsThatReachOutside) {

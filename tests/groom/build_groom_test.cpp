@@ -246,8 +246,8 @@ TEST(BuildGroom, KnowsTheNormalsOfTheMeshUnderAFile) {
     const Groom guides = grown(40);
     const Groom groom = buildGroom(fileOf(folder, guides), &cap, folder.path(), 1);
     ASSERT_EQ(groom.root_normals.size(), 40u);
-    // The cap's exact normals, interpolated in triangles of 1.8 / 24 rad: off by less than (one
-    // eighth of) that squared.
+    // The cap's exact normals, interpolated in triangles of 1.8 / 24 rad, are off by less than an
+    // eighth of the square of that angle.
     for (std::uint32_t i = 0; i < 40; ++i)
         EXPECT_GT(glm::dot(groom.root_normals[i], glm::normalize(guides.strand(i)[0])), 0.999f);
     EXPECT_TRUE(buildGroom(fileOf(folder, guides), nullptr, folder.path(), 1).root_normals.empty());

@@ -79,7 +79,7 @@ TEST(Flatten, RefusesAScalpOnBothEndsOfItsAxis) {
     for (std::uint32_t ring = 8; ring < 18; ++ring) {
         for (std::uint32_t sector = 0; sector < 16; ++sector) {
             if (ring >= 11 && ring < 15 && sector >= 4)
-                continue;  // the C's inside, open at its end
+                continue;  // inside the C, which is open at its end
             const std::size_t triangle = 48 + 96 * (ring - 1) + 2 * sector;
             mesh.triangle_materials[triangle] = mesh.triangle_materials[triangle + 1] = 0;
         }

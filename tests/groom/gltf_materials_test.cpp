@@ -102,7 +102,7 @@ TEST_F(GltfMaterials, HaveTheirTextures) {
     EXPECT_EQ(read.normal_texture->vertical, Wrap::mirror);
     EXPECT_FALSE(read.normal_texture->is_smooth);
     EXPECT_EQ(read.metallic_roughness_texture->vertical, Wrap::repeat);
-    ASSERT_EQ(mesh.pictures.size(), 1u);  // the same for all
+    ASSERT_EQ(mesh.pictures.size(), 1u);  // all materials share it
     EXPECT_EQ(mesh.pictures[0].width, 2u);
     EXPECT_EQ(mesh.pictures[0].height, 1u);
     EXPECT_THAT(mesh.pictures[0].rgba, ElementsAre(255, 0, 0, 255, 0, 128, 255, 64));

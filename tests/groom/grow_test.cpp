@@ -33,7 +33,7 @@ Groom grow(
 
 Mesh headMesh() { return importMesh(std::string(HAIRBENCH_SCENES_DIR) + "/assets/head.glb"); }
 
-// Ericson 2004, Real-time collision detection, section 5.1.5, in double.
+// Ericson 2004, Real-time collision detection, section 5.1.5, in double precision.
 double distanceToTriangle(
     const glm::dvec3& p, const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c) {
     const auto toSegment = [&](const glm::dvec3& from, const glm::dvec3& to) {
@@ -225,7 +225,7 @@ TEST(Grow, FollowsTheNormalWithoutCombAndDroop) {
         const auto strand = groom.strand(i);
         const glm::vec3 along = glm::normalize(strand[7] - strand[0]);
         EXPECT_GT(glm::dot(along, glm::normalize(strand[0])), 1.0f - 1e-4f);
-        for (std::size_t v = 1; v < 7; ++v) {  // straight
+        for (std::size_t v = 1; v < 7; ++v) {  // the strand is straight
             const float part = static_cast<float>(v) / 7.0f;
             EXPECT_LT(
                 glm::distance(strand[v], glm::mix(strand[0], strand[7], part)), kPlaceRounding);
@@ -241,7 +241,8 @@ TEST(Grow, AddsTheCombToTheNormal) {
     const Groom groom = grow(sheet, settings, 20, 1);
     for (std::uint32_t i = 0; i < 20; ++i) {
         const auto strand = groom.strand(i);
-        EXPECT_LT(glm::distance(strand[7] - strand[0], expected), 1e-6f);  // floats up to 7
+        // rounding of floats up to 7
+        EXPECT_LT(glm::distance(strand[7] - strand[0], expected), 1e-6f);
     }
 }
 
@@ -263,7 +264,7 @@ TEST(Grow, DroopsByItsFormula) {
     const double droop = 6.0;
     const GrowSettings settings{.length = 0.35f, .comb = {1.0f, 0.0f, 0.0f}, .droop = 6.0f};
     const Groom groom = grow(sheet, settings, 9, 1);
-    const double first = 0.75 * std::numbers::pi;  // (1, 1, 0) from (0, -1, 0)
+    const double first = 0.75 * std::numbers::pi;  // the angle between (1, 1, 0) and (0, -1, 0)
     for (std::uint32_t i = 0; i < 9; ++i) {
         const auto strand = groom.strand(i);
         for (std::size_t segment = 0; segment < 7; ++segment) {
@@ -278,7 +279,7 @@ TEST(Grow, DroopsByItsFormula) {
     }
 }
 
-// The differential equation itself, by Runge-Kutta in 20,000 steps; The midpoint rule with 63
+// The differential equation itself, by Runge-Kutta in 20,000 steps. The midpoint rule with 63
 // segments stays within (droop l)^2 / 24 of the length in total.
 TEST(Grow, DroopsByItsDifferentialEquation) {
     const Mesh head = headMesh();
@@ -405,7 +406,7 @@ TEST(Grow, CombsAwayFromAParting) {
         const glm::vec3 root = groom.strand(i)[0];
         if (root.z < -0.02f || std::abs(root.x) < 0.0003f) continue;
         const glm::vec3 along = groom.strand(i)[1] - root;
-        // More than the normal alone does.
+        // The strand leans away from the parting more than the normal alone does.
         EXPECT_GT(along.x / root.x, glm::length(along) / 0.1f);
     }
 }

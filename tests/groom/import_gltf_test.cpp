@@ -170,7 +170,8 @@ TEST(ImportGltf, ReadsTheHead) {
     EXPECT_EQ(mesh.normals.size(), mesh.positions.size());
 }
 
-// The same vertices as texture coordinates, the first two of each three, and as weights.
+// The vertices' numbers also serve as texture coordinates (the first two of each three) and as
+// weights.
 TEST(ImportGltf, ReadsTextureCoordinates) {
     EXPECT_TRUE(import({}).texture_coordinates.empty());
     const Mesh mesh = import(

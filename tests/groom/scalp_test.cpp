@@ -74,11 +74,11 @@ TEST(Hairline, IsOneLoop) {
         makeGrid(3, 3, [](std::uint32_t x, std::uint32_t z) { return x == 1 && z == 1; });
     EXPECT_EQ(
         errorText([&] { traceHairline(extractScalp(ring)); }),
-        "the scalp has 2 boundary loops, 1 is needed");
+        "the scalp has 2 boundary loops, but 1 is needed");
     const auto islands = makeGrid(3, 3, [](std::uint32_t x, std::uint32_t) { return x == 1; });
     EXPECT_EQ(
         errorText([&] { traceHairline(extractScalp(islands)); }),
-        "the scalp has 2 boundary loops, 1 is needed");
+        "the scalp has 2 boundary loops, but 1 is needed");
     Mesh closed;  // a tetrahedron
     closed.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
     closed.normals.resize(4, glm::vec3(0, 1, 0));
@@ -87,7 +87,7 @@ TEST(Hairline, IsOneLoop) {
     closed.materials = {{.name = "scalp"}};
     EXPECT_EQ(
         errorText([&] { traceHairline(extractScalp(closed)); }),
-        "the scalp has 0 boundary loops, 1 is needed");
+        "the scalp has 0 boundary loops, but 1 is needed");
 }
 
 TEST(Hairline, NeedsASurface) {

@@ -94,7 +94,7 @@ TEST_F(InstalledTree, RunsAShippedScene) {
     ASSERT_EQ(outcome.status, 0) << outcome.output;
     const fs::path report = own.file("work/results/local/smoke.json");
     EXPECT_EQ(nlohmann::json::parse(textOf(report)).at("cases").size(), 1u);
-    EXPECT_THAT(  // by the installed schema, whatever the doctor finds on this machine
+    EXPECT_THAT(  // validates with the installed schema; the findings depend on this machine
         run("doctor --reports results/local/smoke.json").output,
         HasSubstr("results/local/smoke.json: "));
 

@@ -1,5 +1,5 @@
-/* A stand-in for NVIDIA's management library with its C interface. FAKE_NVML_OLD has a driver's
-   older names and no applications clock, FAKE_NVML_BARE nothing but what finds a device. */
+/* A stand-in for NVIDIA's management library with its C interface. With FAKE_NVML_OLD it has a
+   driver's older names and no applications clock; with FAKE_NVML_BARE, only what finds a device. */
 #include "fake_nvml.h"
 
 #include <stdio.h>

@@ -226,8 +226,8 @@ TEST(ClockHold, SaysWhatToDoWhereItCannot) {
     const auto source = [&] { return std::make_unique<MadeUpSource>(clocks); };
     EXPECT_EQ(
         refusal(hair::Clocks::locked, source(), "discrete"),
-        "/run/clocks locked: the driver does not let this user lock clocks; as administrator: lock "
-        "1410, and then without /run/clocks");
+        "/run/clocks locked: the driver does not let this user lock clocks; as administrator, run "
+        "lock 1410 and then measure without /run/clocks");
     EXPECT_EQ(
         refusal(hair::Clocks::free, source(), "discrete"),
         "/run/clocks free: an administrator has locked the clocks of Card 7");

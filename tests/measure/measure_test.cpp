@@ -342,7 +342,8 @@ TEST_F(RoundPlayerTest, GivesTheFramesAfterTheWarmUpInEveryRound) {
                 played = 0;
                 EXPECT_EQ(simulating(player.round()), expected)
                     << warmup << " to warm up, " << frames << ", round " << round;
-                EXPECT_EQ(played, warmup + frames + 1);  // the one that ends the last of them
+                EXPECT_EQ(played, warmup + frames + 1);  // the additional frame ends the last of
+                                                         // them
             }
         }
 }

@@ -48,7 +48,7 @@ struct GpuModel {
     double stall = 2e-3;  // s
 
     double throttled_share = 0.0;  // of the time, in stretches of 0.5 to 1.5 s
-    double throttled_clock = 0.7;  // of fast
+    double throttled_clock = 0.7;  // relative to `fast`
     std::string throttle_reason;  // reason reported by the driver; empty: none
 
     double watts = 300.0, idle_watts = 60.0, throttled_watts = 150.0;

@@ -95,8 +95,9 @@ TEST(SimulatedGpu, FrameTimesAreTrueWhateverTheMachineDoes) {
     }
 }
 
-// Bounds as above: 95 % of the machines that are throttled a fifth of the time, and 1 % of those
-// that never are. A mode is measured until its time is over, so that it meets some throttling.
+// Throttling must be found on 95 % of the machines that are throttled a fifth of the time, and on
+// at most 1 % of those that never are. A mode is measured until its time is over, so that it meets
+// some throttling.
 TEST(SimulatedGpu, ThrottlingIsFoundWhereThereIsSomeAndNotElsewhere) {
     const hair::RunSettings run{.precision = 0.0f, .max_time = 6.0f};
     int found = 0, wrongly = 0;
@@ -504,7 +505,7 @@ TEST(SimulatedGpu, AFewFramesInTheFirstRoundHaveTheirWholeTime) {
             }
 }
 
-// For any time limit and any frame length. Whatever had time was checked.
+// Tests all time limits and frame lengths. Every pass that had enough time was checked.
 TEST(SimulatedGpu, CheckingTimestampsTakesNoMoreThanItsTime) {
     for (const bool is_processor : {false, true})
         for (const double scale : {0.1, 1.0, 30.0})

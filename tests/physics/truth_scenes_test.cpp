@@ -17,7 +17,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// A scene's hair, played.
+// The hair of a scene, played step by step.
 class TruthScene {
 public:
     TruthScene(const engine::Device& device, const std::string& name, float time_step = 0.0f)

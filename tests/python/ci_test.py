@@ -140,7 +140,7 @@ class Action(Repository):
         return (self.folder / "summary").read_text()
 
     def made_builds(self, slower):
-        """Returns command lines that measure nothing but write a report with a made-up strands pass."""
+        """Returns command lines that only write a report with a made-up strands pass."""
         sides = []
         for name, time in (("a", 3.0), ("b", 3.0 * slower)):
             metric = {"unit": "ms", "hint": "lower", "mode": "isolated", "median": time, "mad": 0.0,

@@ -156,7 +156,7 @@ class Run(InFolder):
 
 
 class Gate(InFolder):
-    """Tests gate() on builds that measure nothing but write a made-up report."""
+    """Tests gate() on builds that take no measurements and only write a made-up report."""
 
     def side(self, name, factor):
         report = made_report()

@@ -37,11 +37,12 @@ TEST(BackendLimits, AreRefusedWithTheirReason) {
     Settings textured = software();
     textured.strands.texture = "bands.png";
     EXPECT_EQ(
-        refusal(blended), "/strands/backend: a /render/transparency but none is not drawn: it "
-                          "keeps one strand per sample");
+        refusal(blended),
+        "/strands/backend: a /render/transparency other than none is not drawn: it "
+        "keeps one strand per sample");
     EXPECT_EQ(
-        refusal(shown),
-        "/strands/backend: a /render/show but shading is not drawn: it only shades");
+        refusal(shown), "/strands/backend: a /render/show other than shading is not drawn: it can "
+                        "only draw shaded strands");
     EXPECT_EQ(
         refusal(textured),
         "/strands/backend: /strands/texture is not drawn: its strands have no holes");
@@ -103,7 +104,7 @@ TEST(BackendOrder, IsThatOfTheDocumentation) {
         (std::set{orderRow("processors", "cpu"), orderRow("graphics processors", "discrete")}));
 }
 
-// Every device's order has all back ends that draw the same strands: all but `lines`.
+// Every device's order has all back ends that draw the same strands, which are all except `lines`.
 TEST(BackendOrder, HasEveryBackEndOfTheSamePicture) {
     for (const char* type : {"cpu", "discrete", "integrated", "virtual", "other"})
         EXPECT_THAT(
@@ -132,8 +133,9 @@ TEST_F(BackendChoiceTest, IsTheFirstThatDrawsTheCase) {
     const BackendChoice other = choice(blended);
     EXPECT_EQ(other.backend, backendOrder(device().info())[1]);
     EXPECT_EQ(
-        other.reason, "automatic: the first that can draw it; not software: /strands/backend: a "
-                      "/render/transparency but none is not drawn: it keeps one strand per sample");
+        other.reason,
+        "automatic: the first that can draw it; not software: /strands/backend: a "
+        "/render/transparency other than none is not drawn: it keeps one strand per sample");
 }
 
 TEST_F(BackendChoiceTest, IsTheScenesOwn) {

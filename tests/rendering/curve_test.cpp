@@ -85,7 +85,7 @@ TEST_F(CurveTest, StraightGuideIsReproduced) {
     const glm::vec3 step(3.0f, -2.0f, 1.0f);
     for (int v = 0; v < 8; ++v) guide.push_back(root + static_cast<float>(v) * step);
     const StrandPoints points = evaluate(oneTriangle(guide), {.density = 2, .tessellation = 5});
-    // The largest coordinate is the reflected one, 1 + 8 * 3. There are some ten roundings.
+    // The largest coordinate is the reflected one, 1 + 8 * 3. There are about ten roundings.
     constexpr float kTolerance = 10 * 25 * kUlp;
     for (std::uint32_t segment = 0; segment < 7; ++segment) {
         for (std::uint32_t point = 0; point <= 5; ++point) {

@@ -90,8 +90,8 @@ TEST_F(FramesPassTest, TurnByMinusTheTorsionOfAHelix) {
     EXPECT_LT(turned, -10.0);
 }
 
-// Compares with the same method in double, from the styling of grooms. The angle between two
-// frames that don't turn is the same all along the strand, for any frames at the start.
+// Compares with the same method in double precision, from the styling of grooms. The angle between
+// two frames that don't turn is the same all along the strand, for any frames at the start.
 TEST_F(FramesPassTest, AgreeWithThoseOfStyling) {
     const groom::Groom groom = tangledGroom(16);
     const std::vector<glm::dvec3> n = normals(groom);

@@ -124,7 +124,8 @@ TEST_F(GpuFiberTest, AgreesWithTheReference) {
     }
 }
 
-// As above, and the table of averages is linear between 64 angles.
+// The tolerance is that of AgreesWithTheReference; the table of averages is linear between 64
+// angles.
 TEST_F(GpuFiberTest, AgreesWithTheReferenceOfDualScattering) {
     for (const float m : {0.1f, 0.3f, 0.7f}) {
         ShadingSettings shading = brownFiber();

@@ -110,7 +110,8 @@ TEST_F(GroomStrandsTest, AreTheSumsOfTheirGuides) {
             ASSERT_LT(glm::distance(glm::dvec3(record.position), point.position), kStrandTolerance);
             ASSERT_LT(glm::distance(glm::dvec3(record.tangent), point.tangent), kStrandTolerance);
             const double width = widthAt(groom, bindings[strand], i / 5, t);
-            ASSERT_NEAR(record.width, width, 10 * 0x1p-24 * 1e-3);  // sums of 6 below 1 mm
+            ASSERT_NEAR(record.width, width, 10 * 0x1p-24 * 1e-3);  // rounding of a sum of six
+                                                                    // terms below 1 mm
         }
     }
 }

@@ -120,7 +120,7 @@ TEST_F(HairShadowTest, CountsTheFansBeforeAPoint) {
 
 // The coverage is width / pitch for any width of the strands in texels.
 TEST_F(HairShadowTest, ThinStrandsCoverTheirArea) {
-    constexpr float kFine = 0.25f * kTexel;  // in maps of 512
+    constexpr float kFine = 0.25f * kTexel;  // a texel in maps of 512 by 512
     // A pitch of 5.7 texels and an angle make strands lie at all places within texels. Points are
     // spread over 14 whole pitches.
     const Fans fans{.pitch = 5.7f * kFine, .angle = 0.3f};

@@ -43,7 +43,8 @@ TEST_F(LightPictures, OfManyLightsAreTheSumOfEachAlone) {
     ASSERT_EQ(together.size(), sum.size());
     Extremes sums;
     for (std::size_t i = 0; i < sum.size(); ++i) {
-        // Half floats round each of the seventeen by up to 2^-11, after single precision.
+        // Half floats round each of the seventeen contributions by up to 2^-11, after single
+        // precision.
         ASSERT_NEAR(together[i], sum[i], 0x1p-10 * sum[i] + 1e-6) << i;
         sums.add(sum[i]);
     }

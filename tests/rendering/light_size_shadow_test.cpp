@@ -104,7 +104,8 @@ double largestError(LightType type, const std::vector<double>& lit) {
 
 // The part of a disc's N points beyond a line is off by N^-3/4; no set of N points can do better
 // (Beck and Chen 1987, Irregularities of distribution). The points of a rectangle are in equal
-// steps along its width. The map adds up to half a texel, 0.14 mm of at least 8 mm.
+// steps along its width. The map adds up to half a texel, which is 0.14 mm where the penumbra is at
+// least 8 mm wide.
 TEST_F(LightSizeShadow, PenumbraOfAnEdgeHasItsWidthAndProfile) {
     for (const LightType type : {LightType::rectangle, LightType::directional, LightType::sphere})
         for (const std::uint32_t samples : {4u, 16u, 64u}) {
@@ -121,7 +122,7 @@ TEST_F(LightSizeShadow, OneSampleIsTheShadowOfTheMiddle) {
         const std::vector<double> lit = penumbra(device(), type, 1);
         const std::vector<float> places = penumbraPlaces();
         for (std::size_t i = 0; i < lit.size(); ++i) {
-            if (std::abs(places[i]) < 0.2f) continue;  // the filter
+            if (std::abs(places[i]) < 0.2f) continue;  // the filter blurs this part
             EXPECT_EQ(lit[i], places[i] > 0 ? 1.0 : 0.0) << i;
         }
     }

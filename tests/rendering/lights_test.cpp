@@ -11,7 +11,7 @@
 namespace hair::rendering {
 namespace {
 
-constexpr double kRounding = 4e-6;  // relative: some thirty of single precision
+constexpr double kRounding = 4e-6;  // relative: some thirty roundings in single precision
 
 gpu::ModelProbe at(const glm::vec3& position, const glm::vec3& normal = {0, 0, 1}) {
     return {

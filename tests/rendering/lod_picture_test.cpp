@@ -28,7 +28,7 @@ TEST_F(LodPictureTest, NearHairIsThatOfLevelZero) {
     const Pixels forced = draw(settings);
     settings.lod = {
         .mode = LodMode::distance,
-        .level = 3.0f,  // not read
+        .level = 3.0f,  // is not read
         .near_distance = 1.0f,
         .far_distance = 2.0f};
     EXPECT_EQ(differingPixels(draw(settings), forced), 0u);

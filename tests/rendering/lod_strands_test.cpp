@@ -128,7 +128,7 @@ TEST_F(LodStrandsTest, EndsMoveFromTheCurveToTheLine) {
                     glm::mix(fineAt(i - past), fineAt(i - past + row.step), part);
                 expected = glm::mix(line, expected, row.morph);
             }
-            // The level in 24 bits puts the wanted pieces off by some 1e-6.
+            // The level in 24 bits puts the wanted pieces off by about 1e-6.
             EXPECT_LT(glm::distance(glm::dvec3(points.at(2, 0, 4, i).position), expected), 1e-6)
                 << row.wanted << " " << i;
         }
@@ -155,8 +155,8 @@ glm::dvec3 slopeOfCubic(const std::array<glm::dvec3, 7>& points, std::uint32_t i
     return slope;
 }
 
-// As above for tangents. The tangents of ends that stay are the curve's slopes. On the way to the
-// line a tangent goes to a mean of those of the line's ends.
+// Tests tangents. The tangents of ends that stay are the curve's slopes. On the way to the line a
+// tangent goes to a mean of those of the line's ends.
 TEST_F(LodStrandsTest, TangentsMoveWithTheirEnds) {
     const StrandSettings strands{.density = 4, .tessellation = 6};
     const StrandPoints fine = evaluateAt(strands, 0.0f);
@@ -222,7 +222,7 @@ TEST_F(LodStrandsTest, JointsHaveNoGaps) {
 
 // The sum over strands of width times length is equal to that of level 0, except for the shorter
 // polylines: none is longer than at level 0 or shorter than the chords of the guide segments. The
-// widths of all strands add up to the same everywhere; sums of 50 floats are off by some 1e-6.
+// widths of all strands add up to the same everywhere; sums of 50 floats are off by about 1e-6.
 TEST_F(LodStrandsTest, AreaIsKept) {
     groom::Groom groom = tangledGroom(8);
     groom.root_triangles = {{0, 0, 0}};  // all strands have one length

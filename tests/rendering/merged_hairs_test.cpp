@@ -55,7 +55,7 @@ protected:
 };
 
 // Width times length of sixteen hairs. The hairs' ends spread a strip's area by 1.2 %, the cuts at
-// its edges by some 3 %. The mean of 12 strips has a spread of 1 %; the test allows three. The
+// its edges by about 3 %. The mean of 12 strips has a spread of 1 %; the test allows three. The
 // hairs are oblique, because upright hairs of 1.8 px would meet the same columns of pixels along
 // their whole length.
 TEST_F(MergedHairsTest, CoverTheAreaOfAllHairs) {

@@ -456,7 +456,7 @@ TEST_F(MeshBackendCounts, AreFewerOfWhatAPictureCannotShow) {
     EXPECT_LT(seen.mesh, whole.mesh);
     expectSamePictures(part, 100);
     Settings away = small();
-    away.camera.target = {0.0f, 0.0f, 2.0f};  // from 0.5 m on
+    away.camera.target = {0.0f, 0.0f, 2.0f};  // looks away from the hair, from z = 0.5 m
     EXPECT_EQ(count(away).mesh, 0u);
 }
 

@@ -18,7 +18,7 @@ using Rgb = std::array<int, 3>;
 inline constexpr Rgb kBackground{64, 38, 46};
 
 // A square of 1 m in the plane z = 0 that faces +z, with the texture coordinates of glTF: (0, 0) is
-// up left.
+// at the top left.
 inline groom::Mesh quad(const groom::Material& material = {}) {
     return {
         .positions =

@@ -133,7 +133,8 @@ TEST_F(MeshShadowTest, SurfacesShadeNotThemselvesButWhatIsCloseBehind) {
             const glm::vec3 b = 0.5f * (mesh.positions[2] - mesh.positions[1]);
             std::vector<gpu::ShadowProbe> on;
             std::vector<gpu::ShadowProbe> behind;
-            const float inside = std::cos(angle) > 0.3f ? 0.9f : 0.5f;  // of the filter
+            // share of the square in which the filter sees nothing else
+            const float inside = std::cos(angle) > 0.3f ? 0.9f : 0.5f;
             for (const glm::vec3& point : grid(inside, 0.0f)) {
                 const glm::vec3 place = point.x * a + point.y * b;
                 on.push_back({place, 0, normal});

@@ -55,7 +55,7 @@ TEST_F(OffsetStrandsTest, AgreeWithTheReference) {
             const reference::Point expected = reference::offsetPoint(
                 groom, settings, offsets, triangle, strand, segment, (i % 4) / 3.0);
             ASSERT_LT(glm::distance(glm::dvec3(record.position), expected.position), kTolerance);
-            // Slopes are some 10 times the offsets: 6 turns over 7 segments.
+            // Slopes are about 10 times the offsets: 6 turns over 7 segments.
             ASSERT_LT(glm::distance(glm::dvec3(record.tangent), expected.tangent), 10 * kTolerance);
         }
     }

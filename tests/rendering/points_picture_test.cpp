@@ -302,7 +302,7 @@ TEST_F(PointsPicture, IsTheSameEveryTime) {
     }
 }
 
-// Ways of drawing other than shaded and opaque with `expanded`, and levels of detail with fewer
+// Tests drawing other than shaded and opaque with `expanded`, and levels of detail with fewer
 // pieces than the finest.
 TEST_F(PointsPicture, IsThatOfTessellationHoweverItIsShown) {
     if (pythonInterpreter().empty()) return skipWithout(Need::python, kNoPython);

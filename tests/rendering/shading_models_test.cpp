@@ -66,7 +66,7 @@ TEST_F(ShadingModels, KajiyaKayIsTheirEquations) {
     EXPECT_EQ(probe(atDegrees(30), atDegrees(40), 2.0f).kajiya_kay_specular, 0.0f);
     // Light along the strand doesn't light it.
     const gpu::ModelProbe along = probe(atDegrees(0), atDegrees(90), 20.0f);
-    EXPECT_NEAR(along.kajiya_kay_diffuse, 0.0, 1e-3);  // the root of a rounding
+    EXPECT_NEAR(along.kajiya_kay_diffuse, 0.0, 1e-3);  // the square root of a rounding error
 }
 
 }  // namespace

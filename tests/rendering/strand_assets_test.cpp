@@ -5,7 +5,8 @@
 #include "tests/error_text.h"
 #include "tests/temporary_folder.h"
 
-// Data that a scene's strands need and its files lack: errors before anything runs.
+// Tests that data which a scene's strands need and its files lack cause errors before anything
+// runs.
 namespace benchmarks {
 namespace {
 

@@ -114,7 +114,7 @@ TEST_F(StrandPointsTest, LevelFollowsTheLogarithmOfTheDistance) {
                 const float share = std::min(row.density - static_cast<float>(strand), 1.0f);
                 const bool drawn = share > 0.0f && point <= row.tessellation;
                 const float width = drawn ? 0.01f * share * 64.0f / row.density : -1.0f;
-                // The level by logarithms is off by some 2^-20.
+                // The level by logarithms is off by about 2^-20.
                 ASSERT_NEAR(points.at(triangle, strand, 1, point).width, width, 1e-6f)
                     << triangle << " " << strand << " " << point;
             }

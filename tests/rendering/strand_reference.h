@@ -14,8 +14,8 @@
 #include "hair/random.h"
 #include "hair/settings.h"
 
-// Strands in double, written from the thesis's equations and not from the shaders. Only the random
-// numbers (hair/random.h) are shared: without the same ones there is nothing to compare.
+// Strands in double precision, written from the thesis's equations and not from the shaders. Only
+// the random numbers (hair/random.h) are shared: without the same ones there is nothing to compare.
 namespace hair::reference {
 
 struct Point {

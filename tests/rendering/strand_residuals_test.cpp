@@ -430,7 +430,7 @@ TEST_F(StrandResidualsTest, GuidesThatBendTurnResidualsWithThem) {
             }
         }
         const StrandPoints points = evaluate(groom, ownStrands(2), bent);
-        // The mean of the guides' points, and beyond the bend a straight line again.
+        // Up to the bend, the mean of the guides' points is expected; beyond it, a straight line.
         const glm::dvec3 root(0.0, 0.0, 0.00375);
         const glm::dvec3 pivot = root + glm::dvec3(0.0, 0.01 * kBend, 0.0);
         for (std::uint32_t k = 0; k < kVertices; ++k) {

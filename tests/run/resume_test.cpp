@@ -40,7 +40,7 @@ TEST_F(Resume, GoesOnAfterAnInterrupt) {
     EXPECT_EQ(outcome.status, 0) << outcome.output;
     EXPECT_THAT(
         outcome.output, HasSubstr(
-                            "going on after " + std::to_string(partial["cases"].size()) + " of " +
+                            "continuing after " + std::to_string(partial["cases"].size()) + " of " +
                             std::to_string(kCases) + " cases"));
     const scene::Json report = report::readReport(out_);
     EXPECT_EQ(difference(lasting(report), whole()), "[]");

@@ -103,7 +103,7 @@ TEST_F(Record, GoesOnAsIfNothingHadHappened) {
             RunRecord record = open(false);
             run(record, before);
         }
-        header_.order_seed = 77;  // another start, with another seed and later
+        header_.order_seed = 77;  // a later start with another seed
         header_.environment.started = "2031-01-01T00:00:00Z";
         RunRecord record = open(true);
         EXPECT_EQ(record.done(), before);
@@ -129,7 +129,7 @@ TEST_F(Record, PlaysAgainWhatIsDamaged) {
     std::unique_ptr<RunRecord> record;
     EXPECT_THAT(
         printedText(Printed::to_stderr, [&] { record.reset(new RunRecord(open(true))); }),
-        HasSubstr("r.json.journal: line 3 is damaged: left out\n"));
+        HasSubstr("r.json.journal: line 3 is damaged and left out\n"));
     EXPECT_EQ(record->done(), 3u);
     ASSERT_THAT(placesLeft(*record), ElementsAre(shuffledOrder(4, 1)[1]));
     run(*record, 1);
@@ -177,7 +177,7 @@ TEST_F(Record, LeavesOutWhatIsNoCaseOfTheRun) {
         }
         EXPECT_THAT(
             printedText(Printed::to_stderr, [&] { EXPECT_EQ(open(true).done(), 2u) << line; }),
-            HasSubstr("a line is not a case of this run, or repeats one: left out"))
+            HasSubstr("a line is not a case of this run, or repeats one, and is left out"))
             << line;
     }
 }
@@ -332,7 +332,7 @@ long peakMemoryOf(const std::function<void()>& play) {
     return peak;
 }
 
-// 10,000 cases take no more memory than a few: each needs only some bytes to find it by.
+// 10,000 cases take no more memory than a few, because each keeps only the place of its line.
 TEST_F(Record, IsFlatInMemory) {
     constexpr std::size_t kFew = 100;
     constexpr std::size_t kMany = 10'000;

@@ -124,7 +124,7 @@ for shard in 1 2; do
     grep -q "^report: " "$work/sweep.shards/$shard.log" || fail "shard $shard did not run"
 done
 
-grep -E "going on after [12] of 3 cases" "$work/sweep.shards/1.log" ||
+grep -E "continuing after [12] of 3 cases" "$work/sweep.shards/1.log" ||
     fail "the requeued shard did not go on where it was"
 
 "$program" run scenes/smoke.json "${options[@]}" --out "$work/whole.json" >"$work/run.log" 2>&1 ||

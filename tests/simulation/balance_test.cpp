@@ -69,7 +69,7 @@ TEST_F(BalancedRest, HoldsInSubsteps) {
 }
 
 // In air with drag, the tensions of `shape` use a different metric from the pull toward the rest
-// position. A curved guide then drifts by some 2 % of its length.
+// position. A curved guide then drifts by about 2 % of its length.
 TEST_F(BalancedRest, HoldsInStillAirOfDrag) {
     for (const Solver solver : {Solver::shape, Solver::rod}) {
         SimulationSettings settings = balancedSettings(solver);

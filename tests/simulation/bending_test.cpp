@@ -339,7 +339,7 @@ TEST(Bending, SagsAsTheThesissHair) {
 class BendingOnDevice : public GpuTest, public testing::WithParamInterface<Parallelism> {};
 
 // The head turns and moves, wind blows, and segments have wrong lengths by up to a third. Each step
-// starts from the reference's state. Sums have some tens of products of floats, each rounded to
+// starts from the reference's state. Sums have a few tens of products of floats, each rounded to
 // 6e-8 of itself, in strands of up to 1.4 m.
 TEST_P(BendingOnDevice, StepsAreTheReferences) {
     for (const std::uint32_t vertices : kVertexCounts) {

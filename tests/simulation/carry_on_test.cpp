@@ -61,7 +61,7 @@ TEST_F(CarryOn, WithTheSameSettingsChangesNothing) {
 }
 
 // A simulation takes 7 steps with other settings and then carries on with new ones. Another is made
-// with the new settings and set to the same state at the same time. Both go on alike, for every
+// with the new settings and set to the same state at the same time. Both continue alike, for every
 // change and its reverse. On a CPU they are equal to the bit; a GPU's compiler rounds differently
 // in shaders that handle bodies, even if there are none.
 TEST_F(CarryOn, GoesOnLikeANewSimulationInItsState) {

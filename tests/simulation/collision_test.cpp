@@ -84,7 +84,8 @@ TEST(Collision, StopsAtThePlaneWhereItEnters) {
     const CollisionSettings continuous{.continuous = true};
     const glm::dvec3 stopped = pushed({2, 0.3, 0}, {ball}, before, continuous);
     EXPECT_LT(glm::distance(stopped, {2 - 1.92 * 0.8, 0.3 + 1.92 * 0.6, 0}), 1e-12);
-    // A vertex that ends inside is moved to this plane too, and not out at the nearest side.
+    // A vertex that ends inside is moved to the plane at its point of entry too, and not out at the
+    // nearest side.
     EXPECT_LT(pushed({0.4, 0.3, 0}, {ball}, before, continuous).x, 0.0);
     EXPECT_GT(pushed({0.4, 0.3, 0}, {ball}, before).x, 0.0) << "but where ways don't count";
     expectPoint(pushed({2, 0.6, 0}, {ball}, glm::dvec3(-2, 0.6, 0), continuous), {2, 0.6, 0});

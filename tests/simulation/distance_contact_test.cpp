@@ -95,7 +95,7 @@ TEST_F(DistanceContactTest, SampledSphereIsOffByTheCurvatureAtMost) {
     }
 }
 
-// Returns the same interpolant, computed in double as a sum over all grid points.
+// Returns the same interpolant, computed in double precision as a sum over all grid points.
 double interpolate(
     const gpu::DistanceField& grid, const std::vector<float>& distances, const glm::dvec3& p) {
     const glm::dvec3 scaled = (p - glm::dvec3(grid.origin)) / double{grid.cell};

@@ -28,8 +28,7 @@ inline SimulationSettings fallingThroughAir(float time_step) {
     return settings;
 }
 
-// Returns the accelerations, m/s^2, that air gives a strand's free vertices in a substep at the
-// start.
+// Returns the accelerations, m/s^2, by air of a strand's free vertices in a substep at time 0.
 inline std::vector<glm::dvec3> dragOnFree(
     std::span<const glm::dvec3> positions, std::span<const glm::dvec3> previous,
     const SimulationSettings& settings, std::uint32_t seed) {

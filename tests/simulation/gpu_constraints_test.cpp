@@ -6,7 +6,8 @@
 #include "tests/simulation/parallelisms.h"
 #include "tests/simulation/strands.h"
 
-// Tests each pass and constraint alone: one step on the device against the reference in double.
+// Tests each pass and constraint alone: one step on the device against the reference in double
+// precision.
 namespace hair::simulation {
 namespace {
 

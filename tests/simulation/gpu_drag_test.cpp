@@ -15,7 +15,7 @@
 #include "tests/simulation/drag.h"
 #include "tests/simulation/gpu_simulation.h"
 
-// Tests air on the device against the reference in double.
+// Tests air on the device against the reference in double precision.
 namespace hair::simulation {
 namespace {
 
@@ -74,9 +74,9 @@ protected:
 };
 
 // Includes winds that have blown for so long that they have moved by more than 2^32 cells. A
-// position in cells is rounded twice in float, within a metre and a cell, and once in double,
-// together with the distance that the wind has covered. Four octaves of noise have a derivative of
-// some tens per smallest cell, and their sums are rounded some 16 times.
+// position in cells is rounded twice in float, within a metre and a cell, and once in double
+// precision, together with the distance that the wind has covered. Four octaves of noise have a
+// derivative of a few tens per smallest cell, and their sums are rounded about 16 times.
 TEST_F(GpuDrag, BlowsLikeTheReferenceAtAnyTime) {
     const groom::Groom groom = wavyGroom(40, 8);
     for (const float scale : {10.0f, 0.5f, 0.1f})

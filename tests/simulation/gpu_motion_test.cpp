@@ -169,7 +169,8 @@ TEST_F(GpuMotion, NoneIsCarriedWithTheHead) {
 glm::vec3 axesTurned(const glm::vec3& v) { return {v.z, v.x, v.y}; }
 
 // Physics has no preferred direction: on a turned head, under gravity that is turned alike, hair
-// moves the same way. This is in double, with a turn that maps gravity's floats to floats.
+// moves the same way. This is in double precision, with a turn that maps gravity's floats to
+// floats.
 TEST(ReferenceMotion, DoesTheSameInAnyPose) {
     for (const Solver solver : kSolvers) {
         const groom::Groom groom = wavyGroom(5, 9);

@@ -15,7 +15,7 @@
 #include "tests/simulation/strands.h"
 
 // Tests the rod solvers on the device, in 32 bits, against theory and against the references in
-// double.
+// double precision.
 namespace hair::simulation {
 namespace {
 
@@ -90,8 +90,9 @@ INSTANTIATE_TEST_SUITE_P(
                                                        : "AugmentedMassSpring");
     });
 
-// The requirement is 2 %, and 5 % at 1000. 64 segments err by 0.02 % and 0.07 % in double. 32 bits
-// leave 1e-7 rad in every joint, which is 1e-4 of a joint's bend if gamma is 0.1.
+// The requirement is 2 %, and 5 % at 1000. 64 segments err by 0.02 % and 0.07 % in double
+// precision. 32 bits leave 1e-7 rad in every joint, which is 1e-4 of a joint's bend if gamma is
+// 0.1.
 TEST_F(GpuRod, HangsAsACantileverDoes) {
     const std::vector<double> gammas{0.1, 1.0, 5.0, 10.0, 50.0, 100.0, 1000.0};
     const auto ratios = hangingRatios(64, gammas);
@@ -104,7 +105,7 @@ TEST_F(GpuRod, HangsAsACantileverDoes) {
 // A step rounds positions to some 1e-7 of the strand's length. If stiffness keeps a strand
 // together, the errors of a hundred steps add up. A limp strand of many segments is a pendulum of
 // many links, which is chaotic. So it is followed for a single step, as is a strand that a few
-// corrections leave limp. Sweeps over orientations round each by some 3e-7 in each of nine sweeps,
+// corrections leave limp. Sweeps over orientations round each by about 3e-7 in each of nine sweeps,
 // starting from its neighbours' rounded ones, and an orientation turns everything below it. In long
 // steps, springs are so much stiffer than masses that 32 bits do not resolve both: they are
 // followed in their own substep.

@@ -336,7 +336,8 @@ TEST_F(HairOnHair, SlowHairIsLikeTheReferenceBesideFastHair) {
     expected.resize(slow.points.size());
     const double greatest = greatestLength(accelerations);
     ASSERT_GT(greatest, 1e-3);
-    // The tolerance of IsLikeTheReference without velocities, as their differences are exact here.
+    // The tolerance of IsLikeTheReference without the part for velocities, because their
+    // differences are exact here.
     EXPECT_LT(largestDifference(accelerations, expected), 2e-5 * greatest);
 }
 

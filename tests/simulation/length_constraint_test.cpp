@@ -57,7 +57,7 @@ TEST(LengthConstraint, ConvergesAtTheRateOfTheory) {
         }
         const double theory =
             std::pow(std::cos(std::numbers::pi / (2.0 * static_cast<double>(segments))), 2.0);
-        // Skips until only the slowest mode is left, and stays far above rounding.
+        // Skips time until only the slowest mode is left, and stays far above rounding.
         const int skipped = static_cast<int>(std::log(1e-3) / std::log(theory));
         for (int i = 0; i < skipped; ++i) reference::projectLengths(points, rest);
         for (int i = 0; i < 5; ++i) {

@@ -75,10 +75,10 @@ double boxDistanceTo(const glm::dvec3& p, const glm::dvec3& half) {
     return glm::length(glm::max(apart, 0.0)) + std::min(std::max({apart.x, apart.y, apart.z}), 0.0);
 }
 
-// The opening covers half a sphere only from its own plane: so the cap is flat, and the field is
-// the closed box's. The cap's vertices are found to half of 1/256 of an edge, which is at most a
-// cell's diagonal. Within a cell of the rim the cap cuts the corner between opening and sides,
-// which changes distances up to a few cells from the rim.
+// The opening is seen as half a sphere only from its own plane, so the cap is flat, and the field
+// is that of the closed box. The cap's vertices are found to half of 1/256 of an edge, which is at
+// most a cell's diagonal. Within a cell of the rim the cap cuts the corner between opening and
+// sides, which changes distances up to a few cells from the rim.
 TEST_F(OpenFieldTest, OfABoxWithoutAFaceIsThatOfTheBox) {
     const glm::dvec3 half{0.5, 0.31, 0.73};
     groom::Mesh mesh = makeBox(-half, half);
@@ -198,7 +198,8 @@ TEST_F(OpenFieldTest, OfBallsThatCrossIsThatOfBoth) {
         const auto depthIn = [&](const glm::dvec3& centre, double side) {
             const glm::dvec3 to = p - centre;
             const double length = glm::length(to);
-            const bool seen = side * (to.x / length - side * 0.45) <= 0.0;  // on the surface
+            const bool seen = side * (to.x / length - side * 0.45) <=
+                              0.0;  // the nearest point of the sphere belongs to the surface
             return seen && length > 1e-9 ? 1.0 - length : 10.0;
         };
         const double depth = std::min({ring, depthIn({0, 0, 0}, 1), depthIn(other, -1)});

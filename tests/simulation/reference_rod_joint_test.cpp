@@ -16,7 +16,7 @@ glm::dquat about(const glm::dvec3& axis, double angle) { return glm::angleAxis(a
 
 // The torque on the second frame is minus the gradient of the energy by its rotation. This holds
 // for any two stiffnesses and any section, and also for bends with a linear torque and a fading
-// twist. Central differences of 1e-5 rad leave 1e-10 of the third derivative, which is some 1e3
+// twist. Central differences of 1e-5 rad leave 1e-10 of the third derivative, which is about 1e3
 // near the fold.
 TEST(RodJoint, TorqueIsTheGradientOfTheEnergy) {
     std::mt19937 random(5);

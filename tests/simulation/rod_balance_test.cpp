@@ -41,9 +41,9 @@ std::vector<glm::dvec3> wavyRod(std::uint32_t seed, int vertices, double segment
     return points;
 }
 
-// Every joint's torque, by the reference in double, balances the moment of the weights below. The
-// rest rotations are solved to 1e-13. A joint that is stiffer than its moment by 10^3 makes 1e-10
-// from that.
+// Every joint's torque, by the reference in double precision, balances the moment of the weights
+// below. The rest rotations are solved to 1e-13. A joint that is stiffer than its moment by 10^3
+// makes 1e-10 from that.
 TEST(RodBalance, JointsBearTheWeightBelow) {
     for (std::uint32_t seed = 1; seed <= 20; ++seed) {
         const std::vector<glm::dvec3> points = wavyRod(seed, 12, 0.01);

@@ -15,7 +15,8 @@
 #include "tests/simulation/strands.h"
 
 // Tests the time integration of `rod`: material damping, and implicit Euler beside generalised
-// alpha. The reference in double is compared with theory, and the device with the reference.
+// alpha. The reference in double precision is compared with theory, and the device with the
+// reference.
 namespace hair::simulation {
 namespace {
 

@@ -191,7 +191,8 @@ TEST_F(GpuSegmentContact, StrandOfShapeSlipsByCoulombsLaw) {
         float moved = 0.0f;
         for (std::size_t v = 0; v < points.size(); ++v)
             moved = std::max(moved, glm::distance(points[v], groom.points[v]));
-        // At most two roundings of positions some cm from the origin; else more than any rounding.
+        // A held strand moves by at most two roundings of positions some cm from the origin; a
+        // slipping one by far more.
         if (part > 1.0)
             EXPECT_LT(moved, 1e-6f);
         else

@@ -55,7 +55,7 @@ wavyGroom(std::uint32_t strands, std::uint32_t vertices, double segment = kRefer
     return groom;
 }
 
-// Returns the groom's points with all but the roots moved by up to `amount` along each axis, m.
+// Returns the groom's points with all except the roots moved by up to `amount` along each axis, m.
 inline std::vector<glm::vec3>
 disturbed(const groom::Groom& groom, double amount, std::uint32_t seed) {
     std::mt19937 random(seed);

@@ -11,7 +11,7 @@
 #include "hair/groom/mesh/mesh.h"
 #include "tests/largest_difference.h"
 
-// Distances and winding numbers of a triangle mesh, in double and by brute force over all
+// Distances and winding numbers of a triangle mesh, in double precision and by brute force over all
 // triangles.
 namespace hair::reference {
 

@@ -108,7 +108,7 @@ TEST(Turbulence, IsSmooth) {
         const auto at = [&](int steps) {
             return reference::curlNoise(face + static_cast<double>(steps) * step, 1);
         };
-        // First derivatives are some tens, second ones some hundreds.
+        // First derivatives are a few tens, second ones a few hundred.
         EXPECT_LT(glm::distance(at(-1), at(1)), 1e-4);
         EXPECT_LT(glm::distance((at(2) - at(1)) / 1e-6, (at(-1) - at(-2)) / 1e-6), 1e-2);
     }
@@ -126,7 +126,8 @@ TEST(Turbulence, HasOctavesAsInKolmogorovsSpectrum) {
             if (octaves > 0) less = std::sqrt(energy) * reference::turbulence(point, octaves, 1);
             return std::sqrt(next) * reference::turbulence(point, octaves + 1, 1) - less;
         });
-        // As above, for the mean of three components of n samples, and half of that for the root.
+        // The tolerance for the mean of three components of n samples, and half of that for the
+        // root.
         const double tolerance = 2.0 * std::sqrt(2.0 / (3.0 * static_cast<double>(points.size())));
         EXPECT_NEAR(std::sqrt(added) / amplitude, 1.0, tolerance) << octaves;
         energy = next;

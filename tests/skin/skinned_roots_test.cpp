@@ -113,7 +113,8 @@ TEST_F(GpuSkin, TurnsFrozenHairWithItsTriangle) {
             return BendingSheet::vertexAt(
                 places[s].along + along, places[s].across + across, BendingSheet::kTime);
         };
-        // The sheet's squares stay rectangles. Their axes across do not turn, only those along do.
+        // The sheet's squares stay rectangles. Only their axes along the sheet turn; those across
+        // it don't.
         const glm::dvec3 along = glm::normalize(corner(1, 0) - corner(0, 0));
         const glm::dquat turn = glm::angleAxis(std::atan2(along.y, along.x), glm::dvec3(0, 0, 1));
         const std::size_t first = std::size_t{s} * groom.vertices_per_strand;

@@ -22,7 +22,7 @@ using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
 
-// For floats up to 5.
+// Rounding of floats up to 5.
 constexpr double kFloatRounding = 1e-6;
 
 class UsdMeshes : public testing::Test {

@@ -10,7 +10,7 @@ using hair::LightType;
 
 const Sphere kGroom{{0.1f, 0.2f, 0.0f}, 0.2f};
 
-// All lengths are a few metres, so 1e-6 is some float steps.
+// All lengths are a few metres, so 1e-6 is a few float steps.
 constexpr float kStep = 2e-6f;
 
 TEST(LightTool, MovesALightRoundTheGroomAtItsDistance) {

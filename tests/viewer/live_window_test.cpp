@@ -1,5 +1,5 @@
-// The window while a picture of the scene does not finish. A latch stops the drawing thread, and
-// nothing here depends on timing. This shows a bound for the window's response time: the window
+// Tests the window while a picture of the scene does not finish. A latch stops the drawing thread,
+// and nothing here depends on timing. This shows a bound for the window's response time: the window
 // waits for no step of that thread and no work of its device, so the response takes only a picture
 // of the window itself (docs/viewer.md has figures).
 #include "benchmarks/viewer/viewer.h"

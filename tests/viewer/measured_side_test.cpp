@@ -69,7 +69,7 @@ TEST_F(MeasuredSide, HasTheMetricsOfARun) {
         const hair::RunSettings settings = tinySettings().run;
         measure::measure(device(), test_case, settings, {.stop = goOn}, run);
     }
-    // Others use the device too, and one more starts to in the middle.
+    // Others use the device too, and one more starts to use it during the measurement.
     Player player(device(), tinySettings(), HAIRBENCH_SCENES_DIR);
     std::optional<engine::Buffer> window;
     std::vector<std::string> modes;

@@ -117,7 +117,7 @@ TEST(FrameSphere, FillsThePicture) {
     EXPECT_NEAR(outline, std::tan(glm::radians(30.0f)), 1e-4f);
 }
 
-// A picture higher than wide is filled across.
+// A picture that is taller than wide is filled across.
 TEST(FrameSphere, FillsTheShorterSide) {
     hair::CameraSettings framed = camera();
     frameSphere(framed, {0, 0, 0}, 0.2f, 0.5f);

@@ -80,7 +80,7 @@ TEST(PictureView, DragsPointsToWhereTheMouseIs) {
     ASSERT_TRUE(to);
     EXPECT_NEAR(to->x - from->x, by.x, kPixels);
     EXPECT_NEAR(to->y - from->y, by.y, kPixels);
-    // At the same depth as before.
+    // The point keeps its depth.
     EXPECT_NEAR(viewDown().depth(point + moved), viewDown().depth(point), 1e-6f);
 }
 

@@ -86,7 +86,7 @@ TEST(PreviewControl, DrawsTheCoarsestWhereNoneIsFastEnough) {
         EXPECT_EQ(level, kCoarsestPreview);
 }
 
-// By the header: two consecutive coarsest pictures over a second.
+// As the header says: two consecutive coarsest pictures over a second.
 TEST(PreviewControl, CrawlsWhereTwoCoarsestPicturesTakeOverASecond) {
     PreviewControl control;
     control.drawn(0, 60000.0);

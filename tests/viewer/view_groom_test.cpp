@@ -75,7 +75,7 @@ TEST_F(ViewGroom, LightsAreDragged) {
             {"expect": {"other_hash_than": "weak.json"}}, {"state": "left.json"},
             {"key": "ctrl+z"}, {"expect": {"same_hash_as": "weak.json"}}]})",
         "--width 1200 --height 700 -a /camera/field_of_view=45");
-    // It now shines from the other side, at the same distance.
+    // The light now shines from the other side, at the same distance.
     const auto lightIn = [&](const char* file) {
         return state(file)["sides"][0]["settings"]["shading"]["lights"][0]["position"]
             .get<std::vector<double>>();

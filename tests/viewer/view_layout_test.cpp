@@ -21,7 +21,8 @@ std::string panels() {
     return steps + R"(, {"perform": "Compare two settings"}, {"perform": "Timings"}, )" + kGood;
 }
 
-// Menus and boxes above the panels, and every setting; almost all contain an "e".
+// Returns steps that open the menus and the boxes above the panels, and show every setting; nearly
+// all settings have an "e" in their names.
 std::string popupsAndSettings() {
     std::string steps;
     for (const char* menu : {"File", "Camera", "Tools", "View", "Window"})
@@ -31,7 +32,7 @@ std::string popupsAndSettings() {
              R"({"click": "##search"}, {"type": "e"})";
     for (int i = 0; i < 8; ++i)
         steps += R"(, {"scroll": {"window": "Left/Scene/fields", "by": [0, -12]}}, )" + kGood;
-    // It floats above the others.
+    // The panel floats above the others.
     steps += R"(, {"perform": "Keys and mouse"}, {"expect": {"nothing_clipped": true}})";
     return steps;
 }

@@ -10,7 +10,7 @@ namespace benchmarks::viewer {
 
 // Returns unreadable parts, one per line: letters that are cut off at the left or right, labels
 // wider than their widgets, contents wider than a window or column without horizontal scrolling, or
-// higher than one without any scrolling. Text fields scroll.
+// taller than one without any scrolling. Text fields scroll.
 std::vector<std::string> clippedText(const engine::UiItems& items);
 
 // Returns unreachable parts, one per line: panels outside the window or overlapping others, and

@@ -98,7 +98,7 @@ void AlembicTopology::readKnots(
     }
     if (first != knots_.size())
         knots.fail(
-            std::to_string(knots_.size()) + " knots, the curves have " + std::to_string(first));
+            std::to_string(knots_.size()) + " knots, but the curves have " + std::to_string(first));
 }
 
 void AlembicKnots::go(std::uint32_t segment, double t) {

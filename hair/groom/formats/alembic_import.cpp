@@ -305,7 +305,7 @@ private:
         const AffineSpace& space, AlembicCurves& curves) {
         if (points.count() != topology.vertices())
             points.fail(
-                std::to_string(points.count()) + " positions, nVertices are " +
+                std::to_string(points.count()) + " positions, but nVertices are " +
                 std::to_string(topology.vertices()));
         share(topology.vertices() * sizeof(glm::vec3), points);
         std::vector<glm::vec3> vertices;

@@ -22,14 +22,14 @@ namespace hair::groom {
 
 static_assert(std::endian::native == std::endian::little, "files are read as they lie in memory");
 
-// Bounds the bytes that a file unfolds to, by shared or compressed data, in proportion to its size.
+// Bounds the bytes that a file expands to, by shared or compressed data, in proportion to its size.
 // Counted before they are made, so that a small file can't take all memory.
 class ExpansionLimit {
 public:
     // `file_size` is in bytes and includes the files that it names.
     explicit ExpansionLimit(std::uint64_t file_size) : most_(kAnyway + kTimes * file_size) {}
 
-    // Adds a file of this size.
+    // Raises the limit for arrays by the size of one more file.
     void allow(std::uint64_t file_size) { most_ += kTimes * file_size; }
 
     // Counts `bytes` more. `what` names them in the error, e.g. "the arrays". Throws engine::Error.

@@ -176,7 +176,7 @@ struct Source {
     HairArray array;
     std::uint64_t start;  // of the array
     Value everywhere;
-    std::uint64_t everywhere_at;  // in the header
+    std::uint64_t everywhere_at;  // byte of the header that holds the value for all points
     std::string name;  // of an element, for messages
 };
 

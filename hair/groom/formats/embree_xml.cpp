@@ -276,7 +276,7 @@ private:
             failAtLine(
                 element.line, "truncated: the file beside the scene has only " +
                                   std::to_string(bytes.size()) + " bytes");
-        unfolding_.add(size * each * sizeof(Value), "arrays in the file of bytes");
+        unfolding_.add(size * each * sizeof(Value), "the arrays in the binary file");
         return arrayAt<Value>(bytes, start, size * each);
     }
 

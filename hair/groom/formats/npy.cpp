@@ -198,7 +198,7 @@ NpyArray readNpy(std::span<const std::byte> bytes) {
         if (size > room / array.count)
             failAt(
                 text.size(), "truncated: an array of shape " + shapeText(array.shape) +
-                                 " is expected, there is room for " + std::to_string(room) +
+                                 " is expected, but there is room for " + std::to_string(room) +
                                  " numbers");
         array.count *= size;
     }
@@ -569,7 +569,7 @@ const ZipMember& positionsOf(std::span<const ZipMember> members, ExpansionLimit&
     if (count == 1) return *found;
     failAt(
         0, "there is no array 'positions', and " + std::to_string(count) +
-               " of (strands, points, 3) in its place; the archive has " +
+               " of (strands, points, 3) could replace it; the archive has " +
                (names.empty() ? "nothing" : names));
 }
 

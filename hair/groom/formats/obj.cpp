@@ -255,7 +255,7 @@ std::vector<std::string> exportObj(const StrandSet& strands, std::ostream& out) 
     if (single > 0) {
         warnings.push_back(
             std::to_string(single) +
-            " strands of a single point are left out, only the points stay");
+            " strands of a single point are written as points, not as lines");
     }
     return warnings;
 }

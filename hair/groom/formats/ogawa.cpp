@@ -74,8 +74,8 @@ private:
     void need(std::uint64_t size, std::string_view what) const {
         if (size <= end_ - at_) return;
         fail(
-            std::string(what) + " of " + std::to_string(size) + " bytes is expected, " +
-            std::to_string(end_ - at_) + " are left of the headers");
+            std::string(what) + " of " + std::to_string(size) + " bytes is expected, but only " +
+            std::to_string(end_ - at_) + " are left in the headers");
     }
 
     std::span<const std::byte> bytes_;
@@ -186,7 +186,7 @@ std::uint64_t
 AlembicArchive::groupOf(const Group& group, std::uint64_t child, const std::string& path) const {
     const std::uint64_t offset = offsetOf(group, child);
     if ((offset & kDataBit) != 0)
-        failIn(group.start + child * kWord, path, "data, where a group is expected");
+        failIn(group.start + child * kWord, path, "data instead of the expected group");
     return offset;
 }
 
@@ -194,7 +194,7 @@ AlembicArchive::Data
 AlembicArchive::dataOf(const Group& group, std::uint64_t child, const std::string& path) {
     const std::uint64_t offset = offsetOf(group, child);
     const std::uint64_t here = group.start + child * kWord;
-    if ((offset & kDataBit) == 0) failIn(here, path, "a group, where data is expected");
+    if ((offset & kDataBit) == 0) failIn(here, path, "a group instead of the expected data");
     const std::uint64_t byte = offset & ~kDataBit;
     if (byte == 0) return {0, 0};
     if (byte > bytes_.size() || bytes_.size() - byte < kWord)
@@ -282,7 +282,7 @@ AlembicArchive::readProperties(std::uint64_t byte, const std::string& path, std:
                 cursor.fail("values of the unknown type " + std::to_string(info.type()));
             property.type = static_cast<AlembicType>(info.type());
             property.extent = info.extent();
-            if (property.extent == 0) cursor.fail("elements of no numbers");
+            if (property.extent == 0) cursor.fail("elements with no numbers");
             property.samples = cursor.number(number_size, "the number of samples");
             property.stored = storedSamples(cursor, info, number_size, property.samples);
             if (info.hasTimeSampling()) cursor.number(number_size, "the time sampling");
@@ -402,7 +402,7 @@ AlembicArchive::firstOf(const AlembicProperty& property, const std::string& path
     if (dimensions.size > 0 && product != elements.count)
         failIn(
             dimensions.start, path,
-            std::to_string(product) + " elements, the sample has " +
+            std::to_string(product) + " elements, but the sample has " +
                 std::to_string(elements.count));
     return elements;
 }

@@ -285,7 +285,7 @@ void checkVertex(const Source& source, double index, std::uint64_t vertices) {
 
 std::string truncated(const PlyElement& element, std::size_t room) {
     return "truncated: " + std::to_string(element.count) + " of element " + inQuotes(element.name) +
-           " are expected, " + std::to_string(room) + " bytes are left";
+           " are expected, but " + std::to_string(room) + " bytes are left";
 }
 
 void checkLength(const std::string& place, double length, std::size_t most) {
@@ -297,7 +297,7 @@ void checkLength(const std::string& place, double length, std::size_t most) {
     if (length > static_cast<double>(most)) {
         throw engine::Error(
             place, "truncated: a list of " + std::to_string(static_cast<std::int64_t>(length)) +
-                       " values is expected, there is room for " + std::to_string(most));
+                       " values is expected, but there is room for " + std::to_string(most));
     }
 }
 
@@ -706,8 +706,7 @@ private:
         const std::size_t size = takeLength(source_, list);
         const std::string place = Source::place(source_.position());
         if (size == 0) throw engine::Error(place, "a strand of no points, expected 1 at least");
-        if (!hasRoomFor(lines_, size))
-            throw engine::Error(place, "2^32 points of strands, or more");
+        if (!hasRoomFor(lines_, size)) throw engine::Error(place, "2^32 strand points or more");
         for (std::size_t i = 0; i < size; ++i) lines_.vertices.push_back(takeVertex(list.type));
         lines_.ends.push_back(static_cast<std::uint32_t>(lines_.vertices.size()));
     }

@@ -88,7 +88,7 @@ Neighbours join(
             if (neighbours.add(vertex, neighbour)) continue;
             throw engine::Error(
                 place(i), "this is a third edge at " + vertexName(vertex) +
-                              ": strands don't branch, two at most are expected");
+                              ": strands don't branch, so at most two are expected");
         }
     }
     return neighbours;
@@ -163,7 +163,7 @@ std::vector<Edge> edgesOf(const StrandSet& strands, std::vector<std::string>& wa
     if (single > 0) {
         warnings.push_back(
             std::to_string(single) +
-            " strands of a single point are left out, only the points stay");
+            " strands of a single point are written as points, not as lines");
     }
     return edges;
 }

@@ -62,7 +62,7 @@ std::vector<ListedStrand> listStrands(std::span<const std::byte> bytes, std::uin
             failAt(
                 start - kCountSize, "truncated: strand " + std::to_string(i) + " of " +
                                         std::to_string(size) + " points ends at byte " +
-                                        std::to_string(end) + ", the file at " +
+                                        std::to_string(end) + ", but the file ends at byte " +
                                         std::to_string(bytes.size()));
         }
         points += size;
@@ -169,7 +169,8 @@ StrandSet importCt2Hair(const StrandFile& file) {
     }
     warnOfStrands(short_strands, "of fewer than 5 points", set);
     warnOfStrands(not_numbers, "with a position that is not a number", set);
-    requireSomeStrand(set, "every strand has fewer than 5 points or no numbers for positions");
+    requireSomeStrand(
+        set, "every strand has fewer than 5 points or a position that is not a number");
     if (has_more) set.warnings.emplace_back("the points' tangents, or colours, are left out");
     return set;
 }

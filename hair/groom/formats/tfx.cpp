@@ -122,8 +122,8 @@ std::vector<glm::vec4> colorsOf(const StrandSet& strands, std::vector<std::strin
     }
     if (rounded > 0) {
         warnings.push_back(
-            std::to_string(rounded) +
-            " transparencies are rounded: the format holds alpha, 1 less the transparency");
+            std::to_string(rounded) + " transparencies are rounded: the format holds alpha, which "
+                                      "is 1 minus the transparency");
     }
     return colors;
 }
@@ -158,7 +158,7 @@ const TfxForm& formOf(std::span<const std::byte> bytes) {
     if (version != TfxHeader::kVersion && !is_old) {
         failAt(
             0, "version " + std::to_string(version) +
-                   ", only 3, 4.0 and texts that begin with \"version\" are read");
+                   "; only 3, 4.0 and texts that begin with \"version\" are read");
     }
     const TfxForm& form = is_old ? kTfx3 : kTfx4;
     if (bytes.size() < form.header_size) {
@@ -195,7 +195,7 @@ TfxHeader readHeader(std::span<const std::byte> bytes, const TfxForm& form) {
 // An array that the header names.
 struct Array {
     std::string_view name;
-    std::uint64_t header_offset;  // of its offset
+    std::uint64_t header_offset;  // byte of the header that holds the array's offset
     std::uint64_t start;
     std::uint64_t size;  // bytes
 };
@@ -235,8 +235,8 @@ void checkPlaces(std::vector<Array> arrays, std::uint64_t header_size, std::uint
         if (end <= size) continue;
         failAt(
             array.start < size ? size : array.header_offset,
-            at + ": truncated, they end at byte " + std::to_string(end) + ", the file at " +
-                std::to_string(size));
+            at + ": truncated: they end at byte " + std::to_string(end) +
+                ", but the file ends at byte " + std::to_string(size));
     }
 }
 
@@ -263,7 +263,7 @@ void readPositions(const TfxHeader& header, std::span<const std::byte> bytes, St
     if (fixed > 0) {
         strands.warnings.push_back(
             std::to_string(fixed) +
-            " vertices beyond the first two of their strand are fixed (w = 0), which is left out");
+            " vertices beyond the first two of their strand are fixed (w = 0); this is not read");
     }
 }
 
@@ -379,7 +379,7 @@ private:
             if (keyword == "version") {
                 const std::string_view version = takeWord(line_);
                 if (floatFrom(version) != 2.0f)
-                    fail("version " + inQuotes(version) + ", only 2.0 is read as text");
+                    fail("version " + inQuotes(version) + "; only 2.0 is read as text");
             } else if (keyword == "scale") {
                 expectIdentity(keyword, 1, 1.0f);
             } else if (keyword == "rotation" || keyword == "translation") {

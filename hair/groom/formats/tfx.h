@@ -14,7 +14,7 @@
 //   float32 vertex_uvs[strands][vertices_per_strand][2]
 //   float32 strand_thickness[strands]                     diameters
 //   float32 vertex_colors[strands][vertices_per_strand][4]    RGB and alpha
-// All but the positions may be absent. The format states no unit.
+// All except the positions may be absent. The format states no unit.
 // Version 3 (TressFXFileFormat.h of TressFX 3.1) has a header of 296 bytes, positions of three
 // floats and one more array, with each strand's guide. Version 2 is text:
 //   version 2.0

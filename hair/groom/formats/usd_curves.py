@@ -111,7 +111,7 @@ class Layers:
                 count += 1
                 if count > MOST_SUBLAYERS:
                     raise Refused(
-                        f"{name}: more than {MOST_SUBLAYERS} sublayers, those of sublayers included"
+                        f"{name}: more than {MOST_SUBLAYERS} sublayers, including those of sublayers"
                     )
                 for path in below.subLayerPaths:
                     below_name = Sdf.ComputeAssetPathRelativeToLayer(below, path) if path else ""
@@ -144,7 +144,8 @@ class Layers:
             for variants in spec.variantSets
         ]
         targets = [self._weigh(*arc) for arc in self._arcs(layer, spec)]
-        same = targets + [variant for each in variants for variant in each]  # at the same place
+        # variants lie at the prim's own place, not below it
+        same = targets + [variant for each in variants for variant in each]
         weight = Weight(
             prims=1 + sum(each.prims for each in children + same),
             depth=1 + max([each.depth for each in children] + [each.depth - 1 for each in same], default=0),

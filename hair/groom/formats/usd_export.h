@@ -96,7 +96,7 @@ private:
     std::size_t point_count_;
     float greatest_width_;
     std::uint32_t frames_;
-    std::vector<std::array<glm::vec3, 2>> extents_;  // [frame] so far
+    std::vector<std::array<glm::vec3, 2>> extents_;  // [frame], of the frames written so far
     std::vector<std::string> warnings_;
 };
 

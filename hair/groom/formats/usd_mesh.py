@@ -84,7 +84,7 @@ class Mesh:
         if (counts < 3).any():
             self.refuse(f"face {np.argmax(counts < 3)} has {counts[counts < 3][0]} corners")
         if counts.sum() != corners.size:
-            self.refuse(f"{corners.size} corners of faces, {counts.sum()} are needed")
+            self.refuse(f"{corners.size} corners of faces, but {counts.sum()} are needed")
         wrong = np.flatnonzero((corners < 0) | (corners >= self.count))
         if wrong.size:
             self.refuse(f"corner {wrong[0]} is point {corners[wrong[0]]} of {self.count}")
@@ -110,7 +110,7 @@ class Mesh:
         points = self.mesh.GetPointsAttr().Get(time)
         points = np.zeros((0, 3)) if points is None else np.array(points, np.float64)
         if points.shape != (self.count, 3):
-            self.refuse(f"{len(points)} points at time code {time}, {self.count} at rest")
+            self.refuse(f"{len(points)} points at time code {time}, but {self.count} at rest")
         wrong = np.flatnonzero(~np.isfinite(points).all(1))
         if wrong.size:
             self.refuse(f"point {wrong[0]} is not finite")

@@ -28,7 +28,7 @@ class LinearCurves:
 
 def rows(values, dtype, components):
     """Returns a row for each value. `components`: columns of the result if there are no values."""
-    values = np.atleast_1d(np.asarray(values, dtype))  # a constant may be no array
+    values = np.atleast_1d(np.asarray(values, dtype))  # a constant may be a scalar
     return values.reshape(len(values), -1 if len(values) else components)
 
 
@@ -91,7 +91,7 @@ class Prim:
         values = rows(values, np.float32, components)
         if values.shape != (count, components):
             found = " x ".join(map(str, values.shape))
-            self.refuse(f"{name}: {found} numbers, {count} x {components} are needed")
+            self.refuse(f"{name}: {found} numbers, but {count} x {components} are needed")
         wrong = np.flatnonzero(~np.isfinite(values).all(1))
         if wrong.size:
             self.refuse(f"{name}: value {wrong[0]} is not finite")
@@ -171,12 +171,12 @@ class Prim:
         values = primvar.ComputeFlattened(self.time) if primvar else None
         if values is None:
             return None
-        values = np.atleast_1d(values)  # a constant may be no array
+        values = np.atleast_1d(values)  # a constant may be a scalar
         if values.dtype.kind not in "iub":
             self.refuse(f"primvars:{name}: integers are needed")
         count = self.sizes.size if primvar.GetInterpolation() == "uniform" else 1
         if values.shape != (count,):
-            self.refuse(f"primvars:{name}: {values.size} numbers, {count} are needed")
+            self.refuse(f"primvars:{name}: {values.size} numbers, but {count} are needed")
         values = values.astype(np.int64)
         if (np.abs(values) > np.iinfo(np.int32).max).any():
             self.refuse(f"primvars:{name}: a number is not an int32")
@@ -193,7 +193,7 @@ class Prim:
             return None
         values = rows(values, np.int64, 3)
         if values.shape[1] != 3 or (values < 0).any() or (values >= self.sizes.size).any():
-            self.refuse("hairbench:rootTriangles: three strands of its own are needed for each")
+            self.refuse("hairbench:rootTriangles: each needs three of the prim's own strands")
         return values
 
     def left_out(self):

@@ -64,7 +64,7 @@ std::size_t countPieces(const Scalp& scalp, const Edges& edges) {
 void checkDisc(const Scalp& scalp, const Edges& edges, std::size_t loops, std::size_t open_edges) {
     if (loops != 1) {
         throw engine::Error(
-            "the scalp has " + std::to_string(loops) + " boundary loops, 1 is needed");
+            "the scalp has " + std::to_string(loops) + " boundary loops, but 1 is needed");
     }
     const std::size_t edge_count = (edges.size() + open_edges) / 2;
     const auto euler =
@@ -176,7 +176,8 @@ Span longestOver(const Projection& projection) {
     return longest;
 }
 
-// Fractions from the first to the last, closer together where the line runs far below the surface.
+// Returns fractions of the line from `first` to `last`, closer together where it runs far below the
+// surface.
 std::vector<double> evenFractions(const Projection& projection, double first, double last) {
     std::vector<double> fractions{first, last};
     std::vector<glm::dvec3> points{projection.at(first).position, projection.at(last).position};

@@ -25,7 +25,7 @@ struct Hairline {
 // Throws engine::Error if the scalp is no disc.
 Hairline traceHairline(const Scalp& scalp);
 
-// Returns the point of the hairline after this length. Lengths beyond its end go on from its
+// Returns the point of the hairline after this length. Lengths beyond its end continue from its
 // start.
 SurfacePoint hairlinePoint(const Scalp& scalp, const Hairline& hairline, double length);
 

@@ -261,8 +261,8 @@ void ScalpTriangulation::makeDelaunay() {
 bool ScalpTriangulation::flipAway(const CornerTable::Fan& fan) {
     const auto count = fan.corners.size();
     const glm::dvec3 centre = position(fan.corners[0]);
-    // [neighbour], one more than corners: the last is the first again, or the other neighbour on
-    // the boundary.
+    // [neighbour], one more than there are corners. The last is the first again or, on the
+    // boundary, the other neighbour.
     std::vector<double> angles{0.0};
     std::vector<glm::dvec3> neighbours;
     for (const std::uint32_t corner : fan.corners) {

@@ -22,7 +22,7 @@
 namespace hair::groom {
 namespace {
 
-// Greatest distance from 1, as of weights rounded one by one to 8 bits.
+// Greatest distance of a sum from 1 if weights are rounded one by one to 8 bits.
 constexpr double kWeightSum = 0.01;
 
 tinygltf::Model loadAnimated(const std::filesystem::path& path, const NamedFileCheck& check) {
@@ -118,7 +118,7 @@ private:
     using Interpolation = MeshAnimation::Interpolation;
     using Property = MeshAnimation::Property;
 
-    // Reads all nodes of the file, including those of other scenes and joints outside of the scene.
+    // Reads all nodes of the file, including those of other scenes and joints outside the scene.
     void readNodes() {
         const std::size_t count = model_.nodes.size();
         std::vector<int> parents(count, -1);

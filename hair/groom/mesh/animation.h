@@ -35,7 +35,7 @@ public:
         std::vector<std::vector<glm::dmat4>> joints;
         std::vector<std::vector<double>> weights;  // [part][morph target]
 
-        // Intermediate values.
+        // Memory for intermediate values:
         struct Placing {
             glm::dvec3 translation;  // m
             glm::dquat rotation;  // unit length

@@ -154,7 +154,8 @@ std::vector<std::vector<std::uint32_t>> gather(std::size_t triangles, SetOf&& se
     return sets;
 }
 
-// Returns the patches of triangles that are connected by edges of two.
+// Returns the connected patches of triangles. `pairs` are the triangles at edges that two triangles
+// share.
 std::vector<std::vector<std::uint32_t>>
 patchesOf(std::size_t triangles, const std::vector<std::array<std::uint32_t, 2>>& pairs) {
     Joined joined(triangles);

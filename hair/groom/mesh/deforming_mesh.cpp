@@ -115,7 +115,7 @@ DeformingMesh::DeformingMesh(
     if (animation_.vertexCount() != rest_.size())
         throw engine::Error(
             "the animation has " + std::to_string(animation_.vertexCount()) +
-            " vertices, the mesh " + std::to_string(rest_.size()));
+            " vertices, but the mesh " + std::to_string(rest_.size()));
     std::map<std::tuple<float, float, float>, std::uint32_t> places;
     for (std::uint32_t i = 0; i < rest_.size(); ++i)
         joined_.push_back(

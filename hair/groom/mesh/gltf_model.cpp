@@ -109,7 +109,7 @@ std::string_view chunkAt(std::string_view file, std::size_t offset, std::uint32_
     }
     if (size > file.size() - offset - kChunkHeaderSize) {
         fail(
-            offset, "truncated: the chunk has " + std::to_string(size) + " bytes, " +
+            offset, "truncated: the chunk has " + std::to_string(size) + " bytes, but only " +
                         std::to_string(file.size() - offset - kChunkHeaderSize) + " are there");
     }
     return file.substr(offset + kChunkHeaderSize, size);
@@ -168,7 +168,7 @@ constexpr int kMaximumDepth = 64;
 // tinygltf counts base 64 in int.
 constexpr std::size_t kMaximumJson = std::numeric_limits<std::int32_t>::max();
 
-// RFC 2397; the second is of glTF 2.0, section 3.6.1.1.
+// The first is from RFC 2397, the second from glTF 2.0, section 3.6.1.1.
 constexpr std::array<std::string_view, 2> kDataTypes{
     "data:application/octet-stream;base64,", "data:application/gltf-buffer;base64,"};
 
@@ -221,7 +221,7 @@ std::string takeData(json& document) {
 }
 
 // Takes the images out of the document, without their contents, because tinygltf would look for
-// their bytes outside of buffers.
+// their bytes outside buffers.
 std::vector<tinygltf::Image> takeImages(json& document) {
     std::vector<tinygltf::Image> images;
     const auto section = document.find("images");
@@ -402,7 +402,7 @@ tinygltf::Model loadGltf(
                       &model, &error, &warning, reinterpret_cast<const unsigned char*>(text.data()),
                       size, folder)
                 : loader.LoadASCIIFromString(&model, &error, &warning, text.data(), size, folder);
-        // tinygltf goes on after some errors, without the parts that have them.
+        // tinygltf continues after some errors, without the parts that have them.
         if (!loaded || !error.empty()) throw engine::Error(firstLine(error));
     } catch (const engine::Error&) {
         throw;

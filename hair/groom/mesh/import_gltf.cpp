@@ -162,7 +162,8 @@ private:
     MaterialTexture textureOf(const Info& info) {
         if (info.texCoord != 0) {
             throw engine::Error(
-                "TEXCOORD_" + std::to_string(info.texCoord) + " is not supported, TEXCOORD_0 is");
+                "TEXCOORD_" + std::to_string(info.texCoord) +
+                " is not supported; only TEXCOORD_0 is");
         }
         if (info.extensions.contains("KHR_texture_transform"))
             throw engine::Error("KHR_texture_transform is not supported");

@@ -369,7 +369,7 @@ TriangleBvh buildTriangleBvh(
             static_cast<std::uint32_t>(count)};
         if (count <= most_in_leaf) continue;
 
-        // Equal centroids go by number, so that the tree is the same everywhere.
+        // Equal centroids are ordered by number, so that the tree is the same everywhere.
         const int axis = middle.longestAxis();
         const std::size_t half = count / 2;
         std::ranges::nth_element(

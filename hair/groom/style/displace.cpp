@@ -55,7 +55,7 @@ glm::dvec3 perpendicularPart(const glm::dvec3& vector, const glm::dvec3& unit) {
 }
 
 // Returns the tangent at each point: the direction of the chord between its neighbours or, if those
-// coincide, of the segment before.
+// coincide, of the previous segment.
 std::vector<glm::dvec3> tangents(std::span<const glm::vec3> points) {
     std::vector<glm::dvec3> tangents(points.size());
     glm::dvec3 last = rootDirection(points);

@@ -108,15 +108,15 @@ struct BendJoint {
 // The loads of a vertex in a substep.
 struct BendLoad {
     vec3 push;     // b, m
-    float along;   // what air would pull along the strand; it turns with the strand, m
+    float along;   // pull of the air along the strand, which turns with the strand, m
     vec3 tangent;  // air brakes the vertex across this tangent
     float drag;
 };
 
 const BendLoad kNoLoad = BendLoad(vec3(0.0), 0.0, vec3(0.0), 0.0);
 
-// `moved`: displacement by everything but air and the pull toward the rest position; `pull`: that
-// pull's acceleration times h^2.
+// `moved`: displacement by everything except air and the pull toward the rest position;
+// `pull`: that pull's acceleration times h^2.
 BendLoad freeLoad(vec3 moved, vec3 pull) { return BendLoad(moved + pull, 0.0, vec3(0.0), 0.0); }
 
 // Adds drag with the coefficient at the substep's start and the velocity at its end: air_drag.glsl.

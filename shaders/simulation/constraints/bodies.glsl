@@ -40,7 +40,7 @@ const float kNearBody = 2.0e-3;  // m
 const float kTouch = 1.0e-6;  // m
 const float kGrazing = 0.02;  // sine of the smallest angle that Newton steps assume
 
-// Tells whether the path from a point outside of a body to another, in the body's frame, enters the
+// Tells whether the path from a point outside a body to another, in the body's frame, enters the
 // body without its margin. If so, gives the outward normal there, and how far the path's end lies
 // behind the plane there. `end_gap`: distance from the path's end to the body.
 bool entersBody(Bodies bodies, uint body, vec3 from, vec3 to, float end_gap, out vec3 normal,

@@ -52,7 +52,7 @@ struct LengthsAbove {
     float tension;      // of that segment, without the contribution of the segment below
 };
 
-// Pull of the segment below that a walk up passes on.
+// State that a walk up the strand passes from vertex to vertex: the pull of the segment below.
 struct LengthsBelow {
     vec3 pull;      // q x, without what the vertex above adds to x
     float hold;     // reduction of the pull by the vertex's displacement
@@ -93,7 +93,7 @@ vec3 towardPlane(vec3 direction, vec3 normal, float height) {
     return normalize(height * normal + across);
 }
 
-// Places the vertex at the segment's length, outside of its plane if there is one. A segment
+// Places the vertex at the segment's length, outside its plane if there is one. A segment
 // without a rest length takes the direction of the segment above. w of points are inverse masses.
 void sweepPlace(
     inout vec3 place, inout vec3 direction, LengthRow row, vec4 point, float rest_length,

@@ -133,7 +133,7 @@ const float kSkinShare = 0.25;
 const uint kMostAdvances = 16u;
 const float kSameSideCosine = 0.7;  // cosine between normals of the same side of a body
 
-// The segment that ends in a vertex of [strand][vertex].
+// The segment that ends in vertex `index` of [strand][vertex].
 MovingSegment movingSegment(
     GuideParameters guides, uint vertex, float inverse_mass_above, vec3 a, vec3 b, vec3 a_before,
     vec3 b_before) {

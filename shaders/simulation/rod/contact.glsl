@@ -16,8 +16,8 @@ const float kRests = 0.99;
 
 // The part of a vertex's motion that a body holds back.
 const float kSticking = 1.0;
-const float kSliding = 0.0;  // everything but the direction of friction: it slides
-const float kNormalOnly = -1.0;  // only along the normal
+const float kSliding = 0.0;  // everything except the direction of friction: it slides
+const float kNormalOnly = -1.0; // only along the normal
 
 // How a body holds a vertex.
 struct ContactConstraint {

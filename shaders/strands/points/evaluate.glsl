@@ -97,7 +97,7 @@ void main() {
                 picture, guides, segment, strand.weights, controls, shares, strand.r);
             uint first = (number + strand.index - begin) * kPointsPerStrand +
                          segment * (pieces + kSplitJoints);
-            // A segment's first point is the last of the segment before, unless joints are split.
+            // A segment's first point is the last of the previous segment, unless joints are split.
             for (uint i = segment == 0u ? 0u : 1u - kSplitJoints; i <= pieces; ++i) {
                 StrandPoint point = drawnPoint(picture, strand_patch, strand, i);
                 float width = point.width;

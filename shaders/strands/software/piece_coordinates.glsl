@@ -23,7 +23,7 @@ vec2 barycentrics(vec2 corner, vec2 first, vec2 second) {
 // other back ends draw: the first from -+ side at the first end to - side at the second, the other
 // the rest.
 PieceCoordinates pieceCoordinates(Piece piece, vec2 place) {
-    // In clip space, with the point that is seen at the position at 0.
+    // Differences from this place in clip space, which the seen point has at 0.
     vec2 clip = 2.0 * place / vec2(push.width, push.height) - 1.0;
     vec2 from = piece.from.middle_clip.xy - clip * piece.from.middle_clip.w;
     vec2 from_side = piece.from.side_clip.xy - clip * piece.from.side_clip.w;
@@ -41,7 +41,7 @@ PieceCoordinates pieceCoordinates(Piece piece, vec2 place) {
     return at;
 }
 
-// The position across, corrected for a piece that narrows: in terms of length, not of a triangle.
+// The position across at the seen point, allowing for a width that changes along the piece.
 float perspectiveAcross(Piece piece, PieceCoordinates at) {
     float from = length(piece.from.side);
     float to = length(piece.to.side);

@@ -6,7 +6,7 @@
 
 #include "strands/pixel_samples.glsl"
 
-// Selects by the number of samples.
+// Returns the entry for the pipeline's number of samples.
 uint bySamples(uint of_1, uint of_2, uint of_4, uint of_8) {
     return kSamples == 1u ? of_1 : kSamples == 2u ? of_2 : kSamples == 4u ? of_4 : of_8;
 }

@@ -389,7 +389,8 @@ TEST(AlembicNurbs, WithOtherKnotsAreRefused) {
     EXPECT_THAT(
         error({0, 0, 0, 0, 1, 1, 1}, "\4"),
         AllOf(HasSubstr("/a/.geom/.knots"), HasSubstr("curve 0 has too few knots")));
-    EXPECT_THAT(error({0, 0, 0, 0, 1, 1, 1, 1, 1}, "\4"), HasSubstr("9 knots, the curves have 8"));
+    EXPECT_THAT(
+        error({0, 0, 0, 0, 1, 1, 1, 1, 1}, "\4"), HasSubstr("9 knots, but the curves have 8"));
     EXPECT_THAT(error({0, 0, 0, 1, 0, 1, 1, 1}, "\4"), HasSubstr("knots that decrease"));
     EXPECT_THAT(error({1, 1, 1, 1, 1, 1, 1, 1}, "\4"), HasSubstr("knots that are all equal"));
     EXPECT_THAT(error({0, 0, 0, 0, 0, 1, 1, 1, 1}, "\5"), HasSubstr("too few for order 5"));
@@ -453,7 +454,7 @@ TEST(Alembic, RefusesValuesThatDoNotFit) {
         return madeError({madeCurves(
             "a", {madeFloats("P", 3, std::move(points)), madeIntegers("nVertices", sizes)})});
     };
-    EXPECT_THAT(curves(kFivePoints, {2, 2}), HasSubstr("5 positions, nVertices are 4"));
+    EXPECT_THAT(curves(kFivePoints, {2, 2}), HasSubstr("5 positions, but nVertices are 4"));
     EXPECT_THAT(curves(kFivePoints, {5, 0}), HasSubstr("curve 1 has 0 vertices"));
     EXPECT_THAT(curves(kFivePoints, {6, -1}), HasSubstr("curve 1 has -1 vertices"));
     EXPECT_THAT(
@@ -726,7 +727,7 @@ TEST(AlembicExport, IsReadByAlembicsLibrary) {
     if (!std::filesystem::exists(python))
         GTEST_SKIP() << "no Python environment for Alembic: run scripts/setup --alembic";
     StrandSet strands = hardStrands();
-    strands.points[2].x = 1e30f;  // the bounds' corners
+    strands.points[2].x = 1e30f;  // decides a corner of the bounds
     strands.points[9].z = -2.0f;
     strands.groups = {-5, 1, 2};
     strands.guides = {0, 1, 0};

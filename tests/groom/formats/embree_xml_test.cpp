@@ -47,7 +47,7 @@ TEST(EmbreeXml, ReadsLinearCurves) {
     }
 }
 
-// Two curves with consecutive vertices become one if their numbers don't part them.
+// Two curves with consecutive vertices become one unless their numbers separate them.
 TEST(EmbreeXml, TellsCurvesApartByTheirNumbers) {
     const std::string joined = replaced(kLinear, "0 1 3", "0 1 2 3");
     EXPECT_THAT(readXml(joined).ends, ElementsAre(5));
@@ -218,7 +218,7 @@ TEST(EmbreeXml, HoldsArraysOfTheFileBesideItAgainstItsSize) {
     const auto path = folder.write("scene.xml", text + "</scene>");
     EXPECT_THAT(
         errorText([&] { importStrands(path); }),
-        HasSubstr("arrays in the file of bytes expand to more than"));
+        HasSubstr("the arrays in the binary file expand to more than"));
 }
 
 TEST(EmbreeXml, AsksBeforeItOpensTheFileBesideIt) {

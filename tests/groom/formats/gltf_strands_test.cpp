@@ -94,7 +94,7 @@ TEST(ImportGltfStrands, ReadsStrips) {
 
 TEST(ImportGltfStrands, JoinsLinesWithoutIndicesWhereTheyTouch) {
     Document document{.primitive = R"("mode":1)"};
-    // Four of the five points as lines a b, b c.
+    // Keeps four of the five points, as the lines a b and b c.
     document.data.replace(24, 12, document.data.substr(12, 12));
     std::string bytes = glb(document);
     const std::size_t at = bytes.find(R"("count":5)");
@@ -131,7 +131,7 @@ TEST(ImportGltfStrands, LeavesOutWhatIsNoLine) {
     EXPECT_THAT(
         strands.warnings, ElementsAre(
                               "1 primitives that are not lines are left out",
-                              HasSubstr("_WIDTH of some strands only is left out")));
+                              HasSubstr("_WIDTH is left out, because only some strands have it")));
 }
 
 TEST(ImportGltfStrands, RefusesWhatIsNoStrand) {
@@ -201,7 +201,7 @@ TEST(ImportGltfStrands, NamesTheByteOfWhatIsNoGltf) {
     EXPECT_THAT(errorOf(bytes), StartsWith("byte 12: truncated: the chunk has"));
 }
 
-// A reader that recurses until the stack overflows, and images that lie outside their buffers.
+// Tests JSON so deep that a recursive reader overflows the stack, and images outside their buffers.
 TEST(ImportGltfStrands, SurvivesWhatItDoesNotRead) {
     const std::string deep = std::string(200000, '[') + std::string(200000, ']');
     EXPECT_THAT(error({.extra = R"(,"extras":)" + deep}), HasSubstr("more than 64 levels"));

@@ -114,7 +114,7 @@ TEST(IndependentWriters, AlembicLibraryWithObjectsUnderTransforms) {
     EXPECT_THAT(strands.warnings, ElementsAre(HasSubstr("the first sample of 2")));
 }
 
-// The four corners of a square by three bases: at their beginnings and in their middles.
+// Curves of the four corners of a square, in three bases. Checks the start and the middle of each.
 TEST(IndependentWriters, AlembicLibraryWithCubicCurves) {
     const StrandSet strands = readFile(importAlembic, corpus("abc/alembic_cubic.abc"));
     ASSERT_THAT(strands.ends, ElementsAre(4, 8, 12));

@@ -93,7 +93,7 @@ TEST(HairData, RefusesCountsThatTheFileDoesNotBearOut) {
         "byte 4: the number of points of strand 0 is negative: -2147483648");
     EXPECT_EQ(
         readError(importHairData, patched(dataFile(), 44, 3u)),
-        "byte 44: truncated: strand 1 of 3 points ends at byte 84, the file at 72");
+        "byte 44: truncated: strand 1 of 3 points ends at byte 84, but the file ends at byte 72");
     EXPECT_EQ(
         readError(importHairData, patched(dataFile(), 44, 1u)),
         "byte 60: 12 trailing bytes after the last strand");

@@ -113,7 +113,7 @@ TEST(ImportStrands, NamesWhatItDoesNotRead) {
                 << name;
         }
     }
-    EXPECT_THAT(fileError(folder.write("a.tgz", "\x1f\x8b\x08\x01")), HasSubstr("by gzip"));
+    EXPECT_THAT(fileError(folder.write("a.tgz", "\x1f\x8b\x08\x01")), HasSubstr("with gzip"));
     EXPECT_THAT(fileError(folder.write("a.pkl", "\x80\x04\x95")), HasSubstr("Python pickle"));
     // A HairSalon file with 559,903 strands begins like a gzip file, and NumPy archives are zip
     // files.

@@ -108,7 +108,8 @@ TEST(ImportTfx, RefusesEveryTruncation) {
     EXPECT_EQ(errorOfTfx(""), "byte 0: truncated: the header alone is 160 bytes");
     EXPECT_EQ(
         errorOfTfx(fullFile().substr(0, 500)),
-        "byte 500: vertex colours at byte 484: truncated, they end at byte 676, the file at 500");
+        "byte 500: vertex colours at byte 484: truncated: they end at byte 676, but the file ends "
+        "at byte 500");
 }
 
 TEST(ImportTfx, RefusesWrongHeaders) {

@@ -58,7 +58,7 @@ TEST_P(UsdImportFormatTest, ReadsAllThatStrandsHaveToTheLastBit) {
 INSTANTIATE_TEST_SUITE_P(, UsdImportFormatTest, testing::Values("usda", "usdc", "usd", "usdz"));
 
 // p scaled by 2, turned by 90 degrees about z, moved by (1, 2, 3); then z up becomes y up. cos(90)
-// is 6e-17 in double, so sums round to the expected whole numbers.
+// is 6e-17 in double precision, so sums round to the expected whole numbers.
 TEST_F(UsdImportTest, AppliesTransformsOfParentsAndInstances) {
     const StrandSet set = read("transforms.usda");
     const auto expected = [](glm::vec3 p) {
@@ -137,7 +137,7 @@ TEST_F(UsdImportTest, RefusesNamingThePrim) {
         {"negative_width.usda", "/wig/hair: a width is negative: -3.0"},
         {"nan_width.usda", "/wig/hair: widths (constant): value 0 is not finite"},
         {"triangles.usda",
-         "/wig/hair: hairbench:rootTriangles: three strands of its own are needed"},
+         "/wig/hair: hairbench:rootTriangles: each needs three of the prim's own strands"},
         {"groups_of_floats.usda", "/wig/hair: primvars:groom_group_id: integers are needed"},
         {"groups_of_some.usda", "/wig/hair: primvars:groom_group_id: 1 numbers, 2 are needed"},
         {"syntax.usda", "line 2:13: Expected }"},
@@ -285,7 +285,7 @@ TEST_F(UsdImportTest, RefusesSublayersInTooManyWays) {
     EXPECT_EQ(errorText([&] { importStrands(files.file("l18.usda")); }), "no error");
     EXPECT_THAT(
         errorText([&] { importStrands(files.file("l0.usda")); }),
-        HasSubstr("more than 256 sublayers, those of sublayers included"));
+        HasSubstr("more than 256 sublayers, including those of sublayers"));
 }
 
 // For each prim, USD looks up values in the prims around it and in the prims that it is composed

@@ -83,7 +83,7 @@ TEST(BindStrands, IsExactForAffineGrooms) {
         return root + t * (shear * root) + glm::dvec3(0.1 * t, 0.3 * t, -0.2 * t * t);
     });
     const ReconstructionError error = errorOf(dense, patch.guides());
-    EXPECT_LT(error.maximum, 3e-7);  // floats up to 1
+    EXPECT_LT(error.maximum, 3e-7);  // rounding of floats up to 1
     EXPECT_GE(error.maximum, error.percentile95);
 }
 
@@ -185,7 +185,7 @@ TEST(BindStrands, ErrsLessWithMoreGuides) {
     double last = 1.0;
     for (const std::uint32_t count : {30u, 120u, 480u}) {
         const double error = errorOf(dense, chooseGuides(dense, count, 1)).mean;
-        EXPECT_LT(error, 0.5 * last);  // a quarter, except outside all guides
+        EXPECT_LT(error, 0.5 * last);  // a quarter of it remains, except outside all guides
         last = error;
     }
 }

@@ -133,7 +133,7 @@ TEST(Inspect, BelievesAStatedUnit) {
 // In a box from 0 to 1 m the points' distances from the sides are known.
 TEST(Inspect, MeasuresAgainstAClosedMesh) {
     StrandSet strands;
-    strands.points = {{50, 100, 50},     {50, 150, 50},  // on the top, and up
+    strands.points = {{50, 100, 50},     {50, 150, 50},  // on the top, then upwards
                       {50, 100.25f, 50}, {75, 60, 50},
                       {50, 99.95f, 50},  // 2.5 mm off, then inside twice
                       {50, 99.5f, 20},   {50, 99.5f, 21},  // 5 mm deep

@@ -164,7 +164,7 @@ TEST(TriangulateRoots, DoesNotDependOnPlaceAndDirection) {
     EXPECT_EQ(asSet(triangulateRoots(rooted(roots), nullptr)), here);
 }
 
-// A cap with a face: no triangle reaches over the face, and the others are as before.
+// A cap with a face: no triangle reaches over the face, and all other triangles stay.
 TEST(TriangulateRoots, LeavesAFaceFree) {
     std::vector<glm::dvec3> roots = onSphere(1000, -0.2);
     const auto isFace = [](const glm::dvec3& p) { return p.z > 0.03 && p.y < 0.06; };

@@ -73,8 +73,8 @@ TEST(BraidStyle, LeadsOverTheHead) {
     EXPECT_GT(heights.least(), -4.4e-4);
 }
 
-// A pitch below the tie every strand stays in the section of one of three parts. style.h gives the
-// middles of the parts. Every part has a third of the strands.
+// From one pitch below the tie on, every strand stays in the section of one of three parts. style.h
+// gives the middles of the parts. Every part has a third of the strands.
 TEST(BraidStyle, StrandsKeepToThreeParts) {
     const Groom after = braid(standing(), plait(), 1, nullptr);
     const double reach = 0.03 / 2.84;

@@ -42,7 +42,7 @@ TEST(Clump, BringsAllTipsToTheNearestCentres) {
         };
         for (const std::uint32_t centre : centres)
             if (distance(centre) < distance(nearest)) nearest = centre;
-        EXPECT_LT(distance(nearest), 0.1);  // or there is room for another centre
+        EXPECT_LT(distance(nearest), 0.1);  // otherwise there is room for another centre
         // With strength 1 it is the same point, except for the rounding of the weighted mean.
         EXPECT_NEAR(
             glm::distance(after.strand(i).back(), before.strand(nearest).back()), 0.0, 1e-6);

@@ -157,9 +157,9 @@ TEST(Strokes, CombTakesATipAlong) {
 }
 
 // The result doesn't depend on the number of points on the path. The weight is that at a step's
-// start. Over an eighth of the radius it changes by a fifth at most (the slope of (1 - x^2)^2 is
-// 1.54), by a tenth in a step's mean, which is an increase as the brush approaches and a decrease
-// as it leaves. The tolerance is half of that.
+// start. Over an eighth of the radius this weight changes by a fifth at most (the slope of (1 -
+// x^2)^2 is 1.54), by a tenth in a step's mean, which is an increase as the brush approaches and a
+// decrease as it leaves. The tolerance is half of that.
 TEST(Strokes, CombDoesNotDependOnPlacesOfItsPath) {
     const Groom before = helices(12);
     const glm::vec3 from{-0.05f, 0.12f, 0.0f}, to{0.15f, 0.08f, 0.02f};
