@@ -23,7 +23,7 @@ fs::path userDataFolder() {
     return {};
 }
 
-// Installed with the program; in the source tree it belongs to scripts/setup.
+// A script that is installed with the program; in the source tree, scripts/setup runs it.
 constexpr const char* kMaker = "python-environment";
 
 }  // namespace

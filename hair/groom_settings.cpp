@@ -270,8 +270,9 @@ const Table& tableOf(const StrokeSettings*) {
          number(
              "strength", &S::strength, 0, 1, "1",
              "effect on the path. comb: fraction of the brush's motion that hair follows; cut: "
-             "fraction cut off of the length beyond; lengthen: fraction of a strand's length that "
-             "is added; push: fraction of the radius that hair moves; clump: fraction of the "
+             "fraction of the length beyond the path that is cut off; lengthen: fraction of a "
+             "strand's length that is added; push: fraction of the radius that hair moves; clump: "
+             "fraction of the "
              "distance to the path that tips move"),
          list("path", &S::path, 1000, "positions of the brush, joined by straight lines")});
     return table;

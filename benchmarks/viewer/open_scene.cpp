@@ -42,8 +42,9 @@ void speedCombo(std::optional<double>& speed) {
             if (ImGui::Selectable(each.name, each.speed == speed)) speed = each.speed;
         ImGui::EndCombo();
     }
-    tip("simulated time per real time; Every frame: one for each picture of the window, as fast as "
-        "they come.\nThe simulation's steps are the same at any speed");
+    tip("simulated time per real time. Every frame: the window draws each frame once, as fast as "
+        "it "
+        "can.\nThe simulation's steps are the same at any speed");
 }
 
 }  // namespace

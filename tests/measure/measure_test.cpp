@@ -275,7 +275,7 @@ TEST_F(MeasureTest, SlowsDownNoPassThatIsNotThere) {
         "/run/busy_pass: unknown pass 'shadow'; known: wind, simulate, scene, strands");
 }
 
-// On a software device, the processor's cost of a frame is the frame's cost.
+// On a software device, a frame costs what it costs the processor.
 TEST_F(MeasureTest, TellsWhatASoftwareDeviceUses) {
     const bool software = device().info().type == "cpu";
     const report::CaseResult result = measured(smallCase());

@@ -73,10 +73,10 @@ TEST_F(MovedHeadTest, PictureIsTheSameWhereEverythingMoves) {
     const Pixels followed = drawCase(device(), settings);
 
     EXPECT_GT(differingPixels(still, left_behind), 2000u);
-    // Points are up to 2e-7 m off, and a pixel is 7 mm: at each end of a line that is 3e-5 of the
-    // chance that a pixel's middle or the order of two strands in depth changes. For a hundred
-    // strands on top of each other in 10^4 pixels of hair, 30 pixels may change; the test allows
-    // three times that, for chance.
+    // Points are up to 2e-7 m off, and a pixel is 7 mm, so each end of a line changes what
+    // covers a pixel's middle, or the order of two strands in depth, with a probability of 3e-5.
+    // For a hundred strands on top of each other in 10^4 pixels of hair, 30 pixels may change; the
+    // test allows three times that, for chance.
     EXPECT_LT(differingPixels(still, followed), 100u);
 }
 

@@ -195,9 +195,10 @@ Cloud cloudOf(std::span<const glm::vec3> roots) {
 }
 
 // Fits the sphere |p - c|^2 = r^2 with the least sum of squares of |p|^2 - 2 c . p - (r^2 -
-// |c|^2). Relative to the mean, the equations of the centre and the rest separate, and along the
-// axes those of the centre's coordinates do. Coope 1993, Circle fitting by linear and nonlinear
-// least squares. Returns the centre, relative to the mean, if the fit is good.
+// |c|^2). Relative to the mean, the equations of the centre separate from the rest, and along
+// the axes the equations of the centre's coordinates separate from each other. Coope 1993, Circle
+// fitting by linear and nonlinear least squares. Returns the centre, relative to the mean, if the
+// fit is good.
 std::optional<glm::dvec3> fitSphere(const Cloud& cloud) {
     const Axes& axes = cloud.axes;
     if (cloud.points.size() < kFewestOnSphere || axes.sizes[0] <= 0.0) return {};

@@ -301,7 +301,7 @@ private:
     std::vector<double> readTimes(int accessor) const {
         const GltfNumbers numbers = finiteNumbers(model_, accessor, GltfIntegers::normalized);
         if (numbers.components != 1 || numbers.values.empty())
-            throw engine::Error("its times are not at least one SCALAR");
+            throw engine::Error("its times must be SCALAR, and at least one");
         for (std::size_t i = 0; i < numbers.values.size(); ++i) {
             const double before = i > 0 ? numbers.values[i - 1] : -1.0;
             if (numbers.values[i] < 0.0 || numbers.values[i] <= before)
