@@ -139,7 +139,7 @@ public:
             const bool is_list = schema.contains("items") && schema["items"].contains("properties");
             if (!schema.contains("properties") && !is_list) continue;
             const std::string here = pointer + '/' + name + (is_list ? "/N" : "");
-            text_ += "## `" + here + "`\n\n" + schema["description"].get<std::string>() + "\n\n";
+            text_ += "## `" + here + "`: " + schema["description"].get<std::string>() + "\n\n";
             add(is_list ? schema["items"]["properties"] : schema["properties"], here);
         }
     }
