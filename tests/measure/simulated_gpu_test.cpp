@@ -155,12 +155,14 @@ TEST(SimulatedGpu, EnergyIsThatOfTheCountedRounds) {
     EXPECT_EQ(measuredOn(uncounted).conditions.energy_source, "power");
 }
 
-// The host wakes up 20 us to 1 ms late, so the wall clock of an isolated frame of 0.2 ms is known
-// to 1 % only after many thousand frames. The passes' times do not depend on it. Two rounds of a
-// quarter of a second and the warm-up are enough; two seconds are a generous bound.
+// A submission and a wake-up take 20 us to 0.9 ms each, so isolated frames of 0.2 ms last 1.1 ms
+// with a deviation of 0.36 ms. Their median is known to 1 % after 1.96^2 * pi / 2 * (0.36 / 1.1)^2
+// / 1e-4 = 6,500 frames or 7 s. The passes' times do not depend on it: two rounds of a quarter of a
+// second and the warm-up are enough, and two seconds are a generous bound.
 TEST(SimulatedGpu, IsolatedFramesEndWhenTheirPassesAreKnown) {
     GpuModel model;
-    model.most_latency = 1e-3;
+    model.most_latency = 0.9e-3;
+    model.tail = 0.0;
     SimulatedGpu gpu(model, 5);
     const report::CaseResult result = measuredOn(gpu);
     ASSERT_EQ(result.sampling[1].mode, "isolated");
