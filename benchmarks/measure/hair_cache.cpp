@@ -48,7 +48,7 @@ private:
 };
 
 // Everything that can change the bits of a device's results.
-std::string deviceText(const engine::Device& device) {
+std::string deviceText(const engine::Device& device, const std::string& processor) {
     const engine::DeviceInfo& info = device.info();
     VkPhysicalDeviceSubgroupProperties subgroups{
         .sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_SUBGROUP_PROPERTIES};
@@ -71,7 +71,7 @@ std::string deviceText(const engine::Device& device) {
         .add("shared memory", std::to_string(limits.maxComputeSharedMemorySize))
         .add("storage", std::to_string(limits.maxStorageBufferRange))
         .add("memory", std::to_string(info.local_bytes));
-    if (info.type == "cpu") key.add("processor", report::processorName());
+    if (info.type == "cpu") key.add("processor", processor);
     return key.text();
 }
 
@@ -246,7 +246,7 @@ hair::simulation::Simulation HairCache::simulation(
     const engine::Device& device, const hair::groom::Groom& groom, const hair::Settings& settings,
     std::span<const hair::groom::Mesh> field_meshes, const hair::groom::DeformingMesh* deforming) {
     const std::string basis =
-        Key("made by").add("program", program(device)).text() + deviceText(device);
+        Key("made by").add("program", program(device)).text() + deviceText(device, processor_);
     std::vector<std::string> meshes, field_keys;
     std::vector<const BakedField*> fields;
     for (const hair::groom::Mesh& mesh : field_meshes) {

@@ -3,8 +3,10 @@
 #include <cstddef>
 #include <span>
 #include <string>
+#include <utility>
 
 #include "benchmarks/measure/disk_cache.h"
+#include "benchmarks/report/environment.h"
 #include "benchmarks/scene/assets.h"
 #include "benchmarks/scene/lru_cache.h"
 #include "engine/device.h"
@@ -29,7 +31,10 @@ namespace benchmarks::measure {
 // build never uses another's. If the program file is unknown, nothing is used.
 class HairCache {
 public:
-    explicit HairCache(DiskCache disk = DiskCache({})) : disk_(std::move(disk)) {}
+    // `processor` is that of software devices.
+    explicit HairCache(
+        DiskCache disk = DiskCache({}), std::string processor = report::processorName())
+        : disk_(std::move(disk)), processor_(std::move(processor)) {}
 
     // Meshes and grooms.
     scene::AssetStore& assets() { return assets_; }
@@ -55,6 +60,7 @@ private:
     std::string program(const engine::Device& device);
 
     DiskCache disk_;
+    std::string processor_;
     scene::AssetStore assets_;
     scene::LruCache<hair::simulation::BakedField> fields_{kMostFields};
     scene::LruCache<hair::simulation::SettledState> states_{kMostStates};

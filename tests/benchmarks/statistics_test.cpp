@@ -81,6 +81,17 @@ TEST(LowRates, AreThreeDifferentThings) {
                                                      // longest frame
 }
 
+// 1 % of 250 frames are 2.5 frames, and of 101 frames 1.01.
+TEST(LowRates, CountABegunFrameAsAWholeOne) {
+    std::vector<double> frames(250, 10.0);
+    frames[7] = 100.0;
+    frames[100] = 50.0;
+    frames[200] = 40.0;
+    EXPECT_DOUBLE_EQ(report::lowRates(frames, 0.01).mean, 1000.0 / ((100.0 + 50.0 + 40.0) / 3.0));
+    frames.resize(101);
+    EXPECT_DOUBLE_EQ(report::lowRates(frames, 0.01).mean, 1000.0 / ((100.0 + 50.0) / 2.0));
+}
+
 TEST(LowRates, OfFewFramesTakeTheLongest) {
     const report::LowRates low = report::lowRates(std::vector{10.0, 20.0}, 0.001);
     EXPECT_NEAR(low.percentile, 1000.0 / 19.99, 1e-9);

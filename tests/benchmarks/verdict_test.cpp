@@ -44,6 +44,17 @@ Change stolen(double share, const char* device = "cpu") {
     };
 }
 
+// A board at its power limit is not throttled if its clock stays within 3 % (docs/measuring.md).
+TEST(IsThrottled, AtThePowerLimitIfTheClockFalls) {
+    const auto capped = [](double clock) {
+        return Conditions{
+            .clock_mhz = clock, .lowest_clock_mhz = clock, .throttle_reasons = {kPowerCap}};
+    };
+    EXPECT_FALSE(isThrottled(capped(2000.0), 2000.0, 0.0));
+    EXPECT_FALSE(isThrottled(capped(1941.0), 2000.0, 0.0));
+    EXPECT_TRUE(isThrottled(capped(1939.0), 2000.0, 0.0));
+}
+
 TEST(CaseVerdict, IsTrustedWithoutAReasonAgainstIt) {
     const CaseVerdict verdict = verdictOn({});
     EXPECT_EQ(verdict.level, Trusted::trusted);

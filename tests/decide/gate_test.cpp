@@ -147,20 +147,29 @@ TEST(Gate, EndsWithARegressionUnlessAllAreWanted) {
     EXPECT_EQ(all.comparisons()[1].pairs, 48u);
 }
 
-// The first of two metrics is slower after 12 pairs and no longer slower later: its verdict stays.
-// The second keeps the gate going.
+// The first of two metrics changes after the verdict at 12 pairs, which stays. The second keeps the
+// gate going.
 TEST(Gate, TakesNoVerdictBack) {
-    gate::Gate gate(std::vector<gate::GateMetric>(2), {}, true);
-    while (gate.next() != Step::decided) {
-        const bool b = gate.next() == Step::run_b;
-        const double first = gate.pairs() < 12 ? 1.1 + 0.001 * wobble(gate.pairs()) : 1.0;
-        gate.add({b ? first : 1.0, b ? 1.02 + 0.01 * wobble(gate.pairs()) : 1.0});
-        if (gate.decidedAt() > 0) {
-            EXPECT_EQ(gate.comparisons()[0].verdict, Verdict::regressed);
-            EXPECT_NEAR(gate.comparisons()[0].change, 0.1, 0.001);
+    struct Change {
+        double before, after;  // of the first metric's ratio
+        Verdict verdict;
+    };
+    for (const auto& [before, after, verdict] :
+         {Change{1.1, 1.0, Verdict::regressed}, Change{0.9, 1.0, Verdict::improved},
+          Change{1.0, 1.1, Verdict::same}}) {
+        gate::Gate gate(std::vector<gate::GateMetric>(2), {}, true);
+        while (gate.next() != Step::decided) {
+            const bool b = gate.next() == Step::run_b;
+            const double wobbling = 0.001 * wobble(gate.pairs());
+            const double first = gate.pairs() < 12 ? before + wobbling : after;
+            gate.add({b ? first : 1.0, b ? 1.02 + 10.0 * wobbling : 1.0});
+            if (gate.decidedAt() > 0) {
+                EXPECT_EQ(gate.comparisons()[0].verdict, verdict) << gate.pairs();
+                EXPECT_NEAR(gate.comparisons()[0].change, before - 1.0, 0.001);
+            }
         }
+        EXPECT_EQ(gate.pairs(), 48u);
     }
-    EXPECT_EQ(gate.pairs(), 48u);
 }
 
 // After 20 pairs the gate still gives the verdict of 12.

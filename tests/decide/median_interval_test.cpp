@@ -92,6 +92,15 @@ TEST(EffectiveSamples, OfACorrelatedSeriesAreThoseOfTheory) {
     EXPECT_NEAR(mean, cautious, 0.15 * cautious);
 }
 
+// The sums of products at neighbouring lags, counted by hand, are 21, 1, 9 and -3, so the initial
+// monotone sequence is 21, 1 and 1 of 16.
+TEST(EffectiveSamples, AddNoCorrelationThatRisesAgain) {
+    const std::vector<double> values{1, 1, 1, 1, -1, 1, 1, 1, -1, -1, -1, 1, -1, -1, -1, -1};
+    const double time = -1.0 + 2.0 * (21.0 + 1.0 + 1.0) / 16.0;
+    EXPECT_DOUBLE_EQ(
+        effectiveSamples(values), 16.0 / (time * (1.0 + 5.0 * std::sqrt((time - 1.0) / 16.0))));
+}
+
 TEST(EffectiveSamples, OfAlternatingOrEqualOnesAreAll) {
     std::vector<double> alternating;
     for (int i = 0; i < 100; ++i) alternating.push_back(i % 2);

@@ -49,11 +49,12 @@ struct Shown {
 
 class HairCacheTest : public GpuTest {
 protected:
-    HairCache onDisk() {
+    HairCache onDisk(std::string processor = report::processorName()) {
         return HairCache(
-            DiskCache({.folder = folder_.path(), .warn = [this](const std::string& fault) {
-                           faults_.push_back(fault);
-                       }}));
+            DiskCache(
+                {.folder = folder_.path(),
+                 .warn = [this](const std::string& fault) { faults_.push_back(fault); }}),
+            std::move(processor));
     }
 
     static Shown shown(Case& played) {
@@ -206,6 +207,37 @@ TEST_F(HairCacheTest, ProgramsWithOtherShadersTakeNothing) {
     EXPECT_EQ(makes(cache, settings), 0u);  // with the replaced shaders, made by the other cache
     device().shaders().replace({});
     EXPECT_EQ(makes(other, settings), 0u);
+}
+
+// The compiled code of a software device depends on the processor.
+TEST_F(HairCacheTest, OtherProcessorsTakeNothing) {
+    if (device().info().type != "cpu") GTEST_SKIP() << "the device is no processor";
+    const hair::Settings settings = settledCase(hair::Solver::shape);
+    HairCache cache = onDisk("Analytical Engine");
+    EXPECT_EQ(makes(cache, settings), 2u);
+    HairCache other = onDisk("Difference Engine");
+    EXPECT_EQ(makes(other, settings), 2u);
+    HairCache again = onDisk("Analytical Engine");
+    EXPECT_EQ(makes(again, settings), 0u);
+}
+
+// A mesh file that is edited keeps its name, so the settings stay the same.
+TEST_F(HairCacheTest, AnEditedMeshOfAFieldIsAnother) {
+    const hair::Settings settings = settledCase(hair::Solver::shape);
+    scene::AssetStore assets;
+    const hair::groom::Groom groom = assets.groom(settings, kScenes);
+    std::vector<hair::groom::Mesh> meshes =
+        scene::loadFieldMeshes(settings, scene::loadMesh(settings, kScenes), kScenes);
+    const auto made = [&] {
+        HairCache fresh = onDisk();
+        fresh.simulation(device(), groom, settings, meshes);
+        return fresh.made();
+    };
+    EXPECT_EQ(made(), 2u);
+    EXPECT_EQ(made(), 0u);
+    meshes.at(0).positions.at(0).y += 1e-3f;
+    EXPECT_EQ(made(), 2u);
+    EXPECT_EQ(made(), 0u);
 }
 
 // A tetrahedron without one face, as large as the head.

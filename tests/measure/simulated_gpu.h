@@ -63,6 +63,7 @@ struct GpuModel {
     bool waits_for_all = false;  // a wait for a frame ends only when all submitted frames are done
 
     double most_age = 0.1;  // s, of a clock reading
+    std::optional<double> power{};  // W, as read; absent: the mean of about a second
     bool tells_age = false;
     double cycles_per_step = 1.0;  // of planted work
 };
@@ -128,7 +129,7 @@ public:
             // Clocks come in steps of 15 MHz.
             ClockReading reading{
                 .clock_mhz = 15.0 * std::round(seen->clock / 15e6),
-                .power_w = seen->power,
+                .power_w = model_.power.value_or(seen->power),
                 .load = seen->load};
             if (model_.tells_age) reading.age = age;
             if (seen->throttled && !model_.throttle_reason.empty())

@@ -14,6 +14,7 @@
 #include "benchmarks/gate/rule.h"
 #include "benchmarks/measure/measure.h"
 #include "benchmarks/measure/metrics.h"
+#include "benchmarks/measure/sampling.h"
 #include "benchmarks/report/statistics.h"
 
 namespace benchmarks::measure {
@@ -262,6 +263,33 @@ TEST(SimulatedGpu, StampsThatStandStillEndNoSearch) {
     const double begin = gpu.seconds();
     measureEmptySubmission(gpu, 1.0);
     EXPECT_LT(gpu.seconds() - begin, 1.5);
+}
+
+// A frame of 2 ms at 300 W takes 0.6 J. The tolerance is that of the frame time.
+TEST(SimulatedGpu, AFrameTakesThePowerForItsTime) {
+    GpuModel model;
+    model.passes = {{"strands", 2e-3 * model.fast}};
+    model.power = 300.0;
+    SimulatedGpu gpu(model, 11);
+    const report::CaseResult result = measuredOn(gpu);
+    EXPECT_NEAR(medianIn(result, "frame.energy"), 0.6, 0.03 * 0.6);
+    EXPECT_EQ(metricIn(result, "frame.energy")->id, report::ofFrame(report::Measured::energy));
+}
+
+// The host needs 0.5 ms for a frame, the device 1.9 ms at its lowest clock and 0.2 ms at its
+// highest. Intervals are steady from the clock at which the device keeps up with the host.
+TEST(SimulatedGpu, AWarmUpEndsWithTheDevicesTimeAndNotWithTheHosts) {
+    GpuModel model;
+    model.record = 0.5e-3;
+    SimulatedGpu gpu(model, 11);
+    RoundPlayer player(
+        gpu.player(engine::Timing::overlapped), {.warmup = 2, .frames = 20},
+        RoundPlayer::Counts::nothing, 2);
+    player.round();
+    const WarmUp found = warmUp(player, gpu, &engine::FrameRecord::interval, 0.0, 10.0);
+    EXPECT_TRUE(found.steady);
+    for (const engine::FrameRecord& frame : player.stream(1))
+        EXPECT_NEAR(frame.device.value_or(0.0) / gpu.truth(), 1.0, 0.02);
 }
 
 // Overlap hides a third of the passes' time.

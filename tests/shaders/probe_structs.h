@@ -94,7 +94,8 @@ struct RectangleProbePush {
     uint count;
 };
 
-// Sample positions of strands/software/samples.glsl, written by probe_samples.comp.
+// Sample positions of strands/software/samples.glsl. probe_software.comp writes them to
+// SoftwarePush::colors.
 struct SamplePlaces {
     vec2 places[8];  // px, for each sample
     uint row_samples[8];  // sample of each row
@@ -103,9 +104,19 @@ struct SamplePlaces {
     float column_places[8];
 };
 
-// Push constants of probe_samples.comp.
-struct SamplePlacesPush {
-    Address places;  // SamplePlaces
+// An end of a quad of probe_software.comp: members of ScreenEnd.
+struct QuadProbeEnd {
+    vec2 place;  // px
+    vec2 side;
+    float depth;
+    float side_depth;
+};
+
+// A quad that probe_software.comp covers: SoftwarePush::list has `strands` of them.
+struct QuadProbe {
+    QuadProbeEnd from;
+    QuadProbeEnd to;
+    uint number;  // of the piece
 };
 
 // A query point of probe_shadows.frag.
