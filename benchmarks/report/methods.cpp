@@ -48,6 +48,9 @@ void Methods::add(const Json& result) {
         const std::string clocks = result.at("axes").value("/run/clocks", of_scene);
         locked_ += clocks == "locked";
         free_ += clocks == "free";
+        const std::string stamps = textAt(result, "/trust/timestamps");
+        right_stamps_ += stamps == "right";
+        wrong_stamps_ += stamps == "wrong";
     }
     std::optional<double> plays;
     for (const Json& mode : result.value("sampling", Json::array())) {
@@ -172,8 +175,15 @@ std::string Methods::energyText() const {
 }
 
 std::string Methods::trustText() const {
-    std::string text = "In each case all modes had to end with the same picture and the same "
-                       "guides, and the passes' timestamps were checked against the host's clock";
+    std::string text =
+        "In each case all modes had to end with the same picture and the same guides";
+    if (right_stamps_ > 0)
+        text += ", and the passes' timestamps were checked against the host's clock";
+    if (right_stamps_ > 0 && right_stamps_ < measured_)
+        text += " in " + std::to_string(right_stamps_) + " of " + countText(measured_, "case");
+    if (wrong_stamps_ > 0)
+        text += "; timestamps were wrong in " + countText(wrong_stamps_, "case") +
+                ", and the host's clock timed its passes";
     if (warned_ == 0) return text + ".";
     return text + "; " + countText(warned_, "case") + (warned_ == 1 ? " has" : " have") +
            " warnings in the report.";

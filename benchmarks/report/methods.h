@@ -48,6 +48,7 @@ private:
     const scene::Json& header_;
     std::uint64_t measured_ = 0, failed_ = 0, skipped_ = 0;
     std::uint64_t warned_ = 0;
+    std::uint64_t right_stamps_ = 0, wrong_stamps_ = 0;  // cases, by their timestamps
     std::uint64_t warmup_rounds_ = 0, throttled_rounds_ = 0;
     std::uint64_t locked_ = 0, free_ = 0;  // measured cases, by the choice in /run/clocks
     std::uint64_t counted_energies_ = 0, power_energies_ = 0;  // cases, by source

@@ -1,6 +1,8 @@
 #include "benchmarks/report/methods.h"
 
+#include <cstddef>
 #include <string>
+#include <vector>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -41,6 +43,29 @@ TEST(Methods, SaysHowOftenAndHowLongRoundsWerePlayed) {
     EXPECT_THAT(text, HasSubstr("at least 0.100 s of load"));
     EXPECT_THAT(text, HasSubstr("below 1.00 % of it"));
     EXPECT_THAT(text, HasSubstr("or 10.0 s had passed"));
+}
+
+// A report of three cases with these timestamps; empty: the report does not say.
+std::string withStamps(const std::vector<std::string>& stamps) {
+    Report report = sampleReport();
+    report.cases.resize(1);
+    report.cases.resize(3, report.cases[0]);
+    for (std::size_t i = 0; i < 3; ++i) report.cases[i].trust.timestamps = stamps[i];
+    return methodsText(reportJson(report));
+}
+
+TEST(Methods, ClaimsNoCheckOfTimestampsThatWasNotMade) {
+    const char* const checked = "the passes' timestamps were checked against the host's clock";
+    EXPECT_THAT(
+        withStamps({"right", "right", "right"}),
+        HasSubstr(std::string(checked) + "; 3 cases have"));
+    EXPECT_THAT(
+        withStamps({"right", "unchecked", "right"}),
+        HasSubstr(std::string(checked) + " in 2 of 3 cases"));
+    EXPECT_THAT(withStamps({"unchecked", "", "unchecked"}), Not(HasSubstr("timestamps")));
+    const std::string text = withStamps({"wrong", "unchecked", ""});
+    EXPECT_THAT(text, Not(HasSubstr(checked)));
+    EXPECT_THAT(text, HasSubstr("timestamps were wrong in 1 case"));
 }
 
 TEST(Methods, SaysWhereNoClockIsKnown) {

@@ -50,9 +50,9 @@ TEST(IsThrottled, AtThePowerLimitIfTheClockFalls) {
         return Conditions{
             .clock_mhz = clock, .lowest_clock_mhz = clock, .throttle_reasons = {kPowerCap}};
     };
-    EXPECT_FALSE(isThrottled(capped(2000.0), 2000.0, 0.0));
-    EXPECT_FALSE(isThrottled(capped(1941.0), 2000.0, 0.0));
-    EXPECT_TRUE(isThrottled(capped(1939.0), 2000.0, 0.0));
+    EXPECT_FALSE(isThrottled(capped(2000.0), {.shaders = 2000.0}, {}));
+    EXPECT_FALSE(isThrottled(capped(1941.0), {.shaders = 2000.0}, {}));
+    EXPECT_TRUE(isThrottled(capped(1939.0), {.shaders = 2000.0}, {}));
 }
 
 TEST(CaseVerdict, IsTrustedWithoutAReasonAgainstIt) {
@@ -113,6 +113,22 @@ TEST(CaseVerdict, FallsWithThePasses) {
     };
     EXPECT_EQ(device(0.91), Trusted::trusted);
     EXPECT_EQ(device(0.89), Trusted::untrusted);
+    const auto work = [](double sum, const char* timestamps, const char* warning) {
+        return levelOf([=](Report& report) {
+            report.environment.device.type = "discrete";
+            Trust& trust = report.cases[0].trust;
+            trust = {.pass_sum_over_wall = 0.4, .pass_sum_over_device = 1.0};
+            trust.pass_sum_over_work = sum;
+            trust.timestamps = timestamps;
+            trust.warnings = {warning};
+        });
+    };
+    const char* const incomplete = "the passes add up to 1.00 of the device's time for the frame";
+    EXPECT_EQ(work(0.89, "unchecked", incomplete), Trusted::untrusted);
+    EXPECT_EQ(work(1.11, "", incomplete), Trusted::untrusted);
+    EXPECT_EQ(work(2.0, "right", incomplete), Trusted::doubtful);
+    EXPECT_EQ(work(0.91, "unchecked", incomplete), Trusted::trusted);
+    EXPECT_EQ(work(0.89, "unchecked", "hair sags"), Trusted::trusted);  // submissions vary so much
     EXPECT_EQ(
         levelOf([](Report& report) { report.cases[0].trust.timestamps = "wrong"; }),
         Trusted::untrusted);

@@ -108,6 +108,20 @@ TEST_F(KeptReport, IsAcceptedWithAWarningForWhatNeedsCare) {
     EXPECT_THAT(examinationText(examination), HasSubstr("5.0 %"));
 }
 
+// Only the host's clock shows timestamps of a wrong rate.
+TEST_F(KeptReport, OfAGpuIsRefusedWhereItsPassesAreNotTheWallClock) {
+    const std::string text = refusal([](json& report) {
+        report["environment"]["device"]["type"] = "discrete";
+        report["cases"][0]["trust"] = {
+            {"pass_sum_over_device", 1.0},
+            {"pass_sum_over_work", 0.5},
+            {"timestamps", "unchecked"},
+            {"warnings", {"the passes add up to 1.00 of the device's time for the frame"}}};
+    });
+    EXPECT_THAT(text, StartsWith("pass sum: "));
+    EXPECT_THAT(text, HasSubstr("50.0 % of the wall clock minus a submission (in 1 of 2 cases)"));
+}
+
 // Load by other processes disturbs only frames of a software device.
 TEST_F(KeptReport, OfAGpuMayHaveBusyProcessors) {
     EXPECT_TRUE(isAccepted(examine([](json& report) {
@@ -155,7 +169,7 @@ TEST(CommittedReports, HaveTheseVerdicts) {
         {"backends-llvmpipe-ff656b85a1cb", "62 doubtful"},
         {"simulation_scale-llvmpipe-0cec23f6b53c", "5 trusted, 17 doubtful, 2 untrusted"},
         {"solvers_scale-llvmpipe-c7aafeacbd09", "1 trusted, 11 doubtful"},
-        {"thesis-h200-bbe05d81e193", "10 trusted, 4 doubtful"},
+        {"thesis-h200-bbe05d81e193", "9 trusted, 5 doubtful"},
         {"thesis-llvmpipe-0cec23f6b53c", "108 doubtful"},
         {"thesis-llvmpipe-ff656b85a1cb", "5 trusted, 11 doubtful"}};
     for (const auto& [report, verdicts] : kVerdicts)
