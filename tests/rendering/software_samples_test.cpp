@@ -116,10 +116,10 @@ TEST_F(SoftwareSamples, AreOneInEachRowAndColumn) {
 }
 
 // A sample on the common edge of two quads belongs to one of them, that beyond the edge. The
-// samples are in the middle of pixels, as are the edges.
+// samples are in the middle of pixels, as are all four edges.
 TEST_F(SoftwareSamples, OnAnEdgeAreOfTheQuadThatItBoundsFromBelow) {
     for (const bool turned : {false, true}) {
-        gpu::QuadProbe quad = upright(3.5f, 1.0f, 4.0f, 1.0f);
+        gpu::QuadProbe quad = upright(3.5f, 1.5f, 4.0f, 1.0f);
         if (turned)  // along a row
             for (gpu::QuadProbeEnd* end : {&quad.from, &quad.to})
                 *end = {

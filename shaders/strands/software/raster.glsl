@@ -39,12 +39,14 @@ void makeEdges(PieceQuad quad, inout RasterQuad raster) {
     vec4 run = down.yzwx - down;
     vec4 rise = across.yzwx - across;
     float area = dot(down, across.yzwx - across.wxyz);
-    // An edge parallel to the rows also bounds them, from the side from which it would if slightly
-    // tilted.
-    run = mix(run, vec4(1e-6), lessThan(abs(run), vec4(1e-6)));
-    raster.lower = greaterThan(area > 0.0 ? run : -run, vec4(0.0));
-    raster.slopes = rise / run;
-    raster.starts = across - raster.slopes * down;
+    // An edge parallel to the rows bounds which of them there are, `begin` to `end`, and nothing in
+    // them. A row on it would otherwise end where the edge does.
+    bvec4 parallel = lessThan(abs(run), vec4(1e-6));
+    run = mix(area > 0.0 ? run : -run, vec4(1.0), parallel);
+    if (area <= 0.0) rise = -rise;
+    raster.lower = greaterThan(run, vec4(0.0));
+    raster.slopes = mix(rise / run, vec4(0.0), parallel);
+    raster.starts = mix(across - raster.slopes * down, vec4(-1.0), parallel);
     vec2 size = vec2(push.width, push.height);
     if (raster.columns) size = size.yx;
     raster.size = size.x;
