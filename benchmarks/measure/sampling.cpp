@@ -186,13 +186,18 @@ private:
         if (looking_.valid()) return;  // the last assessment is still running
         const std::vector<std::size_t> clean = cleanRounds();
         looked_at_ = clean.size();
+        const auto look_at = [precision = rule_.precision](const RoundTimes& times, auto passes) {
+            // Passes take as long to assess as frames, and matter only once frames are known.
+            const Assessment whole = assess(times);
+            return isEnough(whole, precision) ? assess(times, passes()) : whole;
+        };
         if (rule_.overlaps_assessment) {
-            looking_ =
-                std::async(std::launch::async, [times = timesOf(clean), passes = passesOf(clean)] {
-                    return assess(times, passes);
+            looking_ = std::async(
+                std::launch::async, [look_at, times = timesOf(clean), passes = passesOf(clean)] {
+                    return look_at(times, [&] { return passes; });
                 });
         } else {
-            assessment_ = assess(timesOf(clean), passesOf(clean));
+            assessment_ = look_at(timesOf(clean), [&] { return passesOf(clean); });
         }
     }
 

@@ -44,12 +44,12 @@ TEST(FieldReference, SaysWhatAFieldIs) {
     folder.write("short.json", R"({"sweep": {"/strands/density": [8, 16]}})");
     folder.write("lights.json", R"({"shading": {"lights": [{"power": 3}]}})");
     const std::string page = scene::fieldReference(folder.path());
-    EXPECT_THAT(page, testing::HasSubstr("\n## `/strands`\n"));
+    EXPECT_THAT(page, testing::HasSubstr("\n## `/strands`: "));
     EXPECT_THAT(
         page, testing::ContainsRegex(
                   "\n\\| `/strands/density` \\| 1 to 4096, whole \\| count \\| `64` \\| [^|]+ \\| "
                   "\\[short.json\\]\\(../scenes/short.json\\) \\|\n"));
-    EXPECT_THAT(page, testing::HasSubstr("\n## `/shading/lights/N`\n"));
+    EXPECT_THAT(page, testing::HasSubstr("\n## `/shading/lights/N`: "));
     EXPECT_THAT(page, testing::Not(testing::HasSubstr("`/sweep")));
 }
 

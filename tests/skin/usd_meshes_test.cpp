@@ -153,7 +153,7 @@ TEST_F(UsdMeshes, WhatIsWrongIsNamed) {
     const std::pair<const char*, const char*> refused[] = {
         {"corner", "/a: corner 3 is point 4 of 4"},
         {"face", "/a: face 0 has 2 corners"},
-        {"corners", "/a: 4 corners of faces, 7 are needed"},
+        {"corners", "/a: 4 corners of faces, but 7 are needed"},
         {"topology", "/a: faceVertexIndices changes over time"},
         {"number", "/a: point 1 is not finite"},
         {"empty", "the stage has no Mesh with faces"},

@@ -309,7 +309,7 @@ TEST(ImportTfx2, NamesTheLineOfWhatIsWrong) {
         text.replace(text.find(from), from.size(), to);
         return errorOfTfx(text);
     };
-    EXPECT_EQ(error("2.0", "1.0"), "line 1: version '1.0', only 2.0 is read as text");
+    EXPECT_EQ(error("2.0", "1.0"), "line 1: version '1.0'; only 2.0 is read as text");
     EXPECT_THAT(error("scale 1.0", "scale 2"), StartsWith("line 2: a scale, which is not read"));
     EXPECT_THAT(error("rotation 0", "rotation 90"), StartsWith("line 3: a rotation"));
     EXPECT_THAT(error("bothEnds", "someEnds"), StartsWith("line 5: unknown keyword"));
