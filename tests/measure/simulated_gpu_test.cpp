@@ -292,7 +292,7 @@ TEST(SimulatedGpu, AHostThatWakesUpLateIsNoWaitOfTheDevice) {
 // A frame takes the device 0.089 ms. With two frames in flight the next one has 0.089 ms to be
 // submitted after a wait, and two latencies of 20 to 60 us and 7 us of recording need 0.087 ms on
 // average: the device often waits, and that time is in the mean of several intervals too. With four
-// frames in flight there is three times as long, which is always enough but for the tail.
+// frames in flight there is three times as long, which is enough for all but the longest latencies.
 TEST(SimulatedGpu, FourFramesInFlightHideTheHostOfShortFrames) {
     for (const std::uint32_t in_flight : {2u, 4u}) {
         GpuModel model;
