@@ -83,7 +83,7 @@ protected:
         return picture.pictureHash();
     }
 
-    static inline const std::string kColor = "vec4(strandColor(picture, seen), 1.0)";
+    static inline const std::string kColor = "vec4(strandColor(picture, visible), 1.0)";
     static inline const std::string kGreen = "vec4(0.0, 1.0, 0.0, 1.0)";
     TemporaryFolder folder;
 };
