@@ -93,7 +93,7 @@ def write_pages(app, error: "Exception | None") -> None:
     if error is not None or app.builder.format != "html":
         return
     pages, site = {}, pathlib.Path(app.outdir)
-    for name in app.env.found_docs:
+    for name in sorted(app.env.found_docs):
         text = (site / f"{name}.html").read_text(encoding="utf-8")
         main = re.search(r'<article role="main".*?</article>', text, re.DOTALL)
         pages[f"{name}.html"] = re.sub(r"<(script|style|img|svg)\b.*?>", "", main[0])

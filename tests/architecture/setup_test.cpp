@@ -58,4 +58,18 @@ TEST(Setup, ClaimsOnlyReleasesOnWhichBothCommandsRan) {
     EXPECT_GT(count, 0u);
 }
 
+std::string firstGroup(const fs::path& file, const std::string& pattern) {
+    const std::string text = wholeText(kSourceTree / file);
+    std::smatch match;
+    return std::regex_search(text, match, std::regex(pattern)) ? match.str(1) : "none";
+}
+
+// scripts/release refuses other versions, too.
+TEST(Setup, HasOneVersion) {
+    const std::string version = firstGroup("CMakeLists.txt", R"(project\(hairbench VERSION (\S+))");
+    EXPECT_THAT(version, testing::MatchesRegex("[0-9]+\\.[0-9]+\\.[0-9]+"));
+    EXPECT_EQ(firstGroup("docs/CHANGELOG.md", R"(\n## ([^\s,]+))"), version);
+    EXPECT_EQ(firstGroup("docs/CITATION.cff", R"(\nversion: (\S+)\n)"), version);
+}
+
 }  // namespace

@@ -21,6 +21,7 @@ namespace fs = std::filesystem;
 using testing::AllOf;
 using testing::HasSubstr;
 using testing::IsEmpty;
+using testing::StartsWith;
 
 class InstalledTree : public testing::Test {
 protected:
@@ -93,7 +94,11 @@ TEST_F(InstalledTree, RunsAShippedScene) {
     const Outcome outcome = run("run smoke --filter msaa:1 --frames 2 --warmup 2 --max-time 0");
     ASSERT_EQ(outcome.status, 0) << outcome.output;
     const fs::path report = own.file("work/results/local/smoke.json");
-    EXPECT_EQ(nlohmann::json::parse(textOf(report)).at("cases").size(), 1u);
+    const nlohmann::json written = nlohmann::json::parse(textOf(report));
+    EXPECT_EQ(written.at("cases").size(), 1u);
+    const nlohmann::json& build = written.at("environment").at("build");
+    EXPECT_THAT(
+        run("--version").output, StartsWith("hairbench " + build.at("version").get<std::string>()));
     EXPECT_THAT(  // validates with the installed schema; the findings depend on this machine
         run("doctor --reports results/local/smoke.json").output,
         HasSubstr("results/local/smoke.json: "));

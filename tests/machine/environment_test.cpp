@@ -82,6 +82,7 @@ TEST_F(EnvironmentTest, EchoesTheCommandAndTheSeed) {
 
 TEST(BuildRecord, SaysHowTheProgramWasBuilt) {
     const report::BuildRecord build = report::describeBuild();
+    EXPECT_EQ(build.version, HAIRBENCH_VERSION);
     EXPECT_THAT(build.compiler, HasSubstr(kCompilerVersion));
     EXPECT_EQ(build.flags.find("  "), std::string::npos);
 #ifdef NDEBUG

@@ -7,6 +7,7 @@ cmake and scripts/setup are stand-ins, and both builds are the program under tes
 import json
 import os
 import re
+import shutil
 import subprocess
 import tempfile
 import unittest
@@ -249,12 +250,53 @@ class Workflow(unittest.TestCase):
         for step in own:
             self.assertLessEqual(set(step["with"]), set(inputs))
 
+    def test_keeps_compiled_objects_between_runs(self):
+        workflow = yaml.safe_load((REPOSITORY / ".github/workflows/ci.yml").read_text())
+        for name, job in workflow["jobs"].items():
+            caches = [step["with"] for step in job["steps"] if step.get("uses", "").startswith("actions/cache@")]
+            self.assertEqual([cache["path"] for cache in caches], ["${{ env.CCACHE_DIR }}"], name)
+            for line in caches[0]["restore-keys"].splitlines():
+                self.assertTrue(caches[0]["key"].startswith(line), name)
+
     def test_the_page_names_every_input(self):
         page = (REPOSITORY / "docs" / "comparing.md").read_text()
         for name, each in yaml.safe_load((ACTION / "action.yml").read_text())["inputs"].items():
             self.assertRegex(page, rf"(?m)^\|.*`{name}`.*\|")
             if name in ("scene", "options", "out", "comment"):
                 self.assertRegex(page, rf"(?m)^\| `{name}` \| `{re.escape(each['default'])}` \|")
+
+
+class Release(Repository):
+    FILES = {"CMakeLists.txt": "project(hairbench VERSION 1.2.3 LANGUAGES C)\n",
+             "docs/CITATION.cff": "title: x\nversion: 1.2.3\n",
+             "docs/CHANGELOG.md": "# Changes\n\n## 1.2.3\n\n* One\n"}
+
+    def refusal(self, arguments, **changed):
+        """Returns what scripts/release says of a commit of these files, which no build is made of."""
+        scripts = self.work / "scripts"
+        scripts.mkdir(parents=True, exist_ok=True)
+        shutil.copy(REPOSITORY / "scripts" / "release", scripts)
+        for path, text in (self.FILES | changed).items():
+            (self.work / path).parent.mkdir(exist_ok=True)
+            (self.work / path).write_text(text)
+        git = "git -c user.name=Test -c user.email=test@example.org -c commit.gpgsign=false"
+        done = self.shell(f"git init -q; git add -A; {git} commit -qm x --allow-empty\n"
+                          f"touch changed; exec scripts/release {arguments}")
+        self.assertEqual(done.returncode, 2, done.stdout)
+        return done.stdout
+
+    def test_refuses_what_is_not_one_version(self):
+        self.assertIn("CMakeLists.txt: has version 1.2.3, not 1.2.4", self.refusal("1.2.4"))
+        self.assertIn("CITATION.cff: has version 1.2.4, not 1.2.3",
+                      self.refusal("1.2.3", **{"docs/CITATION.cff": "version: 1.2.4\n"}))
+        for heading, said in {"1.2.4": "has no section 1.2.3", "1.2.3, in the making": "1.2.3 is in the making"}.items():
+            self.assertIn(f"docs/CHANGELOG.md: {said}",
+                          self.refusal("1.2.3", **{"docs/CHANGELOG.md": f"## {heading}\n\n* One\n"}))
+
+    def test_refuses_changes_and_unknown_arguments(self):
+        self.assertIn("the working tree has changes", self.refusal("1.2.3"))
+        self.assertIn("unrecognized arguments: --fast", self.refusal("1.2.3 --fast"))
+        self.assertIn("scripts: is not a release", self.refusal("1.2.3 scripts --ignore-changes"))
 
 
 if __name__ == "__main__":
