@@ -141,7 +141,8 @@ public:
         result.all_throttled = counted.empty();
         if (counted.empty())
             for (std::size_t i = 0; i < conditions_.size(); ++i) counted.push_back(i);
-        const Assessment assessment = assess(timesOf(counted), passesOf(counted));
+        const Assessment assessment =
+            assessed(rule_.precision, timesOf(counted), [&] { return passesOf(counted); });
         std::vector<report::Conditions> of_counted;
         for (std::size_t i = assessment.settling; i < counted.size(); ++i) {
             std::ranges::move(frames_[counted[i]], std::back_inserter(result.frames));
@@ -181,23 +182,27 @@ private:
         return passes;
     }
 
+    // A pass takes as long to assess as the frames, and matters only once the frames are known.
+    template <class Passes>
+    static Assessment assessed(double precision, const RoundTimes& times, Passes&& passes) {
+        const Assessment whole = assess(times);
+        return isEnough(whole, precision) ? assess(times, passes()) : whole;
+    }
+
     void look() {
         assessment();
         if (looking_.valid()) return;  // the last assessment is still running
         const std::vector<std::size_t> clean = cleanRounds();
         looked_at_ = clean.size();
-        const auto look_at = [precision = rule_.precision](const RoundTimes& times, auto passes) {
-            // Passes take as long to assess as frames, and matter only once frames are known.
-            const Assessment whole = assess(times);
-            return isEnough(whole, precision) ? assess(times, passes()) : whole;
-        };
         if (rule_.overlaps_assessment) {
             looking_ = std::async(
-                std::launch::async, [look_at, times = timesOf(clean), passes = passesOf(clean)] {
-                    return look_at(times, [&] { return passes; });
+                std::launch::async,
+                [precision = rule_.precision, times = timesOf(clean), passes = passesOf(clean)] {
+                    return assessed(precision, times, [&] { return passes; });
                 });
         } else {
-            assessment_ = look_at(timesOf(clean), [&] { return passesOf(clean); });
+            assessment_ =
+                assessed(rule_.precision, timesOf(clean), [&] { return passesOf(clean); });
         }
     }
 
