@@ -1,6 +1,7 @@
 #include "benchmarks/gate/report.h"
 
 #include <cmath>
+#include <algorithm>
 #include <iterator>
 #include <set>
 
@@ -97,13 +98,16 @@ scene::Json timesJson(const GateRun& run) {
 
 scene::Json blocksJson(const GateRun& run) {
     scene::Json list = scene::Json::array();
-    for (const BlockRecord& each : run.blocks)
+    for (const BlockRecord& each : run.blocks) {
         list.push_back(
             {{"phase", phaseName(each.phase)},
              {"side", std::string{each.side}},
              {"pair", each.pair},
              {"order_seed", each.seed},
              {"medians", numbers(each.medians)}});
+        if (std::ranges::count(each.capped, 0) < std::ssize(each.capped))
+            list.back()["capped"] = std::vector<bool>(each.capped.begin(), each.capped.end());
+    }
     return list;
 }
 

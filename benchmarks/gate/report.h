@@ -9,7 +9,7 @@
 // Report of a gate, as JSON and for a terminal.
 namespace benchmarks::gate {
 
-inline constexpr const char* kGateSchema = "hairbench-gate/1.1.0";
+inline constexpr const char* kGateSchema = "hairbench-gate/1.2.0";
 
 // The complete gate, as described by results/gate.schema.json; verdicts can be recomputed from it.
 // Unknown values are absent.

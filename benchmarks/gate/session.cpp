@@ -88,6 +88,16 @@ std::vector<double> mediansOf(const std::vector<GateTime>& times, const BlockRep
     return medians;
 }
 
+// Whether the power cap lowered the clock, for each time.
+std::vector<char> cappedOf(const std::vector<GateTime>& times, const BlockReport& block) {
+    std::vector<char> capped;
+    for (const GateTime& time : times) {
+        const BlockCase* const block_case = findCase(block, time.case_name);
+        capped.push_back(block_case && block_case->capped);
+    }
+    return capped;
+}
+
 std::vector<double> costsOf(const std::vector<GateTime>& times, std::vector<double> medians) {
     for (std::size_t i = 0; i < times.size(); ++i)
         medians[i] = report::costOf(times[i].metric, medians[i]);
@@ -235,12 +245,9 @@ bool GateSession::block(const Side& side, Phase phase, std::size_t pair) {
     }
     run_.mismatches = mismatches(first, report);
     if (!run_.mismatches.empty()) run_.unstable = side.name;
-    run_.blocks.push_back({phase, side.name, pair, seed, mediansOf(run_.times, report)});
-    capped_.clear();
-    for (const GateTime& time : run_.times) {
-        const BlockCase* const block_case = findCase(report, time.case_name);
-        capped_.push_back(block_case && block_case->capped);
-    }
+    run_.blocks.push_back(
+        {phase, side.name, pair, seed, mediansOf(run_.times, report),
+         cappedOf(run_.times, report)});
     return run_.mismatches.empty();
 }
 
@@ -269,7 +276,8 @@ bool GateSession::play() {
              step = gate.next()) {
             const Side& side = step == Gate::Step::run_a ? run_.a : run_.b;
             if (!block(side, Phase::gate, gate.pairs())) return false;
-            gate.add(costsOf(run_.times, run_.blocks.back().medians), capped_);
+            const BlockRecord& block = run_.blocks.back();
+            gate.add(costsOf(run_.times, block.medians), block.capped);
             judge(gate);
         }
     }

@@ -36,6 +36,7 @@ struct BlockRecord {
     std::size_t pair = 0;  // in its phase
     std::uint32_t seed = 0;  // for the order of its cases
     std::vector<double> medians;  // one per GateTime, in its unit; NaN if missing
+    std::vector<char> capped;  // one per GateTime: the board's power cap lowered the clock
 };
 
 // Everything that a gate did; its verdicts can be recomputed from it.
@@ -116,7 +117,6 @@ private:
     bool all_;
     double smallest_share_;
     std::string regex_;  // of the requested metrics; may be empty
-    std::vector<char> capped_;  // of the last block: whether the power cap lowered the clock [time]
     report::MetricChoice judged_;  // empty: times by the most informative clock
     BlockRunner runner_;
     std::uint32_t seed_;  // of the first pair; both blocks of a pair have the same order of cases

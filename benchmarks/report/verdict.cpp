@@ -157,7 +157,6 @@ void judgeLoad(const Json& environment, const Json& result, std::vector<Doubt>& 
 void judgeClocks(const Json& result, std::vector<Doubt>& doubts) {
     Conditions conditions;
     conditions.clock_mhz = numberIn(result, "/conditions/clock_mhz");
-    conditions.lowest_clock_mhz = numberIn(result, "/conditions/lowest_clock_mhz");
     std::string reasons;
     for (const Json& each : arrayIn(result, "/conditions/throttle_reasons")) {
         if (!each.is_string()) continue;

@@ -165,6 +165,10 @@ TEST(GateCommand, BlamesTheBuildThatItsPowerCapSlows) {
     const Outcome gate = capped.gate();
     EXPECT_EQ(gate.status, 10) << gate.output;
     EXPECT_EQ(capped.report()["verdict"], "regressed");
+    for (const scene::Json& block : capped.report()["blocks"])
+        if (block["phase"] == "gate") {
+            EXPECT_EQ(block.contains("capped"), block["side"] == "B");
+        }
     const FakeBuilds free = gateOf({});
     EXPECT_EQ(free.gate().status, 0);
     EXPECT_THAT(free.gate().output, HasSubstr("by the clock alone"));
