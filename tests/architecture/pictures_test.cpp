@@ -37,6 +37,23 @@ TEST(Pictures, AreThoseThatTheScriptDraws) {
     EXPECT_EQ(committed, drawn);
 }
 
+// A report that is measured anew gets another name.
+TEST(Pictures, AreDrawnFromFilesThatAreThere) {
+    static const std::regex file(R"(\{pictures\}/(\S+))");
+    const Json all = rows();
+    for (const auto& [name, commands] : all.items())
+        for (const Json& each : commands) {
+            const auto command = each.get<std::string>();
+            for (std::sregex_iterator found(command.begin(), command.end(), file), end;
+                 found != end; ++found) {
+                const std::string path = (*found)[1];
+                if (path.find('*') == std::string::npos) {
+                    EXPECT_TRUE(fs::exists(kPictures / path)) << name << ": " << path;
+                }
+            }
+        }
+}
+
 // This picture takes ninety minutes to draw, and is older than the texts that name a picture's
 // commands.
 const std::string kOlder = "shading_models_path_traced.png";
