@@ -318,8 +318,12 @@ const Table& tableOf(const GroomSettings*) {
              "longest strand has"),
          number(
              "guides", &S::guides, 0, 1000000, "count",
-             "guides to grow, or to choose from the file or from grown strands; 0: all of the "
-             "file's strands, or 86 grown ones"),
+             "guides to grow, or to choose from the file or from grown strands; if the file flags "
+             "guides, they are chosen from these, which are not drawn as strands; 0: all that the "
+             "file flags, otherwise all of its strands, or 86 grown ones"),
+         text(
+             "groups", &S::groups,
+             "numbers of the file's groups that are kept, such as \"0, 2\"; empty: all"),
          group("grow", &S::grow, "guides grown on a scalp"),
          group("style", &S::style, "styling of grown strands and of those of the file"),
          list(

@@ -194,6 +194,7 @@ struct GroomSettings {
     FilePlacementSettings placement;
     std::uint32_t vertices = 0;
     std::uint32_t guides = 0;
+    std::string groups;
     GrowSettings grow;
     StyleSettings style;
     std::vector<StrokeSettings> edits;

@@ -20,6 +20,19 @@ void addPointsPerStrand(
         ->check(CLI::Range(1, 65536));
 }
 
+void addStrict(CLI::App& command, bool& strict) {
+    command.add_flag(
+        "--strict", strict,
+        "refuse a file with strands of a single point or with numbers that are not finite, "
+        "instead of leaving these strands out");
+}
+
+void addGroups(CLI::App& command, std::vector<std::int32_t>& groups, const std::string& what) {
+    command.add_option("--group", groups, what + " of this group; repeatable (default: all)")
+        ->type_name("NUMBER")
+        ->allow_extra_args(false);
+}
+
 constexpr const char* kCompareGroomsNotes =
     R"(The strands of each file are sampled evenly and compared with the polylines of the other. Precision is
 the share of B that is found in A; recall is the share of A that is found in B. Strand consistency is the
@@ -42,12 +55,13 @@ root with its own segment lengths. The amplitude of a wave of length w is multip
 1 / (1 + (2 pi L / w)^2); hair gets no shorter. Tips move. OUT is in IN's unit.)";
 
 constexpr const char* kFixNotes =
-    R"(Strands that have one point, have no length or repeat an earlier strand are left out, and so are points
-at the place of the point before them; strands of more than 256 points are resampled to 256. With --mesh
+    R"(Points with a number that is not finite are left out, and a strand that loses its root begins at the
+next point. Strands that have one point, have no length or repeat an earlier strand are left out, and so are
+points at the place of the point before them; strands of more than 256 points are resampled to 256. With --mesh
 each strand moves as a whole until its root is on the mesh, unless the root is farther off than
 --farthest-root; points deeper than 1 mm inside the mesh are moved onto it, which changes lengths. With
 --scale OUT is in metres. Not repaired: widths, roots that several strands share, a mesh that is not
-closed, a unit that is not stated. A file with numbers that are not finite is refused.)";
+closed, a unit that is not stated.)";
 
 void addEditedFiles(CLI::App& command, EditGroomOptions& options) {
     command.add_option("in", options.in, "file of hair")->required()->type_name("IN");
@@ -89,6 +103,7 @@ void addGroomEdits(const CommandLine& line, CLI::App& groom) {
             addPositive(
                 command, "--most-points", options.most_points,
                 "leave out strands with more points");
+            addGroups(command, options.groups, "keep strands");
             command.add_option("--mesh", options.mesh, "head, in metres")->type_name("FILE");
             addPositive(
                 command, "--farthest-root", options.farthest_root,
@@ -169,6 +184,8 @@ void addGroomCommands(const CommandLine& line) {
                     "metres per unit of the file (default: as the file states, or a guess)")
                 ->check(CLI::PositiveNumber);
             addPointsPerStrand(command, options.points_per_strand);
+            addStrict(command, options.strict);
+            addGroups(command, options.groups, "show strands");
             command.add_flag("--json", options.json, "print JSON");
         });
     addCommand<GroomSceneOptions>(
@@ -193,6 +210,8 @@ void addGroomCommands(const CommandLine& line) {
             command.add_option("--up", options.up, "upward axis of FILE (default: a guess)")
                 ->check(CLI::IsMember({"x", "y", "z"}));
             addPointsPerStrand(command, options.points_per_strand);
+            addStrict(command, options.strict);
+            addGroups(command, options.groups, "make a scene of strands");
             command
                 .add_option(
                     "--sheet", options.sheet,
@@ -217,6 +236,7 @@ void addGroomCommands(const CommandLine& line) {
             command.add_option("in", options.in, "file of hair")->required()->type_name("IN");
             command.add_option("out", options.out, "file to write")->required()->type_name("OUT");
             addPointsPerStrand(command, options.points_per_strand);
+            addStrict(command, options.strict);
             command
                 .add_option(
                     "--scale", options.scale,

@@ -370,6 +370,12 @@ void addCheckCommands(const CommandLine& line) {
                 "--start", options.start,
                 "settle each scene's hair on the device, without its sweep, and report faults: "
                 "stretched, inside a body, still moving, not balanced");
+            command
+                .add_flag(
+                    "--strict", options.strict,
+                    "with --start: refuse files of hair with strands that can't be used, which are "
+                    "left out otherwise")
+                ->needs("--start");
             command.add_option(
                 "--device", options.device.wanted,
                 "for --start: index or part of the name of the device");

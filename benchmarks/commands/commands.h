@@ -95,9 +95,17 @@ struct GroomInfoOptions {
     std::filesystem::path mesh;  // mesh that the hair grows on; empty: none
     std::optional<double> scale;  // metres per unit of the file
     std::uint32_t points_per_strand = 0;  // if the file does not state it
+    bool strict = false;  // refuse strands that can't be used
+    std::vector<std::int32_t> groups;  // that count; empty: all
     bool json = false;
 };
 int inspectGroom(const GroomInfoOptions& options);
+
+// Returns the strands of these groups, or all if there are none. Throws engine::Error as
+// keepGroups() does, with the file and --group.
+hair::groom::StrandSet chosenGroups(
+    hair::groom::StrandSet strands, const std::vector<std::int32_t>& groups,
+    const std::filesystem::path& file);
 
 struct GroomSceneOptions {
     std::filesystem::path hair;
@@ -106,6 +114,8 @@ struct GroomSceneOptions {
     std::optional<double> scale;  // metres per unit of the hair file
     std::string up;  // upward axis of the hair file: "x", "y" or "z"; empty: guessed
     std::uint32_t points_per_strand = 0;  // if the file does not state it
+    bool strict = false;  // refuse strands that can't be used
+    std::vector<std::int32_t> groups;  // that are kept; empty: all
     std::filesystem::path sheet;  // PNG of four views; empty: none
     engine::DeviceOptions device;  // device for the sheet
     bool force = false;  // replace existing files
@@ -126,6 +136,7 @@ struct EditGroomOptions {
     std::optional<double> longest;
     std::optional<std::uint32_t> fewest_points;
     std::optional<std::uint32_t> most_points;
+    std::vector<std::int32_t> groups;  // that are kept; empty: all
     std::optional<double> farthest_root;
     std::optional<double> deepest;
     double smooth_length = 0.0;
@@ -204,6 +215,7 @@ struct ValidateOptions {
     std::vector<std::filesystem::path> scenes;
     scene::Outside outside = scene::Outside::refused;
     bool start = false;  // also inspect each scene's hair on the device
+    bool strict = false;  // with `start`: refuse files with strands that can't be used
     engine::DeviceOptions device;  // device for `start`
 };
 int validateScenes(const ValidateOptions& options);

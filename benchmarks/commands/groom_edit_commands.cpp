@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <filesystem>
 #include <functional>
 #include <iostream>
@@ -64,10 +65,39 @@ double unitOf(const StrandSet& strands, const EditGroomOptions& options) {
     return findings.metres_per_unit;
 }
 
-int editGroom(const EditGroomOptions& options, const GroomEdit& edit) {
+// Adds the notes, each once.
+void addNotes(
+    std::vector<hair::groom::EditNote>& notes, const std::vector<hair::groom::EditNote>& more) {
+    for (const hair::groom::EditNote& note : more) {
+        const auto same = std::ranges::find(notes, note.what, &hair::groom::EditNote::what);
+        if (same == notes.end())
+            notes.push_back(note);
+        else
+            same->count += note.count;
+    }
+}
+
+EditedStrands mendedOf(StrandSet strands, const EditGroomOptions& options) {
+    try {
+        return hair::groom::mendStrands(std::move(strands));
+    } catch (const engine::Error& error) {
+        throw engine::Error(options.in.string(), error.what());
+    }
+}
+
+// Strands that can't be used are mended if they are `kept`.
+int editGroom(
+    const EditGroomOptions& options, const GroomEdit& edit,
+    hair::groom::BadStrands bad = hair::groom::BadStrands::left_out) {
     const hair::groom::StrandExporter& exporter = hair::groom::strandExporterOf(options.out);
-    StrandSet strands = hair::groom::importStrands(options.in, options.points_per_strand);
+    StrandSet strands = hair::groom::importStrands(options.in, options.points_per_strand, {}, bad);
     say("read", options.in, strands);
+    std::vector<hair::groom::EditNote> notes;
+    if (bad == hair::groom::BadStrands::kept) {
+        EditedStrands mended = mendedOf(std::move(strands), options);
+        strands = std::move(mended.strands);
+        notes = std::move(mended.notes);
+    }
     warnOf(options.in, strands.warnings);
     engine::checkWritable(options.out);
     const double unit = unitOf(strands, options);
@@ -78,7 +108,8 @@ int editGroom(const EditGroomOptions& options, const GroomEdit& edit) {
     } catch (const engine::Error& error) {
         throw engine::Error(options.in.string(), error.what());
     }
-    for (const hair::groom::EditNote& note : edited.notes)
+    addNotes(notes, edited.notes);
+    for (const hair::groom::EditNote& note : notes)
         std::cout << note.what << ": " << report::countText(note.count) << '\n';
     // .hgl is the only format that is always in metres.
     if (exporter.extension == ".hgl" && edited.strands.metres_per_unit != 1.0 && unit != 1.0) {
@@ -106,7 +137,8 @@ int filterGroom(const EditGroomOptions& options) {
         .fewest_points = options.fewest_points,
         .most_points = options.most_points,
         .farthest_root = metresOf(options.farthest_root),
-        .deepest = metresOf(options.deepest)};
+        .deepest = metresOf(options.deepest),
+        .groups = options.groups};
     if ((settings.farthest_root || settings.deepest) && options.mesh.empty())
         throw engine::Error("--mesh", "is missing; --farthest-root and --deepest need it");
     if (!options.mesh.empty() && !settings.farthest_root && !settings.deepest)
@@ -146,7 +178,7 @@ int fixGroom(const EditGroomOptions& options) {
         throw engine::Error("--mesh", "is missing; --farthest-root needs it");
     constexpr double kFarthestRoot = 10.0;  // mm
     const std::optional<hair::groom::BodyMesh> mesh = meshOf(options);
-    return editGroom(options, [&](StrandSet strands, double unit) {
+    const GroomEdit edit = [&](StrandSet strands, double unit) {
         if (options.scale) {
             strands = hair::groom::scaleLengths(std::move(strands), unit);
             strands.metres_per_unit = unit = 1.0;
@@ -154,7 +186,8 @@ int fixGroom(const EditGroomOptions& options) {
         return hair::groom::fixStrands(
             strands, mesh ? &*mesh : nullptr, unit,
             metresOf(options.farthest_root.value_or(kFarthestRoot)));
-    });
+    };
+    return editGroom(options, edit, hair::groom::BadStrands::kept);
 }
 
 }  // namespace benchmarks::commands

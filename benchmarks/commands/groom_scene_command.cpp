@@ -145,8 +145,9 @@ int makeGroomScene(const GroomSceneOptions& options) {
                 options.sheet.string(), "is not a .png file, the only format that --sheet writes");
         refuseToReplace(options.sheet, options);
     }
-    hair::groom::StrandSet strands =
-        hair::groom::importStrands(options.hair, options.points_per_strand);
+    hair::groom::StrandSet strands = hair::groom::importStrands(
+        options.hair, options.points_per_strand, {}, hair::groom::badStrands(options.strict));
+    strands = chosenGroups(std::move(strands), options.groups, options.hair);
     if (strands.strandCount() == 0)
         throw engine::Error(options.hair.string(), "there are no strands");
     std::optional<hair::groom::Mesh> mesh;
@@ -171,6 +172,9 @@ int makeGroomScene(const GroomSceneOptions& options) {
     settings.description = descriptionOf(options, guess);
     settings.groom.file = namedFrom(options.out, options.hair);
     settings.groom.points_per_strand = options.points_per_strand;
+    for (const std::int32_t group : options.groups)
+        settings.groom.groups.append(settings.groom.groups.empty() ? "" : ", ")
+            .append(std::to_string(group));
     settings.groom.placement.scale = static_cast<float>(guess.hair.metres_per_unit / stated);
     if (head.mesh) settings.groom.mesh = namedFrom(options.out, head.file);
     scene::checkSettings(settings);

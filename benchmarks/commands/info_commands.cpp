@@ -32,11 +32,14 @@ namespace {
 
 void printStart(
     const engine::Device& device, const std::filesystem::path& path, scene::Scene& scene,
-    measure::HairCache& cache) {
+    measure::HairCache& cache, bool is_strict) {
     const scene::CaseSpec spec = scene::singleCase(scene, {.scene = path}, &cache.assets());
     const measure::StartInspection start = [&] {
         const engine::Step step("inspects the hair of " + spec.name);
         const measure::Case first(device, spec.settings, scene.directory, &cache);
+        if (is_strict && !first.groom().warnings.empty())
+            throw engine::Error(
+                path.string(), first.groom().warnings.front() + ": refused by --strict");
         return measure::inspectStart(first);
     }();
     const report::StartRecord& record = start.record;
@@ -76,7 +79,8 @@ int validateScenes(const ValidateOptions& options) {
             std::cout << engine::shownText(path.string()) << ": ok, " << count
                       << (count == 1 ? " case\n" : " cases\n");
             if (!device) continue;
-            for (scene::Scene& scene : loaded) printStart(*device, path, scene, cache);
+            for (scene::Scene& scene : loaded)
+                printStart(*device, path, scene, cache, options.strict);
         } catch (const engine::Error& error) {
             progress.clear();
             std::cerr << shortMessage(error) << '\n';

@@ -117,8 +117,8 @@ void convert(const ConvertOptions& options, const ConvertLog& log) {
     std::optional<hair::groom::Mesh> mesh;
     if (!options.mesh.empty()) mesh = hair::groom::importMesh(options.mesh);
 
-    hair::groom::StrandSet strands =
-        hair::groom::importStrands(options.in, options.points_per_strand);
+    hair::groom::StrandSet strands = hair::groom::importStrands(
+        options.in, options.points_per_strand, {}, hair::groom::badStrands(options.strict));
     log.say(
         "read: " + options.in.string() + ", " +
         std::string(hair::groom::strandImporterOf(options.in).name) + ", " + contents(strands));

@@ -15,6 +15,7 @@ struct ConvertOptions {
     std::filesystem::path out;
     std::filesystem::path mesh;  // for root triangles; empty: use the roots alone
     std::uint32_t points_per_strand = 0;  // of IN, if it does not state it
+    bool strict = false;  // refuse strands that can't be used
     std::optional<double> scale;  // metres per unit of IN; OUT is then in metres
     std::uint32_t followers = 0;  // per strand
     double follower_radius = 0.0;  // radius of their disc, in IN's unit

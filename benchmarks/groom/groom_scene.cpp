@@ -106,11 +106,15 @@ VertexChoice vertexChoice(const StrandSet& strands) {
 void chooseStrands(const StrandSet& strands, GroomScene& scene) {
     hair::Settings& settings = scene.settings;
     const std::uint32_t count = strands.strandCount();
-    settings.groom.guides = guideCount(count);
+    const std::size_t flagged = hair::groom::flaggedGuides(strands).size();
+    settings.groom.guides = flagged > 0 ? 0 : guideCount(count);
     scene.choices.push_back(
-        {"guides", report::countText(settings.groom.guides) + " of " +
-                       report::countText(count, "strand") +
-                       ": a tenth, at least 400 and at most 2,000, which two cores can simulate"});
+        {"guides", flagged > 0
+                       ? report::countText(flagged) + ", the strands that the file flags as guides"
+                       : report::countText(settings.groom.guides) + " of " +
+                             report::countText(count, "strand") +
+                             ": a tenth, at least 400 and at most 2,000, which two cores can "
+                             "simulate"});
 
     const VertexChoice choice = vertexChoice(strands);
     settings.groom.vertices = choice.vertices;
@@ -119,7 +123,8 @@ void chooseStrands(const StrandSet& strands, GroomScene& scene) {
                          report::lengthText(choice.loss) + " of their shape at most"});
 
     hair::StrandSettings& drawn = settings.strands;
-    const bool is_hair = count >= kFewestStrandsOfHair || count < kFewestForTriangles;
+    const bool is_hair = count >= kFewestStrandsOfHair || count < kFewestForTriangles ||
+                         (flagged > 0 && flagged < count);
     drawn.source = is_hair ? hair::StrandSource::groom : hair::StrandSource::root_triangles;
     drawn.curve = hair::Curve::catmull_rom;
     drawn.tessellation = std::clamp(64u / std::max(1u, choice.vertices - 1), 1u, 8u);
@@ -128,7 +133,8 @@ void chooseStrands(const StrandSet& strands, GroomScene& scene) {
         return;
     }
     // A triangulation has about two triangles per vertex.
-    const double triangles = 2.0 * settings.groom.guides;
+    const double triangles = 2.0 * (flagged > 0 ? static_cast<double>(flagged)
+                                                : static_cast<double>(settings.groom.guides));
     drawn.density = static_cast<std::uint32_t>(
         std::clamp(std::round(kDrawnBetweenGuides / triangles), 1.0, 512.0));
     scene.choices.push_back(

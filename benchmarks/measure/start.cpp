@@ -87,7 +87,11 @@ StartInspection judgeStart(
 }
 
 StartInspection inspectStart(const Case& test_case) {
-    return judgeStart(test_case.condition(), test_case.balance(), test_case.settings());
+    StartInspection start =
+        judgeStart(test_case.condition(), test_case.balance(), test_case.settings());
+    const std::vector<std::string>& of_file = test_case.groom().warnings;
+    start.warnings.insert(start.warnings.end(), of_file.begin(), of_file.end());
+    return start;
 }
 
 }  // namespace benchmarks::measure

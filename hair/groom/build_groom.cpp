@@ -7,6 +7,7 @@
 #include <numeric>
 #include <span>
 #include <string>
+#include <string_view>
 #include <type_traits>
 #include <utility>
 #include <vector>
@@ -18,6 +19,7 @@
 #include "engine/error.h"
 #include "engine/process.h"
 #include "hair/groom/files.h"
+#include "hair/groom/formats/text.h"
 #include "hair/groom/growth/grow.h"
 #include "hair/groom/growth/vellus.h"
 #include "hair/groom/guides/bind_strands.h"
@@ -111,6 +113,8 @@ drawnStrands(Polylines file, std::span<const glm::vec3> before, std::span<const 
 
 // Adds strands that follow the head alone to the groom's bound strands.
 void addFixed(Groom& groom, const StrandSet& strands) {
+    if (!groom.groups.empty())
+        groom.groups.insert(groom.groups.end(), strands.strandCount(), Groom::kNoGroup);
     for (std::uint32_t i = 0; i < strands.strandCount(); ++i) {
         const std::span<const glm::vec3> points = strands.strand(i);
         groom.bindings.push_back(
@@ -132,12 +136,87 @@ void addFixedFile(
     addFixed(groom, strands);
 }
 
+// Returns which of the file's strands become guides: those that it flags, or as many of them as
+// asked for. Files without flags have their guides chosen from all strands.
+std::vector<std::uint32_t> guidesOf(
+    const Groom& dense, const std::vector<std::uint32_t>& flagged, std::uint32_t count,
+    std::uint32_t seed) {
+    if (flagged.empty()) return guidesOf(dense, count, seed);
+    if (count == 0 || count == flagged.size()) return flagged;
+    if (count > flagged.size())
+        throw engine::Error(
+            "/groom/guides is " + std::to_string(count) + ", but the file flags " +
+            std::to_string(flagged.size()) + " strands as guides; 0 takes them all");
+    std::vector<std::uint32_t> chosen = chooseGuides(pickStrands(dense, flagged), count, seed);
+    for (std::uint32_t& strand : chosen) strand = flagged[strand];
+    return chosen;
+}
+
+// Drops bindings of the strands that the file flags as guides, unless there are no others: they
+// guide hair and are not hair.
+void dropFlagged(Groom& groom, Polylines& file, const std::vector<std::uint32_t>& flagged) {
+    if (flagged.empty() || flagged.size() == file.ends.size()) return;
+    Polylines drawn;
+    std::vector<StrandBinding> bindings;
+    std::vector<std::int32_t> groups;
+    auto next_flagged = flagged.begin();
+    for (std::uint32_t i = 0; i < file.ends.size(); ++i) {
+        if (next_flagged != flagged.end() && *next_flagged == i) {
+            ++next_flagged;
+            continue;
+        }
+        const auto first = file.points.begin() + (i == 0 ? 0 : file.ends[i - 1]);
+        drawn.points.insert(drawn.points.end(), first, file.points.begin() + file.ends[i]);
+        drawn.ends.push_back(static_cast<std::uint32_t>(drawn.points.size()));
+        bindings.push_back(groom.bindings[i]);
+        if (!groom.groups.empty()) groups.push_back(groom.groups[i]);
+    }
+    file = std::move(drawn);
+    groom.bindings = std::move(bindings);
+    groom.groups = std::move(groups);
+}
+
+// Reads numbers of groups: "0, 2". Throws engine::Error for other words.
+std::vector<std::int32_t> groupsNamed(std::string_view text) {
+    std::vector<std::int32_t> groups;
+    while (!text.empty()) {
+        const std::size_t end = std::min(text.find(','), text.size());
+        std::string_view rest = text.substr(0, end);
+        const std::string_view word = takeWord(rest);
+        const auto number = integerFrom(word);
+        if (!number || *number < std::numeric_limits<std::int32_t>::min() ||
+            *number > std::numeric_limits<std::int32_t>::max() || !takeWord(rest).empty())
+            throw engine::Error(
+                inQuotes(text.substr(0, end)) +
+                " is not the number of a group; numbers with commas between them are expected");
+        groups.push_back(static_cast<std::int32_t>(*number));
+        text.remove_prefix(std::min(end + 1, text.size()));
+    }
+    return groups;
+}
+
+StrandSet strandsOf(
+    const GroomSettings& settings, const std::filesystem::path& path, const NamedFileCheck& check) {
+    StrandSet strands = importStrands(path, settings.points_per_strand, check);
+    if (settings.groups.empty()) return strands;
+    try {
+        return keepGroups(std::move(strands), groupsNamed(settings.groups));
+    } catch (const engine::Error& error) {
+        throw engine::Error(path.string() + ": /groom/groups", error.what());
+    }
+}
+
 Groom fromFile(
     const GroomSettings& settings, const Mesh* mesh, const std::filesystem::path& directory,
     std::uint32_t seed, const NamedFileCheck& check) {
     const std::filesystem::path path = directory / settings.file;
-    StrandSet strands = importStrands(path, settings.points_per_strand, check);
+    StrandSet strands = strandsOf(settings, path, check);
     try {
+        const std::vector<std::uint32_t> flagged = flaggedGuides(strands);
+        const std::vector<std::int32_t> groups = std::move(strands.groups);
+        std::vector<std::string> warnings;
+        for (const LeftOutStrands& each : strands.left_out)
+            warnings.push_back(settings.file + ": " + warningOf(each));
         place(strands, settings.placement);
         Polylines file{strands.ends, strands.points};
         Groom dense = toGroom(std::move(strands), settings.vertices);
@@ -146,9 +225,14 @@ Groom fromFile(
         dense = style(std::move(dense), settings.style, seed, mesh);
         file = drawnStrands(std::move(file), unstyled, dense.points);
         const Strokes strokes = strokesOf(settings, dense, mesh);
-        const std::vector<std::uint32_t> chosen = guidesOf(dense, settings.guides, seed);
+        const std::vector<std::uint32_t> chosen = guidesOf(dense, flagged, settings.guides, seed);
         replay(file.ends, file.points, strokes);
         Groom groom = withGuides(replay(std::move(dense), strokes), chosen, mesh);
+        groom.warnings = std::move(warnings);
+        if (!groups.empty())
+            for (const std::uint32_t guide : chosen) groom.guide_groups.push_back(groups[guide]);
+        groom.groups = groups;
+        dropFlagged(groom, file, flagged);
         groom.bound_ends = std::move(file.ends);
         groom.bound_points = std::move(file.points);
         addFixedFile(groom, settings.fixed, directory, check);

@@ -1,7 +1,6 @@
 #include "hair/groom/edit.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <functional>
 #include <numeric>
@@ -30,25 +29,6 @@ std::string millimetres(double metres) {
 
 // ---- Leaving out --------------------------------------------------------------------------------
 
-// Returns the strands of these ascending indices, with the root triangles that keep all of their
-// corners. Throws engine::Error if no strand is left.
-StrandSet keepStrands(const StrandSet& strands, std::span<const std::uint32_t> kept) {
-    if (kept.empty()) throw engine::Error("no strand is left");
-    if (kept.size() == strands.strandCount()) return strands;
-    StrandSet left = pickStrands(strands, kept);
-    for (const auto& triangle : strands.root_triangles) {
-        std::array<std::uint32_t, 3> corners{};
-        std::size_t found = 0;
-        for (const std::uint32_t strand : triangle) {
-            const auto at = std::ranges::lower_bound(kept, strand);
-            if (at == kept.end() || *at != strand) break;
-            corners[found++] = static_cast<std::uint32_t>(at - kept.begin());
-        }
-        if (found == 3) left.root_triangles.push_back(corners);
-    }
-    return left;
-}
-
 // A reason to leave a strand out.
 struct StrandTest {
     std::string what;
@@ -70,6 +50,7 @@ EditedStrands leaveOut(const StrandSet& strands, const std::vector<StrandTest>& 
             ++edited.notes[static_cast<std::size_t>(failed - tests.begin())].count;
         }
     }
+    if (kept.empty()) throw engine::Error("no strand is left");
     edited.strands = keepStrands(strands, kept);
     return edited;
 }
@@ -85,18 +66,11 @@ void keepPoints(std::vector<Value>& values, const std::vector<bool>& kept) {
     values.resize(next);
 }
 
-// Drops points at the place of the point before them. Returns their number.
-std::uint64_t dropRepeatedPoints(StrandSet& strands) {
-    std::vector<bool> kept(strands.points.size(), true);
-    std::uint64_t dropped = 0;
+// Drops points that are not kept.
+void keepPoints(StrandSet& strands, const std::vector<bool>& kept) {
     std::uint32_t first = 0;
     for (std::uint32_t& end : strands.ends) {
         const std::uint32_t before = first;
-        for (std::uint32_t i = before + 1; i < end; ++i) {
-            if (strands.points[i] != strands.points[i - 1]) continue;
-            kept[i] = false;
-            ++dropped;
-        }
         first = end;
         end = static_cast<std::uint32_t>(std::count(
             kept.begin() + std::ptrdiff_t{before}, kept.begin() + std::ptrdiff_t{end}, true));
@@ -106,7 +80,32 @@ std::uint64_t dropRepeatedPoints(StrandSet& strands) {
     keepPoints(strands.widths.values, kept);
     keepPoints(strands.transparencies.values, kept);
     keepPoints(strands.colors.values, kept);
-    return dropped;
+}
+
+// Drops points at the place of the point before them. Returns their number.
+std::uint64_t dropRepeatedPoints(StrandSet& strands) {
+    std::vector<bool> kept(strands.points.size(), true);
+    std::uint32_t first = 0;
+    for (const std::uint32_t end : strands.ends) {
+        for (std::uint32_t i = first + 1; i < end; ++i)
+            kept[i] = strands.points[i] != strands.points[i - 1];
+        first = end;
+    }
+    keepPoints(strands, kept);
+    return static_cast<std::uint64_t>(std::ranges::count(kept, false));
+}
+
+// Whether all numbers of a point are finite.
+bool isFinitePoint(const StrandSet& strands, std::size_t point) {
+    const auto is_finite = [](const glm::vec3& v) {
+        return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
+    };
+    const auto has = [point](const auto& values, const auto& test) {
+        return values.empty() || test(values[point]);
+    };
+    const auto is_number = [](float value) { return std::isfinite(value); };
+    return is_finite(strands.points[point]) && has(strands.widths.values, is_number) &&
+           has(strands.transparencies.values, is_number) && has(strands.colors.values, is_finite);
 }
 
 // ---- On a mesh ----------------------------------------------------------------------------------
@@ -175,6 +174,13 @@ EditedStrands filterStrands(
         return arcLength(strands.strand(i)) * metres_per_unit;
     };
     std::vector<StrandTest> tests;
+    if (!settings.groups.empty()) {
+        requireGroups(strands, settings.groups);
+        tests.push_back({"of other groups", [&](std::uint32_t i) {
+                             return std::ranges::find(settings.groups, strands.groups[i]) ==
+                                    settings.groups.end();
+                         }});
+    }
     if (settings.shortest)
         tests.push_back({"shorter than " + millimetres(*settings.shortest), [&](std::uint32_t i) {
                              return lengthOf(i) < *settings.shortest;
@@ -280,6 +286,19 @@ StrandSet resampleBySpacing(StrandSet strands, double spacing) {
 }
 
 // ---- Fix ----------------------------------------------------------------------------------------
+
+EditedStrands mendStrands(StrandSet strands) {
+    std::vector<bool> kept(strands.points.size());
+    for (std::size_t i = 0; i < kept.size(); ++i) kept[i] = isFinitePoint(strands, i);
+    const auto dropped = static_cast<std::uint64_t>(std::ranges::count(kept, false));
+    if (dropped > 0) keepPoints(strands, kept);
+    EditedStrands mended{
+        .strands = usableStrands(std::move(strands)),
+        .notes = {{"left out: points with a number that is not finite", dropped}}};
+    for (const LeftOutStrands& each : mended.strands.left_out)
+        mended.notes.push_back({"left out: strands " + each.reason, each.count});
+    return mended;
+}
 
 EditedStrands fixStrands(
     const StrandSet& strands, const BodyMesh* mesh, double metres_per_unit, double farthest_root) {

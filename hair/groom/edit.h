@@ -31,11 +31,13 @@ struct FilterSettings {
     std::optional<std::uint32_t> most_points;
     std::optional<double> farthest_root;  // distance of a root from the mesh
     std::optional<double> deepest;  // depth of a point inside the mesh
+    std::vector<std::int32_t> groups;  // that are kept; empty: all
 };
 
 // Keeps the strands that pass all tests, in their order, with the root triangles that keep all of
 // their corners. A note for each test counts the strands that fail it but no test before it. The
-// last two tests need `mesh`, in metres. Throws engine::Error without it, and if no strand is left.
+// last two tests need `mesh`, in metres. Throws engine::Error without it, for a group that the
+// strands don't have, and if no strand is left.
 EditedStrands filterStrands(
     const StrandSet& strands, const FilterSettings& settings, const BodyMesh* mesh,
     double metres_per_unit);
@@ -52,6 +54,11 @@ StrandSet smoothStrands(StrandSet strands, double length);
 // Resamples every strand at equal arc lengths, as close to `spacing` as possible. Both ends stay.
 // Attributes of points are interpolated. Strands without length stay as they are.
 StrandSet resampleBySpacing(StrandSet strands, double spacing);
+
+// Mends strands as readers return them (BadStrands::kept): leaves out points with a number that is
+// not finite, and then the strands that usableStrands() leaves out. A strand without its first
+// point begins at the next one.
+EditedStrands mendStrands(StrandSet strands);
 
 // Repairs those findings of inspect() that have a single remedy. Strands of a single point or
 // without length, strands equal to an earlier one, and points at the place of the point before them

@@ -18,6 +18,7 @@
 #include "hair/groom/formats/tfx.h"
 #include "hair/groom/formats/usd_export.h"
 #include "hair/groom/formats/usd_import.h"
+#include "hair/groom/other_formats.h"
 
 namespace hair::groom {
 namespace {
@@ -71,62 +72,24 @@ constexpr StrandImporter kImporters[] = {
     {"Alembic", kAbc, "Ogawa", importAlembic},
 };
 
-// A format that is not read but known by its first bytes, with advice on what to do.
-struct OtherFormat {
-    std::string_view magic;
-    std::string_view name;
-    std::string_view advice;
-    // Extensions of formats that are read and begin alike.
-    std::array<std::string_view, 4> may_be{};
-};
-
-constexpr std::string_view kToUsd = "import it in Blender and export its curves as USD";
-constexpr std::string_view kFromMaya = "export its curves as USD from Maya";
-constexpr std::string_view kUnpack = "unpack it and give its contents";
-
-constexpr OtherFormat kOtherFormats[] = {
-    {"\x89HDF\r\n\x1a\n", "an HDF5 file, such as an Alembic file from before 2013",
-     "convert it with Alembic's \"abcconvert -toOgawa\""},
-    {"Kaydara FBX Binary", "an FBX file", kToUsd},
-    {"BLENDER", "a Blender file", "export its curves as USD from Blender"},
-    {"\x28\xb5\x2f\xfd", "a file compressed with Zstandard, as Blender's are",
-     "export its curves as USD from Blender, or decompress it"},
-    {"//Maya ASCII", "a Maya scene (ASCII)", kFromMaya},
-    {"FOR4", "a Maya scene or cache (binary)", kFromMaya},
-    {"FOR8", "a Maya scene or cache (binary)", kFromMaya},
-    {"PK\x03\x04", "a zip archive", kUnpack, {".npz", ".usdz"}},
-    {"#usda", "a USD file", "name it .usda", {".usd", ".usda", ".usdc"}},
-    {"PXR-USDC", "a USD file", "name it .usdc", {".usd", ".usda", ".usdc"}},
-    {"\x1f\x8b\x08", "a file compressed with gzip", kUnpack},
-    {"\x80\x04\x95", "a Python pickle", "write its arrays with numpy.savez"},
-};
-
-// Returns the row with the magic that the file begins with; null if there is none.
-const OtherFormat* otherFormatOf(std::string_view head, std::string_view extension) {
-    for (const OtherFormat& other : kOtherFormats) {
-        const bool may_be_ours = !extension.empty() &&  // unused elements of may_be are empty, too
-                                 std::ranges::find(other.may_be, extension) != other.may_be.end();
-        if (head.starts_with(other.magic) && !may_be_ours) return &other;
-    }
-    return nullptr;
-}
-
 // Throws for a file that begins like those of another format. A file with an extension of ours may
-// begin with a count of any value, so a magic of three bytes does not refuse it.
+// begin with a count of any value, so only a certain row refuses it.
 void refuseOther(
     const fs::path& path, std::string_view head, std::string_view extension, bool is_ours) {
-    const OtherFormat* const other = otherFormatOf(head, extension);
-    if (!other || (is_ours && other->magic.size() < 4)) return;
-    throw engine::Error(
-        path.string(), "is " + std::string(other->name) + ", which is not read: " +
-                           std::string(other->advice) + "; known: " + readExtensions());
+    const OtherFile* const other = recognise(head, extension);
+    if (!other || (is_ours && !other->is_certain)) return;
+    throw engine::Error(path.string(), other->text() + "; known: " + readExtensions());
 }
 
 const StrandImporter& importerOf(const fs::path& path, engine::OpenFile& file) {
-    std::array<char, 32> bytes{};  // longer than every magic
+    std::array<char, kRecognisedBytes> bytes{};  // longer than every magic
     file.read(std::span(bytes).first(std::min<std::uintmax_t>(file.size(), bytes.size())));
     const std::string_view head(bytes.data(), bytes.size());
     const std::string extension = lowerCaseExtension(path);
+    // A pointer of Git LFS begins like a text of TressFX.
+    if (const OtherFile* const other = recognise(head, extension);
+        other && other->is_certain && head.starts_with("version "))
+        refuseOther(path, head, extension, true);
     for (const StrandImporter& importer : kImporters)
         if (!importer.magic.empty() && head.starts_with(importer.magic)) return importer;
     const auto by_extension = std::ranges::find_if(kImporters, [&](const StrandImporter& importer) {
@@ -198,8 +161,9 @@ const StrandImporter& strandImporterOf(const fs::path& path) {
     return importerOf(path, file);
 }
 
-StrandSet
-importStrands(const fs::path& path, std::uint32_t points_per_strand, const NamedFileCheck& check) {
+StrandSet importStrands(
+    const fs::path& path, std::uint32_t points_per_strand, const NamedFileCheck& check,
+    BadStrands bad) {
     const engine::Step step("reads " + path.filename().string());
     engine::OpenFile file(path);
     const StrandImporter& importer = importerOf(path, file);
@@ -209,13 +173,16 @@ importStrands(const fs::path& path, std::uint32_t points_per_strand, const Named
     const std::span bytes(storage.get(), size);
     file.read(bytes);
     try {
-        return importer.read(
+        StrandSet strands = importer.read(
             {.bytes = std::as_bytes(bytes),
              .path = path,
              .points_per_strand = points_per_strand,
              .check = orOwnFolder(check, path)});
+        if (bad == BadStrands::kept) return strands;
+        return usableStrands(std::move(strands), bad);
     } catch (const engine::Error& error) {
-        throw engine::Error(path.string(), error.what());
+        const std::string_view head(storage.get(), std::min<std::size_t>(size, kRecognisedBytes));
+        throw engine::Error(path.string(), explained(error.what(), head, lowerCaseExtension(path)));
     }
 }
 

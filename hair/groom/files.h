@@ -52,10 +52,11 @@ std::string readExtensions();
 // not read, the reason names the format and says what to do.
 const StrandImporter& strandImporterOf(const std::filesystem::path& path);
 
-// `points_per_strand`: see StrandFile. Formats that state it themselves ignore it. Throws
-// engine::Error "path: place: reason", also for errors that `check` throws.
+// `points_per_strand`: see StrandFile. Formats that state it themselves ignore it. Strands that
+// can't be used are treated as usableStrands() says; if they are `kept`, the set is as the reader
+// returns it. Throws engine::Error "path: place: reason", also for errors that `check` throws.
 StrandSet importStrands(
     const std::filesystem::path& path, std::uint32_t points_per_strand = 0,
-    const NamedFileCheck& check = {});
+    const NamedFileCheck& check = {}, BadStrands bad = BadStrands::left_out);
 
 }  // namespace hair::groom

@@ -4,6 +4,7 @@
 #include <cassert>
 #include <limits>
 #include <numeric>
+#include <set>
 #include <string>
 #include <type_traits>
 #include <utility>
@@ -12,6 +13,7 @@
 
 #include "engine/error.h"
 #include "engine/process.h"
+#include "hair/groom/formats/binary_file.h"
 #include "hair/groom/groom_size.h"
 
 namespace hair::groom {
@@ -119,6 +121,213 @@ std::uint32_t greatestSize(const StrandSet& strands) {
     for (std::uint32_t i = 0; i < strands.strandCount(); ++i)
         greatest = std::max(greatest, strands.size(i));
     return greatest;
+}
+
+// ---- Strands that can't be used -----------------------------------------------------------------
+
+namespace {
+
+// A group of a strand's numbers: of its points, or of itself.
+struct StrandNumbers {
+    const float* first = nullptr;  // null: the strands have none
+    std::size_t each = 0;  // numbers of an element
+    bool is_per_point = true;
+    std::string_view reason;  // if one of them is not finite
+};
+
+template <class Value>
+StrandNumbers
+numbersOf(const std::vector<Value>& values, bool is_per_point, std::string_view reason) {
+    return {
+        values.empty() ? nullptr : reinterpret_cast<const float*>(values.data()),
+        sizeof(Value) / sizeof(float), is_per_point, reason};
+}
+
+// Finds the first of a strand's faults; an empty reason if there is none.
+std::string_view faultOf(
+    const StrandSet& strands, std::uint32_t strand, std::span<const StrandNumbers> suspects,
+    std::span<const StrandSet::Fault>& faults) {
+    if (!faults.empty() && faults.front().strand == strand) {
+        const std::string_view reason = faults.front().reason;
+        faults = faults.subspan(1);
+        return reason;
+    }
+    if (strands.size(strand) < 2)
+        return strands.size(strand) == 0 ? "without points" : "of a single point";
+    for (const StrandNumbers& suspect : suspects) {
+        const std::size_t first = suspect.is_per_point ? strands.first(strand) : strand;
+        const std::size_t count = suspect.is_per_point ? strands.size(strand) : 1;
+        if (firstNotFinite({suspect.first + first * suspect.each, count * suspect.each}))
+            return suspect.reason;
+    }
+    return {};
+}
+
+// Moves the values of kept strands to the front.
+template <class Value>
+void keepEach(std::vector<Value>& values, std::span<const std::uint32_t> kept) {
+    if (values.empty()) return;
+    for (std::size_t i = 0; i < kept.size(); ++i) values[i] = values[kept[i]];
+    values.resize(kept.size());
+}
+
+// Moves the values of the kept strands' points to the front.
+template <class Value>
+void keepPoints(
+    std::vector<Value>& values, const StrandSet& strands, std::span<const std::uint32_t> kept) {
+    if (values.empty()) return;
+    std::size_t next = 0;
+    for (const std::uint32_t strand : kept)
+        for (std::uint32_t i = strands.first(strand); i < strands.ends[strand]; ++i)
+            values[next++] = values[i];
+    values.resize(next);
+}
+
+void keepTriangles(StrandSet& strands, std::span<const std::uint32_t> kept) {
+    const auto is_gone = [&](std::array<std::uint32_t, 3>& triangle) {
+        for (std::uint32_t& corner : triangle) {
+            const auto at = std::ranges::lower_bound(kept, corner);
+            if (at == kept.end() || *at != corner) return true;
+            corner = static_cast<std::uint32_t>(at - kept.begin());
+        }
+        return false;
+    };
+    std::erase_if(strands.root_triangles, is_gone);
+}
+
+std::string countedText(const LeftOutStrands& left_out) {
+    return std::to_string(left_out.count) + (left_out.count == 1 ? " strand " : " strands ") +
+           left_out.reason + (left_out.count == 1 ? " (strand " : " (the first is strand ") +
+           std::to_string(left_out.first) + ", counted from 0)";
+}
+
+std::string listOf(const std::vector<LeftOutStrands>& all) {
+    std::string text;
+    for (const LeftOutStrands& each : all)
+        text.append(text.empty() ? "" : "; ").append(countedText(each));
+    return text;
+}
+
+}  // namespace
+
+StrandSet keepStrands(StrandSet strands, std::span<const std::uint32_t> kept) {
+    if (kept.size() == strands.strandCount()) return strands;
+    keepPoints(strands.points, strands, kept);
+    keepPoints(strands.widths.values, strands, kept);
+    keepPoints(strands.transparencies.values, strands, kept);
+    keepPoints(strands.colors.values, strands, kept);
+    keepEach(strands.root_uvs, kept);
+    keepEach(strands.groups, kept);
+    keepEach(strands.guides, kept);
+    keepTriangles(strands, kept);
+    std::vector<std::uint32_t> ends(kept.size());
+    std::uint32_t end = 0;
+    for (std::size_t i = 0; i < kept.size(); ++i) ends[i] = end += strands.size(kept[i]);
+    strands.ends = std::move(ends);
+    return strands;
+}
+
+void requireGroups(const StrandSet& strands, std::span<const std::int32_t> groups) {
+    if (strands.groups.empty()) throw engine::Error("the file has no groups to choose from");
+    const std::set<std::int32_t> known(strands.groups.begin(), strands.groups.end());
+    for (const std::int32_t group : groups) {
+        if (known.contains(group)) continue;
+        std::string names;
+        constexpr std::size_t kMostNames = 20;
+        std::size_t count = 0;
+        for (const std::int32_t each : known) {
+            if (count++ == kMostNames) break;
+            names.append(names.empty() ? "" : ", ").append(std::to_string(each));
+        }
+        throw engine::Error(
+            "no strand belongs to group " + std::to_string(group) + "; the file has " + names +
+            (known.size() > kMostNames ? ", ..." : ""));
+    }
+}
+
+StrandSet keepGroups(StrandSet strands, std::span<const std::int32_t> groups) {
+    requireGroups(strands, groups);
+    std::vector<std::uint32_t> kept;
+    for (std::uint32_t i = 0; i < strands.strandCount(); ++i)
+        if (std::ranges::find(groups, strands.groups[i]) != groups.end()) kept.push_back(i);
+    return keepStrands(std::move(strands), kept);
+}
+
+std::vector<std::uint32_t> flaggedGuides(const StrandSet& strands) {
+    std::vector<std::uint32_t> flagged;
+    for (std::uint32_t i = 0; i < strands.guides.size(); ++i)
+        if (strands.guides[i] != 0) flagged.push_back(i);
+    return flagged;
+}
+
+namespace {
+
+// Drops a value of all strands that is not finite.
+template <class Value>
+void dropNotFinite(PointAttribute<Value>& attribute, const char* name, StrandSet& strands) {
+    if (!attribute.everywhere) return;
+    const auto* const numbers = reinterpret_cast<const float*>(&*attribute.everywhere);
+    if (!firstNotFinite({numbers, sizeof(Value) / sizeof(float)})) return;
+    attribute.everywhere.reset();
+    strands.warnings.push_back(
+        std::string("the ") + name + " of all strands is not finite and is left out");
+}
+
+}  // namespace
+
+std::string warningOf(const LeftOutStrands& left_out) {
+    return countedText(left_out) + (left_out.count == 1 ? " is left out" : " are left out");
+}
+
+StrandSet usableStrands(StrandSet strands, BadStrands bad) {
+    assert(bad != BadStrands::kept);
+    dropNotFinite(strands.widths, "width", strands);
+    dropNotFinite(strands.transparencies, "transparency", strands);
+    dropNotFinite(strands.colors, "colour", strands);
+    std::vector<StrandNumbers> suspects{
+        numbersOf(strands.points, true, "with a position that is not finite"),
+        numbersOf(strands.widths.values, true, "with a width that is not finite"),
+        numbersOf(strands.transparencies.values, true, "with a transparency that is not finite"),
+        numbersOf(strands.colors.values, true, "with a colour that is not finite"),
+        numbersOf(strands.root_uvs, false, "with a texture coordinate that is not finite")};
+    std::erase_if(suspects, [&](const StrandNumbers& numbers) {
+        const std::size_t count =
+            numbers.is_per_point ? strands.points.size() : strands.ends.size();
+        return !numbers.first || !firstNotFinite({numbers.first, count * numbers.each});
+    });
+    std::span<const StrandSet::Fault> faults(strands.faults);
+    std::vector<std::uint32_t> bad_strands;
+    const std::uint32_t count = strands.strandCount();
+    for (std::uint32_t i = 0; i < count; ++i) {
+        const std::string_view reason = faultOf(strands, i, suspects, faults);
+        if (reason.empty()) continue;
+        bad_strands.push_back(i);
+        const auto known = std::ranges::find(strands.left_out, reason, &LeftOutStrands::reason);
+        if (known == strands.left_out.end())
+            strands.left_out.push_back({.reason = std::string(reason), .count = 1, .first = i});
+        else
+            ++known->count;
+    }
+    strands.faults.clear();
+    if (bad_strands.empty()) return strands;
+    if (bad == BadStrands::refused)
+        throw engine::Error(
+            listOf(strands.left_out) +
+            ": refused by --strict; 'hairbench groom fix' mends what it can and leaves out the "
+            "rest");
+    if (bad_strands.size() == count)
+        throw engine::Error("no strand can be used; the file has only " + listOf(strands.left_out));
+    std::vector<std::uint32_t> kept;
+    kept.reserve(count - bad_strands.size());
+    auto next_bad = bad_strands.begin();
+    for (std::uint32_t i = 0; i < count; ++i)
+        if (next_bad != bad_strands.end() && *next_bad == i)
+            ++next_bad;
+        else
+            kept.push_back(i);
+    strands = keepStrands(std::move(strands), kept);
+    for (const LeftOutStrands& each : strands.left_out) strands.warnings.push_back(warningOf(each));
+    return strands;
 }
 
 // ---- Resampling ---------------------------------------------------------------------------------

@@ -6,6 +6,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include <glm/vec2.hpp>
@@ -44,6 +45,13 @@ struct Groom {
     // of other strands are placed by arc length. Empty: not known.
     std::vector<std::uint32_t> bound_ends;  // [binding], index after its last point; ascends
     std::vector<glm::vec3> bound_points;  // [point], strand after strand, m, root first
+    // Numbers of the file's groups; empty: there are none. Strands that follow the head alone have
+    // kNoGroup.
+    std::vector<std::int32_t> guide_groups;  // [strand]
+    std::vector<std::int32_t> groups;  // [binding]
+    std::vector<std::string> warnings;  // of the file that strands are from
+
+    static constexpr std::int32_t kNoGroup = -1;
 
     std::uint32_t segmentsPerStrand() const { return vertices_per_strand - 1; }
     std::span<const glm::vec3> strand(std::uint32_t index) const& {
@@ -71,10 +79,18 @@ struct PointAttribute {
     }
 };
 
+// Strands of a file that can't be used, for one reason.
+struct LeftOutStrands {
+    std::string reason;  // completes "strands ...": "of a single point"
+    std::uint32_t count = 0;
+    std::uint32_t first = 0;  // number of the first of them in the file, from 0
+};
+
 // Strands as files hold them: each has its own number of points, and there is other data that the
 // format stores. Importers make it, exporters write it, and a Groom is made from it. In every set,
 // `ends` ascends strictly (a strand has at least one point) and its last element is the number of
 // points, all numbers are finite, and vectors that are not empty have the sizes stated here.
+// Readers of formats may return other sets to usableStrands() alone.
 struct StrandSet {
     std::vector<std::uint32_t> ends;  // [strand], index after its last point
     std::vector<glm::vec3> points;  // [point], strand after strand, root first, file's unit
@@ -88,6 +104,14 @@ struct StrandSet {
     std::optional<double> metres_per_unit;  // if the format or the file states it
     std::string comment;  // the file's own description
     std::vector<std::string> warnings;  // data of the file that this can't hold
+    std::vector<LeftOutStrands> left_out;  // one for each reason; `warnings` has them in words
+
+    // A strand that its reader found to be unusable.
+    struct Fault {
+        std::uint32_t strand;
+        std::string_view reason;  // as in LeftOutStrands
+    };
+    std::vector<Fault> faults;  // ascending; only for usableStrands()
 
     std::uint32_t strandCount() const { return static_cast<std::uint32_t>(ends.size()); }
     std::uint32_t first(std::uint32_t strand) const { return strand == 0 ? 0 : ends[strand - 1]; }
@@ -97,6 +121,35 @@ struct StrandSet {
     }
     std::span<const glm::vec3> strand(std::uint32_t) const&& = delete;
 };
+
+// Returns the strands with these ascending indices, with everything that belongs to them. Root
+// triangles stay if all of their corners do.
+StrandSet keepStrands(StrandSet strands, std::span<const std::uint32_t> kept);
+
+// Throws engine::Error for a group without strands; it lists the groups that there are.
+void requireGroups(const StrandSet& strands, std::span<const std::int32_t> groups);
+
+// Returns the strands that belong to one of the groups. Throws as requireGroups() does.
+StrandSet keepGroups(StrandSet strands, std::span<const std::int32_t> groups);
+
+// Returns the numbers of the strands that the file flags as guides, ascending.
+std::vector<std::uint32_t> flaggedGuides(const StrandSet& strands);
+
+// A choice for strands of a file that can't be used.
+enum class BadStrands { left_out, refused, kept };
+constexpr BadStrands badStrands(bool is_strict) {
+    return is_strict ? BadStrands::refused : BadStrands::left_out;
+}
+
+// Leaves out strands that can't be drawn or simulated: without points, of one point, with a number
+// that is not finite, and those with a fault that their reader found. Root triangles with such a
+// corner go too. A warning for each reason counts the strands and names the first. In `strands`
+// ends may repeat and numbers be NaN or infinite. Throws engine::Error if no strand is left, or if
+// any are left out and they are `refused`. Must not be called with `kept`.
+StrandSet usableStrands(StrandSet strands, BadStrands bad = BadStrands::left_out);
+
+// Returns "3 strands of a single point (the first is strand 5, counted from 0) are left out".
+std::string warningOf(const LeftOutStrands& left_out);
 
 // The number of points that every strand has; absent if they differ or there are no strands.
 std::optional<std::uint32_t> commonSize(const StrandSet& strands);

@@ -35,7 +35,8 @@ struct StrandFile {
 
 // A reader of strands. Its errors begin with the place in the file, "byte N" or "line N", and don't
 // name the file. It refuses files that are not exactly of the format, and checks counts against the
-// file's size before it allocates memory for them.
+// file's size before it allocates memory for them. It returns strands that can't be used too, as
+// usableStrands() takes them, and has no rule of its own for them unless the format has one.
 struct StrandImporter {
     std::string_view name;  // for messages
     std::span<const std::string_view> extensions;  // lower case, with the dot

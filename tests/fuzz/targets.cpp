@@ -118,13 +118,15 @@ Target strandTarget(const hair::groom::StrandImporter& row) {
     return {
         .name = name,
         .read =
-            [&row](std::string_view bytes) { checkStrands(row.read({.bytes = asBytes(bytes)})); },
+            [&row](std::string_view bytes) {
+                checkStrands(hair::groom::usableStrands(row.read({.bytes = asBytes(bytes)})));
+            },
         .seeds = {{"tests/corpus/" + name, {}}}};
 }
 
 // Reads the output of usd_curves.py.
 void readUsdStream(std::string_view bytes) {
-    checkStrands(hair::groom::readUsdStream(asBytes(bytes)));
+    checkStrands(hair::groom::usableStrands(hair::groom::readUsdStream(asBytes(bytes))));
 }
 
 // ---- Meshes -------------------------------------------------------------------------------------

@@ -28,7 +28,7 @@ AlembicTopology::AlembicTopology(
     sizes.require(AlembicType::int32, 1);
     sizes_ = sizes.arranged(values.stored<std::int32_t>(sizes));
     for (std::size_t i = 0; i < sizes_.size(); ++i) {
-        if (sizes_[i] < 1)
+        if (sizes_[i] < 0)
             sizes.fail(
                 "curve " + std::to_string(i) + " has " + std::to_string(sizes_[i]) + " vertices");
         vertices_ += static_cast<std::uint64_t>(sizes_[i]);
@@ -74,6 +74,7 @@ void AlembicTopology::readKnots(
         orders->fail(
             std::to_string(all.size()) + " orders of " + std::to_string(sizes_.size()) + " curves");
     knots_ = values.floatsOf<float>(knots);
+    requireFinite(knots_, knots.elements.start, knots.path);
     nurbs_.reserve(sizes_.size());
     std::uint64_t first = 0;
     for (std::size_t i = 0; i < sizes_.size(); ++i) {
@@ -82,7 +83,7 @@ void AlembicTopology::readKnots(
         if (all[i] < 2 || all[i] > static_cast<std::int32_t>(AlembicKnots::kGreatestOrder))
             knots.fail(curve + " has the order " + std::to_string(all[i]) + ", expected 2 to 16");
         const auto order = static_cast<std::uint32_t>(all[i]);
-        if (size < order)
+        if (size < order && size > 1)
             knots.fail(
                 curve + " has " + std::to_string(size) + " vertices, too few for order " +
                 std::to_string(order));
@@ -90,9 +91,9 @@ void AlembicTopology::readKnots(
             knots.fail(curve + " has too few knots, expected as many as vertices and its order");
         const auto own = std::span(knots_).subspan(first, std::size_t{size} + order);
         if (!std::ranges::is_sorted(own)) knots.fail(curve + " has knots that decrease");
-        std::uint32_t segments = 0;
+        std::uint32_t segments = 0;  // none of a curve that is a point
         for (std::size_t k = order - 1; k < size; ++k) segments += own[k] < own[k + 1] ? 1 : 0;
-        if (segments == 0) knots.fail(curve + " has knots that are all equal");
+        if (segments == 0 && size > 1) knots.fail(curve + " has knots that are all equal");
         nurbs_.push_back({first, order, segments});
         first += own.size();
     }
@@ -130,6 +131,7 @@ bool AlembicTopology::hasDoubledEnds(std::span<const glm::vec3> vertices) const 
     for (const std::int32_t size : sizes_) {
         const auto own = vertices.subspan(first, static_cast<std::size_t>(size));
         first += own.size();
+        if (own.size() <= 1) continue;
         if (own.size() < 4 || own[0] != own[1] || own[own.size() - 2] != own.back()) return false;
     }
     return true;
@@ -139,6 +141,7 @@ void AlembicTopology::draw(std::span<const glm::vec3> vertices, const AlembicPar
     is_pinned_ = basis_ && basis_->weights == &kCatmullRomBasis && !hasDoubledEnds(vertices);
     for (std::size_t i = 0; i < sizes_.size(); ++i) {
         const auto size = static_cast<std::uint32_t>(sizes_[i]);
+        if (size <= 1) continue;  // a point, or nothing, which usableStrands() leaves out
         const bool is_curve =
             !basis_ || (is_pinned_ ? size >= 2 : size >= 4 && (size - 4) % basis_->step == 0);
         if (!is_curve)
@@ -152,7 +155,8 @@ void AlembicTopology::draw(std::span<const glm::vec3> vertices, const AlembicPar
 
 std::uint64_t AlembicTopology::ends() const {
     std::uint64_t count = 0;
-    for (std::size_t i = 0; i < sizes_.size(); ++i) count += std::uint64_t{segmentsOf(i)} + 1;
+    for (std::size_t i = 0; i < sizes_.size(); ++i)
+        count += sizes_[i] == 0 ? 0 : std::uint64_t{segmentsOf(i)} + 1;
     return count;
 }
 

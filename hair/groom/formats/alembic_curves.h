@@ -73,7 +73,7 @@ public:
     std::uint64_t vertices() const { return vertices_; }
     std::uint64_t ends() const;  // ends of segments, of all curves
     std::uint64_t pointsOf(std::size_t curve) const {
-        return std::uint64_t{segmentsOf(curve)} * pieces_ + 1;
+        return sizes_[curve] == 0 ? 0 : std::uint64_t{segmentsOf(curve)} * pieces_ + 1;
     }
 
     // Calls `add` with the value at each point of curves that are not linear, interpolated from
@@ -84,7 +84,9 @@ public:
         for (std::size_t i = 0; i < sizes_.size(); ++i) {
             const auto own = values.subspan(first, static_cast<std::size_t>(sizes_[i]));
             first += own.size();
-            if (nurbs_.empty())
+            if (own.size() <= 1) {
+                for (const Value& value : own) add(wide(value));
+            } else if (nurbs_.empty())
                 alongBasis(i, own, add);
             else
                 alongKnots(i, own, add);
@@ -96,6 +98,8 @@ public:
     void alongEnds(std::span<const Value> values, const Add& add) const {
         std::size_t first = 0;
         for (std::size_t i = 0; i < sizes_.size(); ++i) {
+            if (sizes_[i] == 0) continue;
+            if (sizes_[i] == 1) add(wide(values[first]));
             alongSegments(i, [&](std::uint32_t segment, double t) {
                 const auto start = wide(values[first + segment]);
                 add(start + t * (wide(values[first + segment + 1]) - start));
@@ -144,6 +148,7 @@ private:
     std::uint32_t segmentsOf(std::size_t curve) const {
         if (!nurbs_.empty()) return nurbs_[curve].segments;
         const auto size = static_cast<std::uint32_t>(sizes_[curve]);
+        if (size <= 1) return 0;
         return !basis_ || is_pinned_ ? size - 1 : (size - 4) / basis_->step + 1;
     }
 
@@ -153,7 +158,7 @@ private:
         const std::uint32_t segments = segmentsOf(curve);
         for (std::uint32_t segment = 0; segment < segments; ++segment)
             for (std::uint32_t k = 0; k < pieces_; ++k) at(segment, double(k) / pieces_);
-        at(segments - 1, 1.0);
+        if (segments > 0) at(segments - 1, 1.0);
     }
 
     bool hasDoubledEnds(std::span<const glm::vec3> vertices) const;
@@ -161,7 +166,7 @@ private:
         const AlembicValues& values, const AlembicParameter& knots,
         const std::optional<AlembicParameter>& orders);
 
-    std::vector<std::int32_t> sizes_;  // [curve], vertices, at least 1
+    std::vector<std::int32_t> sizes_;  // [curve], vertices; 0 and 1 make no segment
     const AlembicBasis* basis_ = nullptr;  // null: linear, or with knots
     bool is_pinned_ = false;  // cubic, and runs through all of its vertices
     std::vector<AlembicNurbs> nurbs_;  // [curve]; empty: without knots

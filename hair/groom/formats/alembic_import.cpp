@@ -55,6 +55,7 @@ struct AlembicCurves {
 // Data that an object inherits from those above it.
 struct AlembicPlace {
     AffineSpace space;
+    bool is_hidden = false;
     std::optional<float> width;
     std::optional<std::int32_t> group;
     std::optional<std::int32_t> guide;
@@ -89,6 +90,10 @@ constexpr std::array kKnownProperties{
     "groom_tool"sv,
     "groom_properties"sv};
 
+// User's properties that are read.
+constexpr std::array kUserProperties{
+    "groom_width"sv, "groom_group_id"sv, "groom_group_name"sv, "groom_guide"sv};
+
 class AlembicReader {
 public:
     explicit AlembicReader(std::span<const std::byte> bytes) : values_(bytes) {}
@@ -96,6 +101,8 @@ public:
     StrandSet read() {
         readObject(values_.archive().top(), "", {});
         if (set_.ends.empty()) {
+            if (hidden_ > 0)
+                failAt(0, "the archive has only hidden curves: show them, then export");
             std::string found;
             for (const std::string& name : left_out_)
                 found.append(found.empty() ? "; it has " : ", ").append(name);
@@ -109,6 +116,7 @@ public:
                 first_moving_ + others + ": the first sample of " + std::to_string(most_samples_) +
                 " is read");
         }
+        warnOfStrands(hidden_, "of hidden objects", set_);
         if (!left_out_.empty()) {
             std::string names;
             for (const std::string& name : left_out_)
@@ -217,6 +225,7 @@ private:
         const AlembicContents contents = values_.archive().contentsOf(object, path);
         const std::string_view schema = alembicValue(object.metadata, "schema");
         AlembicPlace place = above;
+        readVisibility(contents.properties, path, place);
         if (schema.starts_with("AbcGeom_Xform_v")) {
             readTransform(contents.properties, path, place);
         } else if (schema.starts_with("AbcGeom_Curve_v")) {
@@ -238,14 +247,29 @@ private:
         if (left_out_.size() < kMostNames) left_out_.insert(inQuotes(name));
     }
 
+    // Alembic's ObjectVisibility: -1 as the object above, 0 hidden, 1 visible.
+    void readVisibility(
+        const std::vector<AlembicProperty>& properties, const std::string& path,
+        AlembicPlace& place) {
+        const auto property = std::ranges::find(properties, "visible", &AlembicProperty::name);
+        if (property == properties.end()) return;
+        const auto visible =
+            values_.parameterOf({.path = path, .properties = {{"visible", *property}}}, "visible");
+        if (!visible) return;
+        const std::int32_t code = values_.integersOf(*visible).front();
+        if (code != -1) place.is_hidden = code == 0;
+    }
+
     void readTransform(
         const std::vector<AlembicProperty>& properties, const std::string& path,
         AlembicPlace& place) {
         const AlembicCompound transform = values_.compoundOf(properties, ".xform", path);
         place.space = spaceOf(transform, place.space);
         const AlembicCompound parameters = values_.compoundIn(transform, ".arbGeomParams");
+        const AlembicCompound own = values_.compoundIn(transform, ".userProperties");
+        warnOfUserProperties(own);
         const auto one = [&](std::string_view name) {
-            auto parameter = values_.parameterOf(parameters, name);
+            auto parameter = eitherOf(parameters, own, name);
             if (parameter && parameter->count() != 1) parameter->fail("one value is expected");
             return parameter;
         };
@@ -254,6 +278,22 @@ private:
             place.group = values_.integersOf(*group).front();
         if (const auto guide = one("groom_guide")) place.guide = values_.integersOf(*guide).front();
         warnOfVersion(parameters);
+    }
+
+    // Returns a parameter, or the user's property of this name: Blender writes an object's custom
+    // properties there.
+    std::optional<AlembicParameter>
+    eitherOf(const AlembicCompound& parameters, const AlembicCompound& own, std::string_view name) {
+        auto parameter = values_.parameterOf(parameters, name);
+        return parameter ? std::move(parameter) : values_.parameterOf(own, name);
+    }
+
+    // Blender's own are settings of its curves.
+    void warnOfUserProperties(const AlembicCompound& own) {
+        for (const auto& [name, property] : own.properties)
+            if (!name.starts_with("hairbench:") && !name.starts_with("blender:") &&
+                std::ranges::find(kUserProperties, name) == kUserProperties.end())
+                leaveOut(std::string("userProperties:").append(name));
     }
 
     void warnOfVersion(const AlembicCompound& parameters) {
@@ -279,6 +319,10 @@ private:
         const auto points = values_.parameterOf(geometry, "P");
         const auto sizes = values_.parameterOf(geometry, "nVertices");
         if (!points && !sizes) return;  // an object without its curves
+        if (place.is_hidden) {
+            hidden_ += sizes ? sizes->count() : 0;
+            return;
+        }
         if (!points || !sizes)
             failIn(
                 (points ? points->property : sizes->property).header, geometry.path,
@@ -288,9 +332,10 @@ private:
         const std::uint32_t first_strand = set_.strandCount();
         AlembicCurves curves;
         readPoints(*points, *sizes, topology, place.space, curves);
-        readParameters(geometry, topology, place, curves);
-        readUserProperties(
-            values_.compoundIn(geometry, ".userProperties"), first_strand, curves.strands);
+        const AlembicCompound own = values_.compoundIn(geometry, ".userProperties");
+        warnOfUserProperties(own);
+        readParameters(geometry, own, topology, place, curves);
+        readUserProperties(own, first_strand, curves.strands);
         curves_.push_back(std::move(curves));
     }
 
@@ -325,7 +370,7 @@ private:
         if (!topology.isLinear()) {
             if (start == 0) set_.points.reserve(end);
             topology.alongVertices(std::span<const glm::vec3>(vertices), [&](const glm::dvec3& p) {
-                set_.points.push_back(placed(p, space, points));
+                set_.points.push_back(placed(p, space));
             });
         } else {
             appendLinear(points, space);
@@ -344,19 +389,11 @@ private:
         }
         if (space.isIdentity()) return;
         const auto added = std::span(set_.points).last(points.count());
-        for (glm::vec3& point : added) point = placed(point, space, points);
+        for (glm::vec3& point : added) point = placed(point, space);
     }
 
-    static float floatOf(double value, const AlembicParameter& parameter) {
-        const auto rounded = static_cast<float>(value);
-        if (!std::isfinite(rounded)) parameter.fail("a value exceeds a float's range");
-        return rounded;
-    }
-
-    static glm::vec3
-    placed(const glm::dvec3& point, const AffineSpace& space, const AlembicParameter& points) {
-        const glm::dvec3 place = space.isIdentity() ? point : space.place(point);
-        return {floatOf(place.x, points), floatOf(place.y, points), floatOf(place.z, points)};
+    static glm::vec3 placed(const glm::dvec3& point, const AffineSpace& space) {
+        return glm::vec3(space.isIdentity() ? point : space.place(point));
     }
 
     // ---- Parameters of curves ----
@@ -407,18 +444,17 @@ private:
     std::vector<float> widthsOf(const AlembicParameter& parameter, const AffineSpace& space) const {
         parameter.require(AlembicType::float32, 1);
         auto widths = values_.stored<float>(parameter);
-        requireFinite(widths, parameter.elements.start, parameter.path);
         requireNotNegative(widths, parameter.elements.start, parameter.path);
         const double factor = space.isIdentity() ? 1.0 : space.widthFactor();
         // A rotation has the factor 1 up to rounding.
         if (std::abs(factor - 1.0) > 1e-9)
-            for (float& width : widths) width = floatOf(width * factor, parameter);
+            for (float& width : widths) width = static_cast<float>(width * factor);
         return parameter.arranged(std::move(widths));
     }
 
     void readParameters(
-        const AlembicCompound& geometry, const AlembicTopology& topology, const AlembicPlace& place,
-        AlembicCurves& curves) {
+        const AlembicCompound& geometry, const AlembicCompound& own,
+        const AlembicTopology& topology, const AlembicPlace& place, AlembicCurves& curves) {
         const AlembicCompound parameters = values_.compoundIn(geometry, ".arbGeomParams");
         for (const AlembicCompound* const all : {&geometry, &parameters})
             for (const auto& [name, property] : all->properties)
@@ -427,32 +463,29 @@ private:
                     leaveOut(name);
         warnOfVersion(parameters);
 
-        auto width = values_.parameterOf(parameters, "groom_width");
+        auto width = eitherOf(parameters, own, "groom_width");
         if (!width && !place.width) width = values_.parameterOf(geometry, "width");
         if (width) {
             curves.widths = perPoint(
                 *width, topology, widthsOf(*width, place.space),
                 // Between vertices, a curve may be below all of them.
-                [](double value) { return static_cast<float>(std::max(value, 0.0)); });
+                [](double value) { return static_cast<float>(value < 0.0 ? 0.0 : value); });
         } else if (place.width) {
             const double factor = place.space.isIdentity() ? 1.0 : place.space.widthFactor();
-            const auto inherited = static_cast<float>(*place.width * factor);
-            if (!std::isfinite(inherited))
-                failIn(
-                    0, geometry.path, "the width of the transforms above exceeds a float's range");
-            curves.widths.everywhere = inherited;
+            curves.widths.everywhere = static_cast<float>(*place.width * factor);
         }
         if (const auto color = values_.parameterOf(parameters, "groom_color"))
             readColors(*color, topology, curves);
         readRootUvs(geometry, parameters, topology, curves);
-        curves.groups = integersIn(parameters, "groom_group_id", topology, place.group);
-        if (const auto names = values_.parameterOf(parameters, "groom_group_name")) {
+        curves.groups = integersIn(parameters, own, "groom_group_id", topology, place.group);
+        if (const auto names = eitherOf(parameters, own, "groom_group_name")) {
             if (curves.groups.empty())
                 curves.groups = groupsNamed(*names, topology);
             else
                 leaveOut("groom_group_name");
         }
-        for (const std::int32_t flag : integersIn(parameters, "groom_guide", topology, place.guide))
+        for (const std::int32_t flag :
+             integersIn(parameters, own, "groom_guide", topology, place.guide))
             curves.guides.push_back(flag != 0 ? 1 : 0);
     }
 
@@ -465,9 +498,8 @@ private:
         } else {
             values = values_.floatsOf<glm::vec3>(color);
         }
-        curves.colors = perPoint(color, topology, std::move(values), [&](const glm::dvec3& value) {
-            return glm::vec3(
-                floatOf(value.x, color), floatOf(value.y, color), floatOf(value.z, color));
+        curves.colors = perPoint(color, topology, std::move(values), [](const glm::dvec3& value) {
+            return glm::vec3(value);
         });
     }
 
@@ -489,13 +521,13 @@ private:
 
     // Returns an integer for each curve, its own or inherited; empty if there is neither.
     std::vector<std::int32_t> integersIn(
-        const AlembicCompound& parameters, std::string_view name, const AlembicTopology& topology,
-        std::optional<std::int32_t> above) {
-        const auto own = values_.parameterOf(parameters, name);
-        if (!own && !above) return {};
-        auto all =
-            perCurve(own ? values_.integersOf(*own) : std::vector<std::int32_t>{*above}, topology);
-        if (!all) own->fail("one is expected, or one for each curve");
+        const AlembicCompound& parameters, const AlembicCompound& own, std::string_view name,
+        const AlembicTopology& topology, std::optional<std::int32_t> above) {
+        const auto here = eitherOf(parameters, own, name);
+        if (!here && !above) return {};
+        auto all = perCurve(
+            here ? values_.integersOf(*here) : std::vector<std::int32_t>{*above}, topology);
+        if (!all) here->fail("one is expected, or one for each curve");
         return std::move(*all);
     }
 
@@ -557,34 +589,32 @@ private:
 
     // ---- All objects together ----
 
-    // Whether every object has a part. Warns if only some have it.
-    template <class Has>
-    bool areIn(const Has& has, const std::string& what) {
-        const auto count = std::ranges::count_if(curves_, has);
-        if (count == 0) return false;
-        const bool all = count == std::ssize(curves_);
-        if (!all) set_.warnings.push_back(what + ": left out, since some of the curves have none");
-        return all;
-    }
-
+    // Returns the points of objects without the part, which other objects have.
     template <class Value>
-    void joinAttribute(PointAttribute<Value> AlembicCurves::* part, PointAttribute<Value>& joined) {
+    std::vector<PointRange>
+    joinAttribute(PointAttribute<Value> AlembicCurves::* part, PointAttribute<Value>& joined) {
+        const auto is_known = [&](const AlembicCurves& curves) { return (curves.*part).known(); };
+        if (std::ranges::none_of(curves_, is_known)) return {};
         const PointAttribute<Value>& first = curves_.front().*part;
         const bool is_one = std::ranges::all_of(curves_, [&](const AlembicCurves& curves) {
             return (curves.*part).values.empty() && (curves.*part).everywhere == first.everywhere;
         });
         if (is_one || curves_.size() == 1) {
             joined = std::move(curves_.front().*part);
-            return;
+            return {};
         }
+        std::vector<PointRange> without;
         joined.values.reserve(set_.points.size());
         for (const AlembicCurves& curves : curves_) {
             const PointAttribute<Value>& own = curves.*part;
+            if (!own.known()) without.push_back({joined.values.size(), curves.points});
             if (own.values.empty())
-                joined.values.insert(joined.values.end(), curves.points, *own.everywhere);
+                joined.values.insert(
+                    joined.values.end(), curves.points, own.everywhere.value_or(Value{}));
             else
                 joined.values.insert(joined.values.end(), own.values.begin(), own.values.end());
         }
+        return without;
     }
 
     template <class Value>
@@ -599,14 +629,16 @@ private:
     }
 
     void joinParts() {
-        if (areIn([](const AlembicCurves& c) { return c.widths.known(); }, "widths"))
-            joinAttribute(&AlembicCurves::widths, set_.widths);
-        if (areIn([](const AlembicCurves& c) { return c.colors.known(); }, "groom_color"))
-            joinAttribute(&AlembicCurves::colors, set_.colors);
-        if (areIn([](const AlembicCurves& c) { return !c.root_uvs.empty(); }, "groom_root_uv"))
+        completeWidths(set_, joinAttribute(&AlembicCurves::widths, set_.widths));
+        completeColors(set_, joinAttribute(&AlembicCurves::colors, set_.colors));
+        const auto has_uvs =
+            std::ranges::count_if(curves_, [](const auto& c) { return !c.root_uvs.empty(); });
+        if (has_uvs == std::ssize(curves_))
             join(&AlembicCurves::root_uvs, set_.root_uvs);
-        if (areIn([](const AlembicCurves& c) { return !c.groups.empty(); }, "groom_group_id"))
-            join(&AlembicCurves::groups, set_.groups);
+        else if (has_uvs > 0)
+            set_.warnings.emplace_back(
+                "groom_root_uv: left out, since some of the curves have none");
+        joinGroups();
         // Guides are often objects of their own, and the other objects don't have the parameter.
         const bool has_guides = std::ranges::any_of(
             curves_, [](const AlembicCurves& curves) { return !curves.guides.empty(); });
@@ -615,8 +647,25 @@ private:
         join(&AlembicCurves::guides, set_.guides);
     }
 
+    // Strands without a group become a group of their own.
+    void joinGroups() {
+        if (std::ranges::all_of(curves_, [](const auto& c) { return c.groups.empty(); })) return;
+        std::vector<StrandRange> without;
+        std::uint32_t first = 0;
+        for (AlembicCurves& curves : curves_) {
+            if (curves.groups.empty()) {
+                without.push_back({first, curves.strands});
+                curves.groups.resize(curves.strands);
+            }
+            first += curves.strands;
+        }
+        join(&AlembicCurves::groups, set_.groups);
+        completeGroups(set_, without);
+    }
+
     AlembicValues values_;
     StrandSet set_;
+    std::uint64_t hidden_ = 0;  // strands
     std::vector<AlembicCurves> curves_;
     std::uint64_t shared_ = 0;  // bytes of points and triangles that were read
     std::map<std::string, std::int32_t> group_names_;

@@ -48,6 +48,11 @@ AlembicCompound AlembicValues::compoundOf(
     return compoundFrom(archive_.propertiesOf(*at, own), own);
 }
 
+AlembicCompound
+AlembicValues::compoundOf(const std::vector<AlembicProperty>& properties, const std::string& path) {
+    return compoundFrom(properties, path);
+}
+
 AlembicCompound AlembicValues::compoundIn(const AlembicCompound& outer, std::string_view name) {
     const AlembicProperty* const property = outer.find(name);
     const std::string own = outer.path + '/' + std::string(name);

@@ -63,6 +63,9 @@ public:
     AlembicCompound compoundOf(
         const std::vector<AlembicProperty>& properties, std::string_view name,
         const std::string& path);
+    // Returns an object's own properties by their names.
+    static AlembicCompound
+    compoundOf(const std::vector<AlembicProperty>& properties, const std::string& path);
     // Returns the compound `name` of another; without properties if there is none.
     AlembicCompound compoundIn(const AlembicCompound& outer, std::string_view name);
 
@@ -70,14 +73,12 @@ public:
     std::optional<AlembicParameter>
     parameterOf(const AlembicCompound& compound, std::string_view name);
 
-    // Reads vectors of as many float32 as a Value has, all finite.
+    // Reads vectors of as many float32 as a Value has, which may be NaN or infinite.
     template <class Value>
     std::vector<Value> floatsOf(const AlembicParameter& parameter) const {
         parameter.require(
             AlembicType::float32, static_cast<std::uint8_t>(sizeof(Value) / sizeof(float)));
-        auto values = stored<Value>(parameter);
-        requireFinite(values, parameter.elements.start, parameter.path);
-        return parameter.arranged(std::move(values));
+        return parameter.arranged(stored<Value>(parameter));
     }
     // Reads integers of any type, one to an element, in the range of int32.
     std::vector<std::int32_t> integersOf(const AlembicParameter& parameter) const;

@@ -30,9 +30,11 @@ std::optional<std::size_t> firstNotFinite(std::span<const float> numbers) {
     return {};
 }
 
+bool isNegative(float width) { return width < 0.0f && std::isfinite(width); }
+
 void requireNotNegative(
     const std::vector<float>& widths, std::uint64_t offset, std::string_view name) {
-    const auto at = std::ranges::find_if(widths, [](float width) { return width < 0.0f; });
+    const auto at = std::ranges::find_if(widths, isNegative);
     if (at == widths.end()) return;
     const auto index = static_cast<std::size_t>(at - widths.begin());
     failAt(

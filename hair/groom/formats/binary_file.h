@@ -105,6 +105,9 @@ void requireFinite(
         std::string(name) + ' ' + std::to_string(*wrong / kFloats) + " is not finite");
 }
 
+// False for minus infinity, which is no number that is wrong but none.
+bool isNegative(float width);
+
 // Throws if a diameter is negative.
 void requireNotNegative(
     const std::vector<float>& widths, std::uint64_t offset, std::string_view name);

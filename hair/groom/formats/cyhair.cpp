@@ -186,15 +186,7 @@ PointAttribute<Value> readAttribute(
     PointAttribute<Value> attribute;
     if (header.has(source.array)) {
         attribute.values = arrayAt<Value>(bytes, source.start, header.point_count);
-        requireFinite(attribute.values, source.start, source.name);
     } else {
-        const std::span numbers(
-            reinterpret_cast<const float*>(&source.everywhere), sizeof(Value) / sizeof(float));
-        if (const auto wrong = firstNotFinite(numbers)) {
-            failAt(
-                source.everywhere_at + *wrong * sizeof(float),
-                "the default " + source.name + " is not finite");
-        }
         attribute.everywhere = source.everywhere;
     }
     return attribute;
@@ -207,7 +199,7 @@ readWidths(const HairHeader& header, const Layout& layout, std::span<const std::
         offsetof(HairHeader, default_thickness), "thickness"};
     auto widths = readAttribute(source, header, bytes);
     requireNotNegative(widths.values, source.start, source.name);
-    if (widths.everywhere.value_or(0.0f) < 0.0f)
+    if (isNegative(widths.everywhere.value_or(0.0f)))
         failAt(source.everywhere_at, "the default thickness is negative");
     if (widths.everywhere == 0.0f) widths.everywhere.reset();
     return widths;
@@ -253,7 +245,7 @@ StrandSet importHair(const StrandFile& file) {
     const HairHeader header = readHairHeader(file.bytes);
     const Layout layout(header);
     checkSize(header, layout, file.bytes.size());
-    StrandSet strands{
+    return {
         .ends = header.has(HairArray::segments) ? readEnds(header, layout.segments, file.bytes)
                                                 : defaultEnds(header),
         .points = arrayAt<glm::vec3>(file.bytes, layout.points, header.point_count),
@@ -267,8 +259,6 @@ StrandSet importHair(const StrandFile& file) {
              offsetof(HairHeader, default_color), "colour"},
             header, file.bytes),
         .comment = textOf(header.info)};
-    requireFinite(strands.points, layout.points, "point");
-    return strands;
 }
 
 }  // namespace hair::groom

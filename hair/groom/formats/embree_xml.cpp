@@ -182,27 +182,14 @@ public:
     EmbreeArrays(const StrandFile& file, ExpansionLimit& unfolding)
         : path_(file.path), check_(file.check), unfolding_(unfolding) {}
 
-    // Returns vectors, which may have NaNs.
+    // Returns vectors, which may have NaNs and infinities.
     std::vector<glm::vec4> vectors(const XmlElement& element) {
-        std::vector<glm::vec4> vectors;
-        if (isBeside(element)) {
-            vectors = beside<glm::vec4>(element);
-            const std::span numbers(
-                reinterpret_cast<const float*>(vectors.data()), 4 * vectors.size());
-            const auto wrong =
-                std::ranges::find_if(numbers, [](float number) { return std::isinf(number); });
-            if (wrong != numbers.end())
-                failAtLine(
-                    element.line, "number " + std::to_string(wrong - numbers.begin()) + " of " +
-                                      inQuotes(element.name) + " is not finite");
-            return vectors;
-        }
-        const std::vector<float> numbers =
-            words(element, [](float number) { return !std::isinf(number); });
+        if (isBeside(element)) return beside<glm::vec4>(element);
+        const std::vector<float> numbers = words(element, [](float) { return true; });
         if (numbers.size() % 4 != 0)
             failAtLine(
                 element.line, inQuotes(element.name) + " is not made of groups of x y z radius");
-        vectors.resize(numbers.size() / 4);
+        std::vector<glm::vec4> vectors(numbers.size() / 4);
         if (!numbers.empty())
             std::memcpy(vectors.data(), numbers.data(), numbers.size() * sizeof(float));
         return vectors;
@@ -350,11 +337,8 @@ public:
         for (const XmlElement& child : root.children) readNode(child, {});
         if (set_.ends.empty())
             failAtLine(
-                root.line, not_numbers_ > 0
-                               ? "every curve has a vertex that is not a number"
-                               : "the scene has no curves" +
-                                     (left_out_.empty() ? "" : ", but " + leftOutNames()));
-        warnOfStrands(not_numbers_, "with a vertex that is not a number", set_);
+                root.line,
+                "the scene has no curves" + (left_out_.empty() ? "" : ", but " + leftOutNames()));
         if (!left_out_.empty())
             set_.warnings.push_back("the scene's " + leftOutNames() + " are left out");
         return std::move(set_);
@@ -583,22 +567,12 @@ private:
         if (points > std::numeric_limits<std::uint32_t>::max())
             failAtLine(element.line, "the strands have 2^32 points, or more");
         for (const EmbreeStrand& strand : strands) {
-            const std::size_t vertices =
-                basis.vertices + (std::size_t{strand.segments} - 1) * basis.step;
-            const auto all = std::span(positions).subspan(strand.first, vertices);
-            const auto not_number = [](const glm::vec4& vertex) {
-                return glm::any(glm::isnan(vertex));
-            };
-            if (std::ranges::any_of(all, not_number)) {
-                ++not_numbers_;
-                continue;
-            }
             for (std::uint32_t i = 0; i < strand.segments; ++i) {
                 const auto corners = std::span(positions).subspan(
                     strand.first + std::size_t{i} * basis.step, basis.vertices);
                 for (std::uint32_t k = 0; k < pieces; ++k)
-                    add(element, pointOf(basis, corners, double(k) / pieces), space);
-                if (i + 1 == strand.segments) add(element, pointOf(basis, corners, 1.0), space);
+                    add(pointOf(basis, corners, double(k) / pieces), space);
+                if (i + 1 == strand.segments) add(pointOf(basis, corners, 1.0), space);
             }
             set_.ends.push_back(static_cast<std::uint32_t>(set_.points.size()));
         }
@@ -616,21 +590,16 @@ private:
         return point;
     }
 
-    void add(const XmlElement& element, const glm::dvec4& point, const AffineSpace& space) {
+    void add(const glm::dvec4& point, const AffineSpace& space) {
         glm::dvec3 place(point);
         // Between control vertices, a curve's radius may be less than at all of them.
-        double width = 2.0 * std::max(point.w, 0.0);
+        double width = 2.0 * (point.w < 0.0 ? 0.0 : point.w);
         if (!space.isIdentity()) {
             place = space.place(place);
             width *= space.widthFactor();
         }
-        const glm::vec3 rounded(place);
-        const auto rounded_width = static_cast<float>(width);
-        for (const float number : {rounded.x, rounded.y, rounded.z, rounded_width})
-            if (!std::isfinite(number))
-                failAtLine(element.line, "a point or width exceeds a float's range");
-        set_.points.push_back(rounded);
-        set_.widths.values.push_back(rounded_width);
+        set_.points.emplace_back(place);
+        set_.widths.values.push_back(static_cast<float>(width));
     }
 
     static constexpr int kMostReferences = 64;
@@ -640,7 +609,6 @@ private:
     EmbreeArrays arrays_;
     std::map<std::string_view, std::vector<const XmlElement*>> named_;
     int references_ = 0;  // references around the node
-    std::size_t not_numbers_ = 0;
     std::set<std::string_view> left_out_;
     StrandSet set_;
 };

@@ -8,6 +8,7 @@
 #include <glm/mat3x3.hpp>
 
 #include "engine/error.h"
+#include "hair/groom/formats/binary_file.h"
 #include "hair/groom/formats/polylines.h"
 #include "hair/groom/formats/text.h"
 #include "hair/groom/mesh/gltf_model.h"
@@ -186,10 +187,7 @@ void weld(std::vector<std::uint32_t>& indices, const std::vector<glm::vec3>& poi
 }
 
 Polylines stripOf(std::vector<std::uint32_t> indices) {
-    if (indices.size() < 2) {
-        throw engine::Error(
-            "a strip of " + std::to_string(indices.size()) + " points, expected 2 or more");
-    }
+    if (indices.empty()) throw engine::Error("a strip of no points, expected 2 or more");
     return {{static_cast<std::uint32_t>(indices.size())}, std::move(indices)};
 }
 
@@ -229,9 +227,9 @@ public:
             set_.warnings.push_back(
                 std::to_string(skipped_) + " primitives that are not lines are left out");
         }
-        dropPartial(set_.widths, "_WIDTH");
-        dropPartial(set_.transparencies, "_TRANSPARENCY, or alpha,");
-        dropPartial(set_.colors, "COLOR_0");
+        completeWidths(set_, without_width_);
+        completeTransparencies(set_, without_transparency_);
+        completeColors(set_, without_color_);
         set_.metres_per_unit = 1.0;
         return std::move(set_);
     }
@@ -252,10 +250,10 @@ private:
             set.transparencies.values = readOwn(primitive, "_TRANSPARENCY", count);
         }
         for (const float width : set.widths.values)
-            if (width < 0.0f) throw engine::Error("_WIDTH is negative: " + std::to_string(width));
+            if (isNegative(width))
+                throw engine::Error("_WIDTH is negative: " + std::to_string(width));
         // Even the identity would turn -0 into 0.
         if (transform != glm::dmat4(1.0)) place(set, transform);
-        checkFinite(set);
         return set;
     }
 
@@ -272,24 +270,6 @@ private:
         return matching(readScalars(model_, *accessor), count, name);
     }
 
-    static void checkFinite(const StrandSet& set) {
-        const auto check = [](const auto& values, const char* name, const auto& isFinite) {
-            for (std::size_t i = 0; i < values.size(); ++i) {
-                if (isFinite(values[i])) continue;
-                throw engine::Error(
-                    std::string(name) + " of vertex " + std::to_string(i) + " is not finite");
-            }
-        };
-        const auto vector = [](const glm::vec3& v) {
-            return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
-        };
-        const auto number = [](float x) { return std::isfinite(x); };
-        check(set.points, "POSITION", vector);
-        check(set.widths.values, "_WIDTH", number);
-        check(set.transparencies.values, "_TRANSPARENCY, or alpha,", number);
-        check(set.colors.values, "COLOR_0", vector);
-    }
-
     void join(StrandSet set) {
         const std::size_t first = set_.points.size();
         if (set.points.size() > std::numeric_limits<std::uint32_t>::max() - first) {
@@ -298,23 +278,34 @@ private:
         for (std::uint32_t& end : set.ends) end += static_cast<std::uint32_t>(first);
         append(set_.ends, set.ends);
         append(set_.points, set.points);
-        append(set_.widths.values, set.widths.values);
-        append(set_.transparencies.values, set.transparencies.values);
-        append(set_.colors.values, set.colors.values);
+        const std::size_t added = set.points.size();
+        appendPart(set_.widths.values, set.widths.values, first, added, without_width_);
+        appendPart(
+            set_.transparencies.values, set.transparencies.values, first, added,
+            without_transparency_);
+        appendPart(set_.colors.values, set.colors.values, first, added, without_color_);
         append(set_.warnings, set.warnings);
     }
 
-    // Drops an attribute that only some primitives have.
+    // Appends a part of `added` points after `first`. `without` has the points that lack it, once
+    // any point has it.
     template <class Value>
-    void dropPartial(PointAttribute<Value>& attribute, const char* name) {
-        if (attribute.values.empty() || attribute.values.size() == set_.points.size()) return;
-        set_.warnings.push_back(
-            std::string(name) + " is left out, because only some strands have it");
-        attribute.values.clear();
+    static void appendPart(
+        std::vector<Value>& values, const std::vector<Value>& more, std::size_t first,
+        std::size_t added, std::vector<PointRange>& without) {
+        if (values.empty() && more.empty()) return;
+        if (values.empty() && first > 0) without.push_back({0, first});
+        if (more.empty()) without.push_back({first, added});
+        values.resize(first);
+        append(values, more);
+        values.resize(first + added);
     }
 
     const tinygltf::Model& model_;
     StrandSet set_;
+    std::vector<PointRange> without_width_;
+    std::vector<PointRange> without_transparency_;
+    std::vector<PointRange> without_color_;
     std::size_t skipped_ = 0;
 };
 

@@ -125,7 +125,6 @@ StrandSet importHgl(const StrandFile& file) {
             file.bytes, sizeof(HglHeader) + kTripleSize * points,
             static_cast<std::uint64_t>(header.triangles)),
         .metres_per_unit = 1.0};
-    requireFinite(strands.points, sizeof(HglHeader), "point");
     checkTriangles(strands);
     return strands;
 }

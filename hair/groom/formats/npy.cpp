@@ -137,6 +137,9 @@ private:
         for (const NpyTypeRow& row : kNpyTypes)
             if (row.name == name) return row.type;
         at_ = start;
+        if (name.starts_with("|O"))
+            fail("an array of Python objects (a pickle): write each array of numbers with "
+                 "numpy.savez");
         fail(
             "numbers of type " + inQuotes(name) +
             ", expected '<f4' or '<f8': convert them with astype(numpy.float32)");
@@ -240,23 +243,14 @@ std::uint64_t placeOf(const NpyArray& array, std::uint64_t index) {
     return place;
 }
 
-// Fills `numbers` with those of the array, in C's order. `name` describes a group of `components`
-// numbers.
-void readFloats(
-    const NpyArray& array, std::span<float> numbers, std::size_t components,
-    std::string_view name) {
+// Fills `numbers` with those of the array, in C's order.
+void readFloats(const NpyArray& array, std::span<float> numbers) {
     const bool as_it_lies = array.type == NpyType::float32 && !array.is_fortran;
     if (as_it_lies) {
         std::memcpy(numbers.data(), array.bytes.data() + array.start, numbers.size_bytes());
     } else {
         for (std::size_t i = 0; i < numbers.size(); ++i)
             numbers[i] = static_cast<float>(numberAt(array, placeOf(array, i)));
-    }
-    if (const auto wrong = firstNotFinite(numbers)) {
-        failAt(
-            array.start + placeOf(array, *wrong) * rowOf(array.type).size,
-            std::string(name) + ' ' + std::to_string(*wrong / components) +
-                " is not a finite float");
     }
 }
 
@@ -276,7 +270,7 @@ StrandSet strandsOf(const NpyArray& array) {
     StrandSet set{
         .ends = uniformEnds(static_cast<std::uint32_t>(strands), static_cast<std::uint32_t>(size))};
     set.points.resize(strands * size);
-    readFloats(array, {&set.points.front().x, 3 * set.points.size()}, 3, "point");
+    readFloats(array, {&set.points.front().x, 3 * set.points.size()});
     if (array.type == NpyType::float64)
         set.warnings.emplace_back("the points are doubles and are rounded to floats");
     return set;
@@ -485,15 +479,15 @@ void expectShape(const NpyArray& array, bool is_type, std::span<const std::uint6
 void readRootUvs(const NpyArray& array, NpzSource source) {
     expectShape(array, isFloat(array.type), std::array{source.strands, std::uint64_t{2}});
     source.set.root_uvs.resize(source.strands);
-    readFloats(array, {&source.set.root_uvs.front().x, 2 * source.strands}, 2, "root_uv");
+    readFloats(array, {&source.set.root_uvs.front().x, 2 * source.strands});
 }
 
 void readWidths(const NpyArray& array, NpzSource source) {
     expectShape(array, isFloat(array.type), std::array{source.strands, source.points});
     auto& widths = source.set.widths.values;
     widths.resize(source.set.points.size());
-    readFloats(array, widths, 1, "width");
-    const auto wrong = std::ranges::find_if(widths, [](float width) { return width < 0.0f; });
+    readFloats(array, widths);
+    const auto wrong = std::ranges::find_if(widths, isNegative);
     if (wrong == widths.end()) return;
     const auto index = static_cast<std::uint64_t>(wrong - widths.begin());
     failAt(

@@ -536,12 +536,10 @@ void readPlyVertices(Source& source, const PlyElement& element, StrandSet& set) 
             }
             const double share = source.take(property.type) / column.divisor;
             const auto value = static_cast<float>(column.is_opacity ? 1.0 - share : share);
-            const bool is_wrong_width = column.slot == width && value < 0.0f;
-            if (!std::isfinite(value) || is_wrong_width) {
+            if (column.slot == width && isNegative(value)) {
                 throw engine::Error(
                     Source::place(source.position()),
-                    inQuotes(property.name) + " of vertex " + std::to_string(i) +
-                        (is_wrong_width ? " is negative" : " is not a finite float"));
+                    inQuotes(property.name) + " of vertex " + std::to_string(i) + " is negative");
             }
             values[column.slot] = value;
         }
@@ -705,7 +703,6 @@ private:
     void readStrand(const PlyProperty& list) {
         const std::size_t size = takeLength(source_, list);
         const std::string place = Source::place(source_.position());
-        if (size == 0) throw engine::Error(place, "a strand of no points, expected 1 at least");
         if (!hasRoomFor(lines_, size)) throw engine::Error(place, "2^32 strand points or more");
         for (std::size_t i = 0; i < size; ++i) lines_.vertices.push_back(takeVertex(list.type));
         lines_.ends.push_back(static_cast<std::uint32_t>(lines_.vertices.size()));

@@ -1,6 +1,5 @@
 #include "hair/groom/formats/strand_lists.h"
 
-#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
@@ -75,10 +74,6 @@ std::vector<ListedStrand> listStrands(std::span<const std::byte> bytes, std::uin
     return strands;
 }
 
-void requireSomeStrand(const StrandSet& set, const std::string& reason) {
-    if (set.ends.empty()) failAt(0, reason);
-}
-
 }  // namespace
 
 std::vector<std::string> exportHairData(const StrandSet& strands, std::ostream& out) {
@@ -103,28 +98,15 @@ StrandSet importHairData(const StrandFile& file) {
     set.ends.reserve(listed.size());
     // All bytes except the counts are points, and none are left out.
     set.points.reserve((file.bytes.size() - kCountSize * (listed.size() + 1)) / kDataPoint);
-    std::size_t empty = 0;
     for (const ListedStrand& strand : listed) {
-        if (strand.points == 0) {
-            ++empty;
-            continue;
-        }
         const std::size_t first = set.points.size();
         set.points.resize(first + strand.points);
-        std::memcpy(
-            &set.points[first], file.bytes.data() + strand.start,
-            std::size_t{strand.points} * sizeof(glm::vec3));
-        const std::span<const float> numbers(&set.points[first].x, 3 * std::size_t{strand.points});
-        if (const auto wrong = firstNotFinite(numbers)) {
-            failAt(
-                strand.start + *wrong * sizeof(float),
-                "point " + std::to_string(*wrong / 3) + " of strand " +
-                    std::to_string(strand.number) + " is not finite");
-        }
+        if (strand.points > 0)
+            std::memcpy(
+                &set.points[first], file.bytes.data() + strand.start,
+                std::size_t{strand.points} * sizeof(glm::vec3));
         set.ends.push_back(static_cast<std::uint32_t>(set.points.size()));
     }
-    warnOfStrands(empty, "without points", set);
-    requireSomeStrand(set, "no strand has a point");
     return set;
 }
 
@@ -134,43 +116,18 @@ StrandSet importCt2Hair(const StrandFile& file) {
     StrandSet set;
     set.ends.reserve(listed.size());
     set.points.reserve((file.bytes.size() - kCountSize * (listed.size() + 1)) / kCt2HairPoint);
-    std::size_t short_strands = 0;
-    std::size_t not_numbers = 0;
     bool has_more = false;
     for (const ListedStrand& strand : listed) {
-        if (strand.points < kLeastPoints) {
-            ++short_strands;
-            continue;
-        }
-        const std::size_t first = set.points.size();
-        bool is_number = true;
+        if (strand.points < kLeastPoints)
+            set.faults.push_back({strand.number, "of fewer than 5 points"});
         for (std::uint32_t k = 0; k < strand.points; ++k) {
             const std::uint64_t start = strand.start + k * kCt2HairPoint;
-            const glm::vec3 point = valueAt<glm::vec3>(file.bytes, start);
-            for (int axis = 0; axis < 3; ++axis) {
-                is_number = is_number && !std::isnan(point[axis]);
-                if (std::isinf(point[axis])) {
-                    failAt(
-                        start + static_cast<std::uint64_t>(axis) * sizeof(float),
-                        "point " + std::to_string(k) + " of strand " +
-                            std::to_string(strand.number) + " is infinite");
-                }
-            }
-            set.points.push_back(point);
+            set.points.push_back(valueAt<glm::vec3>(file.bytes, start));
             const auto beside = valueAt<glm::vec3>(file.bytes, start + sizeof(glm::vec3));
             has_more = has_more || beside != glm::vec3(0.0f);
         }
-        if (is_number) {
-            set.ends.push_back(static_cast<std::uint32_t>(set.points.size()));
-        } else {
-            set.points.resize(first);
-            ++not_numbers;
-        }
+        set.ends.push_back(static_cast<std::uint32_t>(set.points.size()));
     }
-    warnOfStrands(short_strands, "of fewer than 5 points", set);
-    warnOfStrands(not_numbers, "with a position that is not a number", set);
-    requireSomeStrand(
-        set, "every strand has fewer than 5 points or a position that is not a number");
     if (has_more) set.warnings.emplace_back("the points' tangents, or colours, are left out");
     return set;
 }

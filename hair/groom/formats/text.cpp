@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <charconv>
+#include <cmath>
+#include <limits>
 #include <system_error>
 
 namespace hair::groom {
@@ -89,6 +91,72 @@ void warnOfStrands(std::size_t count, const std::string& which, StrandSet& set) 
     set.warnings.push_back(
         std::to_string(count) + (count == 1 ? " strand " : " strands ") + which +
         (count == 1 ? " is left out" : " are left out"));
+}
+
+// ---- Parts that only some strands have ----------------------------------------------------------
+
+namespace {
+
+std::size_t countIn(std::span<const PointRange> ranges) {
+    std::size_t count = 0;
+    for (const PointRange& range : ranges) count += range.count;
+    return count;
+}
+
+template <class Value>
+void fill(std::vector<Value>& values, std::span<const PointRange> ranges, const Value& value) {
+    for (const PointRange& range : ranges)
+        std::fill_n(values.begin() + static_cast<std::ptrdiff_t>(range.first), range.count, value);
+}
+
+void warnOfFilled(
+    StrandSet& set, std::span<const PointRange> without, const char* element, const char* part,
+    const std::string& filled) {
+    set.warnings.push_back(
+        std::to_string(countIn(without)) + " of " +
+        std::to_string(
+            std::string_view(element) == "strands" ? set.ends.size() : set.points.size()) +
+        ' ' + element + " have no " + part + " and " + filled);
+}
+
+}  // namespace
+
+void completeWidths(StrandSet& set, std::span<const PointRange> without) {
+    if (without.empty()) return;
+    std::vector<float>& widths = set.widths.values;
+    fill(widths, without, 0.0f);  // so that the sum is that of the others
+    double sum = 0.0;
+    for (const float width : widths) sum += std::isfinite(width) ? width : 0.0;
+    const double mean = sum / static_cast<double>(widths.size() - countIn(without));
+    fill(widths, without, static_cast<float>(mean));
+    warnOfFilled(set, without, "points", "width", "get the mean width of the others");
+}
+
+void completeTransparencies(StrandSet& set, std::span<const PointRange> without) {
+    if (without.empty()) return;
+    fill(set.transparencies.values, without, 0.0f);
+    warnOfFilled(set, without, "points", "transparency", "become opaque");
+}
+
+void completeColors(StrandSet& set, std::span<const PointRange> without) {
+    if (without.empty()) return;
+    fill(set.colors.values, without, glm::vec3(1.0f));
+    warnOfFilled(set, without, "points", "colour", "become white");
+}
+
+void completeGroups(StrandSet& set, std::span<const StrandRange> without) {
+    if (without.empty()) return;
+    std::vector<bool> is_without(set.groups.size());
+    for (const StrandRange& range : without)
+        std::fill_n(
+            is_without.begin() + static_cast<std::ptrdiff_t>(range.first), range.count, true);
+    std::int32_t greatest = -1;
+    for (std::size_t i = 0; i < set.groups.size(); ++i)
+        if (!is_without[i]) greatest = std::max(greatest, set.groups[i]);
+    const std::int32_t group =
+        greatest == std::numeric_limits<std::int32_t>::max() ? -1 : greatest + 1;
+    fill(set.groups, without, group);
+    warnOfFilled(set, without, "strands", "group", "become group " + std::to_string(group));
 }
 
 // ---- Words --------------------------------------------------------------------------------------

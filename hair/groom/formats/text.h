@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <initializer_list>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -36,6 +37,20 @@ std::vector<std::string> leftOut(const StrandSet& strands, std::initializer_list
 
 // Warns if strands were left out: "3 strands with ... are left out".
 void warnOfStrands(std::size_t count, const std::string& which, StrandSet& set);
+
+// Some of a file's points, or strands, one after another.
+struct PointRange {
+    std::size_t first;
+    std::size_t count;
+};
+using StrandRange = PointRange;
+
+// Fill a part of the strands where only some parts of the file have it, and warn of this: the mean
+// width of the others, opaque, white, or a group of its own. Do nothing without ranges.
+void completeWidths(StrandSet& set, std::span<const PointRange> without);
+void completeTransparencies(StrandSet& set, std::span<const PointRange> without);
+void completeColors(StrandSet& set, std::span<const PointRange> without);
+void completeGroups(StrandSet& set, std::span<const StrandRange> without);
 
 // Lines of text files, word by word. Numbers are in C's notation whatever the locale; a '+' before
 // them is allowed.

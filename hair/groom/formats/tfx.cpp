@@ -180,11 +180,7 @@ TfxHeader readHeader(std::span<const std::byte> bytes, const TfxForm& form) {
         .strand_thickness = offsetAt(form.strand_thickness),
         .vertex_colors = offsetAt(form.vertex_colors)};
     if (header.strands == 0) failAt(4, "0 strands; at least 1 is needed");
-    if (header.vertices_per_strand < 2) {
-        failAt(
-            8, std::to_string(header.vertices_per_strand) +
-                   " vertices per strand; at least 2 are needed");
-    }
+    if (header.vertices_per_strand == 0) failAt(8, "0 vertices per strand; at least 2 are needed");
     const std::uint64_t vertices = std::uint64_t{header.strands} * header.vertices_per_strand;
     if (vertices > std::numeric_limits<std::uint32_t>::max())
         failAt(4, std::to_string(vertices) + " vertices; at most 2^32 - 1 are read");
@@ -255,7 +251,6 @@ PointAttribute<Value> compact(std::vector<Value> values) {
 void readPositions(const TfxHeader& header, std::span<const std::byte> bytes, StrandSet& strands) {
     const std::uint64_t count = std::uint64_t{header.strands} * header.vertices_per_strand;
     const auto positions = arrayAt<glm::vec4>(bytes, header.positions, count);
-    requireFinite(positions, header.positions, "position");
     strands.points.assign(positions.begin(), positions.end());
     std::size_t fixed = 0;
     for (std::size_t i = 0; i < count; ++i)
@@ -270,7 +265,6 @@ void readPositions(const TfxHeader& header, std::span<const std::byte> bytes, St
 PointAttribute<float> readWidths(const TfxHeader& header, std::span<const std::byte> bytes) {
     if (header.strand_thickness == 0) return {};
     const auto widths = arrayAt<float>(bytes, header.strand_thickness, header.strands);
-    requireFinite(widths, header.strand_thickness, "thickness");
     requireNotNegative(widths, header.strand_thickness, "thickness");
     std::vector<float> values;
     values.reserve(std::size_t{header.strands} * header.vertices_per_strand);
@@ -281,7 +275,6 @@ PointAttribute<float> readWidths(const TfxHeader& header, std::span<const std::b
 void readPositions3(const TfxHeader& header, std::span<const std::byte> bytes, StrandSet& strands) {
     strands.points = arrayAt<glm::vec3>(
         bytes, header.positions, std::uint64_t{header.strands} * header.vertices_per_strand);
-    requireFinite(strands.points, header.positions, "position");
 }
 
 // Warns of features of TressFX's versions 2 and 3 that are left out.
@@ -301,7 +294,6 @@ void warnOfFollowers(std::int64_t followers, bool both_ends_fixed, StrandSet& st
 void readColors(const TfxHeader& header, std::span<const std::byte> bytes, StrandSet& strands) {
     if (header.vertex_colors == 0) return;
     const auto colors = arrayAt<glm::vec4>(bytes, header.vertex_colors, strands.points.size());
-    requireFinite(colors, header.vertex_colors, "colour");
     strands.colors = compact(std::vector<glm::vec3>(colors.begin(), colors.end()));
     std::vector<float> transparencies(colors.size());
     std::ranges::transform(
@@ -358,7 +350,7 @@ private:
     float takeFloat() {
         const std::string_view word = takeWord(line_);
         const auto number = floatFrom(word);
-        if (!number || !std::isfinite(*number)) fail(inQuotes(word) + " is not a finite number");
+        if (!number) fail(inQuotes(word) + " is not a number");
         return *number;
     }
 
@@ -528,7 +520,6 @@ StrandSet importTfx(const StrandFile& file) {
     readColors(header, file.bytes, strands);
     if (header.strand_uvs != 0) {
         strands.root_uvs = arrayAt<glm::vec2>(file.bytes, header.strand_uvs, header.strands);
-        requireFinite(strands.root_uvs, header.strand_uvs, "strand UV");
     }
     if (header.vertex_uvs != 0)
         strands.warnings.emplace_back("the texture coordinates of vertices are left out");

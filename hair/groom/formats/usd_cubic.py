@@ -18,7 +18,8 @@ def starts(sizes):
 class CubicCurves:
     """Curves of one basis. A curve becomes the ends of its segments and `between` points evenly in
     t between two ends. At first these are the fewest that give no curve fewer points than control
-    vertices, so that shapes are kept about as well as they were drawn."""
+    vertices, so that shapes are kept about as well as they were drawn. A curve of one vertex stays a
+    point."""
 
     def __init__(self, basis, wrap, sizes):
         """`sizes`: control vertices of each curve. Raises ValueError for invalid curves."""
@@ -29,32 +30,41 @@ class CubicCurves:
         # A pinned Bézier curve ends at its vertices anyway; others get a vertex at both ends.
         self.pinned = wrap == "pinned" and basis != "bezier"
         self.sizes = np.asarray(sizes, np.int64)
-        padded = self.sizes + 2 if self.pinned else self.sizes
-        wrong = np.flatnonzero((padded < 4) | ((padded - 4) % self.step != 0))
+        self.drawn = self.sizes > 1  # others have no segment
+        padded = self.sizes + 2 * self.drawn if self.pinned else self.sizes
+        wrong = np.flatnonzero(self.drawn & ((padded < 4) | ((padded - 4) % self.step != 0)))
         if wrong.size:
             raise ValueError(
                 f"curve {wrong[0]} has {self.sizes[wrong[0]]} vertices, which do not make a {wrap} {basis} curve"
             )
-        self.segments = (padded - 4) // self.step + 1
+        self.segments = np.where(self.drawn, (padded - 4) // self.step + 1, 0)
+        self.padded = padded
         self.first_control = self._per_segment(starts(padded), self.step)
         self.between = 0
-        if self.sizes.size:
-            self.between = int(np.max(-(-(self.sizes - 1) // self.segments))) - 1
+        if self.drawn.any():
+            pieces = -(-(self.sizes - 1)[self.drawn] // self.segments[self.drawn])
+            self.between = int(np.max(pieces)) - 1
 
     def point_counts(self):
-        return self.segments * (self.between + 1) + 1
+        return np.where(self.drawn, self.segments * (self.between + 1) + 1, self.sizes)
+
+    def ends(self):
+        """Returns the number of ends of segments of each curve."""
+        return np.where(self.drawn, self.segments + 1, self.sizes)
 
     def vertex(self, values):
         """Returns points from one value (row) for each control vertex."""
         controls = self._with_phantoms(values) if self.pinned else values
         corners = controls[self.first_control[:, None] + np.arange(4)]
-        return self._place(lambda t: t ** np.arange(3, -1, -1) @ self.basis, corners)
+        points = values[starts(self.sizes)[self.sizes == 1]]
+        return self._place(lambda t: t ** np.arange(3, -1, -1) @ self.basis, corners, points)
 
     def varying(self, values):
         """Returns points by linear interpolation of one value for each end of a segment."""
-        first = self._per_segment(starts(self.segments + 1), 1)
+        first = self._per_segment(starts(self.ends()), 1)
         ends = values[first[:, None] + np.arange(2)]
-        return self._place(lambda t: np.array([1 - t, t]), ends)
+        points = values[starts(self.ends())[self.sizes == 1]]
+        return self._place(lambda t: np.array([1 - t, t]), ends, points)
 
     def _per_segment(self, first, step):
         """Returns first[curve] + step * (index of the segment in the curve) for all segments."""
@@ -64,22 +74,27 @@ class CubicCurves:
     def _with_phantoms(self, values):
         """Adds 2 P0 - P1 before the first vertex of each curve, and its mirror after the last."""
         first = starts(self.sizes)
-        last = first + self.sizes - 1
-        padded_first = starts(self.sizes + 2)
-        padded = np.empty((values.shape[0] + 2 * self.sizes.size, values.shape[1]))
+        padded_first = starts(self.padded)
+        padded = np.empty((self.padded.sum(), values.shape[1]))
         inner = np.arange(values.shape[0]) - np.repeat(first, self.sizes)
-        padded[np.repeat(padded_first + 1, self.sizes) + inner] = values
+        padded[np.repeat(padded_first + self.drawn, self.sizes) + inner] = values
+        first = first[self.drawn]
+        last = first + self.sizes[self.drawn] - 1
+        padded_first = padded_first[self.drawn]
         padded[padded_first] = 2 * values[first] - values[first + 1]
-        padded[padded_first + self.sizes + 1] = 2 * values[last] - values[last - 1]
+        padded[padded_first + self.padded[self.drawn] - 1] = 2 * values[last] - values[last - 1]
         return padded
 
-    def _place(self, weights, corners):
-        """corners: [segment][corner][component]; weights of the corners: a function of t."""
+    def _place(self, weights, corners, points_alone):
+        """corners: [segment][corner][component]; weights of the corners: a function of t;
+        points_alone: those of curves of one vertex."""
         counts = self.point_counts()
         points = np.empty((counts.sum(), corners.shape[2]))
         first = self._per_segment(starts(counts), self.between + 1)
         for i in range(self.between + 1):
             points[first + i] = np.einsum("c,sck->sk", weights(i / (self.between + 1)), corners)
-        last_segments = np.cumsum(self.segments) - 1
-        points[np.cumsum(counts) - 1] = np.einsum("c,sck->sk", weights(1.0), corners[last_segments])
+        last_segments = np.cumsum(self.segments)[self.drawn] - 1
+        last_points = np.cumsum(counts)[self.drawn] - 1
+        points[last_points] = np.einsum("c,sck->sk", weights(1.0), corners[last_segments])
+        points[starts(counts)[self.sizes == 1]] = points_alone
         return points

@@ -1,9 +1,11 @@
 """Writes the curves of a stage of Universal Scene Description to stdout, as usd_import.h says.
 
 Every BasisCurves prim is read, in the stage's order, including instances, in world space, +Y up, in
-the stage's unit. Data without a place in USD is read under Unreal Engine's names:
-primvars:groom_group_id, groom_guide and, if the curves have none themselves, groom_width,
-groom_color, groom_root_uv. Linear curves are their points; cubic ones are sampled (usd_cubic.py).
+the stage's unit. Prims that are invisible or whose purpose is "guide" are counted and left out. Data
+without a place in USD is read under Unreal Engine's names, as primvars or as user properties of the
+prims or of those above them (Blender's custom properties): groom_group_id or groom_group_name,
+groom_guide and, if the curves have none themselves, groom_width, groom_color, groom_root_uv. Numbers
+that are not finite are passed on, and so are curves of one vertex or none. Linear curves are their points; cubic ones are sampled (usd_cubic.py).
 Animated curves are taken at the default time, or else at their points' first sample. A stage that
 can't be read ends the program with one line on stderr.
 """
@@ -233,6 +235,8 @@ class Reader:
         self.warnings = [" ".join(str(error).split()) for error in errors]
         self.comment = self.stage.GetRootLayer().documentation
         self.prims = []
+        self.hidden = collections.Counter()
+        self.group_names = {}  # numbers of named groups
         xforms = Xforms()
         left_out = set()
         walk = iter(Usd.PrimRange.Stage(self.stage, Usd.TraverseInstanceProxies()))
@@ -240,20 +244,41 @@ class Reader:
             if prim.IsA(UsdGeom.PointInstancer):
                 self.warnings.append(f"{prim.GetPath()}: instances on points are left out")
                 walk.PruneChildren()
+            elif prim.IsA(UsdGeom.BasisCurves) and self._why_hidden(prim):
+                self.hidden[self._why_hidden(prim)] += Prim.curve_count(prim)
             elif prim.IsA(UsdGeom.BasisCurves):
-                self.prims.append(Prim(prim, xforms))
+                self.prims.append(Prim(prim, xforms, self.group_names))
                 unfolded.add(self.prims[-1].points)
                 left_out |= self.prims[-1].left_out()
                 self._warn_of_samples(prim)
             elif prim.IsA(UsdGeom.Curves):
                 self.warnings.append(f"{prim.GetPath()}: its {prim.GetTypeName()} are left out")
         if not any(prim.sizes.size for prim in self.prims):
-            raise Refused("the stage has no BasisCurves with points")
+            hidden = f" that are shown, but {self._hidden_text()}" if self.hidden else ""
+            raise Refused("the stage has no BasisCurves with points" + hidden)
+        if self.hidden:
+            self.warnings.append(f"{self._hidden_text()}: left out")
         if left_out:
             self.warnings.append(f"{', '.join(sorted(left_out))}: left out")
         if not UsdGeom.StageHasAuthoredMetersPerUnit(self.stage):
             self.warnings.append("the stage states no unit: taken as cm, as USD says")
         self.metres_per_unit = metres_per_unit_of(self.stage)
+
+    @staticmethod
+    def _why_hidden(prim):
+        """Returns why a prim isn't drawn; nothing if it is. Hair may be a proxy of nothing else."""
+        curves = UsdGeom.Imageable(prim)
+        if curves.ComputeVisibility(Usd.TimeCode.EarliestTime()) == UsdGeom.Tokens.invisible:
+            return "invisible prims"
+        if curves.ComputePurpose() == UsdGeom.Tokens.guide:
+            return 'prims of purpose "guide"'
+        return None
+
+    def _hidden_text(self):
+        return ", ".join(
+            f"{count} {'strand' if count == 1 else 'strands'} of {why}"
+            for why, count in sorted(self.hidden.items())
+        )
 
     def _warn_of_samples(self, prim):
         count = UsdGeom.BasisCurves(prim).GetPointsAttr().GetNumTimeSamples()
@@ -267,29 +292,59 @@ class Reader:
         return points
 
     def part(self, name):
-        """Returns a part for all prims, or nothing unless all have it."""
+        """Returns a part for all prims, or nothing if none has it."""
         parts = [prim.parts[name] for prim in self.prims]
-        if name == "guides" and any(part is not None for part in parts):
-            # Guides are often prims of their own, and the other prims don't have the primvar.
-            return [
-                np.zeros(prim.sizes.size, np.uint8) if part is None else part
-                for part, prim in zip(parts, self.prims)
-            ]
-        if any(part is None for part in parts):
-            if any(part is not None for part in parts):
-                self.warnings.append(f"{name}: left out, since some of the curves have none")
+        if all(part is None for part in parts):
             return []
+        if any(part is None for part in parts):
+            # Guides are often prims of their own, and the other prims don't have the primvar.
+            if name in ("root_uvs", "root_triangles"):
+                self.warnings.append(f"{name}: left out, since some of the curves have none")
+                return []
+            parts = self._completed(name, parts)
         if name == "root_triangles":
             first = np.cumsum([0] + [prim.sizes.size for prim in self.prims])
             return [part + offset for part, offset in zip(parts, first)]
-        if name in ("root_uvs", "groups"):
+        if name in ("root_uvs", "groups", "guides"):
             return parts
-        if all(np.array_equal(part, parts[0][:1]) for part in parts):
+        if all(np.array_equal(part, parts[0][:1], equal_nan=True) for part in parts):
             return parts[:1]
         return [
             np.repeat(part, prim.sizes.sum(), axis=0) if len(part) == 1 else part
             for part, prim in zip(parts, self.prims)
         ]
+
+    def _completed(self, name, parts):
+        """Fills a part of the prims that lack it: no guides, a group of their own, the mean width of
+        the others, white, opaque."""
+        known = [part for part in parts if part is not None]
+        if name == "guides":
+            return self._filled(parts, lambda prim: np.zeros(prim.sizes.size, np.uint8))
+        lacking = [prim for part, prim in zip(parts, self.prims) if part is None]
+        if name == "groups":
+            group = min(max(int(part.max(initial=-1)) for part in known) + 1, np.iinfo(np.int32).max)
+            strands = sum(prim.sizes.size for prim in lacking)
+            self.warnings.append(f"{strands} strands have no group and become group {group}")
+            return self._filled(parts, lambda prim: np.full(prim.sizes.size, group, np.int32))
+        if name == "widths":
+            sums = [
+                (float(part.mean()) * prim.sizes.sum(), prim.sizes.sum())
+                for part, prim in zip(parts, self.prims)
+                if part is not None and part.size and np.isfinite(part).all()
+            ]
+            total = sum(count for _, count in sums)
+            value = [sum(width for width, _ in sums) / total if total else 0.0]
+            words = "width and get the mean width of the others"
+        else:
+            value = [1.0, 1.0, 1.0] if name == "colors" else [0.0]
+            words = "colour and become white" if name == "colors" else "opacity and become opaque"
+        points = sum(prim.sizes.sum() for prim in lacking)
+        all_points = sum(prim.sizes.sum() for prim in self.prims)
+        self.warnings.append(f"{points} of {all_points} points have no {words}")
+        return self._filled(parts, lambda prim: np.array([value], np.float32))
+
+    def _filled(self, parts, fill):
+        return [fill(prim) if part is None else part for part, prim in zip(parts, self.prims)]
 
 
 def read(path, below=()):
@@ -309,7 +364,7 @@ def words_of(error, path):
 
 
 def joined(arrays, dtype):
-    with np.errstate(over="ignore"):  # overflow becomes infinite, which the reader refuses
+    with np.errstate(all="ignore"):  # overflow becomes infinite, and such strands are left out
         arrays = [np.ascontiguousarray(array, dtype) for array in arrays]
     return np.concatenate(arrays) if arrays else np.empty(0, dtype)
 

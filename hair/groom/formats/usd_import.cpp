@@ -79,17 +79,10 @@ public:
         end_ += count * section.size;
         return arrayAt<Element>(bytes_, start_, count);
     }
-    // Takes a section of floats, all of them finite.
-    template <class Element>
-    std::vector<Element> takeFinite(std::string_view name) {
-        auto elements = take<Element>();
-        requireFinite(elements, start_, name);
-        return elements;
-    }
     template <class Value>
-    PointAttribute<Value> takeAttribute(std::string_view name) {
+    PointAttribute<Value> takeAttribute() {
         const std::uint64_t byte = 16 + 8 * next_;
-        auto values = takeFinite<Value>(name);
+        auto values = take<Value>();
         if (values.size() == 1) return {.everywhere = values.front(), .values = {}};
         if (!values.empty() && values.size() != header_.points) {
             failAt(byte, "a value for some of the points");
@@ -114,7 +107,7 @@ std::vector<std::uint32_t> endsOf(std::vector<std::uint32_t> sizes, std::uint64_
     std::uint64_t end = 0;
     for (std::size_t i = 0; i < sizes.size(); ++i) {
         end += sizes[i];
-        if (sizes[i] == 0 || end > points) {
+        if (end > points) {
             failAt(sizeof(UsdStreamHeader) + 4 * i, std::to_string(sizes[i]) + " points");
         }
         sizes[i] = static_cast<std::uint32_t>(end);
@@ -224,14 +217,14 @@ StrandSet readUsdStream(std::span<const std::byte> bytes) {
     StrandSet set;
     set.metres_per_unit = header.metres_per_unit;
     set.ends = endsOf(sections.take<std::uint32_t>(), header.points);
-    set.points = sections.takeFinite<glm::vec3>("point");
-    set.widths = sections.takeAttribute<float>("width");
+    set.points = sections.take<glm::vec3>();
+    set.widths = sections.takeAttribute<float>();
     requireNotNegative(set.widths.values, sections.start(), "width");
     if (set.widths.everywhere)
         requireNotNegative({*set.widths.everywhere}, sections.start(), "width");
-    set.transparencies = sections.takeAttribute<float>("transparency");
-    set.colors = sections.takeAttribute<glm::vec3>("color");
-    set.root_uvs = sections.takeFinite<glm::vec2>("root uv");
+    set.transparencies = sections.takeAttribute<float>();
+    set.colors = sections.takeAttribute<glm::vec3>();
+    set.root_uvs = sections.take<glm::vec2>();
     if (!set.root_uvs.empty() && set.root_uvs.size() != set.ends.size()) {
         failAt(offsetof(UsdStreamHeader, root_uvs), "root uvs for some of the strands");
     }

@@ -3,7 +3,7 @@
 import numpy as np
 from pxr import Usd, UsdGeom
 
-from usd_cubic import CubicCurves
+from usd_cubic import CubicCurves, starts
 
 
 class Refused(Exception):
@@ -15,10 +15,11 @@ class LinearCurves:
 
     def __init__(self, sizes):
         self.sizes = sizes
-        self.segments = sizes - 1
 
     def point_counts(self):
         return self.sizes
+
+    ends = point_counts
 
     def vertex(self, values):
         return values
@@ -37,10 +38,17 @@ class Prim:
     row, or one for each point. Exceptions: root_uvs, groups and guides have one for each curve,
     root_triangles any number."""
 
-    def __init__(self, prim, xforms):
+    @staticmethod
+    def curve_count(prim):
+        """Returns the number of curves of a prim that is not read."""
+        counts = UsdGeom.BasisCurves(prim).GetCurveVertexCountsAttr().Get(Usd.TimeCode.EarliestTime())
+        return len(counts or [])
+
+    def __init__(self, prim, xforms, group_names):
         self.path = prim.GetPath()
         self.root_uv_name = None  # name of the primvar with the root UVs
         self.has_groom_width = False
+        self.has_group_names = False
         self.curves = UsdGeom.BasisCurves(prim)
         self.time = Usd.TimeCode.Default()
         points = self.curves.GetPointsAttr()
@@ -57,7 +65,7 @@ class Prim:
             "colors": self._colors(),
             "transparencies": self._transparencies(),
             "root_uvs": self._root_uvs(),
-            "groups": self._per_strand("groom_group_id"),
+            "groups": self._groups(group_names),
             "guides": self._guides(),
             "root_triangles": self._root_triangles(),
         }
@@ -72,8 +80,8 @@ class Prim:
     def _topology(self):
         sizes = self._value(self.curves.GetCurveVertexCountsAttr())
         sizes = np.array([] if sizes is None else sizes, np.int64)
-        if (sizes < 1).any():
-            self.refuse(f"curve {np.argmax(sizes < 1)} has {sizes[sizes < 1][0]} vertices")
+        if (sizes < 0).any():
+            self.refuse(f"curve {np.argmax(sizes < 0)} has {sizes[sizes < 0][0]} vertices")
         wrap = self._value(self.curves.GetWrapAttr())
         if wrap not in ("nonperiodic", "pinned"):
             self.refuse(f"its curves are {wrap}: only curves with two ends are strands")
@@ -92,9 +100,6 @@ class Prim:
         if values.shape != (count, components):
             found = " x ".join(map(str, values.shape))
             self.refuse(f"{name}: {found} numbers, but {count} x {components} are needed")
-        wrong = np.flatnonzero(~np.isfinite(values).all(1))
-        if wrong.size:
-            self.refuse(f"{name}: value {wrong[0]} is not finite")
         return values
 
     def _points(self, world):
@@ -102,11 +107,10 @@ class Prim:
         points = self._checked(
             "points", [] if points is None else points, self.topology.sizes.sum(), 3
         )
-        points = self.topology.vertex(points)
-        if (world != np.eye(4)).any():
-            points = points.astype(np.float64) @ world[:3, :3] + world[3, :3]
-        if (np.abs(points) > np.finfo(np.float32).max).any():
-            self.refuse("in world space a point exceeds a float's range")
+        with np.errstate(all="ignore"):  # of numbers that are not finite
+            points = self.topology.vertex(points)
+            if (world != np.eye(4)).any():
+                points = points.astype(np.float64) @ world[:3, :3] + world[3, :3]
         return points
 
     def _per_point(self, name, components):
@@ -124,12 +128,18 @@ class Prim:
         name += f" ({interpolation})"
         if interpolation == "constant":
             return self._checked(name, values, 1, components)
+        if len(np.atleast_1d(values)) == 1 and topology.sizes.sum() > 1:
+            # USD's interpolation, if none is stated, is "vertex"; one value for all is meant.
+            return self._checked(name, values, 1, components)
         if interpolation == "uniform":
             values = self._checked(name, values, topology.sizes.size, components)
             return np.repeat(values, self.sizes, axis=0)
         if interpolation == "vertex":
             return topology.vertex(self._checked(name, values, topology.sizes.sum(), components))
-        ends = (topology.segments + 1).sum()
+        ends = topology.ends().sum()
+        if len(np.atleast_1d(values)) == topology.sizes.sum() != ends:
+            # Exporters write one for each vertex where "varying" has one for each segment's end.
+            return topology.vertex(self._checked(name, values, topology.sizes.sum(), components))
         return topology.varying(self._checked(name, values, ends, components))
 
     def _widths(self, scale):
@@ -141,9 +151,10 @@ class Prim:
             return None
         # Between control vertices, a curve may be below all of them.
         if isinstance(self.topology, CubicCurves):
-            widths = np.maximum(widths, 0)
-        if (widths < 0).any():
-            self.refuse(f"a width is negative: {widths.min()}")
+            widths = np.maximum(widths, 0)  # NaN stays
+        negative = widths[(widths < 0) & np.isfinite(widths)]
+        if negative.size:
+            self.refuse(f"a width is negative: {negative.min()}")
         return widths if scale == 1 else (widths * scale).astype(np.float32)
 
     def _transparencies(self):
@@ -160,26 +171,77 @@ class Prim:
         for name in ("st", "groom_root_uv"):
             primvar = UsdGeom.PrimvarsAPI(self.curves).GetPrimvar(name)
             values = primvar.ComputeFlattened(self.time) if primvar else None
-            if values is not None and primvar.GetInterpolation() == "uniform":
+            if values is None:
+                continue
+            roots = self._at_roots(np.atleast_2d(values), primvar.GetInterpolation())
+            if roots is not None:
                 self.root_uv_name = name
-                return self._checked("primvars:" + name, values, self.sizes.size, 2)
+                return self._checked("primvars:" + name, roots, self.sizes.size, 2)
         return None
+
+    def _at_roots(self, values, interpolation):
+        """Returns the values at the curves' first vertices; nothing if there are none for curves."""
+        if interpolation == "uniform":
+            return values
+        if interpolation not in ("vertex", "varying"):
+            return None
+        topology = self.topology
+        for sizes in (topology.sizes, topology.ends()):
+            if len(values) == sizes.sum():
+                # A curve without vertices gets the first value of another; it is left out anyway.
+                return values[np.minimum(starts(sizes), max(len(values) - 1, 0))]
+        self.refuse(
+            f"{len(values)} texture coordinates ({interpolation}), but there are "
+            f"{topology.sizes.sum()} vertices"
+        )
+
+    def _user(self, name):
+        """Returns a user property of the prim or of the nearest prim above that has it."""
+        prim = self.curves.GetPrim()
+        while prim and not prim.IsPseudoRoot():
+            attribute = prim.GetAttribute("userProperties:" + name)
+            if attribute and attribute.HasAuthoredValue():
+                return self._value(attribute)
+            prim = prim.GetParent()
+        return None
+
+    def _named(self, name):
+        """Returns a primvar's values and whether there is one for each curve, or a user property's."""
+        primvar = UsdGeom.PrimvarsAPI(self.curves).FindPrimvarWithInheritance(name)
+        values = primvar.ComputeFlattened(self.time) if primvar else None
+        if values is not None:
+            return np.atleast_1d(values), primvar.GetInterpolation() == "uniform"
+        values = self._user(name)
+        if values is None:
+            return None, False
+        values = np.atleast_1d(values)
+        return values, len(values) != 1
+
+    def _groups(self, group_names):
+        groups = self._per_strand("groom_group_id")
+        names, is_uniform = self._named("groom_group_name")
+        if groups is not None or names is None:
+            return groups
+        count = self.sizes.size if is_uniform else 1
+        if names.shape != (count,):
+            self.refuse(f"groom_group_name: {names.size} names, but {count} are needed")
+        numbers = [group_names.setdefault(str(name), len(group_names)) for name in names]
+        self.has_group_names = True
+        return np.broadcast_to(np.array(numbers, np.int32), (self.sizes.size,))
 
     def _per_strand(self, name):
         """Returns integers, one for each curve or one for all. They may come from a parent prim."""
-        primvar = UsdGeom.PrimvarsAPI(self.curves).FindPrimvarWithInheritance(name)
-        values = primvar.ComputeFlattened(self.time) if primvar else None
+        values, is_uniform = self._named(name)
         if values is None:
             return None
-        values = np.atleast_1d(values)  # a constant may be a scalar
         if values.dtype.kind not in "iub":
-            self.refuse(f"primvars:{name}: integers are needed")
-        count = self.sizes.size if primvar.GetInterpolation() == "uniform" else 1
+            self.refuse(f"{name}: integers are needed")
+        count = self.sizes.size if is_uniform else 1
         if values.shape != (count,):
-            self.refuse(f"primvars:{name}: {values.size} numbers, but {count} are needed")
+            self.refuse(f"{name}: {values.size} numbers, but {count} are needed")
         values = values.astype(np.int64)
         if (np.abs(values) > np.iinfo(np.int32).max).any():
-            self.refuse(f"primvars:{name}: a number is not an int32")
+            self.refuse(f"{name}: a number is not an int32")
         return np.broadcast_to(values.astype(np.int32), (self.sizes.size,))
 
     def _guides(self):
@@ -203,9 +265,15 @@ class Prim:
             known.add(self.root_uv_name)
         if self.has_groom_width:
             known.add("groom_width")
+        if self.has_group_names:
+            known.add("groom_group_name")
         if "displayColor" not in self._primvar_names():
             known.add("groom_color")
         names = {"primvars:" + name for name in self._primvar_names() - known}
+        for attribute in self.curves.GetPrim().GetAuthoredPropertiesInNamespace("userProperties"):
+            name = attribute.GetName().removeprefix("userProperties:")
+            if name not in known - {"displayColor", "displayOpacity", "widths"}:
+                names.add(attribute.GetName())
         for name in ("normals", "velocities", "accelerations"):
             if self.curves.GetPrim().GetAttribute(name).HasAuthoredValue():
                 names.add(name)

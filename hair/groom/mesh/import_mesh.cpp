@@ -1,6 +1,7 @@
 #include "hair/groom/mesh/import_mesh.h"
 
 #include <algorithm>
+#include <array>
 #include <cassert>
 #include <cmath>
 #include <cstdint>
@@ -24,6 +25,7 @@
 #include "hair/groom/mesh/import_gltf.h"
 #include "hair/groom/mesh/mesh.h"
 #include "hair/groom/mesh/mesh_stream.h"
+#include "hair/groom/other_formats.h"
 
 namespace hair::groom {
 namespace {
@@ -173,14 +175,23 @@ std::span<const MeshImporter> meshImporters() { return mesh_importers; }
 Mesh importMesh(const std::filesystem::path& path, Textures textures, const NamedFileCheck& check) {
     const MeshImporter& importer = importerFor(path);
     const engine::Step step("reads " + path.filename().string());
-    engine::OpenFile{path};  // gives the same error for all formats if it can't be opened
+    engine::OpenFile file(path);  // gives the same error for all formats if it can't be opened
     try {
         Mesh mesh = importer.import(path, textures, orOwnFolder(check, path));
         checkMesh(mesh);
         completeNormals(mesh);
         return mesh;
     } catch (const engine::Error& error) {
-        throw engine::Error(path.string(), error.what());
+        std::array<char, kRecognisedBytes> bytes{};
+        const auto head =
+            std::span(bytes).first(std::min<std::uintmax_t>(file.size(), bytes.size()));
+        file.read(head);
+        const std::string extension = lowerCaseExtension(path);
+        // A mesh of FBX is read, strands are not.
+        throw engine::Error(
+            path.string(), extension == ".fbx"
+                               ? error.what()
+                               : explained(error.what(), {head.data(), head.size()}, extension));
     }
 }
 

@@ -179,9 +179,8 @@ TEST(Alembic, JoinsObjectsAndWhatAllOfThemHave) {
     EXPECT_EQ(set.points[9], glm::vec3(1, 2, 0));
     EXPECT_THAT(set.widths.values, ElementsAre(2, 2, 2, 2, 2, 1, 2, 3, 4, 5));
     EXPECT_THAT(set.guides, ElementsAre(1, 1, 0, 0));
-    EXPECT_THAT(set.groups, IsEmpty());
-    EXPECT_THAT(
-        set.warnings, ElementsAre("groom_group_id: left out, since some of the curves have none"));
+    EXPECT_THAT(set.groups, ElementsAre(4, 4, 5, 5));
+    EXPECT_THAT(set.warnings, ElementsAre("2 of 4 strands have no group and become group 5"));
 }
 
 // A quarter turn about z takes x to y. The order is scale, turn, translation; the last in the list
@@ -455,22 +454,86 @@ TEST(Alembic, RefusesValuesThatDoNotFit) {
             "a", {madeFloats("P", 3, std::move(points)), madeIntegers("nVertices", sizes)})});
     };
     EXPECT_THAT(curves(kFivePoints, {2, 2}), HasSubstr("5 positions, but nVertices are 4"));
-    EXPECT_THAT(curves(kFivePoints, {5, 0}), HasSubstr("curve 1 has 0 vertices"));
     EXPECT_THAT(curves(kFivePoints, {6, -1}), HasSubstr("curve 1 has -1 vertices"));
     EXPECT_THAT(
         madeError({madeCurves("a", {madeFloats("P", 3, kFivePoints)})}),
         HasSubstr("positions without nVertices"));
-    for (const float wrong : kNotFinite) {
-        std::vector<float> points = kFivePoints;
-        points[7] = wrong;
-        EXPECT_THAT(curves(points, {2, 3}), HasSubstr("/a/.geom/P 2 is not finite"));
-    }
     EXPECT_THAT(
         madeError({{.name = "a", .metadata = "schema=AbcGeom_Curve_v1"}}),
         HasSubstr("expected AbcGeom_Curve_v2"));
     EXPECT_THAT(
         madeError({{.name = "a", .metadata = "schema=AbcGeom_Curve_v2"}}),
         HasSubstr("there is no '.geom'"));
+}
+
+TEST(Alembic, LeavesOutStrandsThatCantBeUsed) {
+    const auto curves = [](std::vector<float> points, std::vector<std::int32_t> sizes) {
+        return readMade({madeCurves(
+            "a", {madeFloats("P", 3, std::move(points)), madeIntegers("nVertices", sizes)})});
+    };
+    for (const float wrong : kNotFinite) {
+        std::vector<float> points = kFivePoints;
+        points[7] = wrong;
+        const StrandSet set = curves(points, {2, 3});
+        EXPECT_THAT(set.ends, ElementsAre(2));
+        EXPECT_THAT(
+            set.warnings,
+            ElementsAre(warningOf(
+                {.reason = "with a position that is not finite", .count = 1, .first = 1})));
+    }
+    const StrandSet set = curves(kFivePoints, {4, 0, 1});
+    EXPECT_THAT(set.ends, ElementsAre(4));
+    EXPECT_THAT(
+        set.warnings, ElementsAre(
+                          warningOf({.reason = "without points", .count = 1, .first = 1}),
+                          warningOf({.reason = "of a single point", .count = 1, .first = 2})));
+}
+
+// A curve of one vertex among cubic ones.
+TEST(AlembicCubic, LeavesOutCurvesOfOneVertex) {
+    const StrandSet set = readCubic(2, {9, 9, 9, 0, 0, 0, 0, 1, 0, 0, 2, 0, 0, 3, 0}, {1, 4});
+    EXPECT_THAT(set.ends, ElementsAre(4));
+    EXPECT_FLOAT_EQ(set.points.front().y, 1.0f);  // a B-spline along a line of even vertices
+    EXPECT_FLOAT_EQ(set.points.back().y, 2.0f);
+    EXPECT_THAT(
+        set.warnings,
+        ElementsAre(warningOf({.reason = "of a single point", .count = 1, .first = 0})));
+}
+
+// Alembic's ObjectVisibility is a scalar int8 beside the schema's properties.
+TEST(Alembic, LeavesOutCurvesThatAreHidden) {
+    const auto visibility = [](std::int8_t code) {
+        return MadeProperty{
+            .name = "visible", .kind = 1, .type = 2, .samples = {std::string(1, char(code))}};
+    };
+    const auto with = [](MadeObject object, MadeProperty more) {
+        object.properties.push_back(std::move(more));
+        return object;
+    };
+    const MadeObject curves = madeCurves("a", twoCurves());
+    MadeObject shown_below = madeTransform(
+        "t", "\x10", {1, 2, 3}, {madeCurves("a", twoCurves()), with(curves, visibility(1))});
+    shown_below.children.back().name = "b";
+    const StrandSet set =
+        readMade({with(shown_below, visibility(0)), madeCurves("c", twoCurves())});
+    EXPECT_EQ(set.strandCount(), 4u);  // of b, which overrides the transform, and of c
+    EXPECT_EQ(set.points[0], glm::vec3(1, 2, 3));
+    EXPECT_THAT(set.warnings, ElementsAre("2 strands of hidden objects are left out"));
+    EXPECT_EQ(readMade({with(curves, visibility(-1))}).strandCount(), 2u);
+    EXPECT_THAT(
+        madeError({with(curves, visibility(0))}), HasSubstr("the archive has only hidden curves"));
+}
+
+// Blender writes an object's custom properties as arrays of one value in .userProperties.
+TEST(Alembic, ReadsGroupsOfUserProperties) {
+    const auto own = [](std::int32_t group) {
+        return twoCurvesAnd({madeCompound(
+            ".userProperties",
+            {madeIntegers("groom_group_id", {group}), madeIntegers("cycles_samples", {3})})});
+    };
+    const StrandSet set = readMade({madeCurves("a", own(4)), madeCurves("b", own(6))});
+    EXPECT_THAT(set.groups, ElementsAre(4, 4, 6, 6));
+    EXPECT_THAT(set.warnings, ElementsAre("'userProperties:cycles_samples': left out"));
 }
 
 TEST(Alembic, RefusesTransformsThatAreNone) {
@@ -486,7 +549,7 @@ TEST(Alembic, RefusesTransformsThatAreNone) {
         error("\x10", {1, std::numeric_limits<double>::infinity(), 0}),
         HasSubstr("/t/.xform/.vals: number 1 is not finite"));
     EXPECT_THAT(
-        error(std::string("\0", 1), {1e39, 1e39, 1e39}), HasSubstr("exceeds a float's range"));
+        error(std::string("\0", 1), {1e39, 1e39, 1e39}), HasSubstr("no strand can be used"));
 }
 
 // ---- Archives -----------------------------------------------------------------------------------
@@ -627,6 +690,9 @@ TEST(AlembicDamage, IsRefusedWhereverItEnds) {
                 << size << " of " << whole.size();
 }
 
+const testing::Matcher<const char*> kRefusal =
+    testing::AnyOf(StartsWith("byte "), StartsWith("no strand can be used; "));
+
 TEST(AlembicDamage, IsRefusedOrReadWithAnyByteChanged) {
     for (const std::string& whole : wholeArchives()) {
         for (std::size_t i = 0; i < whole.size(); ++i) {
@@ -636,7 +702,7 @@ TEST(AlembicDamage, IsRefusedOrReadWithAnyByteChanged) {
                 try {
                     ASSERT_EQ(brokenPromise(readText(importAlembic, damaged)), "") << i;
                 } catch (const engine::Error& error) {
-                    ASSERT_THAT(error.what(), StartsWith("byte ")) << i;
+                    ASSERT_THAT(error.what(), kRefusal) << i;
                 }
             }
         }
@@ -653,7 +719,7 @@ TEST(AlembicDamage, OffsetsAndCountsOfAnySizeAreRefusedOrRead) {
                     const StrandSet set = readText(importAlembic, patched(whole, i, wrong));
                     ASSERT_EQ(brokenPromise(set), "") << i;
                 } catch (const engine::Error& error) {
-                    ASSERT_THAT(error.what(), StartsWith("byte ")) << i;
+                    ASSERT_THAT(error.what(), kRefusal) << i;
                 }
             }
 }
@@ -687,14 +753,14 @@ TEST(AlembicExport, ReadsBackEqualToTheLastBit) {
 
 TEST(AlembicExport, HasOneValueWhereAllAreOne) {
     StrandSet strands{
-        .ends = {1, 3},
-        .points = {{0, 0, 0}, {1, 0, 0}, {2, 0, 0}},
+        .ends = {2, 4},
+        .points = {{0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {3, 0, 0}},
         .widths = {.everywhere = 0.5f},
         .colors = {.everywhere = glm::vec3(0.25f, 0.5f, 1)}};
     const StrandSet read = readText(importAlembic, writeText(exportAlembic, strands).bytes);
     EXPECT_EQ(read.widths.everywhere, 0.5f);
     EXPECT_EQ(read.colors.everywhere, glm::vec3(0.25f, 0.5f, 1));
-    EXPECT_THAT(read.ends, ElementsAre(1, 3));
+    EXPECT_THAT(read.ends, ElementsAre(2, 4));
     EXPECT_EQ(errorText([] { writeText(exportAlembic, {}); }), "there are no strands");
 }
 

@@ -127,11 +127,14 @@ TEST(ImportGltfStrands, LeavesOutWhatIsNoLine) {
         {.more_primitives = R"(,{"attributes":{"POSITION":0},"mode":0})"
                             R"(,{"attributes":{"POSITION":0,"_WIDTH":1},"mode":3})"});
     EXPECT_THAT(strands.ends, ElementsAre(3, 5, 10));
-    EXPECT_FALSE(strands.widths.known());
+    // The mean of the five widths of the last strand.
+    EXPECT_THAT(
+        strands.widths.values,
+        ElementsAre(0.775f, 0.775f, 0.775f, 0.775f, 0.775f, 0.5f, 0.25f, 0.125f, 1, 2));
     EXPECT_THAT(
         strands.warnings, ElementsAre(
                               "1 primitives that are not lines are left out",
-                              HasSubstr("_WIDTH is left out, because only some strands have it")));
+                              "5 of 10 points have no width and get the mean width of the others"));
 }
 
 TEST(ImportGltfStrands, RefusesWhatIsNoStrand) {
@@ -145,7 +148,7 @@ TEST(ImportGltfStrands, RefusesWhatIsNoStrand) {
         error(
             {.primitive = R"("mode":3,"indices":3)",
              .indices = R"("componentType":5123,"count":1,"type":"SCALAR")"}),
-        StartsWith(place + "a strip of 1 points"));
+        StartsWith("no strand can be used; the file has only 1 strand of a single point"));
     Document document;
     document.data[104] = 0;  // lines 0 1, 1 2 become 0 1, 0 2 with the root at vertex 1
     EXPECT_EQ(read(document).points[0], glm::vec3(0, 1, 0));
@@ -177,10 +180,17 @@ TEST(ImportGltfStrands, RefusesWrongAttributes) {
     Document document{.attributes = widths};
     document.data.replace(63, 1, "\xbf");
     EXPECT_THAT(error(document), StartsWith(place + "_WIDTH is negative: -0.5"));
+}
+
+// The first strand has three points, the second two.
+TEST(ImportGltfStrands, LeavesOutStrandsThatAreNotFinite) {
+    Document document{.attributes = R"("POSITION":0,"_WIDTH":1)"};
     document.data.replace(62, 2, "\xc0\x7f");
-    EXPECT_THAT(error(document), StartsWith(place + "_WIDTH of vertex 0 is not finite"));
+    EXPECT_THAT(
+        read(document).warnings, ElementsAre(leftOutStrand("with a width that is not finite", 0)));
     document.data.replace(14, 2, "\x80\xff");
-    EXPECT_THAT(error(document), StartsWith(place + "POSITION of vertex 1 is not finite"));
+    EXPECT_THAT(read(document).warnings, ElementsAre(leftOutStrand(kNoPosition, 0)));
+    EXPECT_THAT(read(document).ends, ElementsAre(2));
 }
 
 TEST(ImportGltfStrands, NamesTheByteOfWhatIsNoGltf) {

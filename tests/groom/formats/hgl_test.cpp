@@ -86,14 +86,17 @@ TEST(ImportHgl, RefusesEveryWrongCount) {
     EXPECT_THAT(errorOfHgl(patched(bytes, 0, 0x7fffffff)), HasSubstr("truncated"));
 }
 
-TEST(ImportHgl, RefusesPointsThatAreNotFinite) {
+// Three strands of two points, which the triangle joins.
+TEST(ImportHgl, LeavesOutStrandsThatAreNotFiniteAndTheirTriangles) {
     const std::string bytes = smallFile();
     for (const float wrong : kNotFinite) {
         for (std::size_t i = 0; i < 18; ++i) {
-            EXPECT_EQ(
-                errorOfHgl(patched(bytes, 12 + 4 * i, wrong)),
-                "byte " + std::to_string(12 + 4 * i) + ": point " + std::to_string(i / 3) +
-                    " is not finite");
+            const StrandSet set = readHgl(patched(bytes, 12 + 4 * i, wrong));
+            EXPECT_EQ(set.strandCount(), 2u);
+            EXPECT_TRUE(set.root_triangles.empty());
+            EXPECT_THAT(
+                set.warnings, testing::ElementsAre(
+                                  leftOutStrand(kNoPosition, static_cast<std::uint32_t>(i / 6))));
         }
     }
 }

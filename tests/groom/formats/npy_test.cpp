@@ -284,18 +284,24 @@ TEST(Npy, BelievesNoShapeThatTheFileIsTooShortFor) {
     }
 }
 
-TEST(Npy, IsRefusedWhereverItEndsAndWithWhatIsNotFinite) {
+TEST(Npy, IsRefusedWhereverItEnds) {
     const std::string whole = npyFile(kDictionary, fourPoints());
     for (std::size_t size = 0; size < whole.size(); ++size)
         EXPECT_THAT(
             readError(importNpy, whole.substr(0, size)),
             testing::MatchesRegex("byte [0-9]+: .*truncated.*"))
             << size;
+}
+
+// Two strands of two points.
+TEST(Npy, LeavesOutStrandsThatAreNotFinite) {
+    const std::string whole = npyFile(kDictionary, fourPoints());
     const std::size_t start = whole.size() - 48;
-    for (const float wrong : kNotFinite)
-        EXPECT_EQ(
-            readError(importNpy, patched(whole, start + 16, wrong)),
-            "byte " + std::to_string(start + 16) + ": point 1 is not a finite float");
+    for (const float wrong : kNotFinite) {
+        const StrandSet set = readText(importNpy, patched(whole, start + 16, wrong));
+        EXPECT_EQ(set.strandCount(), 1u);
+        EXPECT_THAT(set.warnings, testing::ElementsAre(leftOutStrand(kNoPosition, 0)));
+    }
 }
 
 }  // namespace

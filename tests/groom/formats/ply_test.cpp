@@ -174,14 +174,19 @@ TEST(ImportPly, RefusesCountsThatTheFileCantHold) {
     EXPECT_THAT(errorOfPly(list), HasSubstr("a list of 4294967295 values is expected"));
 }
 
+TEST(ImportPly, LeavesOutStrandsThatAreNotFinite) {
+    const std::string edges = vertexElement() + kEdges;
+    for (const std::string wrong : {"nan", "1e39"}) {
+        const StrandSet set = readText(
+            importPly,
+            ascii(edges, "0 0 0\n0 " + wrong + " 0\n0 0 0\n0 0 0\n0 0 0\n0 1\n1 2\n3 4\n"));
+        EXPECT_THAT(set.ends, testing::ElementsAre(2)) << wrong;
+        EXPECT_THAT(set.warnings, testing::ElementsAre(leftOutStrand(kNoPosition, 0)));
+    }
+}
+
 TEST(ImportPly, RefusesWrongValues) {
     const std::string edges = vertexElement() + kEdges;
-    EXPECT_THAT(
-        errorOfPly(ascii(edges, "0 0 0\n0 nan 0\n0 0 0\n0 0 0\n0 0 0\n0 1\n1 2\n3 4\n")),
-        StartsWith("line 12: 'y' of vertex 1 is not a finite float"));
-    EXPECT_THAT(
-        errorOfPly(ascii(edges, "0 0 0\n0 1e39 0\n0 0 0\n0 0 0\n0 0 0\n0 1\n1 2\n3 4\n")),
-        StartsWith("line 12: 'y' of vertex 1 is not a finite float"));
     EXPECT_THAT(
         errorOfPly(ascii(edges, kVertexRows + "0 1\n1 5\n3 4\n")),
         StartsWith("line 17: vertex 5 is named, but there are 5"));
@@ -203,8 +208,8 @@ TEST(ImportPly, RefusesWrongValues) {
         errorOfPly(ascii(edges, kVertexRows + "0 1\n1 2\n3 4\nmore\n")),
         StartsWith("line 19: 'more' after the last element"));
     EXPECT_THAT(
-        errorOfPly(ascii(vertexElement() + kLists, kVertexRows + "3 0 1 2\n0\n")),
-        StartsWith("line 16: a strand of no points"));
+        readText(importPly, ascii(vertexElement() + kLists, kVertexRows + "3 0 1 2\n0\n")).warnings,
+        testing::Contains(leftOutStrand("without points", 1)));
     EXPECT_THAT(
         errorOfPly(ascii(
             vertexElement("property float width\n") + kLists,

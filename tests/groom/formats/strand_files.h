@@ -19,9 +19,10 @@ namespace hair::groom {
 using ReadStrands = decltype(StrandImporter::read);
 using WriteStrands = decltype(StrandExporter::write);
 
+// Reads as importStrands() does.
 inline StrandSet
 readText(ReadStrands read, std::string_view text, const std::filesystem::path& path = {}) {
-    return read({std::as_bytes(std::span(text)), path});
+    return usableStrands(read({std::as_bytes(std::span(text)), path}));
 }
 
 inline std::string readError(ReadStrands read, std::string_view text) {
@@ -78,6 +79,12 @@ inline StrandSet hardStrands() {
     }
     return set;
 }
+
+// "<reason> is left out" with the number of the strand, as warnings say it.
+inline std::string leftOutStrand(const std::string& reason, std::uint32_t strand) {
+    return warningOf({.reason = reason, .count = 1, .first = strand});
+}
+inline const std::string kNoPosition = "with a position that is not finite";
 
 // The strands of the examples in text formats: three points in a plane, and two beside them.
 inline void expectTheStrands(const StrandSet& strands) {

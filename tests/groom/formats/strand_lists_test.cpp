@@ -68,13 +68,18 @@ TEST(HairData, ReadsBackHardFloatsAndWarnsOfTheRest) {
 }
 
 TEST(HairData, LeavesOutStrandsWithoutPoints) {
-    const std::string bytes = Bytes().u32(3).u32(0).u32(1).f32(1, 2, 3).u32(0).str();
+    const std::string bytes = Bytes().u32(3).u32(0).u32(2).f32(1, 2, 3).f32(4, 5, 6).u32(0).str();
     const StrandSet set = readText(importHairData, bytes);
-    EXPECT_THAT(set.ends, ElementsAre(1));
-    EXPECT_THAT(set.points, ElementsAre(glm::vec3(1, 2, 3)));
-    EXPECT_THAT(set.warnings, ElementsAre("2 strands without points are left out"));
+    EXPECT_THAT(set.ends, ElementsAre(2));
+    EXPECT_THAT(set.points, ElementsAre(glm::vec3(1, 2, 3), glm::vec3(4, 5, 6)));
+    EXPECT_THAT(
+        set.warnings,
+        ElementsAre(
+            "2 strands without points (the first is strand 0, counted from 0) are left out"));
     EXPECT_EQ(
-        readError(importHairData, Bytes().u32(1).u32(0).str()), "byte 0: no strand has a point");
+        readError(importHairData, Bytes().u32(1).u32(0).str()),
+        "no strand can be used; the file has only 1 strand without points (strand 0, counted from "
+        "0)");
 }
 
 // Each wrong count stands for more or fewer bytes than the file has; the error names its place.
@@ -102,11 +107,12 @@ TEST(HairData, RefusesCountsThatTheFileDoesNotBearOut) {
         "byte 0: truncated: 2147483647 strands are more than 72 bytes can hold");
 }
 
-TEST(HairData, RefusesWhatIsNotFinite) {
-    for (const float wrong : kNotFinite)
-        EXPECT_EQ(
-            readError(importHairData, patched(dataFile(), 52, wrong)),
-            "byte 52: point 0 of strand 1 is not finite");
+TEST(HairData, LeavesOutStrandsThatAreNotFinite) {
+    for (const float wrong : kNotFinite) {
+        const StrandSet set = readText(importHairData, patched(dataFile(), 52, wrong));
+        EXPECT_THAT(set.ends, ElementsAre(3));
+        EXPECT_THAT(set.warnings, ElementsAre(leftOutStrand(kNoPosition, 1)));
+    }
 }
 
 TEST(Ct2Hair, ReadsPositions) {
@@ -130,13 +136,14 @@ TEST(Ct2Hair, LeavesOutShortStrandsAndThoseThatAreNoNumbers) {
     EXPECT_THAT(set.ends, ElementsAre(5));
     EXPECT_THAT(
         set.warnings, ElementsAre(
-                          "2 strands of fewer than 5 points are left out",
-                          "1 strand with a position that is not a number is left out",
-                          "the points' tangents, or colours, are left out"));
+                          "the points' tangents, or colours, are left out",
+                          "2 strands of fewer than 5 points (the first is strand 0, counted from "
+                          "0) are left out",
+                          leftOutStrand(kNoPosition, 3)));
     EXPECT_EQ(brokenPromise(set), "");
-    EXPECT_EQ(
-        readError(importCt2Hair, patched(bytes.str(), 304, std::numeric_limits<float>::infinity())),
-        "byte 304: point 1 of strand 3 is infinite");
+    const StrandSet infinite =
+        readText(importCt2Hair, patched(bytes.str(), 304, std::numeric_limits<float>::infinity()));
+    EXPECT_THAT(infinite.ends, ElementsAre(5));
 }
 
 TEST(Ct2Hair, RefusesWhatHasNoStrandLeft) {

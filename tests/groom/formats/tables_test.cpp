@@ -113,6 +113,26 @@ TEST(ImportStrands, NamesWhatItDoesNotRead) {
                 << name;
         }
     }
+    // The beginnings that Git LFS's specification, git-annex, HTML's and the formats' own documents
+    // state; a pointer of Git LFS begins like a text of TressFX.
+    const std::pair<std::string, const char*> kStandIns[] = {
+        {"version https://git-lfs.github.com/spec/v1\noid sha256:00\nsize 5\n"s,
+         "is a pointer of Git LFS, which is not read: it stands for a large file: run 'git lfs "
+         "pull'"},
+        {"/annex/objects/SHA256E-s5--00.hair\n"s, "run 'git annex get'"},
+        {"<!DOCTYPE html>\n<html lang=\"en\">"s, "a page in HTML, which is not read"},
+        {"\xef\xbb\xbf \r\n<HTML><head>"s, "download the file itself"},
+        {"; FBX 7.5.0 project file\n"s, "an FBX file in text"},
+        {"\x7fNSJb\0"s, "from Houdini"},
+        {"PK\3\4\x14\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\x10\0\0\0archive/data.pkl"s,
+         "a file of PyTorch, which is not read: load it in Python"}};
+    for (const auto& [bytes, reason] : kStandIns)
+        for (const char* name : {"a.tfx", "a.hair", "a.data", "a.usda", "a"})
+            EXPECT_THAT(fileError(folder.write(name, bytes)), HasSubstr(reason)) << name;
+    // Four bytes of a pickle are a count of strands too, so that only the reader finds out.
+    EXPECT_THAT(
+        fileError(folder.write("a.data", "\x80\x04\x95\x10rest of it")),
+        AllOf(HasSubstr("truncated"), HasSubstr("by its first bytes it is a Python pickle")));
     EXPECT_THAT(fileError(folder.write("a.tgz", "\x1f\x8b\x08\x01")), HasSubstr("with gzip"));
     EXPECT_THAT(fileError(folder.write("a.pkl", "\x80\x04\x95")), HasSubstr("Python pickle"));
     // A HairSalon file with 559,903 strands begins like a gzip file, and NumPy archives are zip

@@ -105,11 +105,13 @@ TEST_F(UsdImportTest, SaysWhatItLeavesOut) {
     const StrandSet set = read("mixed.usdc");
     EXPECT_THAT(set.ends, ElementsAre(2u, 4u));
     EXPECT_THAT(set.widths.values, ElementsAre(0.25f, 0.5f, 2.0f, 2.0f));
-    EXPECT_FALSE(set.colors.known());
+    EXPECT_THAT(
+        set.colors.values,
+        ElementsAre(glm::vec3(1, 0, 0), glm::vec3(1, 0, 0), glm::vec3(1), glm::vec3(1)));
     EXPECT_THAT(
         set.warnings, ElementsAre(
                           HasSubstr("missing.usda"), "/third: its NurbsCurves are left out",
-                          "colors: left out, since some of the curves have none"));
+                          "2 of 4 points have no colour and become white"));
 }
 
 // All files are read in one process, because a process takes half a second to start.
@@ -123,9 +125,6 @@ TEST_F(UsdImportTest, RefusesNamingThePrim) {
         {"huge_count.usda", "/wig/hair: points: 4 x 3 numbers, but 2147483647 x 3 are needed"},
         {"too_few_points.usda", "/wig/hair: points: 4 x 3 numbers, but 5 x 3 are needed"},
         {"no_points.usda", "/wig/hair: points: 0 x 3 numbers, but 4 x 3 are needed"},
-        {"nan.usda", "/wig/hair: points: value 2 is not finite"},
-        {"infinite.usda", "/wig/hair: points: value 3 is not finite"},
-        {"overflow.usda", "/wig/hair: in world space a point exceeds a float's range"},
         {"no_bezier.usda",
          "/wig/hair: curve 0 has 5 vertices, which do not make a nonperiodic bezier curve"},
         {"short_bspline.usda",
@@ -135,11 +134,10 @@ TEST_F(UsdImportTest, RefusesNamingThePrim) {
         {"few_widths.usda", "/wig/hair: widths (vertex): 2 x 1 numbers, but 4 x 1 are needed"},
         {"two_constants.usda", "/wig/hair: widths (constant): 2 x 1 numbers, but 1 x 1 are needed"},
         {"negative_width.usda", "/wig/hair: a width is negative: -3.0"},
-        {"nan_width.usda", "/wig/hair: widths (constant): value 0 is not finite"},
         {"triangles.usda",
          "/wig/hair: hairbench:rootTriangles: each needs three of the prim's own strands"},
-        {"groups_of_floats.usda", "/wig/hair: primvars:groom_group_id: integers are needed"},
-        {"groups_of_some.usda", "/wig/hair: primvars:groom_group_id: 1 numbers, but 2 are needed"},
+        {"groups_of_floats.usda", "/wig/hair: groom_group_id: integers are needed"},
+        {"groups_of_some.usda", "/wig/hair: groom_group_id: 1 numbers, but 2 are needed"},
         {"syntax.usda", "line 2:13: Expected }"},
         {"words.usda", ""},
         {"short.usdc", ""},
@@ -159,7 +157,22 @@ TEST_F(UsdImportTest, RefusesNamingThePrim) {
 }
 
 TEST_F(UsdImportTest, FailsWithTheToolsWords) {
-    EXPECT_EQ(errorText([] { read("nan.usda"); }), "/wig/hair: points: value 2 is not finite");
+    EXPECT_EQ(errorText([] { read("negative_count.usda"); }), "/wig/hair: curve 0 has -4 vertices");
+}
+
+// One strand each; a width of all that is not finite is left out alone.
+TEST_F(UsdImportTest, LeavesOutStrandsThatAreNotFinite) {
+    for (const char* name : {"nan.usda", "infinite.usda", "overflow.usda"})
+        EXPECT_EQ(
+            errorText([&] { usableStrands(read(name)); }),
+            "no strand can be used; the file has only 1 strand with a position that is not finite "
+            "(strand 0, counted from 0)")
+            << name;
+    const StrandSet set = usableStrands(read("nan_width.usda"));
+    EXPECT_EQ(set.strandCount(), 1u);
+    EXPECT_FALSE(set.widths.known());
+    EXPECT_THAT(
+        set.warnings, testing::Contains("the width of all strands is not finite and is left out"));
 }
 
 // Other layers must be in the scene's folders. A pipe must not make the reader wait for its writer.

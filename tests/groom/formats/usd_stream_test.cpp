@@ -112,19 +112,13 @@ TEST(UsdStream, RefusesEveryOtherCount) {
 }
 
 TEST(UsdStream, RefusesNumbersThatMakeNoSense) {
-    constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
-    constexpr float kInfinity = std::numeric_limits<float>::infinity();
     EXPECT_THAT(refusal(with(0, 'h')), StartsWith("byte 0: "));
     EXPECT_THAT(refusal(with(8, 0.0)), StartsWith("byte 8: "));
     EXPECT_THAT(refusal(with(8, -1.0)), StartsWith("byte 8: "));
     EXPECT_THAT(refusal(with(8, std::numeric_limits<double>::infinity())), StartsWith("byte 8: "));
-    EXPECT_THAT(refusal(with(kSizes, std::array{0u, 3u})), StartsWith("byte 104: "));
     EXPECT_THAT(refusal(with(kSizes, std::array{1u, 3u})), StartsWith("byte 108: "));
     EXPECT_THAT(refusal(with(kSizes, std::array{2u, ~0u})), StartsWith("byte 108: "));
     EXPECT_THAT(refusal(with(kSizes, std::array{1u, 1u})), StartsWith("byte 24: "));
-    EXPECT_THAT(
-        refusal(with(kPointStream + 16, kNan)), StartsWith("byte 128: point 1 is not finite"));
-    EXPECT_THAT(refusal(with(kWidths + 8, kInfinity)), StartsWith("byte 156: width 2"));
     EXPECT_THAT(refusal(with(kWidths, -1.0f)), StartsWith("byte 148: width 0 is negative"));
     EXPECT_THAT(refusal(with(kTriangles + 4, 2u)), StartsWith("byte 216: strand 2"));
     EXPECT_THAT(

@@ -1,0 +1,375 @@
+// Tests what becomes of strands that can't be used, and of guides, groups and parts that only some
+// strands have, in files of several formats.
+#include <limits>
+#include <string>
+#include <vector>
+
+#include <gmock/gmock.h>
+
+#include "hair/groom/build_groom.h"
+#include "hair/groom/edit.h"
+#include "tests/groom/formats/broken_promise.h"
+#include "tests/groom/formats/strand_files.h"
+#include "tests/python.h"
+#include "tests/required.h"
+
+namespace hair::groom {
+namespace {
+
+using testing::AllOf;
+using testing::Contains;
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::IsEmpty;
+using testing::Not;
+
+constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
+
+// Four strands of three points along y, at x = 0 to 3.
+StrandSet fourStrands() {
+    StrandSet set;
+    for (int i = 0; i < 4; ++i) {
+        for (int k = 0; k < 3; ++k) set.points.emplace_back(i, k, 0);
+        set.ends.push_back(static_cast<std::uint32_t>(set.points.size()));
+    }
+    return set;
+}
+
+bool isPython(std::string_view extension) { return extension.starts_with(".usd"); }
+
+// Calls `test` with the file that every exporter writes of the strands.
+template <class Test>
+void forEachFormat(const StrandSet& strands, const Test& test) {
+    const TemporaryFolder folder;
+    for (const StrandExporter& exporter : strandExporters()) {
+        if (isPython(exporter.extension) && pythonInterpreter().empty()) continue;
+        SCOPED_TRACE(exporter.extension);
+        test(folder.write(
+            "a" + std::string(exporter.extension), writeText(exporter.write, strands).bytes));
+    }
+}
+
+// ---- One rule for all formats -------------------------------------------------------------------
+
+TEST(UsableStrands, AreReadAndTheOthersNamedInEveryFormat) {
+    StrandSet strands = fourStrands();
+    strands.points[4].y = kNan;
+    strands.points[11].z = std::numeric_limits<float>::infinity();
+    forEachFormat(strands, [](const std::filesystem::path& path) {
+        const StrandSet read = importStrands(path);
+        EXPECT_EQ(brokenPromise(read), "");
+        EXPECT_THAT(read.ends, ElementsAre(3, 6));
+        ASSERT_EQ(read.points.size(), 6u);
+        EXPECT_EQ(read.points[1], glm::vec3(0, 1, 0));
+        EXPECT_EQ(read.points[4], glm::vec3(2, 1, 0));
+        EXPECT_THAT(
+            read.warnings,
+            Contains("2 strands with a position that is not finite (the first is strand 1, counted "
+                     "from 0) are left out"));
+        ASSERT_EQ(read.left_out.size(), 1u);
+        EXPECT_EQ(read.left_out[0].count, 2u);
+        EXPECT_EQ(read.left_out[0].first, 1u);
+        EXPECT_THAT(
+            errorText([&] { importStrands(path, 0, {}, BadStrands::refused); }),
+            AllOf(
+                HasSubstr(path.string() + ": 2 strands with a position that is not finite"),
+                HasSubstr("--strict"), HasSubstr("groom fix")));
+    });
+}
+
+TEST(UsableStrands, AreRequiredInEveryFormat) {
+    StrandSet strands = fourStrands();
+    for (glm::vec3& point : strands.points) point.x = kNan;
+    forEachFormat(strands, [](const std::filesystem::path& path) {
+        EXPECT_THAT(
+            errorText([&] { importStrands(path); }),
+            HasSubstr("no strand can be used; the file has only 4 strands with a position that is "
+                      "not finite (the first is strand 0"));
+    });
+}
+
+// Formats of edges and of equally long strands have no strands of one point.
+TEST(UsableStrands, HaveTwoPoints) {
+    StrandSet strands = fourStrands();
+    strands.ends = {3, 4, 5, 12};
+    const TemporaryFolder folder;
+    for (const std::string extension : {".hair", ".data", ".abc", ".usda"}) {
+        if (isPython(extension) && pythonInterpreter().empty()) continue;
+        SCOPED_TRACE(extension);
+        const auto path = folder.file("a" + extension);
+        exportStrands(strands, path);
+        const StrandSet read = importStrands(path);
+        EXPECT_THAT(read.ends, ElementsAre(3, 10));
+        EXPECT_THAT(
+            read.warnings, Contains("2 strands of a single point (the first is strand 1, counted "
+                                    "from 0) are left out"));
+        EXPECT_THAT(
+            errorText([&] { importStrands(path, 0, {}, BadStrands::refused); }),
+            HasSubstr("2 strands of a single point"));
+    }
+}
+
+TEST(UsableStrands, KeepTheirDataAndTriangles) {
+    StrandSet strands = fourStrands();
+    strands.points[4].y = kNan;
+    for (int k = 0; k < 12; ++k) {
+        strands.widths.values.push_back(static_cast<float>(k));
+        strands.colors.values.emplace_back(k);
+    }
+    for (int i = 0; i < 4; ++i) strands.root_uvs.emplace_back(i, 10 + i);
+    strands.groups = {5, 6, 7, 8};
+    strands.guides = {0, 1, 1, 0};
+    strands.root_triangles = {{0, 1, 2}, {3, 2, 0}};
+    const StrandSet read = usableStrands(strands);
+    EXPECT_THAT(read.widths.values, ElementsAre(0, 1, 2, 6, 7, 8, 9, 10, 11));
+    EXPECT_EQ(read.colors.values[3], glm::vec3(6));
+    EXPECT_EQ(read.root_uvs[2], glm::vec2(3, 13));
+    EXPECT_THAT(read.groups, ElementsAre(5, 7, 8));
+    EXPECT_THAT(read.guides, ElementsAre(0, 1, 0));
+    EXPECT_THAT(read.root_triangles, ElementsAre(std::array<std::uint32_t, 3>{2, 1, 0}));
+}
+
+TEST(UsableStrands, AreThoseOfReportedFiles) {
+    const StrandSet one = importStrands(corpus("hair/reported_one_point.hair"));
+    EXPECT_EQ(one.strandCount(), 11u);
+    EXPECT_THAT(one.warnings, ElementsAre(leftOutStrand("of a single point", 4)));
+    EXPECT_THAT(
+        errorText([] { importStrands(corpus("findings/hair/reported_only_points.hair")); }),
+        HasSubstr("no strand can be used; the file has only 12 strands of a single point"));
+}
+
+// ---- Mending ------------------------------------------------------------------------------------
+
+TEST(MendStrands, LeavesOutPointsAndThenStrands) {
+    StrandSet strands = fourStrands();
+    strands.points[0].y = kNan;  // strand 0 begins at its second point
+    strands.points[4].y = kNan;  // strand 1 keeps its ends
+    strands.points[7].y = strands.points[8].y = kNan;  // strand 2 keeps one point
+    for (int k = 0; k < 12; ++k) strands.widths.values.push_back(static_cast<float>(k));
+    const EditedStrands mended = mendStrands(strands);
+    EXPECT_EQ(brokenPromise(mended.strands), "");
+    EXPECT_THAT(mended.strands.ends, ElementsAre(2, 4, 7));
+    EXPECT_THAT(mended.strands.widths.values, ElementsAre(1, 2, 3, 5, 9, 10, 11));
+    ASSERT_EQ(mended.notes.size(), 2u);
+    EXPECT_EQ(mended.notes[0].count, 4u);
+    EXPECT_EQ(mended.notes[1].what, "left out: strands of a single point");
+    EXPECT_EQ(mended.notes[1].count, 1u);
+}
+
+TEST(MendStrands, ChangesNoGoodStrands) {
+    const EditedStrands mended = mendStrands(fourStrands());
+    expectBitEqual(mended.strands.points, fourStrands().points);
+    ASSERT_EQ(mended.notes.size(), 1u);
+    EXPECT_EQ(mended.notes[0].count, 0u);
+}
+
+// ---- Guides and groups --------------------------------------------------------------------------
+
+// Six strands; the file flags the third and the last as guides. Formats that hold flags and groups.
+StrandSet flaggedStrands() {
+    StrandSet set;
+    for (int i = 0; i < 6; ++i) {
+        for (int k = 0; k < 4; ++k) set.points.emplace_back(0.01 * i, 0.01 * k, 0.001 * i * i);
+        set.ends.push_back(static_cast<std::uint32_t>(set.points.size()));
+    }
+    set.guides = {0, 0, 1, 0, 0, 1};
+    set.groups = {3, 3, 3, 8, 8, 8};
+    set.metres_per_unit = 1.0;
+    return set;
+}
+
+template <class Test>
+void forEachFlaggingFormat(const Test& test) {
+    const TemporaryFolder folder;
+    for (const std::string extension : {".npz", ".abc", ".usda"}) {
+        if (isPython(extension) && pythonInterpreter().empty()) continue;
+        SCOPED_TRACE(extension);
+        exportStrands(flaggedStrands(), folder.file("a" + extension));
+        test(folder.path(), "a" + extension);
+    }
+}
+
+GroomSettings settingsOf(const std::string& file) {
+    GroomSettings settings;
+    settings.file = file;
+    return settings;
+}
+
+std::string buildError(const GroomSettings& settings, const std::filesystem::path& folder) {
+    return errorText([&] { buildGroom(settings, nullptr, folder, 1); });
+}
+
+TEST(FlaggedGuides, AreTheGuidesAndNotHair) {
+    forEachFlaggingFormat([](const std::filesystem::path& folder, const std::string& file) {
+        const Groom groom = buildGroom(settingsOf(file), nullptr, folder, 1);
+        ASSERT_EQ(groom.strand_count, 2u);
+        EXPECT_EQ(groom.strand(0)[1], flaggedStrands().points[9]);
+        EXPECT_EQ(groom.strand(1)[3], flaggedStrands().points[23]);
+        EXPECT_EQ(groom.bindings.size(), 4u);
+        ASSERT_THAT(groom.bound_ends, ElementsAre(4, 8, 12, 16));
+        EXPECT_EQ(groom.bound_points[8], flaggedStrands().points[12]);
+        EXPECT_THAT(groom.guide_groups, ElementsAre(3, 8));
+        EXPECT_THAT(groom.groups, ElementsAre(3, 3, 8, 8));
+    });
+}
+
+TEST(FlaggedGuides, AreChosenFromByTheirNumber) {
+    forEachFlaggingFormat([](const std::filesystem::path& folder, const std::string& file) {
+        GroomSettings settings = settingsOf(file);
+        settings.guides = 1;
+        EXPECT_EQ(buildGroom(settings, nullptr, folder, 1).strand_count, 1u);
+        settings.guides = 3;
+        EXPECT_THAT(
+            buildError(settings, folder),
+            HasSubstr("/groom/guides is 3, but the file flags 2 strands as guides; 0 takes them"));
+    });
+}
+
+TEST(FlaggedGuides, AreHairToo_IfThereIsNoOther) {
+    const TemporaryFolder folder;
+    StrandSet strands = flaggedStrands();
+    strands.guides.assign(6, 1);
+    exportStrands(strands, folder.file("a.npz"));
+    const Groom groom = buildGroom(settingsOf("a.npz"), nullptr, folder.path(), 1);
+    EXPECT_EQ(groom.strand_count, 6u);
+    EXPECT_EQ(groom.bindings.size(), 6u);
+}
+
+TEST(Groups, AreChosenByTheScene) {
+    forEachFlaggingFormat([](const std::filesystem::path& folder, const std::string& file) {
+        GroomSettings settings = settingsOf(file);
+        settings.groups = "8";
+        const Groom groom = buildGroom(settings, nullptr, folder, 1);
+        EXPECT_EQ(groom.strand_count, 1u);
+        EXPECT_THAT(groom.groups, ElementsAre(8, 8));
+        settings.groups = " 3, 8";
+        EXPECT_EQ(buildGroom(settings, nullptr, folder, 1).strand_count, 2u);
+        settings.groups = "3, 4";
+        EXPECT_THAT(
+            buildError(settings, folder),
+            HasSubstr("/groom/groups: no strand belongs to group 4; the file has 3, 8"));
+        settings.groups = "3 8";
+        EXPECT_THAT(buildError(settings, folder), HasSubstr("'3 8' is not the number of a group"));
+    });
+}
+
+TEST(Groups, AreRefusedIfTheFileHasNone) {
+    const TemporaryFolder folder;
+    exportStrands(fourStrands(), folder.file("a.hair"));
+    GroomSettings settings = settingsOf("a.hair");
+    settings.groups = "0";
+    EXPECT_THAT(buildError(settings, folder.path()), HasSubstr("the file has no groups"));
+}
+
+TEST(Groups, AreKeptByTheFilter) {
+    const EditedStrands edited = filterStrands(flaggedStrands(), {.groups = {8}}, nullptr, 1.0);
+    EXPECT_THAT(edited.strands.groups, ElementsAre(8, 8, 8));
+    ASSERT_EQ(edited.notes.size(), 1u);
+    EXPECT_EQ(edited.notes[0].count, 3u);
+}
+
+TEST(Warnings, OfBadStrandsAreInTheGroom) {
+    const TemporaryFolder folder;
+    StrandSet strands = flaggedStrands();
+    strands.points[1].x = kNan;
+    folder.write("a.data", writeText(strandExporterOf("a.data").write, strands).bytes);
+    const Groom groom = buildGroom(settingsOf("a.data"), nullptr, folder.path(), 1);
+    EXPECT_THAT(groom.warnings, ElementsAre("a.data: " + leftOutStrand(kNoPosition, 0)));
+}
+
+// ---- Reported files of USD ----------------------------------------------------------------------
+
+class ReportedUsd : public testing::Test {
+protected:
+    void SetUp() override {
+        if (pythonInterpreter().empty()) return skipWithout(Need::python, kNoPython);
+    }
+    static StrandSet read(const std::string& name) {
+        return importStrands(corpus("usd/reported_" + name));
+    }
+};
+
+TEST_F(ReportedUsd, FlagsGuidesAndHasGroups) {
+    const StrandSet set = read("guides_flag.usda");
+    EXPECT_THAT(set.guides, ElementsAre(0, 0, 0, 0, 1, 1));
+    EXPECT_THAT(set.groups, ElementsAre(0, 0, 1, 1, 0, 1));
+    const Groom groom =
+        buildGroom(settingsOf("reported_guides_flag.usda"), nullptr, corpus("usd"), 1);
+    EXPECT_EQ(groom.strand_count, 2u);
+    EXPECT_EQ(groom.bindings.size(), 4u);
+}
+
+TEST_F(ReportedUsd, HasHiddenCurves) {
+    const StrandSet set = read("invisible.usda");
+    EXPECT_EQ(set.strandCount(), 2u);
+    EXPECT_THAT(
+        set.warnings, Contains("1 strand of invisible prims, 1 strand of prims of purpose "
+                               "\"guide\": left out"));
+}
+
+TEST_F(ReportedUsd, HasOneWidth) {
+    const StrandSet set = read("usd_width1.usda");
+    EXPECT_EQ(set.widths.everywhere, 0.0001f);
+    EXPECT_THAT(set.widths.values, IsEmpty());
+}
+
+TEST_F(ReportedUsd, HasTextureCoordinatesOfVertices) {
+    const StrandSet set = read("st_vertex.usda");
+    EXPECT_THAT(set.root_uvs, ElementsAre(glm::vec2(0.1f, 0.2f), glm::vec2(0.7f, 0.8f)));
+    EXPECT_THAT(set.warnings, IsEmpty());
+}
+
+// A pinned curve begins and ends at its end vertices, and so do its widths.
+TEST_F(ReportedUsd, HasPinnedCurves) {
+    const StrandSet set = read("pinned_varying.usda");
+    ASSERT_EQ(set.strandCount(), 1u);
+    EXPECT_EQ(set.points.front(), glm::vec3(0, 0, 0));
+    EXPECT_EQ(set.points.back(), glm::vec3(0, 6, 0));
+    EXPECT_FLOAT_EQ(set.widths.values.front(), 0.1f);
+    EXPECT_FLOAT_EQ(set.widths.values.back(), 0.1f);
+}
+
+TEST_F(ReportedUsd, HasAColourOnOnePrim) {
+    const StrandSet set = read("half_width.usda");
+    ASSERT_EQ(set.colors.values.size(), 5u);
+    EXPECT_EQ(set.colors.values[2], glm::vec3(0.3f, 0.2f, 0.1f));
+    EXPECT_EQ(set.colors.values[3], glm::vec3(1.0f));
+    EXPECT_THAT(set.warnings, Contains("2 of 5 points have no colour and become white"));
+    EXPECT_EQ(set.widths.values[0], 0.0001f);
+    EXPECT_EQ(set.widths.values[4], 0.00005f);
+}
+
+// Blender writes an object's custom properties as userProperties.
+TEST_F(ReportedUsd, HasUserProperties) {
+    const TemporaryFolder folder;
+    const std::string curve =
+        "def BasisCurves \"c\" {\nuniform token type = \"linear\"\n"
+        "int[] curveVertexCounts = [2]\npoint3f[] points = [(0,0,0),(0,1,0)]\n";
+    const auto path = folder.write(
+        "a.usda", "#usda 1.0\n(metersPerUnit = 1)\n"
+                  "def Xform \"x\" {\ncustom int userProperties:groom_group_id = 7\n" +
+                      curve + "}\n}\ndef Xform \"y\" {\n" + curve +
+                      "custom int userProperties:groom_group_id = 9\n"
+                      "custom bool userProperties:groom_guide = 1\n"
+                      "custom string userProperties:note = \"x\"\n}\n}\n");
+    const StrandSet set = importStrands(path);
+    EXPECT_THAT(set.groups, ElementsAre(7, 9));
+    EXPECT_THAT(set.guides, ElementsAre(0, 1));
+    EXPECT_THAT(set.warnings, ElementsAre("userProperties:note: left out"));
+}
+
+TEST_F(ReportedUsd, HasNamedGroups) {
+    const TemporaryFolder folder;
+    const auto path = folder.write(
+        "a.usda",
+        "#usda 1.0\n(metersPerUnit = 1)\ndef BasisCurves \"c\" {\nuniform token type = "
+        "\"linear\"\nint[] curveVertexCounts = [2, 2, 2]\npoint3f[] points = [(0,0,0),(0,1,0),"
+        "(1,0,0),(1,1,0),(2,0,0),(2,1,0)]\nstring[] primvars:groom_group_name = [\"brow\", "
+        "\"hair\", \"brow\"] (interpolation = \"uniform\")\n}\n");
+    const StrandSet set = importStrands(path);
+    EXPECT_THAT(set.groups, ElementsAre(0, 1, 0));
+    EXPECT_THAT(set.warnings, IsEmpty());
+}
+
+}  // namespace
+}  // namespace hair::groom
