@@ -126,11 +126,13 @@ const Table& tableOf(const RenderSettings*) {
               {Show::normals, "normals"},
               {Show::lod, "lod"},
               {Show::strands, "strands"},
+              {Show::groups, "groups"},
               {Show::shadow, "shadow"},
               {Show::overdraw, "overdraw"},
               {Show::density, "density"}},
              "colour of strands. shading: light; tangents, normals: direction along or across them "
              "as RGB; lod: level of detail from blue to red; strands: a colour for each strand; "
+             "groups: one for each of the file's groups; "
              "shadow: share of the light that shadows let through; overdraw: number of strand "
              "fragments that a pixel draws; density: number of them in front of the head"),
          group("overlays", &S::overlays, "overlays drawn over the hair")});

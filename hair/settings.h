@@ -71,7 +71,7 @@ const Table& tableOf(const MeshSettings*);
 enum class Coverage { sampled, analytic };
 enum class Transparency { none, alpha_to_coverage, weighted_blended, fragment_list };
 enum class ToneMap { none, srgb, aces, agx };
-enum class Show { shading, tangents, normals, lod, strands, shadow, overdraw, density };
+enum class Show { shading, tangents, normals, lod, strands, groups, shadow, overdraw, density };
 
 struct RenderSettings {
     std::uint32_t width = 1280;

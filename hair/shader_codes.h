@@ -89,6 +89,7 @@ inline constexpr std::size_t kCount<Show> = counted<Show>(
      {Show::normals, gpu::kShowNormals},
      {Show::lod, gpu::kShowLod},
      {Show::strands, gpu::kShowStrands},
+     {Show::groups, gpu::kShowGroups},
      {Show::shadow, gpu::kShowShadow},
      {Show::overdraw, gpu::kShowOverdraw},
      {Show::density, gpu::kShowDensity}});

@@ -409,6 +409,7 @@ struct Row {
 
 // The first matching row counts. A new buffer needs a row only if no row matches its name.
 constexpr Row kPurposes[] = {
+    {"group shades", "groom"},
     {"guide normals", "groom"},
     {"guide turns", "groom"},
     {"guide widths", "groom"},

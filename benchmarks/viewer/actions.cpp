@@ -130,6 +130,9 @@ constexpr std::array kActions{
         Action::show_strands, "View", "Strands: each its own", 0, "",
         "each strand in a colour of its own"},
     ActionRow{
+        Action::show_groups, "View", "Strands: groups", 0, "",
+        "each of the file's groups in a colour of its own"},
+    ActionRow{
         Action::show_shadow, "View", "Strands: shadow", 0, "",
         "the share of the lights that reaches strands"},
     ActionRow{
@@ -369,6 +372,8 @@ std::optional<hair::Show> showOf(Action action) {
         return hair::Show::lod;
     case Action::show_strands:
         return hair::Show::strands;
+    case Action::show_groups:
+        return hair::Show::groups;
     case Action::show_shadow:
         return hair::Show::shadow;
     case Action::show_overdraw:

@@ -43,6 +43,7 @@ enum class Action {
     show_normals,
     show_levels,
     show_strands,
+    show_groups,
     show_shadow,
     show_overdraw,
     show_density,

@@ -1,7 +1,9 @@
 #include "hair/rendering/groom_buffers.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
+#include <numbers>
 #include <numeric>
 #include <span>
 #include <vector>
@@ -86,6 +88,22 @@ std::vector<gpu::RootFrame> rootFrames(const groom::Groom& groom) {
     return frames;
 }
 
+// Returns a shade in [0, 1) for the group of each strand. Multiples of the golden ratio keep the
+// shades of any number of groups apart (Knuth 1998, section 6.4, theorem S).
+std::vector<float> groupShades(const std::vector<std::int32_t>& groups) {
+    std::vector<std::int32_t> all = groups;
+    std::ranges::sort(all);
+    all.erase(std::ranges::unique(all).begin(), all.end());
+    std::vector<float> shades;
+    shades.reserve(groups.size());
+    for (const std::int32_t group : groups) {
+        const auto index = std::ranges::lower_bound(all, group) - all.begin();
+        const double turns = static_cast<double>(index) * (std::numbers::phi - 1.0);
+        shades.push_back(std::min(static_cast<float>(turns - std::floor(turns)), 0.999999f));
+    }
+    return shades;
+}
+
 // Returns the greatest distance of a root from where the mean motion of all roots would take it, m,
 // over evenly spaced poses of the clip.
 double scalpReach(const groom::Groom& groom, const groom::DeformingMesh& mesh) {
@@ -138,8 +156,16 @@ GroomBuffers::GroomBuffers(
         view_.root_normals = upload(root_normals_, groom.root_normals, "root normals");
     if (settings.strands.width == WidthSource::groom)
         view_.guide_widths = upload(widths_, groom.widths, "guide widths");
+    if (settings.strands.source != StrandSource::groom && !groom.guide_groups.empty())
+        view_.group_shades = upload(group_shades_, groupShades(groom.guide_groups), "group shades");
     if (settings.strands.source == StrandSource::groom) {
         const std::vector<std::uint32_t> order = randomOrder(groom, settings.seed);
+        if (!groom.groups.empty()) {
+            std::vector<std::int32_t> groups;
+            groups.reserve(order.size());
+            for (const std::uint32_t strand : order) groups.push_back(groom.groups[strand]);
+            view_.group_shades = upload(group_shades_, groupShades(groups), "group shades");
+        }
         StrandResiduals residuals;
         if (!groom.bound_ends.empty()) {
             residuals = makeStrandResiduals(groom, settings.strands, order);
@@ -193,6 +219,10 @@ std::uint64_t groomBufferBytes(const Settings& settings, const groom::GroomSize&
     const StrandSettings& strands = settings.strands;
     std::uint64_t bytes = size.root_triangles * 3 * sizeof(std::uint32_t);
     bytes += size.guides * sizeof(glm::vec3);  // normals
+    // Groups, if the file has them.
+    if (!settings.groom.file.empty())
+        bytes += (strands.source == StrandSource::groom ? size.bound_strands : size.guides) *
+                 sizeof(float);
     if (strands.width == WidthSource::groom) bytes += size.vertices() * sizeof(float);
     if (strands.source == StrandSource::groom) {
         bytes += size.bound_strands * sizeof(gpu::BoundStrand);

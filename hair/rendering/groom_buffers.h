@@ -30,6 +30,7 @@ private:
     engine::Buffer root_normals_;
     engine::Buffer widths_;
     engine::Buffer bound_strands_;  // gpu::BoundStrand
+    engine::Buffer group_shades_;
     engine::Buffer root_pattern_;
     engine::Buffer root_frames_;  // gpu::RootFrame
     engine::Buffer offsets_;

@@ -30,7 +30,7 @@ glm::vec3 hairColor(const Settings& settings) {
 // ---- Parameters of a picture --------------------------------------------------------------------
 
 static_assert(offsetof(gpu::PictureParameters, lights) == 228);
-static_assert(sizeof(gpu::PictureParameters) == 428);
+static_assert(sizeof(gpu::PictureParameters) == 436);
 
 gpu::PictureParameters pictureParameters(
     const Settings& settings, const StrandPlan& plan, const StrandView& view,
@@ -78,6 +78,7 @@ gpu::PictureParameters pictureParameters(
         .bodies = view.bodies,
         .root_pattern = view.root_pattern,
         .offsets = view.offsets,
+        .group_shades = view.group_shades,
         .root_corrections = buffers.root_corrections,
         .offset_profiles = view.offset_profiles,
         .offset_samples = view.offset_samples,

@@ -25,6 +25,7 @@ struct StrandView {
     std::uint64_t root_pattern = 0;  // vec2 [strand]; 0: root triangles have patterns of their own
     std::uint64_t root_frames = 0;  // gpu::RootFrame [guide]; 0: strands are not offset
     std::uint64_t offsets = 0;  // StrandOffsets::values
+    std::uint64_t group_shades = 0;  // float [guide or bound strand]; 0: there are no groups
     std::uint64_t residuals = 0;  // StrandResiduals::samples; 0: bound strands have none
     std::uint64_t rest_tangents = 0;  // vec3 [guide][vertex], restTangents(); 0: without residuals
     glm::vec3 centre{0.0f};  // of the strands' bounding sphere, m, before the head's motion

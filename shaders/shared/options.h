@@ -65,9 +65,10 @@ const uint kShowTangents = 1u;
 const uint kShowNormals = 2u;
 const uint kShowLod = 3u;
 const uint kShowStrands = 4u;
-const uint kShowShadow = 5u;
-const uint kShowOverdraw = 6u;
-const uint kShowDensity = 7u;
+const uint kShowGroups = 5u;
+const uint kShowShadow = 6u;
+const uint kShowOverdraw = 7u;
+const uint kShowDensity = 8u;
 
 // Conversion from linear light to display colours (ToneMap).
 const uint kToneMapNone = 0u;

@@ -65,6 +65,8 @@ struct PictureParameters {
     Address bodies;  // Bodies; read if they push strands out
     Address root_pattern;  // vec2 [strand], in [0, 1): read if all triangles share one pattern
     Address offsets;  // vec3 [profile][1 + sample + 1], m: see hair/rendering/strand_offsets.h
+    Address group_shades;  // float, in [0, 1), of each guide or, if the groom's strands are drawn,
+                           // BoundStrand; address 0: there are no groups
     Address root_corrections;  // vec4 [root triangle][strand], `density` per triangle, m: from a
                                // strand's root to its place on the deformed mesh; read if
                                // kSkinnedStrands

@@ -17,6 +17,7 @@
 
 layout(buffer_reference, scalar) readonly buffer GuideWidths { float widths[]; };
 layout(buffer_reference, scalar) readonly buffer RootCorrections { vec4 at[]; };
+layout(buffer_reference, scalar) readonly buffer GroupShades { float at[]; };
 
 // One strand of a patch.
 struct PatchStrand {
@@ -184,6 +185,15 @@ StrandPoint pointOnStrand(PictureParameters picture, StrandPatch strand_patch, P
     return point;
 }
 
+// Returns the shade of the group that a patch's strands belong to: that of the groom's own strand,
+// or of the first guide.
+float groupShade(PictureParameters picture, StrandPatch strand_patch) {
+    if (picture.group_shades == kNoAddress) return 0.0;
+    uint at = kSource == kSourceGroom ? strand_patch.first_strand
+                                      : patchGuides(picture, strand_patch).x;
+    return GroupShades(picture.group_shades).at[at];
+}
+
 // Replaces the position along the strand by the value, in [0, 1], that /render/show selects for a
 // whole strand. This costs nothing if nothing is selected.
 void putShown(PictureParameters picture, StrandPatch strand_patch, uint index,
@@ -191,6 +201,7 @@ void putShown(PictureParameters picture, StrandPatch strand_patch, uint index,
     if (kShow == kShowLod)
         point.along = strand_patch.lod.level / max(picture.lod_maximum_level, 1e-6);
     if (kShow == kShowStrands) point.along = random01(strand_patch.key, index, kColorPurpose);
+    if (kShow == kShowGroups) point.along = groupShade(picture, strand_patch);
 }
 
 // Returns end number `index` of a patch's drawn pieces.

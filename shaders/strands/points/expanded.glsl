@@ -15,7 +15,7 @@ layout(buffer_reference, scalar) readonly buffer VisibleStrands { uint at[]; };
 
 // The value that replaces the position along a strand when the picture does not show shading.
 float shownAlong(PictureParameters picture, uint strand, float along) {
-    if (kShow != kShowLod && kShow != kShowStrands) return along;
+    if (kShow != kShowLod && kShow != kShowStrands && kShow != kShowGroups) return along;
     uint triangle = strand / picture.forced_density;
     uint index = strand % picture.forced_density;
     uint part = triangle * picture.patches_per_triangle + index / picture.strands_per_patch;
