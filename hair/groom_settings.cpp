@@ -301,8 +301,8 @@ const Table& tableOf(const GroomSettings*) {
         {fileName(
              "file", &S::file,
              "file of strands (.hair, .tfx, .hgl, .ply, .obj, .gltf, .glb, .usd, .usda, .usdc, "
-             ".usdz, .data, .npy, .npz, .xml, .bin, .abc), relative to the scene file; empty: "
-             "guides are grown"),
+             ".usdz, .data, .npy, .npz, .xml, .bin, .abc, .mitshair, .txt, .pbrt), relative to the "
+             "scene file; empty: guides are grown"),
          number(
              "points_per_strand", &S::points_per_strand, 0, 65536, "count",
              "points per strand of a PLY file that has only points, strand after strand; 0: the "

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <memory>
+#include <set>
 
 #include "engine/error.h"
 #include "engine/process.h"
@@ -11,8 +12,10 @@
 #include "hair/groom/formats/embree_xml.h"
 #include "hair/groom/formats/gltf.h"
 #include "hair/groom/formats/hgl.h"
+#include "hair/groom/formats/mitsuba_hair.h"
 #include "hair/groom/formats/npy.h"
 #include "hair/groom/formats/obj.h"
+#include "hair/groom/formats/pbrt.h"
 #include "hair/groom/formats/ply.h"
 #include "hair/groom/formats/strand_lists.h"
 #include "hair/groom/formats/tfx.h"
@@ -27,9 +30,21 @@ namespace fs = std::filesystem;
 using namespace std::string_view_literals;
 
 constexpr StrandExporter kExporters[] = {
-    {".hair", exportHair},     {".hgl", exportHgl},   {".tfx", exportTfx}, {".obj", exportObj},
-    {".ply", exportPly},       {".gltf", exportGltf}, {".glb", exportGlb}, {".usda", exportUsda},
-    {".data", exportHairData}, {".npy", exportNpy},   {".npz", exportNpz}, {".abc", exportAlembic},
+    {".hair", exportHair},
+    {".hgl", exportHgl},
+    {".tfx", exportTfx},
+    {".obj", exportObj},
+    {".ply", exportPly},
+    {".gltf", exportGltf},
+    {".glb", exportGlb},
+    {".usda", exportUsda},
+    {".data", exportHairData},
+    {".npy", exportNpy},
+    {".npz", exportNpz},
+    {".abc", exportAlembic},
+    {".mitshair", exportMitsubaBinary},
+    {".txt", exportMitsubaText},
+    {".pbrt", exportPbrt},
 };
 
 constexpr std::array kHair{".hair"sv};
@@ -47,6 +62,8 @@ constexpr std::array kNpz{".npz"sv};
 constexpr std::array kXml{".xml"sv};
 constexpr std::array kBin{".bin"sv};
 constexpr std::array kAbc{".abc"sv};
+constexpr std::array kMitsuba{".mitshair"sv, ".txt"sv};
+constexpr std::array kPbrt{".pbrt"sv};
 
 constexpr auto kTfxVersion = "\0\0\x80\x40"sv;   // 4.0f
 constexpr auto kTfx3Version = "\0\0\x40\x40"sv;  // 3.0f
@@ -70,6 +87,11 @@ constexpr StrandImporter kImporters[] = {
     {"Embree's scene", kXml, "", importEmbreeXml},
     {"CT2Hair's strands", kBin, "", importCt2Hair},
     {"Alembic", kAbc, "Ogawa", importAlembic},
+    {"Mitsuba's hair", kMitsuba, "BINARY_HAIR", importMitsubaHair},
+    {"Mitsuba's hair in text", kMitsuba, "", importMitsubaHair},
+    {"pbrt's scene", kPbrt, "", importPbrt},
+    {"MonoHair's strands", kHair, "", importCountedHair, true, looksLikeCountedHair},
+    {"Mitsuba's hair in text", kHair, "", importMitsubaHair, true, looksLikeMitsubaText},
 };
 
 // Throws for a file that begins like those of another format. A file with an extension of ours may
@@ -83,7 +105,8 @@ void refuseOther(
 
 const StrandImporter& importerOf(const fs::path& path, engine::OpenFile& file) {
     std::array<char, kRecognisedBytes> bytes{};  // longer than every magic
-    file.read(std::span(bytes).first(std::min<std::uintmax_t>(file.size(), bytes.size())));
+    const auto own = std::span(bytes).first(std::min<std::uintmax_t>(file.size(), bytes.size()));
+    file.read(own);
     const std::string_view head(bytes.data(), bytes.size());
     const std::string extension = lowerCaseExtension(path);
     // A pointer of Git LFS begins like a text of TressFX.
@@ -92,12 +115,18 @@ const StrandImporter& importerOf(const fs::path& path, engine::OpenFile& file) {
         refuseOther(path, head, extension, true);
     for (const StrandImporter& importer : kImporters)
         if (!importer.magic.empty() && head.starts_with(importer.magic)) return importer;
-    const auto by_extension = std::ranges::find_if(kImporters, [&](const StrandImporter& importer) {
-        return std::ranges::find(importer.extensions, extension) != importer.extensions.end();
-    });
-    const bool is_ours = by_extension != std::end(kImporters);
-    refuseOther(path, head, extension, is_ours);
-    if (is_ours) return *by_extension;
+    const StrandImporter* by_extension = nullptr;
+    for (const StrandImporter& importer : kImporters) {
+        const bool has_it =
+            std::ranges::find(importer.extensions, extension) != importer.extensions.end();
+        if (!has_it) continue;
+        const bool looks_like =
+            importer.looks_like && importer.looks_like(std::as_bytes(own), file.size());
+        if (looks_like || !by_extension) by_extension = &importer;
+        if (looks_like) break;
+    }
+    refuseOther(path, head, extension, by_extension != nullptr);
+    if (by_extension) return *by_extension;
     throw engine::Error(
         path.string(), "unknown format of strands '" + extension + "'; known: " + readExtensions());
 }
@@ -145,14 +174,11 @@ std::span<const StrandImporter> strandImporters() { return kImporters; }
 
 std::string readExtensions() {
     std::string all;
-    std::string_view before;
-    for (const StrandImporter& importer : kImporters) {
-        // The versions of a format are adjacent.
-        if (importer.extensions.front() == before) continue;
-        before = importer.extensions.front();
+    std::set<std::string_view> known;
+    for (const StrandImporter& importer : kImporters)
         for (const std::string_view extension : importer.extensions)
-            all.append(all.empty() ? "" : ", ").append(extension);
-    }
+            if (known.insert(extension).second)
+                all.append(all.empty() ? "" : ", ").append(extension);
     return all;
 }
 

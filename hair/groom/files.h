@@ -48,7 +48,7 @@ std::span<const StrandImporter> strandImporters();
 std::string readExtensions();
 
 // Returns the importer of a file: by its first bytes if they are a format's magic, otherwise by its
-// extension, in upper or lower case. Throws engine::Error "path: reason". For some formats that are
+// extension, in upper or lower case. Formats that share an extension are told apart by looks_like. Throws engine::Error "path: reason". For some formats that are
 // not read, the reason names the format and says what to do.
 const StrandImporter& strandImporterOf(const std::filesystem::path& path);
 

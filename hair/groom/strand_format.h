@@ -43,6 +43,9 @@ struct StrandImporter {
     std::string_view magic;  // first bytes of all such files; empty: there are none
     StrandSet (*read)(const StrandFile& file);
     bool from_memory = true;  // reads `bytes`; false: another program reads the file at `path`
+    // For formats without a magic that share an extension with another one: whether a file with
+    // these first bytes, up to 32, and this size may be of this format.
+    bool (*looks_like)(std::span<const std::byte> head, std::uint64_t size) = nullptr;
 };
 
 }  // namespace hair::groom

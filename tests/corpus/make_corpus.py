@@ -44,6 +44,51 @@ def hair_files():
         info=b"three strands")
     yield "points_only.hair", hair(2, 8, {1: floats(UNIFORM)}, default_segments=3)
     yield "segments_and_colors.hair", hair(3, 9, {0: segments, 1: floats(POINTS), 4: colors})
+    yield "monohair.hair", monohair(SIZES, POINTS)
+
+
+def monohair(sizes, points, stated=None):
+    """MonoHair's strands: two counts, the points of each strand, then all points."""
+    stated = sum(sizes) if stated is None else stated
+    return struct.pack(f"<2I{len(sizes)}H", len(sizes), stated, *sizes) + floats(points)
+
+
+def mitsuba_files():
+    """Mitsuba's hair: binary, text of Mitsuba 3's curves, and text of the older plug-in."""
+    start = struct.pack("<f", float("inf"))
+    strands, first = [], 0
+    for size in SIZES:
+        strands.append(POINTS[first:first + size])
+        first += size
+    yield "binary.mitshair", b"BINARY_HAIR" + struct.pack("<I", 9) + b"".join(
+        (start if k > 0 else b"") + floats(points) for k, points in enumerate(strands))
+    yield "radii.txt", "\n\n".join(
+        "\n".join(f"{x:g} {y:g} {z:g} 0.25" for x, y, z in points)
+        for points in strands).encode()
+    yield "comments.txt", "".join(
+        "# a strand\n" + "".join(f"{x:g} {y:g} {z:g}\r\n" for x, y, z in points)
+        for points in strands).encode()
+
+
+def pbrt_files():
+    """Curves of pbrt: straight segments, and smooth ones under a transform."""
+    def listed(points):
+        return " ".join(f"{x:g} {y:g} {z:g}" for x, y, z in points)
+    yield "bezier.pbrt", f"""# two curves
+WorldBegin
+Material "hair" "rgb sigma_a" [0.5 1 1.5]
+Shape "curve" "string type" "cylinder" "float width0" 0.5 "float width1" [ 0.25 ] "point3 P" [
+    {listed(UNIFORM[:4])} ]
+AttributeBegin
+    Translate 2 0 0
+    Shape "curve" "point P" [ {listed(UNIFORM[4:])} ] "float width" 0.5
+AttributeEnd
+Shape "sphere" "float radius" 1
+""".encode()
+    yield "bspline.pbrt", f"""Shape "curve" "string basis" [ "bspline" ] "integer degree" [ 2 ]
+    "point3 P" [ {listed(UNIFORM[:4])} ]
+Shape "curve" "string basis" "bspline" "point3 P" [ {listed(UNIFORM)} ]
+""".encode()
 
 
 def tfx(strands, vertices, arrays):
@@ -267,6 +312,19 @@ def hostile_hair_files():
     yield "four_billion_points.hair", hair(1, 2**32 - 1, {1: b""}, default_segments=2**32 - 2)
     yield "segments_past_the_end.hair", hair(
         1, 2, {0: struct.pack("<H", 65535), 1: floats(POINTS[:2])})
+    yield "sizes_past_the_end.hair", monohair([65535, 65535], POINTS[:2])
+
+
+def hostile_mitsuba_files():
+    yield "four_billion_vertices.mitshair", b"BINARY_HAIR" + struct.pack("<I", 2**32 - 1)
+    yield "only_starts.mitshair", b"BINARY_HAIR" + struct.pack(
+        "<I16f", 5, *[float("inf")] * 16)
+
+
+def hostile_pbrt_files():
+    yield "nested.pbrt", b"AttributeBegin " * 2000
+    yield "list_without_end.pbrt", b'Shape "curve" "point3 P" [ 0 0 0'
+    yield "basis_at_the_end.pbrt", b'Shape "curve" "string basis"'
 
 
 def hostile_tfx_files():
@@ -327,6 +385,8 @@ def main():
         "hair": hair_files, "tfx": tfx_files, "hgl": hgl_files, "gltf": gltf_files,
         "usd": usd_files, "obj": obj_files, "data": data_files, "bin": bin_files,
         "npy": npy_files, "npz": npz_files, "xml": xml_files,
+        "mitshair": mitsuba_files, "pbrt": pbrt_files,
+        "findings/mitshair": hostile_mitsuba_files, "findings/pbrt": hostile_pbrt_files,
         "findings/hair": hostile_hair_files, "findings/tfx": hostile_tfx_files,
         "findings/hgl": hostile_hgl_files, "findings/abc": hostile_abc_files,
         "findings/npy": hostile_npy_files, "findings/npz": hostile_npz_files,

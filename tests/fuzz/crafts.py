@@ -887,7 +887,7 @@ def alembic(random, place):
 
 
 def strands(random, place):
-    folder = random.choice(["hair", "hgl", "tfx", "data", "bin"])
+    folder = random.choice(["hair", "hgl", "tfx", "data", "bin", "mitshair", "pbrt"])
     data = corpus(random, f"tests/corpus/{folder}/*")
     if random.random() < 0.4:  # extreme counts in the header
         data = bytearray(data)

@@ -113,10 +113,16 @@ std::vector<const hair::groom::StrandImporter*> importers() {
     return all;
 }
 
+// Another reader of an extension has its name after "second_".
 Target strandTarget(const hair::groom::StrandImporter& row) {
-    const std::string name(row.extensions.front().substr(1));
+    const std::string_view extension = row.extensions.front();
+    const auto all = importers();
+    const auto first = std::ranges::find_if(all, [&](const hair::groom::StrandImporter* other) {
+        return other->extensions.front() == extension;
+    });
+    const std::string name(extension.substr(1));
     return {
-        .name = name,
+        .name = (*first == &row ? "" : "second_") + name,
         .read =
             [&row](std::string_view bytes) {
                 checkStrands(hair::groom::usableStrands(row.read({.bytes = asBytes(bytes)})));

@@ -33,10 +33,6 @@ namespace {
 
 // ---- XML ----------------------------------------------------------------------------------------
 
-[[noreturn]] void failAtLine(std::size_t line, const std::string& reason) {
-    throw engine::Error("line " + std::to_string(line), reason);
-}
-
 struct XmlElement {
     std::string_view name;
     std::size_t line = 0;

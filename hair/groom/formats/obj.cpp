@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <limits>
 #include <utility>
 
@@ -15,39 +14,7 @@ namespace {
 
 // ---- Writing ------------------------------------------------------------------------------------
 
-// Writes to the stream in large blocks.
-class Text {
-public:
-    explicit Text(std::ostream& out) : out_(out) { text_.reserve(kBlock + kLongestNumber); }
-
-    void add(std::string_view text) {
-        text_ += text;
-        if (text_.size() > kBlock) flush();
-    }
-
-    // Writes the shortest decimals that read back as the same number.
-    template <class Number>
-    void addNumber(Number number) {
-        char digits[kLongestNumber];
-        digits[0] = ' ';
-        const char* end = std::to_chars(digits + 1, digits + kLongestNumber, number).ptr;
-        add({digits, end});
-    }
-
-    void flush() {
-        out_.write(text_.data(), static_cast<std::streamsize>(text_.size()));
-        text_.clear();
-    }
-
-private:
-    static constexpr std::size_t kBlock = 1 << 16;
-    static constexpr std::size_t kLongestNumber = 32;
-
-    std::ostream& out_;
-    std::string text_;
-};
-
-void addVector(Text& text, const glm::vec3& vector) {
+void addVector(TextWriter& text, const glm::vec3& vector) {
     for (int axis = 0; axis < 3; ++axis) text.addNumber(vector[axis]);
 }
 
@@ -229,7 +196,7 @@ std::vector<std::string> exportObj(const StrandSet& strands, std::ostream& out) 
     if (greatestSize(strands) < 2) {
         throw engine::Error("no strand has the two points that a line needs");
     }
-    Text text(out);
+    TextWriter text(out);
     text.add(commentLines(strands.comment, "# "));
     for (std::size_t i = 0; i < strands.points.size(); ++i) {
         text.add("v");

@@ -5,6 +5,8 @@
 #include <cstring>
 #include <limits>
 #include <span>
+#include <string>
+#include <vector>
 
 #include <glm/vec3.hpp>
 
@@ -129,6 +131,58 @@ StrandSet importCt2Hair(const StrandFile& file) {
         set.ends.push_back(static_cast<std::uint32_t>(set.points.size()));
     }
     if (has_more) set.warnings.emplace_back("the points' tangents, or colours, are left out");
+    return set;
+}
+
+// ---- Counts, then points ------------------------------------------------------------------------
+
+namespace {
+
+constexpr std::uint64_t kCounts = 2 * sizeof(std::uint32_t);  // bytes before the strands' sizes
+
+}  // namespace
+
+bool looksLikeCountedHair(std::span<const std::byte> head, std::uint64_t size) {
+    if (head.size() < kCounts || size < kCounts) return false;
+    const auto strands = valueAt<std::uint32_t>(head, 0);
+    return strands > 0 && strands <= (size - kCounts) / sizeof(std::uint16_t);
+}
+
+StrandSet importCountedHair(const StrandFile& file) {
+    const std::span bytes = file.bytes;
+    if (bytes.size() < kCounts)
+        failAt(bytes.size(), "truncated: the numbers of strands and points are 8 bytes");
+    const auto strands = valueAt<std::uint32_t>(bytes, 0);
+    const auto stated = valueAt<std::uint32_t>(bytes, sizeof(std::uint32_t));
+    if (strands == 0) failAt(0, "0 strands; at least 1 is needed");
+    if (strands > (bytes.size() - kCounts) / sizeof(std::uint16_t)) {
+        failAt(
+            0, "truncated: " + std::to_string(strands) + " strands are more than " +
+                   std::to_string(bytes.size()) + " bytes can hold");
+    }
+    StrandSet set;
+    set.ends.reserve(strands);
+    std::uint64_t points = 0;
+    for (const std::uint16_t size : arrayAt<std::uint16_t>(bytes, kCounts, strands)) {
+        points += size;
+        if (points > std::numeric_limits<std::uint32_t>::max())
+            failAt(kCounts, "the strands have 2^32 points, or more");
+        set.ends.push_back(static_cast<std::uint32_t>(points));
+    }
+    const std::uint64_t start = kCounts + sizeof(std::uint16_t) * std::uint64_t{strands};
+    const std::uint64_t end = start + kDataPoint * points;
+    const std::string sizes = std::to_string(strands) + " strands of " + std::to_string(points) +
+                              " points without a header are " + std::to_string(end) + " bytes";
+    if (bytes.size() < end) failAt(bytes.size(), "truncated: " + sizes);
+    if (bytes.size() > end)
+        failAt(
+            end,
+            std::to_string(bytes.size() - end) + " trailing bytes after the last point: " + sizes);
+    set.points = arrayAt<glm::vec3>(bytes, start, points);
+    if (stated != points)
+        set.warnings.push_back(
+            "the file states " + std::to_string(stated) + " points, but its strands have " +
+            std::to_string(points));
     return set;
 }
 

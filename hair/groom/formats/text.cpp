@@ -6,6 +6,8 @@
 #include <limits>
 #include <system_error>
 
+#include "engine/error.h"
+
 namespace hair::groom {
 namespace {
 
@@ -167,6 +169,10 @@ std::string_view TextLines::take() {
     rest_.remove_prefix(std::min(rest_.size(), line.size() + 1));
     if (line.ends_with('\r')) line.remove_suffix(1);
     return line;
+}
+
+void failAtLine(std::size_t line, const std::string& reason) {
+    throw engine::Error("line " + std::to_string(line), reason);
 }
 
 std::string_view takeWord(std::string_view& line) {

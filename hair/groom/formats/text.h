@@ -1,9 +1,11 @@
 #pragma once
 
+#include <charconv>
 #include <cstddef>
 #include <cstdint>
 #include <initializer_list>
 #include <optional>
+#include <ostream>
 #include <span>
 #include <string>
 #include <string_view>
@@ -70,6 +72,9 @@ private:
     std::size_t number_ = 0;
 };
 
+// Throws engine::Error "line N: reason".
+[[noreturn]] void failAtLine(std::size_t line, const std::string& reason);
+
 // Takes the next word, up to white space, off the beginning of `line`; empty at the line's end.
 std::string_view takeWord(std::string_view& line);
 
@@ -83,6 +88,38 @@ std::optional<double> doubleFrom(std::string_view word);  // also "nan" and "inf
 // Returns the nearest float; 0 for a number too small for one, infinity for one too large, as long
 // as a double holds it.
 std::optional<float> floatFrom(std::string_view word);
+
+// Writes text to a stream in large blocks.
+class TextWriter {
+public:
+    explicit TextWriter(std::ostream& out) : out_(out) { text_.reserve(kBlock + kLongestNumber); }
+
+    void add(std::string_view text) {
+        text_ += text;
+        if (text_.size() > kBlock) flush();
+    }
+
+    // Writes `before` and the shortest decimals that read back as the same number.
+    template <class Number>
+    void addNumber(Number number, std::string_view before = " ") {
+        char digits[kLongestNumber];
+        const char* end = std::to_chars(digits, digits + kLongestNumber, number).ptr;
+        text_ += before;
+        add({digits, end});
+    }
+
+    void flush() {
+        out_.write(text_.data(), static_cast<std::streamsize>(text_.size()));
+        text_.clear();
+    }
+
+private:
+    static constexpr std::size_t kBlock = 1 << 16;
+    static constexpr std::size_t kLongestNumber = 32;
+
+    std::ostream& out_;
+    std::string text_;
+};
 
 // Returns the ends of strands of `size` points each.
 std::vector<std::uint32_t> uniformEnds(std::uint32_t strands, std::uint32_t size);

@@ -1,13 +1,14 @@
 """Writes the curves of a stage of Universal Scene Description to stdout, as usd_import.h says.
 
-Every BasisCurves prim is read, in the stage's order, including instances, in world space, +Y up, in
-the stage's unit. Prims that are invisible or whose purpose is "guide" are counted and left out. Data
-without a place in USD is read under Unreal Engine's names, as primvars or as user properties of the
-prims or of those above them (Blender's custom properties): groom_group_id or groom_group_name,
-groom_guide and, if the curves have none themselves, groom_width, groom_color, groom_root_uv. Numbers
-that are not finite are passed on, and so are curves of one vertex or none. Linear curves are their points; cubic ones are sampled (usd_cubic.py).
-Animated curves are taken at the default time, or else at their points' first sample. A stage that
-can't be read ends the program with one line on stderr.
+Every BasisCurves and NurbsCurves prim is read, in the stage's order, including instances, in world
+space, +Y up, in the stage's unit. Prims that are invisible or whose purpose is "guide" are counted
+and left out. Data without a place in USD is read under Unreal Engine's names, as primvars or as user
+properties of the prims or of those above them (Blender's custom properties): groom_group_id or
+groom_group_name, groom_guide and, if the curves have none themselves, groom_width, groom_color,
+groom_root_uv. Numbers that are not finite are passed on, and so are curves of one vertex or none.
+Linear curves are their points; others are sampled (usd_cubic.py, usd_nurbs.py). Animated curves are
+taken at the default time, or else at their points' first sample. A stage that can't be read ends
+the program with one line on stderr.
 """
 
 import argparse
@@ -244,9 +245,9 @@ class Reader:
             if prim.IsA(UsdGeom.PointInstancer):
                 self.warnings.append(f"{prim.GetPath()}: instances on points are left out")
                 walk.PruneChildren()
-            elif prim.IsA(UsdGeom.BasisCurves) and self._why_hidden(prim):
+            elif self._is_read(prim) and self._why_hidden(prim):
                 self.hidden[self._why_hidden(prim)] += Prim.curve_count(prim)
-            elif prim.IsA(UsdGeom.BasisCurves):
+            elif self._is_read(prim):
                 self.prims.append(Prim(prim, xforms, self.group_names))
                 unfolded.add(self.prims[-1].points)
                 left_out |= self.prims[-1].left_out()
@@ -255,7 +256,7 @@ class Reader:
                 self.warnings.append(f"{prim.GetPath()}: its {prim.GetTypeName()} are left out")
         if not any(prim.sizes.size for prim in self.prims):
             hidden = f" that are shown, but {self._hidden_text()}" if self.hidden else ""
-            raise Refused("the stage has no BasisCurves with points" + hidden)
+            raise Refused("the stage has no BasisCurves or NurbsCurves with points" + hidden)
         if self.hidden:
             self.warnings.append(f"{self._hidden_text()}: left out")
         if left_out:
@@ -263,6 +264,10 @@ class Reader:
         if not UsdGeom.StageHasAuthoredMetersPerUnit(self.stage):
             self.warnings.append("the stage states no unit: taken as cm, as USD says")
         self.metres_per_unit = metres_per_unit_of(self.stage)
+
+    @staticmethod
+    def _is_read(prim):
+        return prim.IsA(UsdGeom.BasisCurves) or prim.IsA(UsdGeom.NurbsCurves)
 
     @staticmethod
     def _why_hidden(prim):

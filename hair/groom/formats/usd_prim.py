@@ -1,9 +1,10 @@
-"""The curves of one UsdGeomBasisCurves, as points of strands."""
+"""The curves of one UsdGeomBasisCurves or UsdGeomNurbsCurves, as points of strands."""
 
 import numpy as np
 from pxr import Usd, UsdGeom
 
 from usd_cubic import CubicCurves, starts
+from usd_nurbs import NurbsCurves
 
 
 class Refused(Exception):
@@ -41,7 +42,7 @@ class Prim:
     @staticmethod
     def curve_count(prim):
         """Returns the number of curves of a prim that is not read."""
-        counts = UsdGeom.BasisCurves(prim).GetCurveVertexCountsAttr().Get(Usd.TimeCode.EarliestTime())
+        counts = UsdGeom.Curves(prim).GetCurveVertexCountsAttr().Get(Usd.TimeCode.EarliestTime())
         return len(counts or [])
 
     def __init__(self, prim, xforms, group_names):
@@ -49,7 +50,8 @@ class Prim:
         self.root_uv_name = None  # name of the primvar with the root UVs
         self.has_groom_width = False
         self.has_group_names = False
-        self.curves = UsdGeom.BasisCurves(prim)
+        kind = UsdGeom.NurbsCurves if prim.IsA(UsdGeom.NurbsCurves) else UsdGeom.BasisCurves
+        self.curves = kind(prim)
         self.time = Usd.TimeCode.Default()
         points = self.curves.GetPointsAttr()
         if points.Get(self.time) is None and points.GetNumTimeSamples():
@@ -82,6 +84,8 @@ class Prim:
         sizes = np.array([] if sizes is None else sizes, np.int64)
         if (sizes < 0).any():
             self.refuse(f"curve {np.argmax(sizes < 0)} has {sizes[sizes < 0][0]} vertices")
+        if isinstance(self.curves, UsdGeom.NurbsCurves):
+            return self._nurbs(sizes)
         wrap = self._value(self.curves.GetWrapAttr())
         if wrap not in ("nonperiodic", "pinned"):
             self.refuse(f"its curves are {wrap}: only curves with two ends are strands")
@@ -92,6 +96,23 @@ class Prim:
             self.refuse(f"unknown type '{kind}'; known: linear, cubic")
         try:
             return CubicCurves(self._value(self.curves.GetBasisAttr()), wrap, sizes)
+        except ValueError as error:
+            self.refuse(error)
+
+    def _nurbs(self, sizes):
+        def of(attribute):
+            value = self._value(attribute)
+            return [] if value is None else value
+
+        curves = self.curves
+        try:
+            return NurbsCurves(
+                sizes,
+                of(curves.GetOrderAttr()),
+                of(curves.GetKnotsAttr()),
+                of(curves.GetRangesAttr()),
+                of(curves.GetPointWeightsAttr()),
+            )
         except ValueError as error:
             self.refuse(error)
 
@@ -150,7 +171,7 @@ class Prim:
         if widths is None:
             return None
         # Between control vertices, a curve may be below all of them.
-        if isinstance(self.topology, CubicCurves):
+        if not isinstance(self.topology, LinearCurves):
             widths = np.maximum(widths, 0)  # NaN stays
         negative = widths[(widths < 0) & np.isfinite(widths)]
         if negative.size:

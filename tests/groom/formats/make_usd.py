@@ -101,6 +101,49 @@ def cubics():
     stage.Save()
 
 
+def nurbs(stage, path, sizes, orders, knots, values=None):
+    prim = UsdGeom.NurbsCurves.Define(stage, path)
+    prim.CreateCurveVertexCountsAttr(sizes)
+    prim.CreateOrderAttr(orders)
+    prim.CreateKnotsAttr(knots)
+    prim.CreatePointsAttr(points(sum(sizes)) if values is None else values)
+    return prim
+
+
+def curves_with_knots():
+    stage = new_stage("nurbs.usda")
+    nurbs(stage, "/quadratic", [4], [3], [0, 0, 0, 1, 3, 3, 3])
+    mixed = nurbs(
+        stage, "/orders", [6, 2, 3], [4, 2, 3],
+        [0, 0, 0, 0, 1, 1.5, 4, 4, 4, 4] + [0, 0, 1, 1] + [-1, 0, 2, 3, 7, 9])
+    widths(mixed, "vertex", [k + 1.0 for k in range(11)])
+    nurbs(stage, "/uniform", [6], [4], list(range(10)))
+    curves(stage, "/bspline", "cubic", [6], points(6), "bspline")
+    circle = nurbs(
+        stage, "/circle", [3], [3], [0, 0, 0, 1, 1, 1], [(1, 0, 0), (1, 1, 0), (0, 1, 0)])
+    circle.CreatePointWeightsAttr([1, 2**-0.5, 1])
+    part = nurbs(stage, "/part", [4], [3], [0, 0, 0, 1, 3, 3, 3])
+    part.CreateRangesAttr([(0.5, 2)])
+    widths(part, "varying", [1, 2, 4])
+    stage.Save()
+
+
+def refused_knots():
+    """Files named after their fault."""
+    flat = [0, 0, 0, 1, 1, 1]
+    for name, sizes, orders, knots in (
+            ("knots_few", [3], [3], flat[1:]), ("knots_fall", [3], [3], [0, 0, 0, 1, 1, 0]),
+            ("knots_equal", [3], [3], [0] * 6), ("order_one", [3], [1], [0, 0, 1, 1]),
+            ("order_high", [3], [4], flat + [1]), ("orders_many", [3], [3, 3], flat),
+            ("knots_nan", [3], [3], flat[:5] + [float("nan")])):
+        stage = new_stage(name + ".usda")
+        nurbs(stage, "/hair", sizes, orders, knots)
+        stage.Save()
+    stage = new_stage("weight_zero.usda")
+    nurbs(stage, "/hair", [3], [3], flat).CreatePointWeightsAttr([1, 0, 1])
+    stage.Save()
+
+
 def animated():
     stage = new_stage("animated.usd", unit=None)
     hair = curves(stage, "/hair", "linear", [2], None)
@@ -127,7 +170,7 @@ def mixed():
     widths(first, "constant", [9.0])  # primvars:widths takes precedence over it
     second = curves(stage, "/second", "linear", [2], points(2, 2))
     widths(second, "constant", [2.0])
-    UsdGeom.NurbsCurves.Define(stage, "/third")
+    UsdGeom.HermiteCurves.Define(stage, "/third")
     stage.GetPrimAtPath("/second").GetReferences().AddReference("missing.usda")
     stage.Save()
 
@@ -238,6 +281,8 @@ UsdUtils.CreateNewUsdzPackage("everything.usdc", "everything.usdz")
 transforms()
 z_up()
 cubics()
+curves_with_knots()
+refused_knots()
 animated()
 mixed()
 groom()

@@ -59,7 +59,8 @@ TEST(RoundTrip, KeepsUniformStrandsThroughEveryBinaryFormat) {
 
 TEST(RoundTrip, GivesTheSameBytes) {
     const TemporaryFolder folder;
-    for (const std::string format : {".hair", ".tfx", ".hgl", ".abc"}) {
+    for (const std::string format :
+         {".hair", ".tfx", ".hgl", ".abc", ".mitshair", ".txt", ".pbrt"}) {
         const auto first = folder.file("first" + format);
         const auto second = folder.file("second" + format);
         exportStrands(uniformStrands(), first);
@@ -81,6 +82,9 @@ TEST(RoundTrip, KeepsRaggedStrandsWhereTheFormatDoes) {
     StrandSet points_only = strands;
     points_only.widths = {};
     expectCameBack(through(folder, strands, ".obj .hair .obj"), points_only);
+    expectCameBack(through(folder, strands, ".mitshair .hair .mitshair"), points_only);
+    expectCameBack(through(folder, strands, ".txt .hair .txt"), strands);
+    expectCameBack(through(folder, strands, ".pbrt .hair .pbrt .txt .pbrt"), strands);
 }
 
 TEST(RoundTrip, KeepsRootTrianglesInHgl) {

@@ -1,3 +1,5 @@
+#include <cmath>
+
 #include <gmock/gmock.h>
 
 #include "hair/groom/formats/strand_lists.h"
@@ -12,6 +14,7 @@ namespace {
 using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
+using testing::UnorderedElementsAre;
 
 // Two strands, of three points and of two: 4 + 4 + 36 + 4 + 24 bytes.
 std::string dataFile() {
@@ -151,6 +154,77 @@ TEST(Ct2Hair, RefusesWhatHasNoStrandLeft) {
     bytes.u32(1);
     addCt2Strand(bytes, 4);
     EXPECT_THAT(readError(importCt2Hair, bytes.str()), HasSubstr("fewer than 5 points"));
+}
+
+// MonoHair's reader: two counts, the points of each strand in 16 bits, and all points.
+std::string countedFile() {
+    return Bytes()
+        .u32(2)
+        .u32(5)
+        .u16(3)
+        .u16(2)
+        .f32(0, 0, 0, 0, 1, 0, 0, 2, 0.5)
+        .f32(4, 0, 0, 4, 1, 0)
+        .str();
+}
+
+TEST(CountedHair, ReadsStrandsOfAnyLength) {
+    const StrandSet set = readText(importCountedHair, countedFile());
+    expectTheStrands(set);
+    EXPECT_THAT(set.warnings, IsEmpty());
+    EXPECT_EQ(brokenPromise(set), "");
+}
+
+TEST(CountedHair, LeavesOutWhatIsNoStrand) {
+    const std::string bytes = Bytes()
+                                  .u32(4)
+                                  .u32(8)
+                                  .u16(2)
+                                  .u16(0)
+                                  .u16(2)
+                                  .u16(2)
+                                  .f32(0, 0, 0, 0, 1, 0)
+                                  .f32(0, NAN, 0, 0, 0, 0)
+                                  .f32(1, 0, 0, 1, 1, 0)
+                                  .str();
+    const StrandSet set = readText(importCountedHair, bytes);
+    EXPECT_THAT(set.ends, ElementsAre(2, 4));
+    EXPECT_THAT(
+        set.points,
+        ElementsAre(
+            glm::vec3(0, 0, 0), glm::vec3(0, 1, 0), glm::vec3(1, 0, 0), glm::vec3(1, 1, 0)));
+    EXPECT_THAT(
+        set.warnings, UnorderedElementsAre(
+                          "the file states 8 points, but its strands have 6",
+                          "1 strand without points (strand 1, counted from 0) is left out",
+                          leftOutStrand(kNoPosition, 2)));
+    EXPECT_EQ(brokenPromise(set), "");
+    EXPECT_THAT(
+        readError(importCountedHair, Bytes().u32(1).u32(0).u16(0).str()),
+        HasSubstr("no strand can be used"));
+}
+
+TEST(CountedHair, RefusesSizesThatTheFileDoesNotBearOut) {
+    for (const std::uint32_t wrong : kWrongCounts)
+        EXPECT_THAT(
+            readError(importCountedHair, patched(countedFile(), 0, wrong)),
+            testing::StartsWith("byte "))
+            << wrong;
+    EXPECT_EQ(
+        readError(importCountedHair, patched(countedFile(), 0, 0xffffffffu)),
+        "byte 0: truncated: 4294967295 strands are more than 72 bytes can hold");
+    EXPECT_EQ(
+        readError(importCountedHair, patched(countedFile(), 8, std::uint16_t{4})),
+        "byte 72: truncated: 2 strands of 6 points without a header are 84 bytes");
+    EXPECT_EQ(
+        readError(importCountedHair, countedFile() + '\0'),
+        "byte 72: 1 trailing bytes after the last point: 2 strands of 5 points without a header "
+        "are 72 bytes");
+    for (std::size_t size = 0; size < countedFile().size(); ++size)
+        EXPECT_THAT(
+            readError(importCountedHair, countedFile().substr(0, size)),
+            testing::MatchesRegex("byte [0-9]+: .*truncated.*"))
+            << size;
 }
 
 // The two formats have different sizes: 12 and 28 bytes a point.

@@ -78,7 +78,8 @@ TEST(ImportStrands, ListsWhatItKnows) {
         fileError(path),
         path.string() +
             ": unknown format of strands '.xyz'; known: .hair, .tfx, .hgl, .ply, .obj, .gltf, "
-            ".glb, .usd, .usda, .usdc, .usdz, .data, .npy, .npz, .xml, .bin, .abc");
+            ".glb, .usd, .usda, .usdc, .usdz, .data, .npy, .npz, .xml, .bin, .abc, .mitshair, "
+            ".txt, .pbrt");
 }
 
 // The settings do not know the formats, so their help has its own list.
@@ -97,6 +98,8 @@ TEST(ImportStrands, NamesWhatItDoesNotRead) {
         {"\x89HDF\r\n\x1a\n"s, "an HDF5 file, such as an Alembic file from before 2013, which is "
                                "not read: convert it with Alembic's \"abcconvert -toOgawa\""},
         {"Kaydara FBX Binary  \0\x1a\0"s, "an FBX file"},
+        {"; FBX 7.7.0 project file\n"s, "an FBX file in text, which is not read: import it in "
+                                        "Blender and export its curves as USD"},
         {"BLENDER-v405"s, "a Blender file, which is not read: export"},
         {"\x28\xb5\x2f\xfd"s, "compressed with Zstandard"},
         {"//Maya ASCII 2024 scene\n"s, "a Maya scene (ASCII)"},
@@ -141,6 +144,25 @@ TEST(ImportStrands, NamesWhatItDoesNotRead) {
     EXPECT_EQ(strandImporterOf(folder.write("a.npz", "PK\3\4")).extensions[0], ".npz");
 }
 
+// Files of three programs have the extension .hair.
+TEST(ImportStrands, TellsFilesOfOneExtensionApart) {
+    const TemporaryFolder folder;
+    const auto nameOf = [&](std::string_view bytes) {
+        return strandImporterOf(folder.write("a.hair", bytes)).name;
+    };
+    EXPECT_EQ(nameOf(textOf(corpus("hair/points_only.hair"))), "Cem Yuksel's HAIR");
+    EXPECT_EQ(nameOf(textOf(corpus("hair/monohair.hair"))), "MonoHair's strands");
+    EXPECT_EQ(nameOf(textOf(corpus("mitshair/binary.mitshair"))), "Mitsuba's hair");
+    EXPECT_EQ(nameOf(textOf(corpus("mitshair/comments.txt"))), "Mitsuba's hair in text");
+    EXPECT_EQ(nameOf("0 0 0"), "Mitsuba's hair in text");
+    EXPECT_EQ(nameOf(""), "Cem Yuksel's HAIR");
+    EXPECT_EQ(nameOf("nothing of these, but long enough for a count"), "Cem Yuksel's HAIR");
+    // A damaged file keeps its format, if it still can have its strands.
+    EXPECT_THAT(
+        fileError(folder.write("a.hair", textOf(corpus("hair/monohair.hair")).substr(0, 60))),
+        HasSubstr("byte 60: truncated: 3 strands of 9 points without a header are 122 bytes"));
+}
+
 TEST(ExportStrands, WritesWholeFilesOrNone) {
     const TemporaryFolder folder;
     for (const StrandExporter& exporter : strandExporters()) {
@@ -159,7 +181,7 @@ TEST(ExportStrands, ListsWhatItKnows) {
     EXPECT_EQ(
         errorText([] { exportStrands(kTwoStrands, "a.usdc"); }),
         "a.usdc: strands can't be written as '.usdc'; known: .hair, .hgl, .tfx, .obj, .ply, .gltf, "
-        ".glb, .usda, .data, .npy, .npz, .abc");
+        ".glb, .usda, .data, .npy, .npz, .abc, .mitshair, .txt, .pbrt");
 }
 
 TEST(ExportStrands, ReturnsTheWarnings) {

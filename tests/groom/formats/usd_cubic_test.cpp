@@ -1,17 +1,20 @@
-// Cubic curves written by usd-core, against constructions of their points.
+// Cubic curves and curves with knots, written by usd-core, against constructions of their points.
 #include <algorithm>
 #include <array>
+#include <string>
 #include <vector>
 
 #include <glm/geometric.hpp>
-#include <gtest/gtest.h>
+#include <gmock/gmock.h>
 
+#include "tests/error_text.h"
 #include "tests/groom/formats/usd_files.h"
 
 namespace hair::groom {
 namespace {
 
 using UsdCubic = UsdFiles;
+using UsdNurbs = UsdFiles;
 
 struct Cubic {
     const char* prim;
@@ -111,6 +114,96 @@ TEST_F(UsdCubic, SampledPointsLieOnTheCurves) {
         SCOPED_TRACE(kCubics[i].prim);
         expectOnCurves(kCubics[i], set, 2 * i);
     }
+}
+
+// ---- Curves with knots --------------------------------------------------------------------------
+
+// De Boor's construction (de Boor 1972, On calculating with B-splines).
+glm::dvec3
+deBoor(const std::vector<glm::dvec3>& p, const std::vector<double>& knots, int degree, double t) {
+    int span = degree;
+    while (span + 1 < static_cast<int>(p.size()) && knots[span + 1] <= t) ++span;
+    std::vector<glm::dvec3> q(p.begin() + (span - degree), p.begin() + span + 1);
+    for (int n = 1; n <= degree; ++n) {
+        for (int i = degree; i >= n; --i) {
+            const double from = knots[span - degree + i];
+            const double a = (t - from) / (knots[span + 1 + i - n] - from);
+            q[i] = (1 - a) * q[i - 1] + a * q[i];
+        }
+    }
+    return q[degree];
+}
+
+std::vector<glm::dvec3> madeVertices(int first, int count) {
+    std::vector<glm::dvec3> vertices;
+    for (int k = first; k < first + count; ++k) vertices.emplace_back(glm::vec3(madePoint(k)));
+    return vertices;
+}
+
+void expectPoints(
+    const StrandSet& set, std::uint32_t strand, const std::vector<glm::dvec3>& expected) {
+    ASSERT_EQ(set.size(strand), expected.size());
+    // Numbers below 16, rounded once to float.
+    for (std::size_t i = 0; i < expected.size(); ++i)
+        EXPECT_LT(glm::distance(glm::dvec3(set.strand(strand)[i]), expected[i]), 16 * 0x1p-24) << i;
+}
+
+std::vector<glm::dvec3> alongKnots(
+    const std::vector<glm::dvec3>& vertices, const std::vector<double>& knots, int degree,
+    const std::vector<double>& parameters) {
+    std::vector<glm::dvec3> expected;
+    for (const double t : parameters) expected.push_back(deBoor(vertices, knots, degree, t));
+    return expected;
+}
+
+TEST_F(UsdNurbs, FollowTheirKnots) {
+    const StrandSet set = read("nurbs.usda");
+    ASSERT_EQ(set.strandCount(), 8u);
+    EXPECT_TRUE(std::ranges::none_of(set.warnings, [](const std::string& warning) {
+        return warning.find("NurbsCurves") != std::string::npos;
+    }));
+    // Two segments of two pieces.
+    const std::vector<double> knots{0, 0, 0, 1, 3, 3, 3};
+    expectPoints(set, 0, alongKnots(madeVertices(0, 4), knots, 2, {0, 0.5, 1, 2, 3}));
+    // Curves of one prim have as many pieces of a segment: 2, because of the first one.
+    expectPoints(
+        set, 1,
+        alongKnots(
+            madeVertices(0, 6), {0, 0, 0, 0, 1, 1.5, 4, 4, 4, 4}, 3,
+            {0, 0.5, 1, 1.25, 1.5, 2.75, 4}));
+    expectPoints(set, 2, alongKnots(madeVertices(6, 2), {0, 0, 1, 1}, 1, {0, 0.5, 1}));
+    expectPoints(set, 3, alongKnots(madeVertices(8, 3), {-1, 0, 2, 3, 7, 9}, 2, {2, 2.5, 3}));
+    // With a range, the curve is its part from 0.5 to 2.
+    expectPoints(set, 7, alongKnots(madeVertices(0, 4), knots, 2, {0.5, 0.75, 1, 1.5, 2}));
+}
+
+TEST_F(UsdNurbs, AreUniformBsplinesWithKnotsAtWholeNumbers) {
+    const StrandSet set = read("nurbs.usda");
+    const auto bspline = set.strand(5);
+    expectPoints(set, 4, {bspline.begin(), bspline.end()});
+}
+
+// With a weight of cos 45 degrees in the middle, three vertices make a quarter of a circle.
+TEST_F(UsdNurbs, FollowTheirWeights) {
+    const StrandSet set = read("nurbs.usda");
+    ASSERT_EQ(set.size(6), 3u);
+    for (const glm::vec3& point : set.strand(6)) EXPECT_NEAR(glm::length(point), 1.0f, 1e-6f);
+    EXPECT_NEAR(set.strand(6)[1].x, set.strand(6)[1].y, 1e-6f);
+}
+
+TEST_F(UsdNurbs, WithOtherKnotsAreRefused) {
+    const auto error = [&](const std::string& name) {
+        return errorText([&] { read(name + ".usda"); });
+    };
+    using testing::HasSubstr;
+    EXPECT_THAT(error("knots_few"), HasSubstr("/hair: 5 knots, but 6 are needed"));
+    EXPECT_THAT(error("knots_fall"), HasSubstr("curve 0 has knots that decrease"));
+    EXPECT_THAT(error("knots_equal"), HasSubstr("curve 0 has no different knots"));
+    EXPECT_THAT(error("knots_nan"), HasSubstr("knot 5 is not finite"));
+    EXPECT_THAT(error("order_one"), HasSubstr("curve 0 has the order 1 and 3 vertices"));
+    EXPECT_THAT(error("order_high"), HasSubstr("curve 0 has the order 4 and 3 vertices"));
+    EXPECT_THAT(error("orders_many"), HasSubstr("2 orders of 1 curves"));
+    EXPECT_THAT(error("weight_zero"), HasSubstr("weight 1 is not a positive number"));
 }
 
 }  // namespace

@@ -8,6 +8,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "hair/groom/files.h"
 #include "hair/groom/mesh/import_mesh.h"
 #include "tests/error_text.h"
 #include "tests/groom/formats/usd_files.h"
@@ -110,7 +111,7 @@ TEST_F(UsdImportTest, SaysWhatItLeavesOut) {
         ElementsAre(glm::vec3(1, 0, 0), glm::vec3(1, 0, 0), glm::vec3(1), glm::vec3(1)));
     EXPECT_THAT(
         set.warnings, ElementsAre(
-                          HasSubstr("missing.usda"), "/third: its NurbsCurves are left out",
+                          HasSubstr("missing.usda"), "/third: its HermiteCurves are left out",
                           "2 of 4 points have no colour and become white"));
 }
 
@@ -143,7 +144,7 @@ TEST_F(UsdImportTest, RefusesNamingThePrim) {
         {"short.usdc", ""},
         {"short.usdz", ""},
         {"empty.usd", ""},
-        {"bald.usda", "the stage has no BasisCurves with points"},
+        {"bald.usda", "the stage has no BasisCurves or NurbsCurves with points"},
     };
     for (const auto& [name, reason] : kRefused) {
         const std::string line = "refused " + std::string(name) + ": " + reason;
