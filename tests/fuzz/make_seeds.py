@@ -249,6 +249,77 @@ def mesh_stream():
     return stream + struct.pack("<Q", 1) + name("skin.png")
 
 
+class Ogawa:
+    """Writes an Alembic archive as hair/groom/formats/ogawa.h describes it."""
+
+    DATA = 1 << 63
+
+    def __init__(self):
+        self.bytes = bytearray(b"Ogawa\xff\0\1" + bytes(8))
+
+    def data(self, content):
+        at = len(self.bytes)
+        self.bytes += struct.pack("<Q", len(content)) + content
+        return at | self.DATA
+
+    def group(self, children):
+        at = len(self.bytes)
+        self.bytes += struct.pack(f"<{len(children) + 1}Q", len(children), *children)
+        return at
+
+    def properties(self, each):
+        """A property is its name, its kind (0 compound, 1 scalar, 2 array), its type, its extent,
+        and its bytes or its own properties."""
+        groups, headers = [], b""
+        for label, kind, code, extent, content in each:
+            if kind == 0:
+                groups.append(self.properties(content))
+            else:
+                sample = self.data(bytes(16) + content)
+                groups.append(self.group([sample, self.DATA][:kind]))
+            bits = kind | 2 << 2 | code << 4 | (0x800 if kind else 0) | extent << 12 | 0xff << 20
+            headers += struct.pack("<I", bits) + (struct.pack("<I", 1) if kind else b"")
+            headers += struct.pack("<I", len(label)) + label.encode() + struct.pack("<I", 0)
+        return self.group([*groups, self.data(headers)])
+
+    def object(self, properties, children=()):
+        """A child is its name, its schema, and what object() returned for it."""
+        headers = b""
+        for label, schema, _ in children:
+            metadata = f"schema={schema}".encode()
+            headers += struct.pack("<I", len(label)) + label.encode() + b"\xff"
+            headers += struct.pack("<I", len(metadata)) + metadata
+        own = self.properties(properties) if properties else 0
+        return self.group([own, *(child for _, _, child in children), self.data(headers + bytes(32))])
+
+    def finish(self, top):
+        parts = [self.data(struct.pack("<I", number)) for number in (0, 10703)]
+        parts += [top, self.data(b""), self.data(struct.pack("<IdId", 1, 1, 1, 0)), self.DATA]
+        self.bytes[8:16] = struct.pack("<Q", self.group(parts))
+        return bytes(self.bytes)
+
+
+def alembic_mesh():
+    """Returns an archive with a square of two faces, and one of them in a face set."""
+    floats, integers = 10, 6
+    archive = Ogawa()
+    points = struct.pack("<12f", 0, 0, 0, 1, 0, 0, 1, 0, 1, 0, 0, 1)
+    uvs = struct.pack("<12f", 0, 0, 1, 0, 1, 1, 0, 0, 1, 1, 0.5, 1)
+    scalp = archive.object(
+        [(".faceset", 0, 0, 1, [(".faces", 2, integers, 1, struct.pack("<i", 1))])])
+    mesh = archive.object(
+        [(".geom", 0, 0, 1, [
+            ("P", 2, floats, 3, points), ("uv", 2, floats, 2, uvs),
+            (".faceCounts", 2, integers, 1, struct.pack("<2i", 3, 3)),
+            (".faceIndices", 2, integers, 1, struct.pack("<6i", 0, 1, 2, 0, 2, 3))])],
+        [("scalp", "AbcGeom_FaceSet_v1", scalp)])
+    move = archive.object(
+        [(".xform", 0, 0, 1, [
+            (".ops", 1, 1, 2, b"\x10\0"), (".vals", 1, 11, 6, struct.pack("<6d", 0, 5, 0, 2, -2, 2))])],
+        [("head", "AbcGeom_PolyMesh_v1", mesh)])
+    return archive.finish(archive.object([], [("move", "AbcGeom_Xform_v3", move)]))
+
+
 def usd_stream():
     """Returns the output of usd_curves.py for two strands: hair/groom/formats/usd_import.h."""
     sections = [
@@ -464,6 +535,7 @@ def ply_strip():
 
 def main():
     for target, makers in [
+        ("alembic_mesh", {"square.abc": alembic_mesh}),
         ("animation", {"skin.glb": skin, "morph.glb": morph}),
         ("mesh_stream", {"square.bin": mesh_stream}),
         ("ply_faces", {"faces.ply": ply_text, "strip.ply": ply_strip}),

@@ -38,6 +38,7 @@
 #include "hair/groom/formats/usd_import.h"
 #include "hair/groom/mesh/animation.h"
 #include "hair/groom/mesh/deforming_mesh.h"
+#include "hair/groom/mesh/import_alembic.h"
 #include "hair/groom/mesh/import_mesh.h"
 #include "hair/groom/mesh/mesh_stream.h"
 #include "tests/benchmarks/sample_report.h"
@@ -177,6 +178,23 @@ GltfFile readGltfFile(std::string_view bytes) {
 }
 
 void readMesh(std::string_view bytes) { checkMesh(readGltfFile(bytes).mesh); }
+
+// Reads the meshes of an Alembic archive as importMesh() does, before it checks their normals.
+void readAlembicMeshFile(std::string_view bytes) {
+    const hair::groom::Mesh mesh = hair::groom::readAlembicMesh(asBytes(bytes));
+    for (const auto& triangle : mesh.triangles)
+        for (const std::uint32_t vertex : triangle)
+            expect(vertex < mesh.positions.size(), "triangles name vertices");
+    expect(mesh.normals.size() == mesh.positions.size(), "there is a normal for each vertex");
+    expect(
+        mesh.texture_coordinates.empty() ||
+            mesh.texture_coordinates.size() == mesh.positions.size(),
+        "there is a texture coordinate for each vertex");
+    expect(
+        mesh.triangle_materials.size() == mesh.triangles.size() &&
+            mesh.triangle_parts.size() == mesh.triangles.size(),
+        "triangles have materials and parts");
+}
 
 // Reads the skins, morph targets and keyframes of a glTF mesh.
 void readAnimation(std::string_view bytes) {
@@ -569,6 +587,7 @@ std::vector<Target> allTargets() {
         {"ply_faces",
          readPlyFaces,
          {{"tests/corpus/ply", {}}, {"tests/fuzz/seeds/ply_faces", {}}}});
+    all.push_back({"alembic_mesh", readAlembicMeshFile, {{"tests/fuzz/seeds/alembic_mesh", {}}}});
     all.push_back({"mesh_stream", readMeshStream, {{"tests/fuzz/seeds/mesh_stream", {}}}});
     all.push_back(
         {"picture",

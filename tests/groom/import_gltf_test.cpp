@@ -281,7 +281,40 @@ TEST(ImportGltf, RefusesWhatItDoesNotRead) {
         importError(
             {.extra = R"(,"extensionsUsed":["KHR_draco_mesh_compression"],)"
                       R"("extensionsRequired":["KHR_draco_mesh_compression"])"}),
-        HasSubstr("needs KHR_draco_mesh_compression"));
+        HasSubstr("needs KHR_draco_mesh_compression, which is not supported: it is compressed with "
+                  "Draco; export it without compression"));
+    // Compressed primitives have accessors without a bufferView.
+    EXPECT_THAT(
+        importError(
+            {.extra = R"(,"extensionsUsed":["EXT_meshopt_compression"],)"
+                      R"("extensionsRequired":["EXT_meshopt_compression"],"bufferViews":[{}])"}),
+        HasSubstr("it is compressed with meshoptimizer"));
+}
+
+// KHR_mesh_quantization: whole numbers of 16 bits, which the node's scale makes metres, and
+// normals of normalized bytes, 127 for 1. (Files have them at multiples of 4 bytes.)
+TEST(ImportGltf, ReadsQuantizedVectors) {
+    std::string data;
+    for (const int value : {0, 0, 0, 0, 0, 1024, 2048, 0, 0})
+        put(data, static_cast<std::int16_t>(value));
+    data.resize(36, '\0');
+    for (int i = 0; i < 3; ++i)
+        for (const int value : {0, 127, 0}) put(data, static_cast<std::int8_t>(value));
+    data.resize(72, '\0');
+    for (const int index : {0, 1, 2, 0}) put(data, static_cast<std::uint16_t>(index));
+    Document document{
+        .node = R"("mesh":0,"scale":[0.0009765625,0.0009765625,0.0009765625])",
+        .attributes = R"("POSITION":0,"NORMAL":3)",
+        .position = R"("componentType":5122,"count":3,"type":"VEC3")",
+        .more_accessors =
+            R"(,{"bufferView":1,"componentType":5120,"normalized":true,"count":3,"type":"VEC3"})",
+        .data = data};
+    EXPECT_THAT(importError(document), HasSubstr("is not VEC3 of float"));
+    document.extra = R"(,"extensionsUsed":["KHR_mesh_quantization"],)"
+                     R"("extensionsRequired":["KHR_mesh_quantization"])";
+    const Mesh mesh = import(document);
+    EXPECT_THAT(mesh.positions, ElementsAre(glm::vec3(0), glm::vec3(0, 0, 1), glm::vec3(2, 0, 0)));
+    EXPECT_EQ(mesh.normals[1], glm::vec3(0, 1, 0));
 }
 
 TEST(ImportGltf, RefusesWrongReferences) {

@@ -289,6 +289,47 @@ int depthOf(std::string_view text) {
     return most;
 }
 
+// Extensions that change the geometry and are not read, with advice.
+struct UnreadExtension {
+    std::string_view name;
+    std::string_view advice;
+};
+
+constexpr std::array kUnreadExtensions{
+    UnreadExtension{
+        "KHR_draco_mesh_compression",
+        ": it is compressed with Draco; export it without compression, or import it in Blender and "
+        "export it again"},
+    UnreadExtension{
+        "EXT_meshopt_compression",
+        ": it is compressed with meshoptimizer; export it without compression, or decode it with "
+        "'gltf-transform copy'"},
+    UnreadExtension{
+        "KHR_meshopt_compression",
+        ": it is compressed with meshoptimizer; export it without compression, or decode it with "
+        "'gltf-transform copy'"}};
+
+constexpr std::string_view kQuantization = "KHR_mesh_quantization";
+
+// Refuses required extensions that are not known. Before tinygltf reads the file, because it names
+// something else in files that are compressed.
+void checkExtensions(const json& document) {
+    const auto required =
+        document.is_object() ? document.find("extensionsRequired") : document.end();
+    if (required == document.end() || !required->is_array()) return;
+    for (const json& element : *required) {
+        if (!element.is_string()) continue;
+        const auto& extension = element.get_ref<const std::string&>();
+        if (extension.starts_with("KHR_materials_") || extension == "KHR_texture_transform" ||
+            extension == kQuantization)
+            continue;
+        const auto row = std::ranges::find(kUnreadExtensions, extension, &UnreadExtension::name);
+        throw engine::Error(
+            "the file needs " + extension + ", which is not supported" +
+            std::string(row == kUnreadExtensions.end() ? "" : row->advice));
+    }
+}
+
 struct Rewritten {
     std::optional<std::string> file;  // absent if the given file stays as it is
     std::vector<tinygltf::Image> images;
@@ -305,6 +346,7 @@ Rewritten rewritten(std::string_view file, GltfImages images, GltfMotion motion)
     try {
         // Does not use nlohmann's callback, which takes quadratic time in the length of an array.
         json document = json::parse(chunks.json.begin(), chunks.json.end());
+        checkExtensions(document);
         bool has_others = dropOthers(document, images, motion);
         const std::string data = isGlb(file) ? std::string() : takeData(document);
         std::vector<tinygltf::Image> taken = takeImages(document);
@@ -369,14 +411,6 @@ Callbacks fileCallbacks(FileAccess& access) {
     return callbacks;
 }
 
-void checkExtensions(const tinygltf::Model& model) {
-    for (const std::string& extension : model.extensionsRequired) {
-        if (extension.starts_with("KHR_materials_") || extension == "KHR_texture_transform")
-            continue;
-        throw engine::Error("the file needs " + extension + ", which is not supported");
-    }
-}
-
 }  // namespace
 
 tinygltf::Model loadGltf(
@@ -409,7 +443,6 @@ tinygltf::Model loadGltf(
     } catch (const std::exception& exception) {
         throw engine::Error("can't be read as glTF: " + reasonIn(exception.what()));
     }
-    checkExtensions(model);
     model.images = std::move(other.images);
     return model;
 }
@@ -583,6 +616,28 @@ GltfNumbers numbersOf(const Elements& elements, GltfIntegers integers) {
     return numbers;
 }
 
+// Whether vectors of integers are allowed, as KHR_mesh_quantization allows them: 8 or 16 bits,
+// perhaps normalized.
+bool isQuantized(const tinygltf::Model& model, const Elements& elements) {
+    constexpr std::array kTypes{
+        TINYGLTF_COMPONENT_TYPE_BYTE, TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE,
+        TINYGLTF_COMPONENT_TYPE_SHORT, TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT};
+    return std::ranges::find(kTypes, elements.accessor.componentType) != kTypes.end() &&
+           std::ranges::find(model.extensionsUsed, kQuantization) != model.extensionsUsed.end();
+}
+
+template <class Vector>
+std::vector<Vector> readQuantized(const Elements& elements) {
+    constexpr auto kSize = static_cast<std::size_t>(Vector::length());
+    const GltfNumbers numbers = numbersOf(elements, GltfIntegers::whole);
+    std::vector<Vector> vectors(elements.accessor.count);
+    for (std::size_t i = 0; i < vectors.size(); ++i)
+        for (std::size_t axis = 0; axis < kSize; ++axis)
+            vectors[i][static_cast<int>(axis)] =
+                static_cast<float>(numbers.values[kSize * i + axis]);
+    return vectors;
+}
+
 void requireFloat(const Elements& elements, int type, const char* expected) {
     if (elements.accessor.type == type &&
         elements.accessor.componentType == TINYGLTF_COMPONENT_TYPE_FLOAT)
@@ -656,6 +711,8 @@ std::vector<float> readScalars(const tinygltf::Model& model, int accessor) {
 
 std::vector<glm::vec3> readVectors(const tinygltf::Model& model, int accessor) {
     const Elements elements = elementsOf(model, accessor);
+    if (elements.accessor.type == TINYGLTF_TYPE_VEC3 && isQuantized(model, elements))
+        return readQuantized<glm::vec3>(elements);
     requireFloat(elements, TINYGLTF_TYPE_VEC3, "VEC3 of float");
     return copy<glm::vec3>(elements);
 }
@@ -668,7 +725,10 @@ readPositions(const tinygltf::Model& model, const tinygltf::Primitive& primitive
 }
 
 std::vector<glm::vec2> readTextureCoordinates(const tinygltf::Model& model, int accessor) {
-    return readShares<2>(elementsOf(model, accessor), TINYGLTF_TYPE_VEC2);
+    const Elements elements = elementsOf(model, accessor);
+    if (elements.accessor.type == TINYGLTF_TYPE_VEC2 && isQuantized(model, elements))
+        return readQuantized<glm::vec2>(elements);
+    return readShares<2>(elements, TINYGLTF_TYPE_VEC2);
 }
 
 GltfColors readColors(const tinygltf::Model& model, int accessor) {

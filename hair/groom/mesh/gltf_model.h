@@ -80,7 +80,7 @@ const Element& at(const std::vector<Element>& elements, int index, const char* k
 // The accessor of a primitive's attribute.
 std::optional<int> findAttribute(const tinygltf::Primitive& primitive, const std::string& name);
 
-// Accessors of float.
+// Accessors of float; vectors may also be of integers where the file uses KHR_mesh_quantization.
 std::vector<float> readScalars(const tinygltf::Model& model, int accessor);
 std::vector<glm::vec3> readVectors(const tinygltf::Model& model, int accessor);
 
@@ -111,7 +111,7 @@ std::vector<Value> matching(std::vector<Value> values, std::size_t count, const 
     throw engine::Error(name + " and POSITION differ in count");
 }
 
-// Accessors of float, or of normalized unsigned bytes or shorts.
+// Accessors of float, or of normalized unsigned bytes or shorts, or quantized as above.
 std::vector<glm::vec2> readTextureCoordinates(const tinygltf::Model& model, int accessor);
 
 struct GltfColors {

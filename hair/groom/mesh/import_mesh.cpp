@@ -22,6 +22,7 @@
 #include "hair/groom/files.h"
 #include "hair/groom/formats/ply.h"
 #include "hair/groom/formats/usd_import.h"
+#include "hair/groom/mesh/import_alembic.h"
 #include "hair/groom/mesh/import_gltf.h"
 #include "hair/groom/mesh/mesh.h"
 #include "hair/groom/mesh/mesh_stream.h"
@@ -89,10 +90,12 @@ constexpr std::array<std::string_view, 2> gltf_extensions{".glb", ".gltf"};
 constexpr std::array<std::string_view, 6> assimp_extensions{".obj", ".ply", ".stl",
                                                             ".off", ".fbx", ".dae"};
 constexpr std::array<std::string_view, 4> usd_extensions{".usd", ".usda", ".usdc", ".usdz"};
+constexpr std::array<std::string_view, 1> alembic_extensions{".abc"};
 constexpr std::array mesh_importers{
     MeshImporter{gltf_extensions, importGltf},
     MeshImporter{assimp_extensions, importAssimp},
     MeshImporter{usd_extensions, importUsdMesh},
+    MeshImporter{alembic_extensions, importAlembicMesh},
 };
 
 const MeshImporter& importerFor(const std::filesystem::path& path) {
