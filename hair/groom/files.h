@@ -48,8 +48,9 @@ std::span<const StrandImporter> strandImporters();
 std::string readExtensions();
 
 // Returns the importer of a file: by its first bytes if they are a format's magic, otherwise by its
-// extension, in upper or lower case. Formats that share an extension are told apart by looks_like. Throws engine::Error "path: reason". For some formats that are
-// not read, the reason names the format and says what to do.
+// extension, in upper or lower case. Formats that share an extension are told apart by looks_like.
+// Throws engine::Error "path: reason". For some formats that are not read, the reason names the
+// format and says what to do.
 const StrandImporter& strandImporterOf(const std::filesystem::path& path);
 
 // `points_per_strand`: see StrandFile. Formats that state it themselves ignore it. Strands that

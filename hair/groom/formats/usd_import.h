@@ -15,10 +15,10 @@
 
 namespace hair::groom {
 
-// Reads the curves of every UsdGeomBasisCurves and UsdGeomNurbsCurves in a stage of Universal Scene Description (.usd,
-// .usda, .usdc, .usdz) by usd_curves.py; its comments have the details. Throws engine::Error if the
-// project's Python environment is missing, for a file without a path, and with the last line of the
-// tool's errors if it fails.
+// Reads the curves of every UsdGeomBasisCurves and UsdGeomNurbsCurves in a stage of Universal Scene
+// Description (.usd, .usda, .usdc, .usdz) by usd_curves.py; its comments have the details. Throws
+// engine::Error if the project's Python environment is missing, for a file without a path, and with
+// the last line of the tool's errors if it fails.
 StrandSet importUsd(const StrandFile& file);
 
 // Reads the control meshes of every UsdGeomMesh of a stage that is rendered, by usd_mesh.py; its
