@@ -44,13 +44,16 @@ def hair_files():
         info=b"three strands")
     yield "points_only.hair", hair(2, 8, {1: floats(UNIFORM)}, default_segments=3)
     yield "segments_and_colors.hair", hair(3, 9, {0: segments, 1: floats(POINTS), 4: colors})
-    yield "monohair.hair", monohair(SIZES, POINTS)
 
 
 def monohair(sizes, points, stated=None):
     """MonoHair's strands: two counts, the points of each strand, then all points."""
     stated = sum(sizes) if stated is None else stated
     return struct.pack(f"<2I{len(sizes)}H", len(sizes), stated, *sizes) + floats(points)
+
+
+def monohair_files():
+    yield "monohair.hair", monohair(SIZES, POINTS)
 
 
 def mitsuba_files():
@@ -312,7 +315,11 @@ def hostile_hair_files():
     yield "four_billion_points.hair", hair(1, 2**32 - 1, {1: b""}, default_segments=2**32 - 2)
     yield "segments_past_the_end.hair", hair(
         1, 2, {0: struct.pack("<H", 65535), 1: floats(POINTS[:2])})
+
+
+def hostile_monohair_files():
     yield "sizes_past_the_end.hair", monohair([65535, 65535], POINTS[:2])
+    yield "four_billion_strands.hair", struct.pack("<2I", 2**32 - 1, 2**32 - 1)
 
 
 def hostile_mitsuba_files():
@@ -385,6 +392,7 @@ def main():
         "hair": hair_files, "tfx": tfx_files, "hgl": hgl_files, "gltf": gltf_files,
         "usd": usd_files, "obj": obj_files, "data": data_files, "bin": bin_files,
         "npy": npy_files, "npz": npz_files, "xml": xml_files,
+        "other_hair": monohair_files, "findings/other_hair": hostile_monohair_files,
         "mitshair": mitsuba_files, "pbrt": pbrt_files,
         "findings/mitshair": hostile_mitsuba_files, "findings/pbrt": hostile_pbrt_files,
         "findings/hair": hostile_hair_files, "findings/tfx": hostile_tfx_files,

@@ -114,16 +114,16 @@ std::vector<const hair::groom::StrandImporter*> importers() {
     return all;
 }
 
-// Another reader of an extension has its name after "second_".
+// Another reader of an extension has its name after "other_".
 Target strandTarget(const hair::groom::StrandImporter& row) {
     const std::string_view extension = row.extensions.front();
     const auto all = importers();
     const auto first = std::ranges::find_if(all, [&](const hair::groom::StrandImporter* other) {
         return other->extensions.front() == extension;
     });
-    const std::string name(extension.substr(1));
+    const std::string name = (*first == &row ? "" : "other_") + std::string(extension.substr(1));
     return {
-        .name = (*first == &row ? "" : "second_") + name,
+        .name = name,
         .read =
             [&row](std::string_view bytes) {
                 checkStrands(hair::groom::usableStrands(row.read({.bytes = asBytes(bytes)})));

@@ -151,7 +151,7 @@ TEST(ImportStrands, TellsFilesOfOneExtensionApart) {
         return strandImporterOf(folder.write("a.hair", bytes)).name;
     };
     EXPECT_EQ(nameOf(textOf(corpus("hair/points_only.hair"))), "Cem Yuksel's HAIR");
-    EXPECT_EQ(nameOf(textOf(corpus("hair/monohair.hair"))), "MonoHair's strands");
+    EXPECT_EQ(nameOf(textOf(corpus("other_hair/monohair.hair"))), "MonoHair's strands");
     EXPECT_EQ(nameOf(textOf(corpus("mitshair/binary.mitshair"))), "Mitsuba's hair");
     EXPECT_EQ(nameOf(textOf(corpus("mitshair/comments.txt"))), "Mitsuba's hair in text");
     EXPECT_EQ(nameOf("0 0 0"), "Mitsuba's hair in text");
@@ -159,7 +159,7 @@ TEST(ImportStrands, TellsFilesOfOneExtensionApart) {
     EXPECT_EQ(nameOf("nothing of these, but long enough for a count"), "Cem Yuksel's HAIR");
     // A damaged file keeps its format, if it still can have its strands.
     EXPECT_THAT(
-        fileError(folder.write("a.hair", textOf(corpus("hair/monohair.hair")).substr(0, 60))),
+        fileError(folder.write("a.hair", textOf(corpus("other_hair/monohair.hair")).substr(0, 60))),
         HasSubstr("byte 60: truncated: 3 strands of 9 points without a header are 122 bytes"));
 }
 
