@@ -188,6 +188,14 @@ void addGroomCommands(const CommandLine& line) {
             addGroups(command, options.groups, "show strands");
             command.add_flag("--json", options.json, "print JSON");
         });
+    addCommand<GroomFormatsOptions>(
+        line, *groom,
+        {.name = "formats",
+         .description = "lists the formats of hair and their data that are read and written",
+         .examples = {"hairbench groom formats"}},
+        printGroomFormats, [](CLI::App& command, GroomFormatsOptions& options) {
+            command.add_flag("--markdown", options.markdown, "print the table in Markdown");
+        });
     addCommand<GroomSceneOptions>(
         line, *groom,
         {.name = "scene",

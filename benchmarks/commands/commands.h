@@ -101,6 +101,11 @@ struct GroomInfoOptions {
 };
 int inspectGroom(const GroomInfoOptions& options);
 
+struct GroomFormatsOptions {
+    bool markdown = false;  // print the table of the documentation
+};
+int printGroomFormats(const GroomFormatsOptions& options);
+
 // Returns the strands of these groups, or all if there are none. Throws engine::Error as
 // keepGroups() does, with the file and --group.
 hair::groom::StrandSet chosenGroups(

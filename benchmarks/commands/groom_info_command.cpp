@@ -1,10 +1,14 @@
 #include <iostream>
+#include <algorithm>
 #include <optional>
+#include <sstream>
+#include <string>
 #include <utility>
 
 #include "benchmarks/commands/commands.h"
 #include "benchmarks/groom/info.h"
 #include "benchmarks/report/change.h"
+#include "benchmarks/report/text.h"
 #include "engine/error.h"
 #include "hair/groom/files.h"
 #include "hair/groom/inspect.h"
@@ -21,6 +25,36 @@ hair::groom::StrandSet chosenGroups(
     } catch (const engine::Error& error) {
         throw engine::Error(file.string() + ": --group", error.what());
     }
+}
+
+int printGroomFormats(const GroomFormatsOptions& options) {
+    const std::string table = hair::groom::formatsMarkdown();
+    if (options.markdown) {
+        std::cout << table;
+        return report::kOk;
+    }
+    // Columns of a table are cells between bars; those of the plain text are as wide as needed.
+    std::vector<report::Column> columns;
+    std::istringstream lines(table);
+    for (std::string line; std::getline(lines, line);) {
+        if (line.starts_with("|---")) continue;
+        std::size_t column = 0;
+        for (std::size_t at = 1; at < line.size(); ++column) {
+            const std::size_t end = line.find('|', at);
+            std::string cell = line.substr(at, end - at);
+            std::erase(cell, '`');
+            cell.erase(0, std::min(cell.find_first_not_of(' '), cell.size()));
+            cell.erase(cell.find_last_not_of(' ') + 1);
+            if (columns.size() == column)
+                columns.push_back({.title = cell, .numeric = false});
+            else
+                columns[column].cells.push_back(cell);
+            at = end + 1;
+        }
+    }
+    for (std::size_t row = 0; row <= columns.front().cells.size(); ++row)
+        std::cout << report::columnsLine(columns, row);
+    return report::kOk;
 }
 
 int inspectGroom(const GroomInfoOptions& options) {

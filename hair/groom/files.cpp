@@ -212,4 +212,161 @@ StrandSet importStrands(
     }
 }
 
+// ---- Facts --------------------------------------------------------------------------------------
+
+namespace {
+
+constexpr FormatFact both(Fact fact, std::string_view how = {}) { return {fact, true, true, how}; }
+constexpr FormatFact onlyRead(Fact fact, std::string_view how = {}) {
+    return {fact, true, false, how};
+}
+constexpr FormatFact onlyWritten(Fact fact, std::string_view how = {}) {
+    return {fact, false, true, how};
+}
+
+constexpr auto kAnyLength = "of any length"sv;
+constexpr auto kOneLength = "of one length"sv;
+constexpr auto kPerPoint = "per point"sv;
+constexpr auto kPerStrand = "per strand"sv;
+constexpr auto kInColor = "in the colour"sv;
+
+constexpr FormatFact kHairFacts[] = {
+    both(Fact::strands, kAnyLength), both(Fact::widths, kPerPoint), both(Fact::colors, kPerPoint),
+    both(Fact::transparencies, kPerPoint)};
+constexpr FormatFact kTfxFacts[] = {
+    both(Fact::strands, kOneLength), both(Fact::widths, kPerStrand), both(Fact::colors, kPerPoint),
+    both(Fact::transparencies, kInColor), both(Fact::root_uvs)};
+constexpr FormatFact kTfx3Facts[] = {
+    onlyRead(Fact::strands, kOneLength), onlyRead(Fact::widths, kPerStrand),
+    onlyRead(Fact::colors, kPerPoint), onlyRead(Fact::transparencies, kInColor),
+    onlyRead(Fact::root_uvs)};
+constexpr FormatFact kTfx2Facts[] = {onlyRead(Fact::strands, kAnyLength), onlyRead(Fact::root_uvs)};
+constexpr FormatFact kHglFacts[] = {
+    both(Fact::strands, kOneLength), both(Fact::unit, "m"), both(Fact::root_triangles)};
+constexpr FormatFact kObjFacts[] = {both(Fact::strands, kAnyLength), both(Fact::colors, kPerPoint)};
+constexpr FormatFact kGltfFacts[] = {
+    both(Fact::strands, kAnyLength),
+    onlyRead(Fact::guides, "in extras"),
+    onlyRead(Fact::groups, "in extras"),
+    both(Fact::widths, kPerPoint),
+    both(Fact::colors, kPerPoint),
+    both(Fact::transparencies, kPerPoint),
+    both(Fact::unit, "m"),
+    both(Fact::up, "+y")};
+constexpr FormatFact kUsdaFacts[] = {
+    both(Fact::strands, kAnyLength),
+    both(Fact::guides),
+    both(Fact::groups),
+    both(Fact::widths, kPerPoint),
+    both(Fact::colors, kPerPoint),
+    both(Fact::transparencies, kPerPoint),
+    both(Fact::root_uvs),
+    both(Fact::unit, "any"),
+    both(Fact::up, "+y; +z is read"),
+    both(Fact::root_triangles),
+    onlyWritten(Fact::animation, "by `simulate --export`")};
+constexpr FormatFact kUsdFacts[] = {
+    onlyRead(Fact::strands, kAnyLength),
+    onlyRead(Fact::guides),
+    onlyRead(Fact::groups),
+    onlyRead(Fact::widths, kPerPoint),
+    onlyRead(Fact::colors, kPerPoint),
+    onlyRead(Fact::transparencies, kPerPoint),
+    onlyRead(Fact::root_uvs),
+    onlyRead(Fact::unit, "any"),
+    onlyRead(Fact::up, "+y or +z"),
+    onlyRead(Fact::root_triangles)};
+constexpr FormatFact kAlembicFacts[] = {
+    both(Fact::strands, kAnyLength),
+    both(Fact::guides),
+    both(Fact::groups),
+    both(Fact::widths, kPerPoint),
+    both(Fact::colors, kPerPoint),
+    both(Fact::root_uvs),
+    both(Fact::unit, "own"),
+    both(Fact::root_triangles, "own")};
+constexpr FormatFact kPointsFacts[] = {both(Fact::strands, kAnyLength)};
+constexpr FormatFact kPointsReadFacts[] = {onlyRead(Fact::strands, kAnyLength)};
+constexpr FormatFact kNpyFacts[] = {both(Fact::strands, kOneLength)};
+constexpr FormatFact kNpzFacts[] = {
+    both(Fact::strands, kOneLength), both(Fact::guides, "own"), both(Fact::groups, "own"),
+    both(Fact::widths, "own, per point"), both(Fact::root_uvs)};
+constexpr FormatFact kXmlFacts[] = {
+    onlyRead(Fact::strands, kAnyLength), onlyRead(Fact::widths, kPerPoint)};
+
+// Mitsuba's text and pbrt's curves.
+constexpr FormatFact kCurvesFacts[] = {
+    both(Fact::strands, kAnyLength), both(Fact::widths, kPerPoint)};
+
+constexpr std::array kGltfs{".gltf"sv, ".glb"sv};
+constexpr std::array kMitsubaBinary{".mitshair"sv};
+constexpr std::array kMitsubaText{".txt"sv};
+constexpr std::array kUsda{".usda"sv};
+constexpr std::array kOtherUsd{".usd"sv, ".usdc"sv, ".usdz"sv};
+
+constexpr FormatFacts kFormatFacts[] = {
+    {kHair, "Cem Yuksel's HAIR", kHairFacts},
+    {kHair, "MonoHair's strands, without a header", kPointsReadFacts},
+    {kTfx, "TressFX 4", kTfxFacts},
+    {kTfx, "TressFX 3.1", kTfx3Facts},
+    {kTfx, "TressFX 2, text", kTfx2Facts},
+    {kHgl, "the thesis's", kHglFacts},
+    {kPly, "vertices and edges, polylines, or points alone", kHairFacts},
+    {kObj, "line elements", kObjFacts},
+    {kGltfs, "line primitives", kGltfFacts},
+    {kUsda, "BasisCurves, NurbsCurves", kUsdaFacts},
+    {kOtherUsd, "BasisCurves, NurbsCurves", kUsdFacts},
+    {kAbc, "Alembic curves", kAlembicFacts},
+    {kData, "USC-HairSalon, Hair20K", kPointsFacts},
+    {kBin, "CT2Hair", kPointsReadFacts},
+    {kNpy, "NumPy, (strands, points, 3)", kNpyFacts},
+    {kNpz, "NumPy, names of DiffLocks", kNpzFacts},
+    {kXml, "curves of Embree's tutorials", kXmlFacts},
+    {kMitsubaBinary, "Mitsuba's hair, binary", kPointsFacts},
+    {kMitsubaText, "Mitsuba's hair or curves, text", kCurvesFacts},
+    {kPbrt, "curves of pbrt", kCurvesFacts},
+};
+
+constexpr std::array<std::string_view, static_cast<std::size_t>(Fact::count)> kFactNames{
+    "strands",  "guides",  "groups", "widths", "colours",        "transparency",
+    "root UVs", "normals", "unit",   "up",     "root triangles", "animation"};
+
+// Returns a cell: "both, per point", "read"; empty for data that are neither read nor written.
+std::string cellOf(const FormatFacts& format, Fact fact) {
+    const auto row = std::ranges::find(format.facts, fact, &FormatFact::fact);
+    if (row == format.facts.end()) return {};
+    const std::string done = row->is_read && row->is_written ? "both"
+                             : row->is_read                  ? "read"
+                                                             : "written";
+    return row->how.empty() ? done : done + ", " + std::string(row->how);
+}
+
+}  // namespace
+
+std::span<const FormatFacts> formatFacts() { return kFormatFacts; }
+
+std::string formatsMarkdown() {
+    std::string header = "| |";
+    std::string line = "|---|";
+    for (const std::string_view name : kFactNames) {
+        header.append(" ").append(name).append(" |");
+        line += "---|";
+    }
+    std::string table = header + '\n' + line + '\n';
+    for (const FormatFacts& format : kFormatFacts) {
+        table += '|';
+        for (const std::string_view extension : format.extensions)
+            table.append(extension == format.extensions.front() ? " `" : ", `")
+                .append(extension)
+                .append("`");
+        table.append(" ").append(format.name).append(" |");
+        for (std::size_t i = 0; i < kFactNames.size(); ++i) {
+            const std::string cell = cellOf(format, static_cast<Fact>(i));
+            table += cell.empty() ? " |" : ' ' + cell + " |";
+        }
+        table += '\n';
+    }
+    return table;
+}
+
 }  // namespace hair::groom

@@ -47,6 +47,13 @@ std::span<const StrandImporter> strandImporters();
 // Returns the extensions of formats that can be read: ".hair, .tfx, ...".
 std::string readExtensions();
 
+// The kinds of data of every format in the tables. A new format is a row here too; a test holds the
+// facts.
+std::span<const FormatFacts> formatFacts();
+
+// Returns the table of docs/grooms.md.
+std::string formatsMarkdown();
+
 // Returns the importer of a file: by its first bytes if they are a format's magic, otherwise by its
 // extension, in upper or lower case. Formats that share an extension are told apart by looks_like.
 // Throws engine::Error "path: reason". For some formats that are not read, the reason names the

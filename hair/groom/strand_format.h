@@ -48,4 +48,36 @@ struct StrandImporter {
     bool (*looks_like)(std::span<const std::byte> head, std::uint64_t size) = nullptr;
 };
 
+// Kinds of data that a format may have, in the order of the table of formats.
+enum class Fact {
+    strands,
+    guides,
+    groups,
+    widths,
+    colors,
+    transparencies,
+    root_uvs,
+    normals,
+    unit,
+    up,
+    root_triangles,
+    animation,
+    count  // of them
+};
+
+// How hairbench treats a kind of data of a format.
+struct FormatFact {
+    Fact fact;
+    bool is_read;
+    bool is_written;
+    std::string_view how{};  // "per point"
+};
+
+// A format, or a version of one, as people know it.
+struct FormatFacts {
+    std::span<const std::string_view> extensions;  // lower case, with the dot
+    std::string_view name;
+    std::span<const FormatFact> facts;  // kinds of data that are missing are not read or written
+};
+
 }  // namespace hair::groom

@@ -101,6 +101,33 @@ TEST_F(ShowPictureTest, StrandsKeepColorsOfTheirOwn) {
     EXPECT_EQ(differingPixels(draw(shown), all), 0u);
 }
 
+// Strands between guides have the colour of the first guide's group, strands of the groom that of
+// their own, in all back ends. Without groups there is one colour.
+TEST_F(ShowPictureTest, GroupsHaveColorsOfTheirOwn) {
+    Settings shown = settings(Show::groups);
+    EXPECT_EQ(colors(draw(shown)).size(), 1u);
+    groom::Groom groom = straight();
+    groom.guide_groups = {7, 2, 2};
+    const auto of_guide = colors(drawGroom(device(), shown, groom, nullptr));
+    EXPECT_EQ(of_guide.size(), 1u);
+    groom.guide_groups = {2, 7, 7};
+    const auto of_other = colors(drawGroom(device(), shown, groom, nullptr));
+    EXPECT_EQ(of_other.size(), 1u);
+    EXPECT_NE(of_guide, of_other);
+
+    // Three strands, one on each guide, in two groups.
+    for (std::uint32_t i = 0; i < 3; ++i) groom.bindings.push_back({.guides = {i, i, i}});
+    groom.groups = {2, 7, 2};
+    shown.strands.source = StrandSource::groom;
+    for (const Backend backend : {Backend::tessellation, Backend::pulling, Backend::expanded}) {
+        shown.strands.backend = backend;
+        std::set<std::array<int, 3>> both = of_guide;
+        both.insert(of_other.begin(), of_other.end());
+        EXPECT_EQ(colors(drawGroom(device(), shown, groom, nullptr)), both)
+            << static_cast<int>(backend);
+    }
+}
+
 // The number of fragments of a pixel in a picture that counts them; -1 if its three colours
 // match no number.
 int countOf(const std::uint8_t* pixel) {

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <cstring>
 #include <limits>
+#include <optional>
 
 #include <glm/common.hpp>
 #include <glm/mat3x3.hpp>
@@ -191,9 +192,47 @@ Polylines stripOf(std::vector<std::uint32_t> indices) {
     return {{static_cast<std::uint32_t>(indices.size())}, std::move(indices)};
 }
 
+// Finds nodes that KHR_node_visibility hides: those with a `visible` of false, and all below them.
+std::vector<bool> hiddenNodes(const tinygltf::Model& model) {
+    std::vector<bool> hidden(model.nodes.size());
+    std::vector<int> waiting;
+    const auto hide = [&](int node) {
+        const auto index = static_cast<std::size_t>(node);
+        if (node < 0 || index >= hidden.size() || hidden[index]) return;
+        hidden[index] = true;
+        waiting.push_back(node);
+    };
+    for (std::size_t i = 0; i < model.nodes.size(); ++i) {
+        const auto extension = model.nodes[i].extensions.find("KHR_node_visibility");
+        if (extension == model.nodes[i].extensions.end() || !extension->second.Has("visible"))
+            continue;
+        const tinygltf::Value& visible = extension->second.Get("visible");
+        if (visible.IsBool() && !visible.Get<bool>()) hide(static_cast<int>(i));
+    }
+    while (!waiting.empty()) {
+        const int node = waiting.back();
+        waiting.pop_back();
+        for (const int child : model.nodes[static_cast<std::size_t>(node)].children) hide(child);
+    }
+    return hidden;
+}
+
+// Returns a whole number of an object's `extras`, where Blender writes its custom properties.
+std::optional<std::int32_t> extraOf(const tinygltf::Value& extras, const std::string& name) {
+    if (!extras.IsObject() || !extras.Has(name)) return {};
+    const tinygltf::Value& value = extras.Get(name);
+    if (value.IsBool()) return value.Get<bool>() ? 1 : 0;
+    const double number = value.IsNumber() ? value.GetNumberAsDouble() : std::nan("");
+    if (!(std::abs(number) <= std::numeric_limits<std::int32_t>::max()) ||
+        number != std::trunc(number))
+        throw engine::Error(inQuotes(name) + " in extras is not an int32");
+    return static_cast<std::int32_t>(number);
+}
+
 class StrandReader {
 public:
-    explicit StrandReader(const tinygltf::Model& model) : model_(model) {}
+    explicit StrandReader(const tinygltf::Model& model)
+        : model_(model), hidden_nodes_(hiddenNodes(model)) {}
 
     void add(const GltfPlace& place) {
         const tinygltf::Primitive& primitive = place.primitive;
@@ -215,10 +254,20 @@ public:
             arrangePoints(set, chainsOf(indices, set.points.size()));
             set.warnings.clear();  // only repeated vertices were left out
         }
+        if (hidden_nodes_[static_cast<std::size_t>(place.node)]) {
+            hidden_ += set.strandCount();
+            return;
+        }
+        if (const auto group = extraAt(place, "groom_group_id"))
+            set.groups.assign(set.strandCount(), *group);
+        if (const auto guide = extraAt(place, "groom_guide"))
+            set.guides.assign(set.strandCount(), *guide != 0 ? 1 : 0);
         join(std::move(set));
     }
 
     StrandSet take() {
+        if (set_.ends.empty() && hidden_ > 0)
+            throw engine::Error("the file has only hidden strands: show them, then export");
         if (set_.ends.empty()) {
             throw engine::Error(
                 "the file has no strands: expected primitives of mode 1 (LINES) or 3 (LINE_STRIP)");
@@ -227,6 +276,9 @@ public:
             set_.warnings.push_back(
                 std::to_string(skipped_) + " primitives that are not lines are left out");
         }
+        warnOfStrands(hidden_, "of hidden nodes", set_);
+        if (!set_.guides.empty()) set_.guides.resize(set_.ends.size(), 0);
+        completeGroups(set_, without_group_);
         completeWidths(set_, without_width_);
         completeTransparencies(set_, without_transparency_);
         completeColors(set_, without_color_);
@@ -275,6 +327,12 @@ private:
         if (set.points.size() > std::numeric_limits<std::uint32_t>::max() - first) {
             throw engine::Error("the strands have 2^32 points, or more");
         }
+        const std::size_t first_strand = set_.ends.size();
+        appendPart(set_.groups, set.groups, first_strand, set.ends.size(), without_group_);
+        if (!set.guides.empty()) {
+            set_.guides.resize(first_strand, 0);
+            append(set_.guides, set.guides);
+        }
         for (std::uint32_t& end : set.ends) end += static_cast<std::uint32_t>(first);
         append(set_.ends, set.ends);
         append(set_.points, set.points);
@@ -287,8 +345,15 @@ private:
         append(set_.warnings, set.warnings);
     }
 
-    // Appends a part of `added` points after `first`. `without` has the points that lack it, once
-    // any point has it.
+    // Returns a number of the extras of the node, or else of its mesh.
+    std::optional<std::int32_t> extraAt(const GltfPlace& place, const std::string& name) const {
+        const tinygltf::Node& node = model_.nodes[static_cast<std::size_t>(place.node)];
+        const auto own = extraOf(node.extras, name);
+        return own ? own : extraOf(model_.meshes[static_cast<std::size_t>(node.mesh)].extras, name);
+    }
+
+    // Appends a part of `added` points, or strands, after `first`. `without` has those that lack
+    // it, once any has it.
     template <class Value>
     static void appendPart(
         std::vector<Value>& values, const std::vector<Value>& more, std::size_t first,
@@ -302,7 +367,10 @@ private:
     }
 
     const tinygltf::Model& model_;
+    std::vector<bool> hidden_nodes_;
     StrandSet set_;
+    std::size_t hidden_ = 0;  // strands
+    std::vector<StrandRange> without_group_;
     std::vector<PointRange> without_width_;
     std::vector<PointRange> without_transparency_;
     std::vector<PointRange> without_color_;

@@ -18,8 +18,9 @@ std::vector<std::string> exportGlb(const StrandSet& strands, std::ostream& out);
 // polylines.h says; without indices, a line continues the previous one if it begins at its end.
 // LINE_STRIP is root first. Points are POSITION under the node's transform, in metres. Widths are
 // `_WIDTH`, scaled by the cube root of the transform's change of volume. COLOR_0 gives colours,
-// and transparencies if there is no `_TRANSPARENCY`. Other primitives are skipped with a warning.
-// Errors begin with the mesh and primitive, the accessor, or the byte where JSON ends.
+// and transparencies if there is no `_TRANSPARENCY`. Strands of hidden nodes are counted and left
+// out; extras may have groups and guides. Other primitives are skipped with a warning. Errors begin
+// with the mesh and primitive, the accessor, or the byte where JSON ends.
 StrandSet importGltfStrands(const StrandFile& file);
 
 }  // namespace hair::groom

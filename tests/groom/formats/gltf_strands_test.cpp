@@ -182,6 +182,30 @@ TEST(ImportGltfStrands, RefusesWrongAttributes) {
     EXPECT_THAT(error(document), StartsWith(place + "_WIDTH is negative: -0.5"));
 }
 
+// Node 1 is hidden, node 2 has Blender's custom properties, node 3 has none.
+TEST(ImportGltfStrands, ReadsExtrasAndLeavesOutHiddenNodes) {
+    const StrandSet strands = read(
+        {.node = R"("children":[1,2,3]},)"
+                 R"({"mesh":0,"extensions":{"KHR_node_visibility":{"visible":false}}},)"
+                 R"({"mesh":0,"extras":{"groom_group_id":4,"groom_guide":true,"note":"x"}},)"
+                 R"({"mesh":0)"});
+    EXPECT_THAT(strands.ends, ElementsAre(3, 5, 8, 10));
+    EXPECT_THAT(strands.groups, ElementsAre(4, 4, 5, 5));
+    EXPECT_THAT(strands.guides, ElementsAre(1, 1, 0, 0));
+    EXPECT_THAT(
+        strands.warnings, ElementsAre(
+                              "2 strands of hidden nodes are left out",
+                              "2 of 4 strands have no group and become group 5"));
+    EXPECT_THAT(
+        error(
+            {.node = R"("children":[1],"extensions":{"KHR_node_visibility":{"visible":false}}},)"
+                     R"({"mesh":0)"}),
+        StartsWith("the file has only hidden strands"));
+    EXPECT_THAT(
+        error({.node = R"("mesh":0,"extras":{"groom_group_id":0.5})"}),
+        HasSubstr("'groom_group_id' in extras is not an int32"));
+}
+
 // The first strand has three points, the second two.
 TEST(ImportGltfStrands, LeavesOutStrandsThatAreNotFinite) {
     Document document{.attributes = R"("POSITION":0,"_WIDTH":1)"};

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <set>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -10,6 +11,7 @@
 #include "hair/groom_settings.h"
 #include "tests/groom/formats/bytes.h"
 #include "tests/groom/formats/strand_files.h"
+#include "tests/python.h"
 
 // Tests
 // importStrands and exportStrands: the choice of a row for a file, and the errors if there is
@@ -191,6 +193,138 @@ TEST(ExportStrands, ReturnsTheWarnings) {
     EXPECT_THAT(
         exportStrands(strands, folder.file("a.hgl")), testing::ElementsAre(HasSubstr("widths")));
     EXPECT_THAT(exportStrands(strands, folder.file("a.HAIR")), IsEmpty());
+}
+
+// ---- Facts --------------------------------------------------------------------------------------
+
+// A part of strands, and whether they have it.
+struct KnownPart {
+    Fact fact;
+    bool (*has)(const StrandSet& set);
+};
+
+constexpr KnownPart kParts[] = {
+    {Fact::guides, [](const StrandSet& s) { return !s.guides.empty(); }},
+    {Fact::groups, [](const StrandSet& s) { return !s.groups.empty(); }},
+    {Fact::widths, [](const StrandSet& s) { return s.widths.known(); }},
+    {Fact::colors, [](const StrandSet& s) { return s.colors.known(); }},
+    {Fact::transparencies,
+     [](const StrandSet& s) {
+         return !s.transparencies.values.empty() || s.transparencies.everywhere.value_or(0) != 0;
+     }},
+    {Fact::root_uvs, [](const StrandSet& s) { return !s.root_uvs.empty(); }},
+    {Fact::unit, [](const StrandSet& s) { return s.metres_per_unit.has_value(); }},
+    {Fact::root_triangles, [](const StrandSet& s) { return !s.root_triangles.empty(); }},
+};
+
+// Three strands with every part, each value different; `sizes` are their points.
+StrandSet strandsWithAll(std::vector<std::uint32_t> sizes) {
+    StrandSet set;
+    for (const std::uint32_t size : sizes) {
+        for (std::uint32_t k = 0; k < size; ++k) {
+            const auto n = static_cast<float>(set.points.size());
+            set.points.emplace_back(set.ends.size(), k, 0);
+            set.widths.values.push_back(0.001f * static_cast<float>(set.ends.size() + 1));
+            set.transparencies.values.push_back(n / 32);
+            set.colors.values.emplace_back(n / 32, 0.5f, 0.25f);
+        }
+        set.ends.push_back(static_cast<std::uint32_t>(set.points.size()));
+    }
+    set.root_uvs = {{0.1f, 0.2f}, {0.3f, 0.4f}, {0.5f, 0.6f}};
+    set.groups = {1, 2, 2};
+    set.guides = {0, 1, 0};
+    set.root_triangles = {{0, 1, 2}};
+    set.metres_per_unit = 1.0;
+    return set;
+}
+
+const FormatFact* factOf(const FormatFacts& format, Fact fact) {
+    const auto row = std::ranges::find(format.facts, fact, &FormatFact::fact);
+    return row == format.facts.end() ? nullptr : &*row;
+}
+
+TEST(FormatFacts, CoverAllFormatsAndNoOthers) {
+    std::set<std::string_view> read;
+    std::set<std::string_view> written;
+    for (const FormatFacts& format : formatFacts()) {
+        const FormatFact* const strands = factOf(format, Fact::strands);
+        ASSERT_TRUE(strands) << format.name;
+        for (const std::string_view extension : format.extensions) {
+            if (strands->is_read) read.insert(extension);
+            if (strands->is_written) EXPECT_TRUE(written.insert(extension).second) << extension;
+        }
+        for (const FormatFact& fact : format.facts)
+            EXPECT_TRUE(fact.is_read || fact.is_written) << format.name;
+    }
+    std::set<std::string_view> importers;
+    for (const StrandImporter& importer : strandImporters())
+        importers.insert(importer.extensions.begin(), importer.extensions.end());
+    EXPECT_EQ(read, importers);
+    std::set<std::string_view> exporters;
+    for (const StrandExporter& exporter : strandExporters()) exporters.insert(exporter.extension);
+    EXPECT_EQ(written, exporters);
+}
+
+// The parts that come back from a file are those that the table says are written and read.
+TEST(FormatFacts, AreThoseOfWrittenFiles) {
+    const TemporaryFolder folder;
+    for (const FormatFacts& format : formatFacts()) {
+        const FormatFact& strands = *factOf(format, Fact::strands);
+        if (!strands.is_written) continue;
+        for (const std::string_view extension : format.extensions) {
+            SCOPED_TRACE(extension);
+            if (extension.starts_with(".usd") && pythonInterpreter().empty()) continue;
+            const bool is_any = strands.how == "of any length";
+            const auto sizes =
+                is_any ? std::vector<std::uint32_t>{4, 6, 5} : std::vector<std::uint32_t>{4, 4, 4};
+            const auto path = folder.file("a" + std::string(extension));
+            exportStrands(strandsWithAll(sizes), path);
+            const StrandSet set = importStrands(path);
+            EXPECT_EQ(set.ends, strandsWithAll(sizes).ends);
+            for (const KnownPart& part : kParts) {
+                const FormatFact* const fact = factOf(format, part.fact);
+                EXPECT_EQ(part.has(set), fact && fact->is_read && fact->is_written)
+                    << static_cast<int>(part.fact);
+            }
+            if (const FormatFact* const widths = factOf(format, Fact::widths))
+                EXPECT_EQ(set.widths.values.size(), set.points.size()) << widths->how;
+            if (is_any) continue;
+            // Strands of other lengths are resampled to one.
+            exportStrands(strandsWithAll({4, 6, 5}), path);
+            EXPECT_TRUE(commonSize(importStrands(path)));
+        }
+    }
+}
+
+// No file of the corpus has a part that the table says is not read.
+TEST(FormatFacts, AllowThePartsOfTheCorpus) {
+    for (const auto& entry : std::filesystem::recursive_directory_iterator(corpus(""))) {
+        const std::string path = entry.path().string();
+        if (!entry.is_regular_file() || path.find("findings") != path.npos) continue;
+        const std::string extension = lowerCaseExtension(path);
+        if (extension.starts_with(".usd") && pythonInterpreter().empty()) continue;
+        std::vector<const FormatFacts*> formats;
+        for (const FormatFacts& format : formatFacts())
+            if (std::ranges::find(format.extensions, extension) != format.extensions.end())
+                formats.push_back(&format);
+        if (formats.empty()) continue;  // a script
+        SCOPED_TRACE(path);
+        const StrandSet set = importStrands(path);
+        for (const KnownPart& part : kParts) {
+            if (!part.has(set)) continue;
+            EXPECT_TRUE(std::ranges::any_of(formats, [&](const FormatFacts* format) {
+                const FormatFact* const fact = factOf(*format, part.fact);
+                return fact && fact->is_read;
+            })) << static_cast<int>(part.fact);
+        }
+    }
+}
+
+TEST(FormatFacts, AreTheTableOfTheDocumentation) {
+    EXPECT_THAT(
+        textOf(std::filesystem::path(HAIRBENCH_SOURCE_DIR) / "docs/grooms.md"),
+        HasSubstr(formatsMarkdown()))
+        << "write it anew: hairbench groom formats --markdown";
 }
 
 }  // namespace
