@@ -1,5 +1,6 @@
 // Tests `hairbench groom filter`, `smooth`, `resample` and `fix` as a user runs them.
 #include <filesystem>
+#include <limits>
 #include <string>
 
 #include <gmock/gmock.h>
@@ -90,6 +91,71 @@ TEST_F(GroomEditCli, FixLeavesNothingThatInfoFindsInStrands) {
             HasSubstr("left out: points at the same place as the previous one: 1\n"),
             ContainsRegex("wrote: .*out.hair, 5 strands, 15 points\n")));
     EXPECT_TRUE(json("out.hair", "--scale 1")["odd"].empty());  // "out.hair" is in metres
+}
+
+// Of the five strands, one is a single point and another has a point that is not a number.
+TEST_F(GroomEditCli, NamesRefusesAndMendsStrandsThatCantBeUsed) {
+    HairFile file = fourStrands();
+    file.segments.push_back(0);
+    file.points.insert(file.points.end(), {2, 0, 2});
+    file.segments.push_back(2);
+    file.points.insert(
+        file.points.end(), {7, 0, 7, 7, std::numeric_limits<float>::quiet_NaN(), 7, 7, 9, 7});
+    folder_.write("bad.hair", file.text());
+    const std::string single = "1 strand of a single point (strand 4, counted from 0)";
+    const std::string nan =
+        "1 strand with a position that is not finite (strand 5, counted from 0)";
+    const std::string bad = quoted("bad.hair");
+
+    const Outcome info = hairbench("groom info " + bad);
+    EXPECT_EQ(info.status, 0);
+    EXPECT_THAT(
+        info.output, AllOf(HasSubstr(single + " is left out"), HasSubstr(nan + " is left out")));
+    for (const std::string& command :
+         {"info " + bad, "convert " + bad + " " + quoted("out.ply"),
+          "scene " + bad + " -o " + quoted("out.json")}) {
+        const Outcome strict = hairbench("groom " + command + " --strict");
+        EXPECT_EQ(strict.status, 2) << command;
+        EXPECT_THAT(strict.output, AllOf(HasSubstr(single + "; " + nan), HasSubstr("--strict")));
+    }
+    EXPECT_FALSE(std::filesystem::exists(folder_.file("out.ply")));
+    EXPECT_FALSE(std::filesystem::exists(folder_.file("out.json")));
+
+    const Outcome fixed = edit("fix", "bad.hair", "--scale 0.01");
+    EXPECT_EQ(fixed.status, 0);
+    EXPECT_THAT(
+        fixed.output, AllOf(
+                          HasSubstr("left out: points with a number that is not finite: 1\n"),
+                          HasSubstr("left out: strands of a single point: 1\n"),
+                          ContainsRegex("wrote: .*out.hair, 5 strands, ")));
+}
+
+TEST_F(GroomEditCli, ChoosesGroups) {
+    folder_.write("four.hair", fourStrands().text());
+    const Outcome none = edit("filter", "four.hair", "--group 1");
+    EXPECT_EQ(none.status, 2);
+    EXPECT_THAT(none.output, HasSubstr("the file has no groups to choose from"));
+    EXPECT_THAT(
+        hairbench("groom info " + quoted("four.hair") + " --group 1").output,
+        HasSubstr("--group: the file has no groups to choose from"));
+    // Two strands, in the groups 3 and -4; the first is a guide.
+    const std::string file = "'" HAIRBENCH_SOURCE_DIR "/tests/corpus/npz/groups_and_guides.npz'";
+    for (const std::string option : {"--group 3", "--group=-4"}) {
+        const Outcome outcome = hairbench("groom info --json " + file + " " + option);
+        ASSERT_EQ(outcome.status, 0) << outcome.output;
+        const nlohmann::json found = nlohmann::json::parse(outcome.output);
+        EXPECT_EQ(found["strands"], 1);
+        EXPECT_EQ(found["has"]["groups"], 1);
+        EXPECT_EQ(found["has"]["guides"], option == "--group 3" ? 1 : 0);
+    }
+    EXPECT_EQ(
+        hairbench("groom filter " + file + " " + quoted("out.npz") + " --group 3 --group=-4")
+            .status,
+        0);
+    EXPECT_EQ(json("out.npz")["strands"], 2);
+    EXPECT_THAT(
+        hairbench("groom info " + file + " --group 5").output,
+        HasSubstr("--group: no strand belongs to group 5; the file has -4, 3"));
 }
 
 TEST_F(GroomEditCli, RefusesInOneLineWithStatus2) {
