@@ -251,7 +251,8 @@ TEST(FormatFacts, CoverAllFormatsAndNoOthers) {
         ASSERT_TRUE(strands) << format.name;
         for (const std::string_view extension : format.extensions) {
             if (strands->is_read) read.insert(extension);
-            if (strands->is_written) EXPECT_TRUE(written.insert(extension).second) << extension;
+            if (!strands->is_written) continue;
+            EXPECT_TRUE(written.insert(extension).second) << extension;
         }
         for (const FormatFact& fact : format.facts)
             EXPECT_TRUE(fact.is_read || fact.is_written) << format.name;
@@ -286,8 +287,9 @@ TEST(FormatFacts, AreThoseOfWrittenFiles) {
                 EXPECT_EQ(part.has(set), fact && fact->is_read && fact->is_written)
                     << static_cast<int>(part.fact);
             }
-            if (const FormatFact* const widths = factOf(format, Fact::widths))
-                EXPECT_EQ(set.widths.values.size(), set.points.size()) << widths->how;
+            if (factOf(format, Fact::widths)) {
+                EXPECT_EQ(set.widths.values.size(), set.points.size());
+            }
             if (is_any) continue;
             // Strands of other lengths are resampled to one.
             exportStrands(strandsWithAll({4, 6, 5}), path);
