@@ -93,7 +93,7 @@ TEST_F(GroomEditCli, FixLeavesNothingThatInfoFindsInStrands) {
     EXPECT_TRUE(json("out.hair", "--scale 1")["odd"].empty());  // "out.hair" is in metres
 }
 
-// Of the five strands, one is a single point and another has a point that is not a number.
+// Six strands: the fifth is a single point, and the sixth has a point that is not a number.
 TEST_F(GroomEditCli, NamesRefusesAndMendsStrandsThatCantBeUsed) {
     HairFile file = fourStrands();
     file.segments.push_back(0);
