@@ -13,8 +13,8 @@
 #include <sys/mman.h>
 #include <unistd.h>
 
+#include "engine/files.h"
 #include "engine/process.h"
-#include "engine/program_files.h"
 #include "engine/run_tool.h"
 #include "engine/shaders.h"
 

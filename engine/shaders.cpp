@@ -15,7 +15,6 @@
 
 #include "engine/error.h"
 #include "engine/run_tool.h"
-#include "engine/spirv.h"
 #include "engine/spirv_judge.h"
 
 namespace engine {

@@ -9,8 +9,6 @@
 #include <utility>
 #include <vector>
 
-#include "engine/spirv.h"
-
 namespace engine {
 namespace {
 

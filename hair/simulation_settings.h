@@ -70,7 +70,7 @@ struct StableCosseratSettings {
 const Table& tableOf(const StableCosseratSettings*);
 
 // Kugelstadt and Schoemer 2016, Position and orientation based Cosserat rods:
-// hair/reference/position_based_rod.h.
+// hair/reference/stable_cosserat.h.
 struct PositionBasedRodSettings {
     std::uint32_t iterations = 4;
 };

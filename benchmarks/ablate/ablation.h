@@ -8,11 +8,82 @@
 #include <utility>
 #include <vector>
 
-#include "benchmarks/ablate/attribution.h"
+#include "benchmarks/ablate/stops.h"
 #include "benchmarks/report/report.h"
 
-// Report of an ablation: the measurements at each stop of each case, and the costs of the stages.
+// Derives costs from times; docs/measuring.md defines the costs.
+
 namespace benchmarks::ablate {
+
+// A difference of times, ms: the Hodges-Lehmann estimate over the laps' differences and its exact
+// signed-rank interval.
+struct Cost {
+    double estimate = 0.0;
+    struct Interval {
+        double lower;
+        double upper;
+        double confidence;  // achieved level, at least 95 %
+    };
+    std::optional<Interval> interval;  // absent: fewer than 6 laps
+};
+Cost costOf(std::span<const double> differences);
+
+struct RungCost {
+    Stop stop = Stop::empty;
+    double time = 0.0;  // ms, median of the laps
+    Cost marginal;  // less the rung below; the lowest rung has its whole time
+    double share = 0.0;  // of the whole pass
+};
+
+// Differences that the marginal costs do not explain. All are sums of times of the same lap.
+struct Residual {
+    Cost closure;  // the renderer's own pass less all marginal costs
+    Cost discard;  // clipped less geometry: two ways to stop before the rasteriser
+    std::optional<Cost> multisampling;  // the samples' cost with a fragment shader, less that
+                                        // without
+    Cost interaction;  // the sum of these: the pass less the costs measured in another order
+};
+
+struct Attribution {
+    std::vector<RungCost> rungs;  // from the bottom up
+    double pass_time = 0.0;  // ms, median of the renderer's own pass
+    double clipped_time = 0.0;
+    Residual residual;
+    std::vector<std::pair<Stop, Cost>> watching;  // cost of watching a stage
+};
+
+// `stops` are those of planStops(), each with the same number of laps, at least one.
+Attribution attribute(std::span<const StopTimes> stops);
+
+// Warnings that an attribution cannot be trusted.
+std::vector<std::string> attributionWarnings(const Attribution& attribution);
+
+// Counts of work in one picture. Unknown counts are absent.
+struct WorkCounts {
+    std::optional<std::uint64_t> patches;
+    std::optional<std::uint64_t> strands;
+    std::optional<std::uint64_t> segments;  // drawn
+    std::optional<std::uint64_t> evaluations_1;  // with one drawn segment per guide segment
+    std::optional<std::uint64_t> evaluations;
+    std::optional<std::uint64_t> fragments;  // with one sample
+    std::optional<std::uint64_t> samples;  // with the case's sample count, if above 1
+    std::string fragments_note;  // empty: exact
+};
+
+// A rung's marginal cost per item of work: per item that it adds to the rung below, or per item
+// over which it is spread.
+struct UnitCost {
+    Stop rung = Stop::empty;
+    std::string unit;  // "strand", "segment", "patch", "evaluation", "fragment", "sample"
+    std::uint64_t count = 0;
+    double nanoseconds = 0.0;
+    std::string note;  // empty: the count is exact
+};
+
+// Per strand and segment for all except the empty rung, and per item of the stage's own kind.
+std::vector<UnitCost> unitCosts(const std::vector<RungCost>& rungs, const WorkCounts& work);
+
+// Report of an ablation: the measurements at each stop of each case, and the costs of the stages.
 
 // A measured stop.
 struct StopRecord {

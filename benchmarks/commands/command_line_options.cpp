@@ -5,7 +5,7 @@
 #include <exception>
 #include <sstream>
 
-#include "benchmarks/scene/reach.h"
+#include "benchmarks/scene/extensions.h"
 
 namespace benchmarks::commands {
 namespace {

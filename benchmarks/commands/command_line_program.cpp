@@ -1,6 +1,6 @@
 #include "benchmarks/commands/command_line_options.h"
 #include "benchmarks/commands/commands.h"
-#include "benchmarks/commands/completion.h"
+#include "benchmarks/commands/help_files.h"
 
 namespace benchmarks::commands {
 

@@ -16,7 +16,7 @@
 #include "benchmarks/groom/placement.h"
 #include "benchmarks/measure/case.h"
 #include "benchmarks/measure/hair_cache.h"
-#include "benchmarks/measure/start.h"
+#include "benchmarks/measure/measure.h"
 #include "benchmarks/report/change.h"
 #include "benchmarks/report/text.h"
 #include "benchmarks/scene/json.h"
@@ -26,7 +26,6 @@
 #include "engine/error.h"
 #include "engine/files.h"
 #include "engine/pictures.h"
-#include "engine/shown_text.h"
 #include "hair/groom/files.h"
 #include "hair/groom/mesh/import_mesh.h"
 

@@ -10,16 +10,15 @@
 #include "benchmarks/commands/commands.h"
 #include "benchmarks/measure/case.h"
 #include "benchmarks/measure/hair_cache.h"
+#include "benchmarks/measure/measure.h"
 #include "benchmarks/measure/progress.h"
-#include "benchmarks/measure/start.h"
 #include "benchmarks/report/change.h"
-#include "benchmarks/scene/field_reference.h"
-#include "benchmarks/scene/reach.h"
+#include "benchmarks/scene/extensions.h"
 #include "benchmarks/scene/scene.h"
 #include "benchmarks/scene/schema.h"
 #include "benchmarks/scene/sweep.h"
+#include "engine/error.h"
 #include "engine/process.h"
-#include "engine/shown_text.h"
 
 namespace benchmarks::commands {
 

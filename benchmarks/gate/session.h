@@ -8,12 +8,13 @@
 #include <vector>
 
 #include "benchmarks/gate/blocks.h"
-#include "benchmarks/gate/rule.h"
 #include "benchmarks/measure/progress.h"
 #include "benchmarks/report/change.h"
 #include "benchmarks/report/compare.h"
+#include "benchmarks/scene/json.h"
 
 // A gate: warm-up, calibration and pairs of processes until the verdicts are known.
+
 namespace benchmarks::gate {
 
 // A metric of a case that both sides have and that gets a verdict.
@@ -126,5 +127,18 @@ private:
 
 // Runs all steps; the reason for its end is in the result.
 GateRun runGate(const GateOptions& options);
+
+// Report of a gate, as JSON and for a terminal.
+
+inline constexpr const char* kGateSchema = "hairbench-gate/1.2.0";
+
+// The complete gate, as described by results/gate.schema.json; verdicts can be recomputed from it.
+// Unknown values are absent.
+scene::Json gateReport(
+    const GateRun& run, const report::VerdictOptions& options,
+    const std::vector<std::string>& command);
+
+// Text for a terminal: the sides, the differences, a row per metric, and the counts of verdicts.
+std::string gateText(const GateRun& run);
 
 }  // namespace benchmarks::gate

@@ -11,13 +11,12 @@
 #include "benchmarks/report/text.h"
 #include "benchmarks/scene/json.h"
 #include "engine/error.h"
-#include "engine/shown_text.h"
 #include "hair/groom/build_groom.h"
 #include "hair/groom/guides/bind_strands.h"
 #include "hair/groom/guides/choose_guides.h"
 #include "hair/groom/guides/root_triangles.h"
 #include "hair/groom/style/style.h"
-#include "hair/rendering/strand_residuals.h"
+#include "hair/rendering/strand_offsets.h"
 
 namespace benchmarks::groom {
 namespace {

@@ -1,19 +1,150 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <functional>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
-#include "benchmarks/lod/frozen_view.h"
-#include "benchmarks/lod/truth.h"
 #include "benchmarks/measure/case.h"
 #include "benchmarks/report/report.h"
+#include "benchmarks/scene/json.h"
+#include "benchmarks/scene/scene.h"
+#include "engine/frame_loop.h"
+#include "hair/rendering/renderer.h"
+
+// Compares levels of detail with a path-traced level 0, lit from several directions.
+namespace benchmarks::measure {
+class HairCache;
+}  // namespace benchmarks::measure
+
+namespace benchmarks::lod {
+
+// Degrees from the camera's direction to the light's, about the camera's target and up vector. At 0
+// the light comes from the camera; at 180 it comes through the hair.
+inline constexpr std::array kLightAngles{0.0, 45.0, 90.0, 180.0};
+
+// A level is compared with a slightly finer one; the difference is the popping.
+inline constexpr float kLevelStep = 0.05f;
+
+// Differences between a level's picture and the path-traced picture of level 0: docs/rendering.md.
+struct LightErrors {
+    double angle = 0.0;  // of kLightAngles
+    double flip = 0.0;
+    double rmse = 0.0;
+    std::optional<double> light_ratio;  // absent if the reference is black
+};
+
+struct LevelErrors {
+    double level = 0.0;
+    std::uint64_t strands = 0;  // drawn
+    double coverage = 0.0;  // share of a square round the hair that the hair covers
+    double full_coverage = 0.0;
+    std::optional<double> popping;  // relative to the level finer by kLevelStep; absent at level
+                                    // 0
+    std::vector<LightErrors> lights;  // those that are complete
+};
+
+struct LodTruth {
+    std::uint32_t samples = 0;  // of the path tracer, per pixel
+    std::vector<LevelErrors> levels;
+};
+
+// The settings with one directional light at this angle, white and of strength 1, a black
+// background and linear light. A path tracer can reproduce this exactly.
+hair::Settings litFrom(hair::Settings settings, double angle);
+
+// Integer levels from 0 up to /lod/maximum_level, rounded up.
+std::vector<float> comparedLevels(const hair::LodSettings& lod);
+
+// Options for path-tracing a frame.
+struct TruthOptions {
+    std::uint32_t frame = 0;
+    std::uint32_t samples = 64;  // per pixel
+};
+
+// Fills `truth` from the frozen hair of the case, at the frame of the options. Needs the Python
+// environment for references. Throws engine::Error and Interrupted; `truth` then has what was
+// complete.
+void compareWithTruth(
+    const engine::Device& device, const scene::Scene& scene, const measure::Case& hair,
+    const hair::Settings& settings, const TruthOptions& options, measure::HairCache& cache,
+    LodTruth& truth);
+
+scene::Json truthJson(const LodTruth& truth);
+
+// Text for a terminal: a row per level and light.
+std::string truthTable(const LodTruth& truth);
+
+// Pictures of the hair of one frame, drawn with settings other than the case's.
+
+// [row][column] RGBA, display values.
+using Picture = std::vector<std::uint8_t>;
+
+// Differences of pictures of one size, [row][column] RGBA, are over the red, green and blue of all
+// pixels; display values count from 0 to 1.
+
+// Root of the mean square difference.
+double rootMeanSquare(std::span<const std::uint8_t> a, std::span<const std::uint8_t> b);
+
+// Returns the change by level of detail between two steps of a path, beyond the change that the
+// steps make in any case: the root mean square of (b - a) - (full_b - full_a).
+double popping(
+    std::span<const std::uint8_t> a, std::span<const std::uint8_t> b,
+    std::span<const std::uint8_t> full_a, std::span<const std::uint8_t> full_b);
+
+// The mean red of a picture with a black background: the share that white hair covers.
+double whiteShare(std::span<const std::uint8_t> picture);
+
+// Medians of isolated frames, ms.
+struct LodTimes {
+    double strands = 0.0;  // the pass
+    double frame = 0.0;  // from submission to completion
+};
+
+// Returns the settings with a forced level of detail.
+hair::Settings atLevel(hair::Settings settings, float level);
+
+// White hair alone on black, opaque, with 16 samples per pixel. Its mean is the area that the hair
+// covers.
+hair::Settings coverageOf(hair::Settings settings);
+
+// Zooms the camera in so that the square just contains the hair's bounding sphere. The resolution
+// of the measure then does not depend on the distance.
+hair::CameraSettings
+zoomedOn(const hair::rendering::StrandView& view, const hair::CameraSettings& camera);
+
+// Pictures of the frozen hair with one set of settings.
+class FrozenView {
+public:
+    FrozenView(
+        const engine::Device& device, const measure::Case& hair, const hair::Settings& settings);
+
+    void setCamera(const hair::CameraSettings& camera) { renderer_.setCamera(camera); }
+    std::uint64_t strands() const { return renderer_.plan().strands(); }
+
+    // Throws Interrupted.
+    void draw();
+
+    // Medians of the frames since the last call.
+    LodTimes times();
+
+    Picture picture();
+
+    // Linear light, [row][column] RGB; requires a tone map in the settings.
+    std::vector<float> radiance();
+
+private:
+    const engine::Device& device_;
+    hair::rendering::StrandView view_;
+    hair::rendering::Renderer renderer_;
+    engine::FrameLoop loop_;
+};
 
 // Costs and savings of level of detail along a camera path, and their report, which
 // results/lod.schema.json describes.
-namespace benchmarks::lod {
 
 inline constexpr const char* kLodSchema = "hairbench-lod/1.0.0";
 

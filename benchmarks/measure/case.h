@@ -17,7 +17,6 @@
 #include "hair/rendering/groom_buffers.h"
 #include "hair/rendering/render_assets.h"
 #include "hair/rendering/renderer.h"
-#include "hair/rendering/strand_points.h"
 #include "hair/settings.h"
 #include "hair/simulation/head_motion.h"
 #include "hair/simulation/simulation.h"

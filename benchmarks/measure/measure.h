@@ -9,9 +9,26 @@
 #include "benchmarks/measure/stage.h"
 #include "benchmarks/report/report.h"
 #include "engine/process.h"
+#include "hair/settings.h"
+
+// The state of the hair before the first frame, and its faults.
+
+namespace benchmarks::measure {
+
+struct StartInspection {
+    report::StartRecord record;
+    std::vector<std::string> warnings;
+};
+
+// For a case that has played no frame. Waits for the device.
+StartInspection inspectStart(const Case& test_case);
+
+// Judges this state as inspectStart() does.
+StartInspection judgeStart(
+    const hair::simulation::GuideCondition& condition, const hair::simulation::RestBalance* balance,
+    const hair::Settings& settings);
 
 // Measures one case.
-namespace benchmarks::measure {
 
 // Plays the case in rounds of /run/warmup and /run/frames frames, overlapped and then isolated,
 // until the frame time is known to /run/precision or /run/max_time is over. Checks that all rounds

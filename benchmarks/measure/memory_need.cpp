@@ -16,7 +16,7 @@
 #include "engine/frame_loop.h"
 #include "hair/groom/build_groom.h"
 #include "hair/groom/groom.h"
-#include "hair/rendering/backend_choice.h"
+#include "hair/rendering/backends.h"
 #include "hair/rendering/groom_buffers.h"
 #include "hair/rendering/renderer.h"
 #include "hair/rendering/scene_meshes.h"

@@ -10,7 +10,7 @@
 
 #include "benchmarks/measure/measure.h"
 #include "benchmarks/report/text.h"
-#include "engine/shown_text.h"
+#include "engine/error.h"
 
 namespace benchmarks::measure {
 namespace {

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "benchmarks/measure/stage.h"
-#include "benchmarks/measure/steady_state.h"
+#include "benchmarks/measure/trust.h"
 #include "benchmarks/report/report.h"
 #include "benchmarks/report/verdict.h"
 #include "engine/frame_loop.h"
@@ -113,7 +113,7 @@ inline constexpr double kThrottlePause = 0.05;  // s (as in nvbench)
 inline constexpr std::uint32_t kThrottledTries = 10;
 
 // Plays rounds until the median time is known to the precision and the last times were steady
-// (steady_state.h), until there are most_rounds, or until max_time has passed. `held` has the
+// (trust.h), until there are most_rounds, or until max_time has passed. `held` has the
 // highest device clocks so far under such a load, and is raised to the highest here; it may be
 // null. Throttled rounds (report::isThrottled()) are left out, and each is followed by a pause. A
 // round is judged again when a later one has a higher clock. The first rounds are also left out

@@ -30,7 +30,7 @@
 #include "engine/pictures.h"
 #include "engine/process.h"
 #include "hair/groom/mesh/mesh.h"
-#include "hair/rendering/lights.h"
+#include "hair/rendering/environment.h"
 #include "hair/rendering/render_assets.h"
 #include "hair/rendering/scene_meshes.h"
 #include "hair/settings.h"

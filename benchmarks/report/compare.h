@@ -11,6 +11,7 @@
 #include "benchmarks/scene/json.h"
 
 // Comparison of two reports, each of one process.
+
 namespace benchmarks::report {
 
 // Returns the reasons why times of two reports may differ although the code does not: one line
@@ -130,5 +131,20 @@ comparisonJson(const ReportComparison& comparison, const std::string& a, const s
 inline constexpr const char* kOneProcessCaveat =
     "One process each: noise between processes (8 to 15 % on software devices) is not known here. "
     "hairbench gate decides.";
+
+// Reports that are kept under a name, for comparison with later ones.
+
+// Returns the path of the report that is kept under that name for that scene: NAME/SCENE.json in
+// $HAIRBENCH_BASELINES or results/local/baselines. Throws engine::Error for a name that is not a
+// plain file name.
+std::filesystem::path baselineFile(const std::string& name, const std::string& scene);
+
+// Keeps a copy of a written report, with all its samples, under that name and its scene's name.
+// Does not copy the pictures.
+void saveBaseline(const std::string& name, const std::filesystem::path& report);
+
+// Returns the scene's name, under which the report is kept: "thesis" for "scenes/thesis.json".
+// Throws engine::Error for a report without a scene.
+std::string sceneNameOf(const scene::Json& report);
 
 }  // namespace benchmarks::report

@@ -1,12 +1,69 @@
 #pragma once
 
+#include <cstddef>
+#include <optional>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "benchmarks/report/report.h"
+#include "benchmarks/report/statistics.h"
 #include "benchmarks/scene/json.h"
 
-// A report as a table for a terminal.
+// Compares the strand back ends in one report: how their cost grows with the number of strands, and
+// how it compares with the cost of `tessellation`.
+
 namespace benchmarks::report {
+
+inline constexpr const char* kBackendAxis = "/strands/backend";
+
+// Time in ms of the passes points and strands: the metric strands.time. Where the report lacks it,
+// the sum of the two passes' medians, which has no interval.
+struct BackendTime {
+    double median;
+    std::optional<double> lower;  // bounds of the median's interval
+    std::optional<double> upper;
+    double confidence = 0.0;
+};
+
+struct BackendPoint {
+    std::string name;  // of the case
+    double strands;  // number of strands drawn
+    BackendTime time;
+};
+
+// The measured cases of one back end that differ only in the number of strands, which the axes in
+// /groom, /strands/density and /lod set.
+struct BackendLine {
+    std::string backend;
+    std::vector<std::pair<std::string, scene::Document>> held;  // the other axes and their values
+    std::vector<BackendPoint> points;  // sorted by strands
+    // Time over strand count, with an interval at level 0.05. Needs at least two counts.
+    std::optional<PowerLaw> law;
+};
+
+// A case's time over the time of the same case with the back end `tessellation`.
+struct BackendRatio {
+    std::string name;  // of the case
+    double ratio;
+    // From the intervals of both medians. Its confidence is the sum of theirs less 1 (Bonferroni).
+    std::optional<double> lower;
+    std::optional<double> upper;
+    double confidence = 0.0;
+};
+
+struct BackendFigures {
+    std::vector<BackendLine> lines;  // in the report's order
+    std::vector<BackendRatio> ratios;
+};
+
+// Returns nothing for a report with fewer than two back ends. nlohmann throws if it is not a
+// report.
+std::optional<BackendFigures> compareBackends(const scene::Json& report);
+
+scene::Json backendsJson(const BackendFigures& figures);
+
+// A report as a table for a terminal.
 
 // Returns a table of a report (reportJson): a line on the device and the scene, one on what the
 // columns are, then a row per case with the axes that vary, FPS, the median times of the frame, its

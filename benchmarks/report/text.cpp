@@ -7,7 +7,7 @@
 #include <span>
 #include <sstream>
 
-#include "engine/shown_text.h"
+#include "engine/error.h"
 
 namespace benchmarks::report {
 namespace {

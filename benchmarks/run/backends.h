@@ -8,10 +8,59 @@
 #include <vector>
 
 #include "benchmarks/measure/case.h"
-#include "benchmarks/measure/roofline.h"
 #include "benchmarks/report/report.h"
 #include "engine/device.h"
 #include "hair/settings.h"
+
+// The roofline of drawing strands (Williams, Waterman and Patterson 2009, Roofline: An Insightful
+// Visual Performance Model): the least data and operations of a back end, the device's limits, and
+// the resulting minimum time.
+namespace benchmarks::measure {
+
+// Kinds of stages with arithmetic. Tessellation and geometry stages count as vertex; task and mesh
+// stages count as compute.
+enum class StageKind { compute, vertex, fragment };
+const char* stageName(StageKind kind);
+
+// Input of the model for bytes and operations: docs/measuring.md.
+struct StrandCounts {
+    std::uint64_t guide_vertices = 0;
+    std::uint64_t root_triangles = 0;
+    std::uint64_t strands = 0;
+    std::uint64_t segments = 0;  // of a guide
+    std::uint64_t pieces = 0;  // of a segment
+    std::uint64_t covered_samples = 0;
+    std::uint64_t covered_pixels = 0;
+    std::uint64_t lights = 0;
+    std::uint64_t color_bytes = 4;  // per sample
+
+    // Number of distinct points; those between two segments count once.
+    std::uint64_t points() const { return strands * (segments * pieces + 1); }
+};
+
+struct StrandWork {
+    double bytes = 0.0;  // read and written, each datum once per pass that needs it
+    std::map<StageKind, double> operations;  // floating-point; zero counts are absent
+};
+
+// The least work for a back end to draw the strands once. Absent if there is no model for the back
+// end.
+std::optional<StrandWork> strandWork(hair::Backend backend, const StrandCounts& counts);
+
+// The limits of a device, each from several measurements.
+struct DeviceLimits {
+    std::vector<double> copy_bandwidth;  // GB/s, read and written
+    std::map<StageKind, std::vector<double>> arithmetic;  // GFLOP/s, single precision
+};
+
+// Measures for about a second and waits for the device. The vertex stage is measured with points,
+// the fragment stage with a triangle that fills a picture.
+DeviceLimits measureLimits(const engine::Device& device);
+
+// Minimum time, ms. Stages and memory work in parallel, so the slowest is the limit. Uses medians.
+double leastTime(const StrandWork& work, const DeviceLimits& limits);
+
+}  // namespace benchmarks::measure
 
 // Compares strand back ends in more than their times: /run/compare_backends.
 namespace benchmarks::run {

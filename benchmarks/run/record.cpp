@@ -26,7 +26,6 @@
 #include "benchmarks/scene/json.h"
 #include "engine/error.h"
 #include "engine/files.h"
-#include "engine/shown_text.h"
 
 namespace benchmarks::run {
 namespace {

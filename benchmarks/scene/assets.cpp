@@ -16,6 +16,7 @@
 #include "benchmarks/scene/settings_json.h"
 #include "engine/error.h"
 #include "engine/float_pictures.h"
+#include "engine/pictures.h"
 #include "hair/fields.h"
 #include "hair/groom/build_groom.h"
 #include "hair/groom/files.h"

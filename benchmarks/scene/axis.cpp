@@ -13,7 +13,6 @@
 #include "benchmarks/scene/json.h"
 #include "benchmarks/scene/settings_json.h"
 #include "engine/error.h"
-#include "engine/shown_text.h"
 
 namespace benchmarks::scene {
 namespace {

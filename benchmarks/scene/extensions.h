@@ -4,12 +4,62 @@
 #include <string>
 #include <vector>
 
-#include "benchmarks/scene/reach.h"
+#include "benchmarks/scene/json.h"
 #include "hair/extension.h"
 #include "hair/settings.h"
 
-// GLSL files that scenes name: docs/extending.md.
+// Finds scenes and limits the files that they may name, so that a scene from a stranger can only
+// open its own files.
+
 namespace benchmarks::scene {
+
+// Returns the file for a scene's name: the file of that name if it exists, otherwise the scene of
+// that name that comes with the program: "thesis", "scenes/thesis.json", "portraits/braid". Returns
+// the name unchanged if neither exists.
+std::filesystem::path sceneNamed(const std::filesystem::path& name);
+
+// Returns the names of the scenes that come with the program, as sceneNamed() takes them, in
+// alphabetical order: "thesis", "portraits/braid".
+std::vector<std::string> shippedScenes();
+
+// The user's choice about files outside: --allow-outside.
+enum class Outside { refused, allowed };
+
+// The folders in which files named by a scene may lie, after links are followed:
+//   - the nearest folder with scene.schema.json, from the scene's own folder upwards, so that
+//     scenes in subfolders can share assets; without one, the scene's own folder
+//   - the program's own scenes, which can be bases of others
+class Reach {
+public:
+    // Allows every file.
+    Reach() = default;
+    // Reach of the file that the user opens. Its bases and the members of a suite have the same
+    // reach.
+    Reach(const std::filesystem::path& opened, Outside outside);
+
+    // Throws engine::Error "<file>: <reason>" for a file elsewhere.
+    void check(const std::filesystem::path& file) const;
+
+    // Reach of a file that `owner` names. Files in the owner's folder and below always belong to
+    // it.
+    void check(const std::filesystem::path& file, const std::filesystem::path& owner) const;
+
+    // Returns the canonical folders in which the files that `owner` names may be; empty:
+    // everywhere.
+    std::vector<std::filesystem::path> folders(const std::filesystem::path& owner) const;
+
+private:
+    std::vector<std::filesystem::path> folders_;  // canonical; empty: every file is allowed
+};
+
+// Checks every file named by a value of the field at `pointer`, or by a whole document if `pointer`
+// is empty, of a scene in `directory`. Throws engine::Error "<JSON pointer>: <file>: <reason>" for
+// a file out of reach.
+void checkNamedFiles(
+    const Json& value, const std::string& pointer, const std::filesystem::path& directory,
+    const Reach& reach);
+
+// GLSL files that scenes name: docs/extending.md.
 
 // A field that may name a GLSL file, and the field of its parameters.
 struct ExtensionField {

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cstdint>
+#include <filesystem>
 #include <memory>
 #include <string>
 #include <string_view>
@@ -24,5 +26,41 @@ public:
 private:
     std::shared_ptr<const re2::RE2> expression_;  // shared by copies; std::function needs copies
 };
+
+// Ranges of frames and the names of their files.
+
+// File names of a sequence: a path with one "%d" or "%04d" for the frame's number; "%%" is a
+// percent sign.
+class FramePaths {
+public:
+    // Throws engine::Error for a pattern with more than one number or anything else after a "%".
+    explicit FramePaths(const std::filesystem::path& pattern);
+
+    // Whether each frame has its own name.
+    bool hasNumber() const { return has_number_; }
+
+    std::filesystem::path of(std::uint32_t frame) const;
+
+private:
+    std::string before_;
+    std::string after_;
+    std::size_t digits_ = 0;  // minimum number of digits
+    bool has_number_ = false;
+};
+
+// The frames `first`, `first` + `step` ... below `end`.
+struct FrameRange {
+    std::uint32_t first = 0;
+    std::uint32_t end = 1;
+    std::uint32_t step = 1;
+
+    std::uint32_t count() const { return (end - first + step - 1) / step; }
+    bool holds(std::uint32_t frame) const {
+        return frame >= first && frame < end && (frame - first) % step == 0;
+    }
+};
+
+// Parses "A:B" or "A:B:STEP". Throws engine::Error for other text and for an empty range.
+FrameRange parseFrameRange(std::string_view text);
 
 }  // namespace benchmarks::scene

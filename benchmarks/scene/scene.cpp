@@ -13,7 +13,6 @@
 #include "engine/error.h"
 #include "engine/files.h"
 #include "engine/png_text.h"
-#include "engine/shown_text.h"
 #include "hair/fields.h"
 
 namespace benchmarks::scene {

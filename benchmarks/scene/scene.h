@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "benchmarks/scene/axis.h"
+#include "benchmarks/scene/extensions.h"
 #include "benchmarks/scene/json.h"
-#include "benchmarks/scene/reach.h"
 #include "hair/settings.h"
 
 // Scene files.

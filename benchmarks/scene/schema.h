@@ -1,10 +1,12 @@
 #pragma once
 
+#include <filesystem>
 #include <string>
 
 #include "hair/settings.h"
 
 // Rules between settings, and the JSON Schema of scene files.
+
 namespace benchmarks::scene {
 
 // Checks the rules between fields, which the tables cannot express, such as a near plane in front
@@ -15,5 +17,12 @@ void checkSettings(const hair::Settings& settings);
 // ranges, names, units, defaults. Ends with a newline; scenes/scene.schema.json is this text. It
 // allows null for a member, because a scene with a base removes members by it.
 std::string sceneSchema();
+
+// Writes the page of documentation about every field of a scene.
+
+// Returns Markdown from sceneSchema(): each field's pointer, values, unit, default and meaning,
+// with the shortest scene in the folder `scenes` that sets it as an example. docs/fields.md is this
+// text, and links are relative to it. Throws engine::Error for a scene that is not JSON.
+std::string fieldReference(const std::filesystem::path& scenes);
 
 }  // namespace benchmarks::scene

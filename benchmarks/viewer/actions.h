@@ -5,8 +5,8 @@
 #include <span>
 #include <vector>
 
-#include "benchmarks/viewer/camera_tool.h"
 #include "benchmarks/viewer/toolbar.h"
+#include "benchmarks/viewer/view_tools.h"
 #include "hair/settings.h"
 
 // A table of the actions in the viewer. It defines the menu bar, the keys and the help.

@@ -9,8 +9,8 @@
 #include "benchmarks/report/text.h"
 #include "benchmarks/scene/json.h"
 #include "benchmarks/scene/settings_json.h"
-#include "benchmarks/viewer/columns.h"
-#include "benchmarks/viewer/difference.h"
+#include "benchmarks/viewer/preferences.h"
+#include "benchmarks/viewer/picture_area.h"
 
 namespace benchmarks::viewer {
 namespace {

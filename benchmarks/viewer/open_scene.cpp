@@ -1,15 +1,290 @@
 #include "benchmarks/viewer/open_scene.h"
 
 #include <algorithm>
-#include <array>
+#include <cmath>
+#include <cstdio>
 #include <utility>
 
 #include <imgui.h>
 
-#include "benchmarks/viewer/timeline.h"
+#include "benchmarks/scene/scene.h"
+#include "engine/error.h"
 #include "hair/fields.h"
 
 namespace benchmarks::viewer {
+
+// ---- The list of scenes -------------------------------------------------------------------------
+
+namespace fs = std::filesystem;
+
+namespace {
+
+// Minimum number of visible lines, however little room there is.
+constexpr float kFewestLines = 4.0f;
+
+fs::path sameName(const fs::path& path) {
+    std::error_code error;
+    const fs::path canonical = fs::weakly_canonical(path.empty() ? fs::path(".") : path, error);
+    return error ? path : canonical;
+}
+
+float widthOf(const char* button) {
+    return ImGui::CalcTextSize(button).x + 2.0f * ImGui::GetStyle().FramePadding.x;
+}
+
+// The next item takes the rest of the line beside a button.
+void leaveRoomFor(const char* button) {
+    ImGui::SetNextItemWidth(-widthOf(button) - ImGui::GetStyle().ItemSpacing.x);
+}
+
+char lowered(char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; }
+
+bool contains(const std::string& text, const char* part) {
+    const std::string wanted = part;
+    return std::ranges::search(text, wanted, {}, lowered, lowered).begin() != text.end() ||
+           wanted.empty();
+}
+
+void tooltip(const ListedScene& scene, const fs::path& path) {
+    if (!ImGui::IsItemHovered(ImGuiHoveredFlags_ForTooltip | ImGuiHoveredFlags_AllowWhenDisabled) ||
+        !ImGui::BeginTooltip())
+        return;
+    ImGui::PushTextWrapPos(30.0f * ImGui::GetFontSize());
+    ImGui::TextUnformatted(path.c_str());
+    if (!scene.description.empty()) ImGui::TextUnformatted(scene.description.c_str());
+    if (!scene.problem.empty()) ImGui::TextUnformatted(scene.problem.c_str());
+    ImGui::PopTextWrapPos();
+    ImGui::EndTooltip();
+}
+
+}  // namespace
+
+// ---- Scenes of a folder -------------------------------------------------------------------------
+
+std::vector<fs::path> sceneFilesIn(const fs::path& folder) {
+    std::vector<fs::path> files;
+    std::error_code error;
+    for (fs::directory_iterator each(folder.empty() ? fs::path(".") : folder, error), end;
+         !error && each != end; each.increment(error)) {
+        const std::string name = each->path().filename().string();
+        std::error_code ignored;
+        if (name.ends_with(".json") && !name.ends_with(".schema.json") &&
+            each->is_regular_file(ignored))
+            files.push_back(folder / name);
+    }
+    std::ranges::sort(files);
+    return files;
+}
+
+ListedScene listedScene(const fs::path& path) {
+    ListedScene listed{.name = path.stem().string()};
+    try {
+        listed.description = scene::loadScene(path).settings.description;
+    } catch (const engine::Error& error) {
+        listed.problem = error.what();
+    }
+    return listed;
+}
+
+// ---- The list -----------------------------------------------------------------------------------
+
+SceneList::SceneList(const fs::path& folder) : folder_(folder) { refresh(); }
+
+void SceneList::refresh() {
+    files_ = sceneFilesIn(folder_);
+    scenes_.assign(files_.size(), {});
+}
+
+std::optional<fs::path> SceneList::showPath() {
+    leaveRoomFor("Open");
+    bool chosen = ImGui::InputTextWithHint(
+        "##path", "Path of a scene or screenshot", typed_.data(), typed_.size(),
+        ImGuiInputTextFlags_EnterReturnsTrue);
+    ImGui::SetItemTooltip("A scene file (.json) or a screenshot of the viewer (.png).\n"
+                          "Files can be dropped on the window too.");
+    ImGui::SameLine();
+    ImGui::BeginDisabled(typed_[0] == '\0');
+    chosen |= ImGui::Button("Open");
+    ImGui::EndDisabled();
+    if (!chosen || typed_[0] == '\0') return std::nullopt;
+    return fs::path(typed_.data());
+}
+
+bool SceneList::showRow(std::size_t index, bool is_open) {
+    if (!scenes_[index]) scenes_[index] = listedScene(files_[index]);
+    const ListedScene& scene = *scenes_[index];
+    ImGui::PushID(static_cast<int>(index));
+    ImGui::BeginDisabled(!scene.problem.empty());
+    const bool chosen = ImGui::Selectable(scene.name.c_str(), is_open);
+    ImGui::EndDisabled();
+    tooltip(scene, files_[index]);
+    ImGui::PopID();
+    return chosen;
+}
+
+std::optional<fs::path> SceneList::show(const fs::path& open) {
+    std::optional<fs::path> chosen = showPath();
+    leaveRoomFor("Refresh");
+    ImGui::InputTextWithHint("##filter", "Filter by name", filter_.data(), filter_.size());
+    ImGui::SameLine();
+    if (ImGui::Button("Refresh")) refresh();
+    ImGui::SetItemTooltip("Read the folder again: %s", sameName(folder_).c_str());
+
+    std::vector<std::size_t> shown;
+    for (std::size_t i = 0; i < files_.size(); ++i)
+        if (contains(files_[i].stem().string(), filter_.data())) shown.push_back(i);
+    if (shown.empty()) {
+        ImGui::TextDisabled(files_.empty() ? "No scenes in the folder" : "No name matches");
+        return chosen;
+    }
+    const float line = ImGui::GetTextLineHeightWithSpacing();
+    const float room = std::max(ImGui::GetContentRegionAvail().y, kFewestLines * line);
+    const float rows = static_cast<float>(shown.size()) * line + ImGui::GetStyle().ItemSpacing.y;
+    if (ImGui::BeginChild("scenes", {0.0f, std::min(rows, room)})) {
+        const fs::path marked = sameName(open);
+        const bool is_here = marked.parent_path() == sameName(folder_);
+        ImGuiListClipper clipper;
+        clipper.Begin(static_cast<int>(shown.size()));
+        while (clipper.Step())
+            for (int i = clipper.DisplayStart; i < clipper.DisplayEnd; ++i) {
+                const std::size_t index = shown[static_cast<std::size_t>(i)];
+                const bool is_open = is_here && files_[index].filename() == marked.filename();
+                if (showRow(index, is_open)) chosen = files_[index];
+            }
+    }
+    ImGui::EndChild();
+    return chosen;
+}
+
+// ---- Recent scenes ------------------------------------------------------------------------------
+
+std::optional<fs::path> recentScenes(std::span<const fs::path> scenes) {
+    std::optional<fs::path> chosen;
+    ImGui::SetNextItemWidth(-1.0f);
+    if (!ImGui::BeginCombo("##recent", "Recent scenes", ImGuiComboFlags_HeightLarge)) return chosen;
+    for (const fs::path& scene : scenes) {
+        ImGui::PushID(scene.c_str());
+        if (ImGui::Selectable(scene.filename().c_str())) chosen = scene;
+        if (ImGui::IsItemHovered(ImGuiHoveredFlags_DelayShort))
+            ImGui::SetTooltip("%s", scene.c_str());
+        ImGui::PopID();
+    }
+    ImGui::EndCombo();
+    return chosen;
+}
+
+// ---- The timeline -------------------------------------------------------------------------------
+
+namespace {
+
+constexpr double kAtLeast = 2.0;  // s, minimum length of the bar
+constexpr double kMostFrames = 1e6;
+constexpr float kNarrowest = 8.0f;  // letters
+
+// Returns a simulated time in frames: frame 0 ends after the first frame's time.
+float framesAt(const hair::Settings& settings, float time) {
+    return static_cast<float>(
+        std::min(double{time} / double{settings.run.frame_time} - 1.0, kMostFrames));
+}
+
+}  // namespace
+
+std::vector<TimelineMark> timelineMarks(const hair::Settings& settings) {
+    std::vector<TimelineMark> marks;
+    if (settings.run.frame_time <= 0.0f) return marks;
+    for (const hair::Keyframe& key : settings.simulation.motion.keyframes) {
+        const float at = framesAt(settings, key.time);
+        marks.push_back({TimelineMark::Kind::keyframe, at, at});
+    }
+    for (const hair::PullSettings& pull : settings.simulation.pulls)
+        if (!pull.path.empty())
+            marks.push_back(
+                {TimelineMark::Kind::pull, framesAt(settings, pull.path.front().time),
+                 framesAt(settings, pull.path.back().time)});
+    return marks;
+}
+
+std::uint32_t
+timelineEnd(const hair::Settings& settings, std::uint32_t frame, std::uint32_t furthest) {
+    double end = std::max(frame, furthest);
+    if (settings.run.frame_time > 0.0f)
+        end = std::max(end, std::ceil(kAtLeast / double{settings.run.frame_time} - 1.0));
+    end = std::max(end, 1.0);
+    for (const TimelineMark& mark : timelineMarks(settings))
+        end = std::max(end, std::ceil(double{mark.to}));
+    return static_cast<std::uint32_t>(std::min(end, kMostFrames));
+}
+
+void timeline(PlayState& state, const Shown& shown) {
+    state.furthest = std::max(state.furthest, shown.frame);
+    const float letter = ImGui::GetFontSize();
+    const ImVec2 room{ImGui::GetContentRegionAvail().x, ImGui::GetFrameHeight()};
+    if (room.x < kNarrowest * letter) return;
+    const std::uint32_t end = timelineEnd(shown.settings, shown.frame, state.furthest);
+    const ImVec2 corner = ImGui::GetCursorScreenPos();
+    ImGui::InvisibleButton("##timeline", room);
+    const bool held = ImGui::IsItemActive();
+    const bool hovered = ImGui::IsItemHovered();
+
+    const float margin = 0.4f * letter;
+    const float width = room.x - 2.0f * margin;
+    const auto at = [&](float frame) {
+        const float share = std::clamp(frame / static_cast<float>(end), 0.0f, 1.0f);
+        return corner.x + margin + share * width;
+    };
+    const float share = (ImGui::GetIO().MousePos.x - corner.x - margin) / width;
+    const auto under = static_cast<std::uint32_t>(
+        std::lround(std::clamp(share, 0.0f, 1.0f) * static_cast<float>(end)));
+    if (held) {
+        state.playing = false;
+        state.scrub = under;
+    }
+
+    ImDrawList& list = *ImGui::GetWindowDrawList();
+    const auto color = [](ImGuiCol of, float alpha) { return ImGui::GetColorU32(of, alpha); };
+    const float middle = corner.y + 0.5f * room.y;
+    const float half = 0.16f * room.y;
+    list.AddRectFilled(
+        {at(0.0f), middle - half}, {at(static_cast<float>(end)), middle + half},
+        color(ImGuiCol_FrameBg, 1.0f), half);
+    const float now = at(static_cast<float>(shown.frame));
+    list.AddRectFilled(
+        {at(0.0f), middle - half}, {now, middle + half}, color(ImGuiCol_SliderGrab, 0.5f), half);
+    for (const TimelineMark& mark : timelineMarks(shown.settings)) {
+        if (mark.kind == TimelineMark::Kind::pull) {
+            list.AddRectFilled(
+                {at(mark.from), middle + half + 1.0f},
+                {std::max(at(mark.to), at(mark.from) + 2.0f), middle + half + 0.22f * letter},
+                color(ImGuiCol_PlotHistogram, 1.0f));
+            continue;
+        }
+        const float x = at(mark.from), size = 0.22f * letter;
+        list.AddQuadFilled(
+            {x, middle - size}, {x + size, middle}, {x, middle + size}, {x - size, middle},
+            color(ImGuiCol_Text, 0.8f));
+    }
+    // The target frame and the shown frame.
+    if (state.scrub)
+        list.AddLine(
+            {at(static_cast<float>(*state.scrub)), corner.y},
+            {at(static_cast<float>(*state.scrub)), corner.y + room.y}, color(ImGuiCol_Text, 0.5f));
+    list.AddRectFilled(
+        {now - 0.14f * letter, corner.y + 1.0f}, {now + 0.14f * letter, corner.y + room.y - 1.0f},
+        color(held || hovered ? ImGuiCol_SliderGrabActive : ImGuiCol_SliderGrab, 1.0f), 2.0f);
+    if (!hovered && !held) return;
+    std::array<char, 128> text{};
+    if (state.scrub && *state.scrub != shown.frame)
+        std::snprintf(
+            text.data(), text.size(), "plays to frame %u: at %u", *state.scrub, shown.frame);
+    else
+        std::snprintf(
+            text.data(), text.size(), "frame %u of %u, %.3f s; drag to play to another", under, end,
+            (static_cast<double>(under) + 1.0) * double{shown.settings.run.frame_time});
+    ImGui::SetTooltip("%s", text.data());
+}
+
+// ---- The open scene -----------------------------------------------------------------------------
+
 namespace {
 
 struct Speed {

@@ -20,7 +20,7 @@
 #include "benchmarks/report/report.h"
 #include "benchmarks/scene/json.h"
 #include "benchmarks/viewer/edit.h"
-#include "benchmarks/viewer/picking.h"
+#include "benchmarks/viewer/gizmo.h"
 #include "benchmarks/viewer/preview.h"
 #include "benchmarks/viewer/shader_reload.h"
 #include "engine/frame_loop.h"

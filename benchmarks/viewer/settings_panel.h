@@ -1,11 +1,48 @@
 #pragma once
 
+#include <cstddef>
 #include <string>
+#include <string_view>
 
 #include "benchmarks/viewer/edit.h"
 #include "hair/settings.h"
 
+// Formats names, numbers and units for the settings panel, and pages through long lists.
+
 namespace benchmarks::viewer {
+
+// Elements [first, last) of a list.
+struct ElementRange {
+    std::size_t first = 0;
+    std::size_t last = 0;
+};
+
+// The elements of a page. Pages count from 0; a page past the end is the last one.
+ElementRange elementsOf(std::size_t page, std::size_t count);
+
+// Returns the elements of the current page of a list of `count`. With several pages, shows buttons
+// to turn them, within Dear ImGui's current window and ID.
+ElementRange turnPages(std::size_t count);
+
+// Returns a setting's readable name: "Field of view" for "field_of_view".
+std::string shownName(std::string_view name);
+
+// Returns text in its form for searches: lower case, spaces for underscores.
+std::string searchable(std::string_view text);
+
+// Returns a unit of the settings' tables in readable form, such as "m/s²"; empty for ratios and
+// counts.
+std::string shownUnit(const char* unit);
+
+// Returns Dear ImGui's format for a number and its unit; `conversion` is one of printf's.
+std::string numberFormat(const char* conversion, const char* unit);
+
+// Returns the change of a number per pixel of a drag.
+double dragSpeed(double value, double minimum, double maximum);
+
+// A text field of any length within the current Dear ImGui window. Returns whether the text
+// changed. `hint` stands in an empty field.
+bool textInput(const char* label, std::string& text, const char* hint = "");
 
 // Shows every parameter as a widget, from the tables of hair/settings.h, within the current Dear
 // ImGui window. Shows fields with `search` in their pointer or help, or all if it is empty. Marks

@@ -13,8 +13,8 @@
 #include <unistd.h>
 
 #include "engine/error.h"
+#include "engine/files.h"
 #include "engine/process.h"
-#include "engine/program_files.h"
 #include "engine/transfer.h"
 
 namespace benchmarks::viewer {

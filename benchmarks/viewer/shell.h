@@ -11,29 +11,45 @@
 #include <string>
 #include <vector>
 
+#include "benchmarks/scene/sweep.h"
 #include "benchmarks/viewer/actions.h"
-#include "benchmarks/viewer/columns.h"
 #include "benchmarks/viewer/compare_panel.h"
 #include "benchmarks/viewer/open_scene.h"
-#include "benchmarks/viewer/worker_thread.h"
 #include "benchmarks/viewer/picture_area.h"
 #include "benchmarks/viewer/player.h"
 #include "benchmarks/viewer/preferences.h"
 #include "benchmarks/viewer/preview.h"
 #include "benchmarks/viewer/recorder.h"
-#include "benchmarks/viewer/scene_list.h"
 #include "benchmarks/viewer/shader_reload.h"
 #include "benchmarks/viewer/studio.h"
 #include "benchmarks/viewer/timings_panel.h"
 #include "benchmarks/viewer/toolbar.h"
-#include "benchmarks/viewer/view_options.h"
 #include "engine/device.h"
 #include "engine/presenter.h"
 #include "engine/ui.h"
 #include "engine/window.h"
 
-// The parts behind the viewer's panels: the window itself, the thread that draws, and files.
 namespace benchmarks::viewer {
+
+struct ViewOptions {
+    scene::SceneOptions scene;
+    std::uint32_t width = 1600;  // of the window, in screen coordinates
+    std::uint32_t height = 900;
+    double scale = 0.0;  // of letters and widgets; 0: the screen's
+    std::uint32_t frames = 0;  // the window closes after so many pictures; 0: it stays open
+    std::filesystem::path screenshot;  // file for the window's last picture; empty: none
+    std::filesystem::path script;  // steps that drive the window; empty: none
+    bool live = false;  // Viewer::setLive(), for scripts or a number of pictures
+    std::filesystem::path shaders;  // watched folder; empty: the build's
+    // File of preferences; empty: the user's file, or none with a script.
+    std::filesystem::path preferences;
+    std::vector<std::string> command;  // for reports
+    // Called on the drawing thread with each order before any work, for tests that delay it; may be
+    // empty.
+    std::function<void()> before_drawing{};
+};
+
+// The parts behind the viewer's panels: the window itself, the thread that draws, and files.
 
 // The last message to the user.
 class Message {

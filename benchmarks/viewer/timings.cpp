@@ -15,7 +15,7 @@
 #include "benchmarks/report/environment.h"
 #include "benchmarks/report/text.h"
 #include "benchmarks/run/backends.h"
-#include "benchmarks/run/case.h"
+#include "benchmarks/run/run.h"
 #include "benchmarks/scene/settings_json.h"
 #include "engine/device.h"
 #include "engine/frame_loop.h"

@@ -1,14 +1,11 @@
 #pragma once
 
-#include "benchmarks/viewer/camera_tool.h"
-#include "benchmarks/viewer/collider_tool.h"
+#include "benchmarks/viewer/body_tools.h"
 #include "benchmarks/viewer/edit.h"
-#include "benchmarks/viewer/grab_tool.h"
-#include "benchmarks/viewer/head_tool.h"
-#include "benchmarks/viewer/light_tool.h"
-#include "benchmarks/viewer/picking.h"
+#include "benchmarks/viewer/gizmo.h"
+#include "benchmarks/viewer/hair_tools.h"
 #include "benchmarks/viewer/player.h"
-#include "benchmarks/viewer/stroke_tool.h"
+#include "benchmarks/viewer/view_tools.h"
 #include "hair/settings.h"
 
 // Tools for the picture: the selected one, and the line of buttons to choose it.

@@ -10,7 +10,6 @@
 #include <imgui.h>
 
 #include "benchmarks/viewer/recorder.h"
-#include "benchmarks/viewer/setting_text.h"
 #include "benchmarks/viewer/settings_panel.h"
 #include "benchmarks/viewer/shell.h"
 #include "engine/shaders.h"

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "benchmarks/viewer/view_options.h"
+#include "benchmarks/viewer/shell.h"
 #include "engine/presenter.h"
 #include "hair/settings.h"
 

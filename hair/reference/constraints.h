@@ -208,7 +208,7 @@ void stepFtl(
     const PushOut& push_out);
 
 // Pulls by hands, in double precision, written directly from the equations of
-// hair/simulation/pulls.h.
+// hair/simulation/forces.h.
 
 // All strands at the start of a time step, [strand][vertex], m.
 struct PulledHair {

@@ -1,7 +1,9 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include <glm/mat3x3.hpp>
@@ -9,10 +11,12 @@
 
 #include "hair/reference/constraints.h"
 #include "hair/settings.h"
+#include "hair/simulation/head_motion.h"
 
 // Effects of air on hair, in double precision, written directly from the equations. The turbulence
 // is the curl of a potential. The derivatives come from the chain rule, term by term, and are never
 // written out.
+
 namespace hair::reference {
 
 // Returns the velocity of eddies of one size; `point` is in cells. Divergence-free, mean 0 and
@@ -72,5 +76,23 @@ struct Air {
 Air airAt(
     ConstPoints positions, const SimulationSettings& settings, std::uint32_t seed,
     std::uint32_t strand, double time);
+
+struct VolumeState {
+    std::size_t vertices;  // per strand
+    std::span<const glm::dvec3> rest;  // [strand][vertex], m
+    std::span<const glm::dvec3> positions;  // m
+    std::span<const glm::dvec3> previous;  // m, a substep earlier
+    Step step;
+    simulation::RigidMotion frame;  // of the head at the end of the step
+    // Velocity difference of each vertex that friction left in the previous step, m/s; becomes
+    // that of this step. Empty: no previous step. Null: not wanted.
+    std::vector<glm::dvec3>* kept = nullptr;
+};
+
+// Returns the acceleration by hair-hair contact over the next step, [strand][vertex], m/s^2: the
+// equations of hair/simulation/hair_hair.h on sparse grids in double precision. Zero if
+// settings.hair_hair is off.
+std::vector<glm::dvec3>
+volumeAccelerations(const SimulationSettings& settings, const VolumeState& state);
 
 }  // namespace hair::reference

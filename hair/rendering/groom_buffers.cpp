@@ -16,7 +16,6 @@
 #include "hair/rendering/shadow_pass.h"
 #include "hair/rendering/strand_offsets.h"
 #include "hair/rendering/strand_plan.h"
-#include "hair/rendering/strand_residuals.h"
 
 namespace hair::rendering {
 namespace {

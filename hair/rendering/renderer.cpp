@@ -1,17 +1,218 @@
 #include "hair/rendering/renderer.h"
 
+#include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <cstddef>
-#include <span>
+#include <iterator>
+#include <limits>
+#include <numbers>
+#include <string>
+#include <utility>
 
+#include <glm/geometric.hpp>
 #include <glm/trigonometric.hpp>
 
-#include "engine/buffer_image.h"
+#include "engine/commands.h"
+#include "engine/error.h"
 #include "engine/transfer.h"
-#include "hair/rendering/lights.h"
 #include "hair/rendering/software_backend.h"
+#include "hair/rendering/strand_backend.h"
+#include "hair/shader_codes.h"
 
 namespace hair::rendering {
+
+// ---- The picture from its samples ---------------------------------------------------------------
+
+namespace {
+
+engine::ComputeDescription
+pipelineFor(const RenderSettings& render, const engine::TargetDescription& target) {
+    const std::string variant = target.msaa > 1 ? "_multisample.comp" : ".comp";
+    engine::Constants constants{
+        {gpu::kResolveSamplesConstant, target.msaa}, {gpu::kResolveFactorConstant, target.ssaa}};
+    if (!hasLinearLight(render)) {
+        return {
+            .shader = "post/resolve" + variant,
+            .constants = constants,
+            .sampled_images = 1,
+            .storage_images = 1};
+    }
+    constants.emplace_back(gpu::kResolveToneMapConstant, shaderCode(render.tone_map));
+    constants.emplace_back(gpu::kResolveExposureConstant, std::exp2(render.exposure));
+    return {
+        .shader = "post/develop" + variant,
+        .constants = constants,
+        .sampled_images = 1,
+        .storage_images = 2};
+}
+
+}  // namespace
+
+ResolvePass::ResolvePass(
+    const engine::Device& device, const RenderSettings& render,
+    const engine::TargetDescription& target) {
+    if (engine::resolveOf(target) != engine::Resolve::compute) return;
+    pipeline_.emplace(device, pipelineFor(render, target));
+}
+
+void ResolvePass::record(engine::Commands& commands, const engine::Target& target) const {
+    if (!pipeline_) {
+        target.beginRendering(commands, engine::Load::keep, {}, engine::Target::Last::yes);
+        target.endRendering(commands, engine::Target::Last::yes);
+        return;
+    }
+    target.beginResolve(commands);
+    const engine::Image* const sampled = &target.color();
+    commands.bind(*pipeline_);
+    if (target.hasRadiance())
+        commands.images(
+            *pipeline_, std::span(&sampled, 1), std::array{&target.radiance(), &target.output()});
+    else
+        commands.images(*pipeline_, std::span(&sampled, 1), std::array{&target.output()});
+    const auto [width, height] = target.output().extent();
+    commands.dispatch(
+        (width + gpu::kResolveGroupSide - 1) / gpu::kResolveGroupSide,
+        (height + gpu::kResolveGroupSide - 1) / gpu::kResolveGroupSide);
+    target.endResolve(commands);
+}
+
+// ---- Overlays -----------------------------------------------------------------------------------
+
+namespace {
+
+static_assert(sizeof(gpu::BodyLine) == 28 && offsetof(gpu::BodyLine, moves) == 24);
+
+constexpr int kRing = 32;  // lines round a circle
+
+std::uint32_t movesWith(Follows follows) { return follows == Follows::head ? 1 : 0; }
+
+// Lines along the arc centre + cos x + sin y, from angle 0 on.
+void addArc(
+    const glm::vec3& centre, const glm::vec3& x, const glm::vec3& y, int lines, std::uint32_t moves,
+    std::vector<gpu::BodyLine>& out) {
+    const auto point = [&](int i) {
+        const float angle = 2.0f * std::numbers::pi_v<float> * static_cast<float>(i) / kRing;
+        return centre + std::cos(angle) * x + std::sin(angle) * y;
+    };
+    for (int i = 0; i < lines; ++i) out.push_back({point(i), point(i + 1), moves});
+}
+
+constexpr glm::vec3 kGuideColor{0.05f, 0.2f, 0.9f};
+constexpr glm::vec3 kTriangleColor{0.85f, 0.1f, 0.1f};
+constexpr glm::vec3 kBodyColor{0.1f, 0.75f, 0.35f};
+
+constexpr std::uint32_t kVerticesPerLine = 6;  // shaders/overlay/overlay.glsl
+
+engine::GraphicsDescription lines(const char* vertex_shader, const RenderSettings& render) {
+    return {
+        .shaders = {vertex_shader, "overlay/color.frag"},
+        .push_size = sizeof(gpu::OverlayPush),
+        .colors = {{colorFormat(render)}},
+        .depth_format = engine::Target::kDepthFormat,
+        .samples = render.msaa};
+}
+
+}  // namespace
+
+// ---- Wire frames of bodies ----------------------------------------------------------------------
+
+std::vector<gpu::BodyLine> capsuleLines(const Collider& capsule) {
+    const std::uint32_t moves = movesWith(capsule.follows);
+    const bool is_sphere = capsule.a == capsule.b;
+    const glm::vec3 axis =
+        is_sphere ? glm::vec3(0.0f, 1.0f, 0.0f) : glm::normalize(capsule.b - capsule.a);
+    const glm::vec3 beside =
+        std::abs(axis.x) < 0.9f ? glm::vec3(1.0f, 0.0f, 0.0f) : glm::vec3(0.0f, 0.0f, 1.0f);
+    const glm::vec3 u = capsule.radius * glm::normalize(glm::cross(axis, beside));
+    const glm::vec3 v = glm::cross(axis, u);
+    const glm::vec3 end = capsule.radius * axis;
+
+    std::vector<gpu::BodyLine> lines;
+    addArc(capsule.a, u, v, kRing, moves, lines);
+    for (const glm::vec3& side : {u, v}) {
+        addArc(capsule.a, side, -end, kRing / 2, moves, lines);
+        addArc(capsule.b, side, end, kRing / 2, moves, lines);
+    }
+    if (is_sphere) return lines;
+    addArc(capsule.b, u, v, kRing, moves, lines);
+    for (const glm::vec3& side : {u, v, -u, -v})
+        lines.push_back({capsule.a + side, capsule.b + side, moves});
+    return lines;
+}
+
+std::vector<gpu::BodyLine> meshLines(const groom::Mesh& mesh, Follows follows) {
+    std::vector<std::pair<std::uint32_t, std::uint32_t>> edges;
+    for (const auto& triangle : mesh.triangles)
+        for (std::size_t i = 0; i < 3; ++i)
+            edges.push_back(std::minmax({triangle[i], triangle[(i + 1) % 3]}));
+    std::ranges::sort(edges);
+    const auto repeated = std::ranges::unique(edges);
+    edges.erase(repeated.begin(), repeated.end());
+    std::vector<gpu::BodyLine> lines;
+    for (const auto& [from, to] : edges)
+        lines.push_back({mesh.positions[from], mesh.positions[to], movesWith(follows)});
+    return lines;
+}
+
+std::vector<gpu::BodyLine>
+bodyLines(const SimulationSettings& settings, std::span<const groom::Mesh> meshes) {
+    assert(meshes.size() == settings.distance_fields.size());
+    std::vector<gpu::BodyLine> lines;
+    for (const Collider& capsule : settings.colliders)
+        std::ranges::copy(capsuleLines(capsule), std::back_inserter(lines));
+    for (std::size_t i = 0; i < meshes.size(); ++i) {
+        const Follows follows = settings.distance_fields[i].follows;
+        std::ranges::copy(meshLines(meshes[i], follows), std::back_inserter(lines));
+    }
+    return lines;
+}
+
+// ---- The pass -----------------------------------------------------------------------------------
+
+OverlayPass::OverlayPass(
+    const engine::Device& device, const Settings& settings, const RenderAssets& assets) {
+    const RenderSettings& render = settings.render;
+    if (render.overlays.guides) guides_.emplace(device, lines("overlay/guides.vert", render));
+    if (render.overlays.root_triangles)
+        root_triangles_.emplace(device, lines("overlay/root_triangles.vert", render));
+    if (render.overlays.bodies) {
+        const std::vector<gpu::BodyLine> wires =
+            bodyLines(settings.simulation, assets.field_meshes);
+        engine::GraphicsDescription description = lines("overlay/bodies.vert", render);
+        description.depth_compare = VK_COMPARE_OP_ALWAYS;
+        description.depth_write = false;
+        bodies_.emplace(
+            engine::makeBuffer(device, std::span<const gpu::BodyLine>(wires), "body lines"),
+            static_cast<std::uint32_t>(wires.size()),
+            engine::GraphicsPipeline(device, description));
+    }
+}
+
+void OverlayPass::draw(
+    engine::Commands& commands, std::uint64_t picture, const StrandView& view) const {
+    commands.uses({{view.guides, engine::Access::vertex_read}});
+    if (bodies_ && bodies_->line_count > 0) {
+        commands.bind(
+            bodies_->pipeline,
+            gpu::OverlayPush{
+                .picture = picture, .lines = bodies_->lines.address(), .color = kBodyColor});
+        commands.draw({.vertices = kVerticesPerLine * bodies_->line_count});
+    }
+    if (root_triangles_) {
+        commands.bind(
+            *root_triangles_, gpu::OverlayPush{.picture = picture, .color = kTriangleColor});
+        commands.draw({.vertices = kVerticesPerLine * 3 * view.triangle_count});
+    }
+    if (guides_) {
+        commands.bind(*guides_, gpu::OverlayPush{.picture = picture, .color = kGuideColor});
+        commands.draw(
+            {.vertices = kVerticesPerLine * view.guide_count * (view.vertices_per_guide - 1)});
+    }
+}
+
+// ---- The renderer -------------------------------------------------------------------------------
+
 namespace {
 
 using Last = engine::Target::Last;
@@ -215,6 +416,102 @@ void Renderer::recordApart(
             target_.endRendering(commands, last);
         });
     }
+}
+
+// ---- Points of strands --------------------------------------------------------------------------
+
+namespace {
+
+using Record = gpu::StrandPointRecord;
+static_assert(sizeof(Record) == 36 && offsetof(Record, tangent) == 16);
+static_assert(offsetof(gpu::StrandPointsPush, count) == 16);
+
+// Shaders number points in 32 bits.
+std::uint32_t pointCount(const StrandPlan& plan) {
+    const std::uint64_t count = plan.strands() * plan.segments * (plan.forced_tessellation + 1);
+    constexpr std::uint64_t kMost = std::numeric_limits<std::uint32_t>::max();
+    if (count > kMost) {
+        throw engine::Unsupported(
+            "strand points", std::to_string(count) + " are too many: at most " +
+                                 std::to_string(kMost) + " are supported");
+    }
+    return static_cast<std::uint32_t>(count);
+}
+
+}  // namespace
+
+const Record& StrandPoints::at(
+    std::uint32_t triangle, std::uint32_t strand, std::uint32_t segment,
+    std::uint32_t point) const {
+    assert(
+        triangle < plan.triangles && strand < plan.forced_density && segment < plan.segments &&
+        point <= plan.forced_tessellation);
+    const std::size_t line = std::size_t{triangle} * plan.forced_density + strand;
+    return records[(line * plan.segments + segment) * (plan.forced_tessellation + 1) + point];
+}
+
+StrandPoints evaluateStrandPoints(
+    const engine::Device& device, const Settings& settings, const StrandView& view,
+    std::uint32_t most_at_once) {
+    assert(most_at_once > 0);
+    StrandPoints result{
+        .plan = planStrands(view, settings, device.info().limits.maxTessellationGenerationLevel)};
+    const std::uint32_t count = pointCount(result.plan);
+    if (count == 0) return result;
+
+    const engine::ComputePipeline pipeline(
+        device, {.shader = "strands/evaluate.comp",
+                 .constants = strandConstants(settings.strands, result.plan),
+                 .extensions = strandExtensions(settings.strands),
+                 .push_size = sizeof(gpu::StrandPointsPush)});
+    const engine::Buffer parameters(
+        device, {.size = sizeof(gpu::PictureParameters),
+                 .usage = engine::Usage::upload,
+                 .name = "picture parameters"});
+    const std::uint32_t size = std::min(count, most_at_once);
+    const engine::Buffer records(device, {.size = size * sizeof(Record), .name = "strand points"});
+    std::optional<FramesPass> frames;
+    if (FramesPass::isNeeded(view)) frames.emplace(device, view);
+    std::optional<SkinnedHead> skin;
+    if (view.deforming) skin.emplace(device, settings, result.plan, view);
+    const gpu::PictureParameters picture = pictureParameters(
+        settings, result.plan, view,
+        {.guide_normals = frames ? frames->normals().address() : 0,
+         .guide_turns = frames ? frames->turns().address() : 0,
+         .root_corrections = skin ? skin->corrections().address() : 0});
+    parameters.write(picture);
+    result.records.reserve(count);
+    for (std::uint32_t first = 0; first < count; first += std::min(size, count - first)) {
+        const std::uint32_t part = std::min(size, count - first);
+        runOnce(device, [&](engine::Commands& commands) {
+            if (frames && first == 0) {
+                frames->record(commands, view);
+                commands.barrier(engine::Access::compute_write, engine::Access::compute_read);
+            }
+            if (skin && first == 0) {
+                skin->record(commands, parameters.address(), picture, 0);
+                commands.barrier(engine::Access::compute_write, engine::Access::compute_read);
+            }
+            commands.uses(
+                {{view.guides, engine::Access::compute_read},
+                 {view.contacts, engine::Access::compute_read},
+                 {frames ? frames->normals().address() : 0, engine::Access::compute_read},
+                 {frames ? frames->turns().address() : 0, engine::Access::compute_read},
+                 {picture.root_corrections, engine::Access::compute_read},
+                 {records, engine::Access::compute_write}});
+            commands.bind(
+                pipeline, gpu::StrandPointsPush{
+                              .picture = parameters.address(),
+                              .records = records.address(),
+                              .count = part,
+                              .first = first});
+            commands.dispatchInvocations(part, gpu::kStrandPointsGroupSize);
+            commands.barrier(engine::Access::compute_write, engine::Access::transfer_read);
+        });
+        const std::vector<Record> evaluated = engine::downloadAs<Record>(device, records);
+        result.records.insert(result.records.end(), evaluated.begin(), evaluated.begin() + part);
+    }
+    return result;
 }
 
 }  // namespace hair::rendering

@@ -3,20 +3,23 @@
 #include <array>
 #include <cstdint>
 #include <optional>
+#include <span>
+#include <vector>
 
+#include "engine/buffer_image.h"
+#include "engine/device.h"
 #include "engine/frame_loop.h"
+#include "engine/pipeline.h"
 #include "engine/target.h"
 #include "hair/gpu_structs.h"
-#include "hair/rendering/backend_choice.h"
+#include "hair/groom/mesh/mesh.h"
+#include "hair/rendering/backends.h"
 #include "hair/rendering/environment.h"
 #include "hair/rendering/fiber.h"
-#include "hair/rendering/overlay_pass.h"
 #include "hair/rendering/points_pass.h"
 #include "hair/rendering/render_assets.h"
-#include "hair/rendering/resolve_pass.h"
 #include "hair/rendering/scene_meshes.h"
 #include "hair/rendering/shadow_pass.h"
-#include "hair/rendering/skinned_head.h"
 #include "hair/rendering/strand_offsets.h"
 #include "hair/rendering/strand_pass.h"
 #include "hair/rendering/strand_plan.h"
@@ -24,6 +27,62 @@
 #include "hair/settings.h"
 
 namespace hair::rendering {
+
+// Resolves the rendered samples to the picture where they differ (engine::Resolve): the mean over
+// MSAA samples and SSAA pixels (thesis 2.3.7). In linear light, the target's radiance() keeps the
+// mean, and the tone map makes the picture from it. If an attachment resolves at the end of
+// rendering, this pass is an empty rendering, so its time is that of the resolve.
+class ResolvePass {
+public:
+    ResolvePass(
+        const engine::Device& device, const RenderSettings& render,
+        const engine::TargetDescription& target);
+
+    engine::PassKind kind() const {
+        return pipeline_ ? engine::PassKind::compute : engine::PassKind::graphics;
+    }
+
+    void record(engine::Commands& commands, const engine::Target& target) const;
+
+private:
+    std::optional<engine::ComputePipeline> pipeline_;  // absent: an attachment resolves
+};
+
+// Overlays on the finished hair that show the simulation.
+
+// The wire frame of a capsule: a ring at each end of its axis, four lines between them and two
+// great half-circles over each end; of a sphere (a == b), three great circles.
+std::vector<gpu::BodyLine> capsuleLines(const Collider& capsule);
+
+// The edges of a mesh, each once.
+std::vector<gpu::BodyLine> meshLines(const groom::Mesh& mesh, Follows follows);
+
+// Wire frames of all that hair collides with; `meshes` are those of settings.distance_fields.
+std::vector<gpu::BodyLine>
+bodyLines(const SimulationSettings& settings, std::span<const groom::Mesh> meshes);
+
+// Draws ribbons over the finished hair: the simulated guides, the root triangles (thesis figures
+// 4.2 and 4.6) and the bodies that hair collides with, seen through hair and head.
+class OverlayPass {
+public:
+    OverlayPass(const engine::Device& device, const Settings& settings, const RenderAssets& assets);
+
+    bool empty() const { return !guides_ && !root_triangles_ && !bodies_; }
+
+    // Draws into the target that is being rendered to.
+    void draw(engine::Commands& commands, std::uint64_t picture, const StrandView& view) const;
+
+private:
+    struct BodyWires {
+        engine::Buffer lines;  // gpu::BodyLine
+        std::uint32_t line_count;
+        engine::GraphicsPipeline pipeline;
+    };
+
+    std::optional<engine::GraphicsPipeline> guides_;
+    std::optional<engine::GraphicsPipeline> root_triangles_;
+    std::optional<BodyWires> bodies_;
+};
 
 // Bytes of device memory that a Renderer's images and strands take, without its assets. The
 // settings must name the back end that draws them.
@@ -82,5 +141,28 @@ private:
     OverlayPass overlay_;
     ResolvePass resolve_;
 };
+
+// The strands of a picture as points in memory, for export, measurement and tests. Every guide
+// segment has both of its ends: the last point of a segment is the first of the next.
+struct StrandPoints {
+    StrandPlan plan;
+    // [triangle][strand][guide segment][0 .. tessellation], root first. In LodMode::distance the
+    // counts are those of level 0, and the points that are not drawn have a negative width.
+    std::vector<gpu::StrandPointRecord> records;
+
+    // `point` is in [0, tessellation].
+    const gpu::StrandPointRecord&
+    at(std::uint32_t triangle, std::uint32_t strand, std::uint32_t segment,
+       std::uint32_t point) const;
+};
+
+// Most points that are evaluated at once: 32 MiB of them. Every device has larger buffers.
+inline constexpr std::uint32_t kMostPointsAtOnce = 1u << 20;
+
+// Evaluates all strands on the device and waits. Throws engine::Unsupported for more than 2^32 - 1
+// points.
+StrandPoints evaluateStrandPoints(
+    const engine::Device& device, const Settings& settings, const StrandView& view,
+    std::uint32_t most_at_once = kMostPointsAtOnce);
 
 }  // namespace hair::rendering

@@ -14,7 +14,7 @@
 #include "engine/buffer_image.h"
 #include "engine/commands.h"
 #include "engine/pipeline.h"
-#include "engine/texture.h"
+#include "engine/transfer.h"
 #include "hair/groom/mesh/mesh.h"
 #include "hair/rendering/render_assets.h"
 #include "hair/settings.h"

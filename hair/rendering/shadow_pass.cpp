@@ -19,7 +19,7 @@
 #include "engine/pipeline.h"
 #include "engine/target.h"
 #include "engine/transfer.h"
-#include "hair/rendering/lights.h"
+#include "hair/rendering/environment.h"
 
 namespace hair::rendering {
 namespace {

@@ -5,7 +5,7 @@
 
 #include <glm/trigonometric.hpp>
 
-#include "hair/rendering/lights.h"
+#include "hair/rendering/environment.h"
 #include "hair/rendering/render_assets.h"
 #include "hair/rendering/strand_offsets.h"
 #include "hair/shader_codes.h"

@@ -8,7 +8,7 @@
 #include "engine/error.h"
 #include "engine/transfer.h"
 #include "hair/gpu_structs.h"
-#include "hair/rendering/lights.h"
+#include "hair/rendering/environment.h"
 #include "hair/rendering/render_assets.h"
 #include "hair/shader_codes.h"
 

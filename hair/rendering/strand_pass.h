@@ -10,7 +10,7 @@
 #include "engine/frame_loop.h"
 #include "engine/pipeline.h"
 #include "engine/target.h"
-#include "engine/texture.h"
+#include "engine/transfer.h"
 #include "hair/rendering/backends.h"
 #include "hair/rendering/strand_view.h"
 #include "hair/settings.h"

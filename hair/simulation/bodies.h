@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -7,14 +8,41 @@
 #include <utility>
 #include <vector>
 
+#include <glm/vec3.hpp>
+
 #include "engine/buffer_image.h"
+#include "engine/commands.h"
+#include "engine/device.h"
+#include "engine/pipeline.h"
 #include "hair/gpu_structs.h"
 #include "hair/groom/mesh/body_mesh.h"
 #include "hair/groom/mesh/mesh.h"
 #include "hair/settings.h"
+#include "hair/simulation/guide_solver.h"
+
+// The body that an open mesh bounds, on a distance field's grid.
+
+namespace hair::simulation {
+
+// The inside is the region with winding number 1/2 or more, within the mesh's bounding box. The
+// mesh is only part of its surface. Where the winding number goes smoothly through 1/2 there is a
+// cap, which is flat across a flat opening. Distances to the mesh alone would change sign there
+// with a jump as large as the opening, and would push hair that comes through the opening all the
+// way to the rim. With the cap's triangles added, distances go through 0 as at any other surface.
+struct OpenBody {
+    std::vector<float> sides;  // [z][y][x] of the grid: -1 inside, 1 outside
+    std::vector<glm::vec3> positions;  // [vertex], m
+    // Triangles of the mesh, except those with the inside on both sides, then of the caps. Their
+    // orientation has no meaning.
+    std::vector<std::array<std::uint32_t, 3>> triangles;
+};
+
+// Computes winding numbers on the device, and waits for it, and caps on the host. Throws
+// engine::Error if no grid point is inside.
+OpenBody makeOpenBody(
+    const engine::Device& device, const groom::OpenMesh& mesh, const gpu::DistanceField& grid);
 
 // Bodies that hair collides with: capsules and distance fields.
-namespace hair::simulation {
 
 // A baked field on the host. From it, another field of the same mesh, resolution and padding is
 // made without baking.
@@ -26,7 +54,7 @@ struct BakedField {
 
 // Signed distances to a body's surface on a grid, in the mesh's frame, for shaders
 // (shaders/simulation/constraints/distance_field.glsl). The body is the interior of a closed mesh.
-// For any other mesh it is the region of winding number 1/2 or more (open_body.h).
+// For any other mesh it is the region of winding number 1/2 or more (OpenBody).
 class DistanceField {
 public:
     // Bakes on the device and waits. The longest side of the mesh's bounding box has `resolution`
@@ -100,6 +128,34 @@ private:
     engine::Buffer fields_;
     float margin_;
     float friction_;
+};
+
+// Collision of guide segments with bodies: /simulation/collision/parts.
+
+// Moves segments out of bodies after each substep of `shape` and `ftl`, the solvers with positions
+// and previous positions as their whole state: shaders/simulation/segments.comp. Keeps segment
+// lengths. Borrows nothing.
+class SegmentPass {
+public:
+    SegmentPass(
+        const engine::Device& device, std::uint32_t strand_count, std::uint32_t vertices_per_strand,
+        const SimulationSettings& settings);
+
+    // Saves the positions at the start of a substep. They must be written before. Afterwards the
+    // solver may overwrite them.
+    void recordStart(engine::Commands& commands, const engine::Buffer& positions) const;
+
+    // Runs after the solver's substep. `frame` and `frame_before`: the head at the substep's end
+    // and start.
+    void record(
+        engine::Commands& commands, const GuideAddresses& guides, const gpu::RigidFrame& frame,
+        const gpu::RigidFrame& frame_before) const;
+
+private:
+    std::uint32_t strand_count_;
+    std::uint32_t keeps_rest_;
+    engine::Buffer starts_;  // vec4 [strand][vertex], m
+    engine::ComputePipeline pipeline_;
 };
 
 }  // namespace hair::simulation

@@ -12,7 +12,7 @@
 #include "hair/groom/groom.h"
 #include "hair/groom/groom_size.h"
 #include "hair/settings.h"
-#include "hair/simulation/guide_view.h"
+#include "hair/simulation/guide_solver.h"
 #include "hair/simulation/head_motion.h"
 
 namespace hair::simulation {

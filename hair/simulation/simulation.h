@@ -20,15 +20,11 @@
 #include "hair/settings.h"
 #include "hair/simulation/bodies.h"
 #include "hair/simulation/condition.h"
-#include "hair/simulation/force.h"
-#include "hair/simulation/guide_view.h"
+#include "hair/simulation/forces.h"
+#include "hair/simulation/guide_solver.h"
 #include "hair/simulation/hair_hair.h"
 #include "hair/simulation/head_motion.h"
-#include "hair/simulation/pulls.h"
-#include "hair/simulation/segments.h"
-#include "hair/simulation/skinned_roots.h"
 #include "hair/simulation/solvers.h"
-#include "hair/simulation/wind.h"
 
 namespace hair::simulation {
 

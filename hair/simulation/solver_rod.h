@@ -32,7 +32,7 @@ struct RodMethod {
 RodMethod rodMethod(const SimulationSettings& settings);
 // `stable_cosserat`: hair/reference/stable_cosserat.h.
 RodMethod stableCosseratMethod(const SimulationSettings& settings);
-// `position_based_rod`: hair/reference/position_based_rod.h.
+// `position_based_rod`: hair/reference/stable_cosserat.h.
 RodMethod positionBasedMethod(const SimulationSettings& settings);
 // `augmented_mass_spring`: hair/reference/augmented_mass_spring.h. Its orientations follow the
 // edges.

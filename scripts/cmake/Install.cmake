@@ -1,5 +1,5 @@
 # `cmake --install` and `cpack`. An installed tree can be moved, because programs find their files
-# relative to themselves (engine/program_files.h). So these folders have no variables.
+# relative to themselves (engine/files.h). So these folders have no variables.
 
 install(TARGETS hairbench RUNTIME DESTINATION bin)
 install(TARGETS hairbench_mesh_reader hairbench_pipeline_trial RUNTIME DESTINATION libexec/hairbench)

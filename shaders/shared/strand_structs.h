@@ -59,7 +59,7 @@ struct PictureParameters {
     Address guide_normals;  // vec3 [guide][vertex], across the guide; read if offsets are drawn
     Address guide_turns;  // vec4 [guide][vertex], unit quaternions: rotation of the guide since
                           // rest; read if residuals are drawn
-    Address residuals;  // uvec2 [sample] of all strands: hair/rendering/strand_residuals.h
+    Address residuals;  // uvec2 [sample] of all strands: hair/rendering/strand_offsets.h
     Address contacts;  // vec4 [guide][vertex]: w > 0 from the first vertex that touches a body on;
                        // read if the collision rule is on
     Address bodies;  // Bodies; read if they push strands out

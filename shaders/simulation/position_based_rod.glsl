@@ -1,6 +1,6 @@
 // One substep of the `position_based_rod` solver, one invocation per strand: Kugelstadt and
 // Schoemer 2016, Position and orientation based Cosserat rods, with the compliances of Macklin,
-// Mueller and Chentanez 2016, XPBD. hair/reference/position_based_rod.h describes the constraints
+// Mueller and Chentanez 2016, XPBD. hair/reference/stable_cosserat.h describes the constraints
 // and the differences from the papers. See rod_structs.h for the units. Include common/vectors.glsl
 // or common/packed_vectors.glsl first.
 #include "shared/rod_structs.h"

@@ -1,6 +1,6 @@
 #version 460
 // Adds to every guide vertex its part of the acceleration of the vertex that a hand holds:
-// hair/simulation/pulls.h. One invocation per vertex. As with the wind, roots get nothing.
+// hair/simulation/forces.h. One invocation per vertex. As with the wind, roots get nothing.
 #extension GL_GOOGLE_include_directive : require
 
 #include "simulation/guides.glsl"

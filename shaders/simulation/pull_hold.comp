@@ -1,5 +1,5 @@
 #version 460
-// Computes the acceleration of the vertex that a hand holds: hair/simulation/pulls.h. One
+// Computes the acceleration of the vertex that a hand holds: hair/simulation/forces.h. One
 // invocation. It runs before pull.comp, which also changes the held vertex.
 #extension GL_GOOGLE_include_directive : require
 

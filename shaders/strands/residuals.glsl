@@ -1,5 +1,5 @@
 // Residuals: the differences at rest between the file's strands and the curve of their guides'
-// mean. They come from a table (hair/rendering/strand_residuals.h), in the axes of the groom at
+// mean. They come from a table (hair/rendering/strand_offsets.h), in the axes of the groom at
 // rest. They turn as the guides have turned since (strands/turns.comp).
 #ifndef HAIRBENCH_STRAND_RESIDUALS_GLSL
 #define HAIRBENCH_STRAND_RESIDUALS_GLSL
@@ -12,7 +12,7 @@ layout(buffer_reference, scalar) readonly buffer Residuals { uvec2 samples[]; };
 layout(buffer_reference, scalar) readonly buffer GuideTurns { vec4 turns[]; };
 
 // The search for a sample starts this fraction of an interval ahead of its position in even
-// spacing. hair/rendering/strand_residuals.cpp uses the same value.
+// spacing. hair/rendering/strand_offsets.cpp uses the same value.
 const float kResidualGuess = 0.25;
 
 // A sample is four 16-bit numbers: a vector in steps, and its position along the strand.

@@ -2,7 +2,7 @@
 #include <gmock/gmock.h>
 #include <nlohmann/json.hpp>
 
-#include "benchmarks/report/schema_errors.h"
+#include "benchmarks/doctor/reports.h"
 #include "tests/cli/run_hairbench.h"
 #include "tests/required.h"
 #include "tests/temporary_folder.h"

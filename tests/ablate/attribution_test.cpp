@@ -1,4 +1,4 @@
-#include "benchmarks/ablate/attribution.h"
+#include "benchmarks/ablate/ablation.h"
 
 #include <gmock/gmock.h>
 

@@ -4,7 +4,7 @@
 
 #include <gmock/gmock.h>
 
-#include "benchmarks/ablate/attribution.h"
+#include "benchmarks/ablate/ablation.h"
 #include "benchmarks/ablate/ladder_walk.h"
 
 namespace benchmarks::ablate {

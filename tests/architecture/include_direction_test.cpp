@@ -48,7 +48,7 @@ constexpr Rule kRules[] = {
     // and one for the viewer.
     {"hair/", "shaders/", "hair/gpu_structs.h"},
     {"benchmarks/", "shaders/", "benchmarks/measure/gpu_structs.h",
-     "benchmarks/viewer/difference.cpp"},
+     "benchmarks/viewer/picture_area.cpp"},
     {"tests/", "shaders/"},
 
     // Only one place includes each dependency.
@@ -71,7 +71,7 @@ constexpr Rule kRules[] = {
     {"benchmarks/", "imgui", "benchmarks/viewer/"},
     {"", "glslang/", "engine/"},
     {"", "re2/", "benchmarks/scene/pattern."},
-    {"", "valijson/", "benchmarks/report/schema_errors.cpp"},
+    {"", "valijson/", "benchmarks/doctor/reports.cpp"},
     {"", "gtest/", "tests/"},
     {"", "gmock/", "tests/"},
 };

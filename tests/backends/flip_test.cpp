@@ -1,4 +1,4 @@
-#include "benchmarks/reference/flip.h"
+#include "benchmarks/reference/picture_errors.h"
 
 #include <cstdint>
 #include <utility>

@@ -1,4 +1,4 @@
-#include "benchmarks/measure/roofline.h"
+#include "benchmarks/run/backends.h"
 
 #include <cmath>
 

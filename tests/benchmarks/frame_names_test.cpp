@@ -1,4 +1,4 @@
-#include "benchmarks/scene/frames.h"
+#include "benchmarks/scene/pattern.h"
 
 #include <gmock/gmock.h>
 

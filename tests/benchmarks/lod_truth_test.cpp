@@ -1,4 +1,4 @@
-#include "benchmarks/lod/truth.h"
+#include "benchmarks/lod/walk.h"
 
 #include <array>
 #include <cmath>

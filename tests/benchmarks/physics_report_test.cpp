@@ -1,4 +1,4 @@
-#include "benchmarks/physics/report.h"
+#include "benchmarks/physics/checks.h"
 
 #include <cmath>
 #include <filesystem>
@@ -7,7 +7,7 @@
 #include <gmock/gmock.h>
 #include <nlohmann/json.hpp>
 
-#include "benchmarks/report/schema_errors.h"
+#include "benchmarks/doctor/reports.h"
 #include "tests/benchmarks/sample_report.h"
 #include "tests/temporary_folder.h"
 

@@ -1,4 +1,4 @@
-#include "benchmarks/scene/reach.h"
+#include "benchmarks/scene/extensions.h"
 
 #include <filesystem>
 #include <string>

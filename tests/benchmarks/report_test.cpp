@@ -6,7 +6,7 @@
 #include <gmock/gmock.h>
 #include <nlohmann/json.hpp>
 
-#include "benchmarks/report/schema_errors.h"
+#include "benchmarks/doctor/reports.h"
 #include "engine/files.h"
 #include "tests/benchmarks/sample_report.h"
 #include "tests/error_text.h"

@@ -4,8 +4,7 @@
 
 #include <gmock/gmock.h>
 
-#include "benchmarks/report/schema_errors.h"
-#include "benchmarks/scene/field_reference.h"
+#include "benchmarks/doctor/reports.h"
 #include "benchmarks/scene/sweep.h"
 #include "tests/error_text.h"
 #include "tests/temporary_folder.h"

@@ -1,4 +1,4 @@
-#include "benchmarks/report/baseline.h"
+#include "benchmarks/report/compare.h"
 
 #include <cstdlib>
 

@@ -1,4 +1,4 @@
-#include "benchmarks/gate/rule.h"
+#include "benchmarks/gate/blocks.h"
 
 #include <cmath>
 #include <limits>

@@ -6,7 +6,7 @@
 
 #include <gtest/gtest.h>
 
-#include "benchmarks/gate/rule.h"
+#include "benchmarks/gate/blocks.h"
 #include "benchmarks/report/statistics.h"
 #include "tests/decide/noise.h"
 

@@ -16,7 +16,7 @@
 #include "engine/pipeline.h"
 #include "engine/queries.h"
 #include "engine/shaders.h"
-#include "engine/spirv.h"
+#include "engine/spirv_judge.h"
 #include "engine/target.h"
 #include "hair/rendering/backends.h"
 #include "tests/required.h"

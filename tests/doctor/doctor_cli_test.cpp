@@ -4,7 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "benchmarks/doctor/checks.h"
-#include "benchmarks/report/schema_errors.h"
+#include "benchmarks/doctor/reports.h"
 #include "tests/cli/run_hairbench.h"
 #include "tests/required.h"
 #include "tests/temporary_folder.h"

@@ -1,4 +1,4 @@
-#include "benchmarks/doctor/play_pairs.h"
+#include "benchmarks/doctor/facts.h"
 
 #include <algorithm>
 #include <cmath>

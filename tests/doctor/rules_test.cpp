@@ -1,4 +1,4 @@
-#include "benchmarks/doctor/rules.h"
+#include "benchmarks/doctor/reports.h"
 
 #include <functional>
 

@@ -1,4 +1,4 @@
-#include "engine/recording_memory.h"
+#include "engine/frame_loop.h"
 
 #include <algorithm>
 #include <cstdint>

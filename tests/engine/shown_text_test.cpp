@@ -1,4 +1,4 @@
-#include "engine/shown_text.h"
+#include "engine/error.h"
 
 #include <string>
 

@@ -1,6 +1,6 @@
 #include <gmock/gmock.h>
 
-#include "engine/texture.h"
+#include "engine/transfer.h"
 
 namespace engine {
 namespace {

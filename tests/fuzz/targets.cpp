@@ -15,14 +15,14 @@
 #include <nlohmann/json.hpp>
 #include <zlib.h>
 
-#include "benchmarks/doctor/rules.h"
+#include "benchmarks/doctor/reports.h"
 #include "benchmarks/report/compare.h"
 #include "benchmarks/report/environment.h"
 #include "benchmarks/report/exporters.h"
 #include "benchmarks/report/page.h"
 #include "benchmarks/report/report.h"
-#include "benchmarks/run/merge_reports.h"
 #include "benchmarks/run/record.h"
+#include "benchmarks/run/run.h"
 #include "benchmarks/scene/scene.h"
 #include "benchmarks/scene/settings_json.h"
 #include "benchmarks/scene/sweep.h"

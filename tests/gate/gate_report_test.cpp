@@ -1,7 +1,7 @@
 #include <gmock/gmock.h>
 
+#include "benchmarks/doctor/reports.h"
 #include "benchmarks/report/change.h"
-#include "benchmarks/report/schema_errors.h"
 #include "tests/gate/fake_builds.h"
 #include "tests/required.h"
 

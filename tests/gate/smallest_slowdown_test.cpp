@@ -1,4 +1,4 @@
-#include "benchmarks/doctor/sensitivity.h"
+#include "benchmarks/doctor/report.h"
 
 #include <cmath>
 #include <vector>

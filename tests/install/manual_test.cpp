@@ -5,7 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "benchmarks/commands/command_line.h"
-#include "benchmarks/commands/manual.h"
+#include "benchmarks/commands/help_files.h"
 #include "tests/install/listed_options.h"
 #include "tests/temporary_folder.h"
 

@@ -1,4 +1,4 @@
-#include "benchmarks/measure/busy_work.h"
+#include "benchmarks/measure/stage.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

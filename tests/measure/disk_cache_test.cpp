@@ -1,4 +1,4 @@
-#include "benchmarks/measure/disk_cache.h"
+#include "benchmarks/measure/hair_cache.h"
 
 #include <chrono>
 #include <fstream>

@@ -1,4 +1,4 @@
-#include "benchmarks/measure/steady_state.h"
+#include "benchmarks/measure/trust.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -12,7 +12,7 @@
 #include "benchmarks/measure/hair_cache.h"
 #include "benchmarks/measure/sampling.h"
 #include "benchmarks/report/environment.h"
-#include "benchmarks/run/case.h"
+#include "benchmarks/run/run.h"
 #include "tests/error_text.h"
 #include "tests/gpu_fixture.h"
 

@@ -1,4 +1,4 @@
-#include "benchmarks/measure/quiet_wait.h"
+#include "benchmarks/measure/machine_watch.h"
 
 #include <optional>
 #include <vector>

@@ -11,7 +11,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "benchmarks/gate/rule.h"
+#include "benchmarks/gate/blocks.h"
 #include "benchmarks/measure/measure.h"
 #include "benchmarks/measure/metrics.h"
 #include "benchmarks/measure/sampling.h"

@@ -1,4 +1,4 @@
-#include "benchmarks/measure/start.h"
+#include "benchmarks/measure/measure.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -7,7 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "engine/error.h"
-#include "hair/rendering/backend_choice.h"
+#include "hair/rendering/backends.h"
 #include "tests/gpu_fixture.h"
 
 // The limits of back ends.

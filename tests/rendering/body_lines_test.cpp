@@ -1,4 +1,4 @@
-#include "hair/rendering/overlay_pass.h"
+#include "hair/rendering/renderer.h"
 
 #include <algorithm>
 

@@ -1,4 +1,4 @@
-#include "hair/rendering/lights.h"
+#include "hair/rendering/environment.h"
 
 #include <cmath>
 #include <numbers>

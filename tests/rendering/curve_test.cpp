@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "hair/rendering/strand_points.h"
+#include "hair/rendering/renderer.h"
 #include "tests/gpu_fixture.h"
 #include "tests/rendering/device_hair.h"
 

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "hair/rendering/strand_points.h"
+#include "hair/rendering/renderer.h"
 #include "tests/rendering/strand_reference.h"
 
 namespace hair::rendering {

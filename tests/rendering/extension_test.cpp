@@ -7,12 +7,12 @@
 #include <gtest/gtest.h>
 #include <sys/resource.h>
 
+#include "engine/files.h"
 #include "engine/pipeline.h"
-#include "engine/program_files.h"
 #include "engine/run_tool.h"
 #include "engine/shaders.h"
 #include "hair/extension.h"
-#include "hair/rendering/strand_points.h"
+#include "hair/rendering/renderer.h"
 #include "hair/simulation/simulation.h"
 #include "tests/error_text.h"
 #include "tests/gpu_fixture.h"

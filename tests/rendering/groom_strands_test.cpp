@@ -5,7 +5,7 @@
 #include <glm/ext/matrix_transform.hpp>
 #include <gtest/gtest.h>
 
-#include "hair/rendering/strand_points.h"
+#include "hair/rendering/renderer.h"
 #include "tests/error_text.h"
 #include "tests/gpu_fixture.h"
 #include "tests/rendering/device_hair.h"

@@ -6,8 +6,8 @@
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
+#include "hair/rendering/renderer.h"
 #include "hair/rendering/strand_plan.h"
-#include "hair/rendering/strand_points.h"
 #include "tests/gpu_fixture.h"
 #include "tests/largest_difference.h"
 #include "tests/rendering/device_hair.h"

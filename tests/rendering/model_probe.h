@@ -8,7 +8,7 @@
 #include "engine/commands.h"
 #include "engine/pipeline.h"
 #include "engine/transfer.h"
-#include "hair/rendering/lights.h"
+#include "hair/rendering/environment.h"
 #include "tests/gpu_fixture.h"
 #include "tests/probe_shaders.h"
 

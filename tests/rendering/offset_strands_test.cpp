@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "hair/rendering/strand_points.h"
+#include "hair/rendering/renderer.h"
 #include "tests/gpu_fixture.h"
 #include "tests/largest_difference.h"
 #include "tests/rendering/device_hair.h"

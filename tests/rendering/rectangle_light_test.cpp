@@ -11,7 +11,7 @@
 
 #include "engine/transfer.h"
 #include "hair/reference/fiber.h"
-#include "hair/rendering/lights.h"
+#include "hair/rendering/environment.h"
 #include "tests/gpu_fixture.h"
 #include "tests/rendering/fiber_rig.h"
 #include "tests/rendering/model_probe.h"

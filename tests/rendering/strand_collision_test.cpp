@@ -7,7 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "engine/transfer.h"
-#include "hair/rendering/strand_points.h"
+#include "hair/rendering/renderer.h"
 #include "hair/simulation/bodies.h"
 #include "tests/error_text.h"
 #include "tests/gpu_fixture.h"

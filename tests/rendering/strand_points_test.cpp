@@ -1,4 +1,4 @@
-#include "hair/rendering/strand_points.h"
+#include "hair/rendering/renderer.h"
 
 #include <cstring>
 

@@ -1,4 +1,4 @@
-#include "hair/rendering/strand_residuals.h"
+#include "hair/rendering/strand_offsets.h"
 
 #include <algorithm>
 #include <cmath>
@@ -16,7 +16,7 @@
 #include "hair/groom/build_groom.h"
 #include "hair/groom/files.h"
 #include "hair/random.h"
-#include "hair/rendering/strand_points.h"
+#include "hair/rendering/renderer.h"
 #include "tests/gpu_fixture.h"
 #include "tests/rendering/device_hair.h"
 #include "tests/rendering/pictures.h"

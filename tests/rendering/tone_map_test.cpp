@@ -9,7 +9,7 @@
 
 #include "engine/transfer.h"
 #include "hair/rendering/render_assets.h"
-#include "hair/rendering/resolve_pass.h"
+#include "hair/rendering/renderer.h"
 #include "tests/gpu_fixture.h"
 
 namespace hair::rendering {

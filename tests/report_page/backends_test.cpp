@@ -1,5 +1,5 @@
 // Tests the comparison of a report's back ends: the computed figures, and what the page shows.
-#include "benchmarks/report/backends.h"
+#include "benchmarks/report/table.h"
 
 #include <algorithm>
 #include <array>

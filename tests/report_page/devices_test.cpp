@@ -1,5 +1,5 @@
 // Tests reports of several devices and scenes on one page.
-#include "benchmarks/report/devices.h"
+#include "benchmarks/report/page.h"
 
 #include <filesystem>
 #include <string>
@@ -9,7 +9,6 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "benchmarks/report/page.h"
 #include "tests/error_text.h"
 #include "tests/report_page/page_in_browser.h"
 #include "tests/report_page/sample_reports.h"

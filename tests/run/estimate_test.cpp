@@ -1,5 +1,5 @@
 // Tests how --dry-run estimates cases that it does not try.
-#include "benchmarks/run/estimate.h"
+#include "benchmarks/run/plan.h"
 
 #include <gtest/gtest.h>
 

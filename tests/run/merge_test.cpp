@@ -1,4 +1,4 @@
-#include "benchmarks/run/merge_reports.h"
+#include "benchmarks/run/run.h"
 
 #include <filesystem>
 

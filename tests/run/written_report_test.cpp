@@ -3,7 +3,7 @@
 
 #include <sys/stat.h>
 
-#include "benchmarks/report/schema_errors.h"
+#include "benchmarks/doctor/reports.h"
 #include "benchmarks/scene/json.h"
 #include "tests/run/tiny_sweep.h"
 

@@ -11,7 +11,7 @@
 #include "hair/gpu_structs.h"
 #include "hair/reference/constraints.h"
 #include "hair/reference/solvers.h"
-#include "hair/simulation/pulls.h"
+#include "hair/simulation/forces.h"
 #include "hair/simulation/solvers.h"
 #include "tests/gpu_fixture.h"
 #include "tests/largest_difference.h"

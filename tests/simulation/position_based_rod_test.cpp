@@ -1,4 +1,4 @@
-#include "hair/reference/position_based_rod.h"
+#include "hair/reference/stable_cosserat.h"
 
 #include <cmath>
 #include <vector>

@@ -5,7 +5,7 @@
 
 #include "engine/error.h"
 #include "hair/reference/solvers.h"
-#include "hair/simulation/pulls.h"
+#include "hair/simulation/forces.h"
 #include "tests/simulation/pulls.h"
 
 // Tests hands and their pulls in the reference.

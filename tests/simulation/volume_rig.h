@@ -12,7 +12,7 @@
 
 #include "engine/buffer_image.h"
 #include "engine/transfer.h"
-#include "hair/reference/hair_hair.h"
+#include "hair/reference/wind.h"
 #include "hair/simulation/hair_hair.h"
 #include "hair/simulation/solvers.h"
 #include "tests/simulation/strands.h"

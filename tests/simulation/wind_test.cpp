@@ -1,4 +1,4 @@
-#include "hair/simulation/wind.h"
+#include "hair/simulation/forces.h"
 
 #include <cmath>
 #include <numbers>

@@ -11,7 +11,7 @@
 #include "hair/groom/mesh/deforming_mesh.h"
 #include "hair/groom/mesh/import_mesh.h"
 #include "hair/rendering/groom_buffers.h"
-#include "hair/rendering/strand_points.h"
+#include "hair/rendering/renderer.h"
 #include "hair/simulation/simulation.h"
 #include "tests/gpu_fixture.h"
 #include "tests/simulation/gpu_simulation.h"

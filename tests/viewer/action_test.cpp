@@ -10,7 +10,7 @@
 namespace benchmarks::viewer {
 namespace {
 
-// Keys that fly the camera: benchmarks/viewer/camera_tool.cpp.
+// Keys that fly the camera: benchmarks/viewer/view_tools.cpp.
 constexpr int kFlying[] = {ImGuiKey_W,         ImGuiKey_A,          ImGuiKey_S,
                            ImGuiKey_D,         ImGuiKey_Q,          ImGuiKey_E,
                            ImGuiKey_LeftArrow, ImGuiKey_RightArrow, ImGuiKey_UpArrow,

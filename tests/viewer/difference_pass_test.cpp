@@ -6,7 +6,7 @@
 
 #include <gtest/gtest.h>
 
-#include "benchmarks/viewer/difference.h"
+#include "benchmarks/viewer/picture_area.h"
 #include "engine/buffer_image.h"
 #include "engine/commands.h"
 #include "engine/transfer.h"

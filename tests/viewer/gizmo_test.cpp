@@ -7,8 +7,7 @@
 #include <glm/geometric.hpp>
 #include <glm/gtc/quaternion.hpp>
 
-#include "benchmarks/viewer/collider_tool.h"
-#include "benchmarks/viewer/head_tool.h"
+#include "benchmarks/viewer/body_tools.h"
 #include "hair/simulation/head_motion.h"
 
 namespace benchmarks::viewer {

@@ -1,4 +1,4 @@
-#include "benchmarks/viewer/grab_tool.h"
+#include "benchmarks/viewer/hair_tools.h"
 
 #include <vector>
 

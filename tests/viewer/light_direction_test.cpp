@@ -1,4 +1,4 @@
-#include "benchmarks/viewer/light_tool.h"
+#include "benchmarks/viewer/view_tools.h"
 
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>

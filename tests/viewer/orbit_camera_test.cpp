@@ -1,4 +1,4 @@
-#include "benchmarks/viewer/camera_tool.h"
+#include "benchmarks/viewer/view_tools.h"
 
 #include <algorithm>
 #include <cmath>
@@ -12,7 +12,7 @@
 #include <glm/mat4x4.hpp>
 #include <glm/vec4.hpp>
 
-#include "hair/rendering/lights.h"
+#include "hair/rendering/environment.h"
 
 namespace benchmarks::viewer {
 namespace {

@@ -1,4 +1,4 @@
-#include "benchmarks/viewer/picking.h"
+#include "benchmarks/viewer/gizmo.h"
 
 #include <array>
 #include <cmath>

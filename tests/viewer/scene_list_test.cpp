@@ -1,4 +1,4 @@
-#include "benchmarks/viewer/scene_list.h"
+#include "benchmarks/viewer/open_scene.h"
 
 #include <gmock/gmock.h>
 #include <imgui.h>

@@ -1,4 +1,4 @@
-#include "benchmarks/viewer/setting_text.h"
+#include "benchmarks/viewer/settings_panel.h"
 
 #include <cstdio>
 

@@ -1,4 +1,4 @@
-#include "benchmarks/viewer/stroke_tool.h"
+#include "benchmarks/viewer/hair_tools.h"
 
 #include <glm/geometric.hpp>
 #include <glm/gtc/quaternion.hpp>

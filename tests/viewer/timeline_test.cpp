@@ -1,4 +1,4 @@
-#include "benchmarks/viewer/timeline.h"
+#include "benchmarks/viewer/open_scene.h"
 
 #include <gtest/gtest.h>
 

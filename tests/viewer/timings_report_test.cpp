@@ -5,9 +5,9 @@
 #include <nlohmann/json.hpp>
 
 #include "benchmarks/commands/commands.h"
+#include "benchmarks/doctor/reports.h"
 #include "benchmarks/report/change.h"
 #include "benchmarks/report/report.h"
-#include "benchmarks/report/schema_errors.h"
 #include "benchmarks/report/table.h"
 #include "benchmarks/report/text.h"
 #include "benchmarks/viewer/measure_panel.h"

@@ -1,4 +1,4 @@
-#include "benchmarks/viewer/worker_thread.h"
+#include "benchmarks/viewer/studio.h"
 
 #include <algorithm>
 #include <array>

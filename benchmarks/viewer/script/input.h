@@ -19,6 +19,7 @@ struct ImGuiIO;
 
 // Building blocks for the steps of a script: mouse and keyboard, the widgets and places that steps
 // name, and JSON values.
+
 namespace benchmarks::viewer {
 
 // A mouse and a keyboard for Dear ImGui's current context. They replace the user's, whose events
@@ -98,7 +99,7 @@ private:
 };
 
 // Return a value in its type. Throw engine::Error "<pointer>: <reason>" for another type.
-std::string textOf(const scene::Json& value, const std::string& pointer);
+std::string stringOf(const scene::Json& value, const std::string& pointer);
 bool flagOf(const scene::Json& value, const std::string& pointer);
 std::uint32_t countOf(const scene::Json& value, const std::string& pointer);
 std::array<float, 2> pairOf(const scene::Json& value, const std::string& pointer);
@@ -148,5 +149,16 @@ Place placeOf(const Members& members, const char* at);
 
 // Returns a place in px. Throws engine::Error if the widget is hidden or disabled.
 std::array<float, 2> pixelsOf(const Driver& driver, const Place& place);
+
+// Faults in the layout of the last picture of Dear ImGui's current context.
+
+// Returns unreadable parts, one per line: letters that are cut off at the left or right, labels
+// wider than their widgets, contents wider than a window or column without horizontal scrolling, or
+// taller than one without any scrolling. Text fields scroll.
+std::vector<std::string> clippedText(const engine::UiItems& items);
+
+// Returns unreachable parts, one per line: panels outside the window or overlapping others, and
+// widgets outside panels that do not scroll. Popups may overlap panels.
+std::vector<std::string> outsideItems(const engine::UiItems& items);
 
 }  // namespace benchmarks::viewer

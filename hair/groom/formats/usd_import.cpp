@@ -11,7 +11,7 @@
 #include <utility>
 
 #include "engine/error.h"
-#include "engine/program_files.h"
+#include "engine/files.h"
 #include "engine/run_tool.h"
 #include "hair/groom/formats/binary_file.h"
 #include "hair/groom/mesh/mesh_stream.h"

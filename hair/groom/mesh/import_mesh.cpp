@@ -17,7 +17,6 @@
 #include "engine/files.h"
 #include "engine/pictures.h"
 #include "engine/process.h"
-#include "engine/program_files.h"
 #include "engine/run_tool.h"
 #include "hair/groom/files.h"
 #include "hair/groom/formats/ply.h"

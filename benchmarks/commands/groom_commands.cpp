@@ -1,0 +1,365 @@
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <functional>
+#include <iostream>
+#include <optional>
+#include <ostream>
+#include <sstream>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "benchmarks/commands/commands.h"
+#include "benchmarks/groom/compare.h"
+#include "benchmarks/groom/convert.h"
+#include "benchmarks/groom/info.h"
+#include "benchmarks/report/change.h"
+#include "benchmarks/report/text.h"
+#include "engine/error.h"
+#include "engine/files.h"
+#include "engine/process.h"
+#include "hair/groom/edit.h"
+#include "hair/groom/files.h"
+#include "hair/groom/groom.h"
+#include "hair/groom/inspect.h"
+#include "hair/groom/mesh/body_mesh.h"
+#include "hair/groom/mesh/import_mesh.h"
+#include "hair/groom/style/style.h"
+
+namespace benchmarks::commands {
+
+// ---- hairbench groom edit and its relatives -----------------------------------------------------
+
+namespace {
+
+using hair::groom::EditedStrands;
+using hair::groom::StrandSet;
+
+// Edits strands with the given number of metres per unit.
+using GroomEdit = std::function<EditedStrands(StrandSet strands, double metres_per_unit)>;
+
+double metresOf(double millimetres) { return millimetres / 1000.0; }
+
+std::optional<double> metresOf(const std::optional<double>& millimetres) {
+    if (!millimetres) return {};
+    return metresOf(*millimetres);
+}
+
+std::optional<hair::groom::BodyMesh> meshOf(const EditGroomOptions& options) {
+    if (options.mesh.empty()) return {};
+    return hair::groom::bodyMesh(hair::groom::importMesh(options.mesh));
+}
+
+void warnOf(const std::filesystem::path& file, const std::vector<std::string>& warnings) {
+    for (const std::string& each : warnings)
+        std::cerr << "hairbench: " << engine::shownText(file.string() + ": " + each) << '\n';
+}
+
+void say(const char* did, const std::filesystem::path& file, const StrandSet& strands) {
+    std::cout << did << ": " << engine::shownText(file.string()) << ", "
+              << report::countText(strands.strandCount(), "strand") << ", "
+              << report::countText(strands.points.size(), "point") << std::endl;  // flushes early
+}
+
+// Returns metres per unit of the file: from --scale, from the file, or a guess with a warning.
+double unitOf(const StrandSet& strands, const EditGroomOptions& options) {
+    if (options.scale) return *options.scale;
+    const auto findings = hair::groom::inspect(strands, nullptr, {});
+    if (!findings.unit_stated)
+        warnOf(
+            options.in,
+            {"states no unit; lengths are taken as " + findings.unit + "; --scale sets the unit"});
+    return findings.metres_per_unit;
+}
+
+// Adds the notes, each once.
+void addNotes(
+    std::vector<hair::groom::EditNote>& notes, const std::vector<hair::groom::EditNote>& more) {
+    for (const hair::groom::EditNote& note : more) {
+        const auto same = std::ranges::find(notes, note.what, &hair::groom::EditNote::what);
+        if (same == notes.end())
+            notes.push_back(note);
+        else
+            same->count += note.count;
+    }
+}
+
+EditedStrands mendedOf(StrandSet strands, const EditGroomOptions& options) {
+    try {
+        return hair::groom::mendStrands(std::move(strands));
+    } catch (const engine::Error& error) {
+        throw engine::Error(options.in.string(), error.what());
+    }
+}
+
+// Strands that can't be used are mended if they are `kept`.
+int editGroom(
+    const EditGroomOptions& options, const GroomEdit& edit,
+    hair::groom::BadStrands bad = hair::groom::BadStrands::left_out) {
+    const hair::groom::StrandExporter& exporter = hair::groom::strandExporterOf(options.out);
+    StrandSet strands = hair::groom::importStrands(options.in, options.points_per_strand, {}, bad);
+    say("read", options.in, strands);
+    std::vector<hair::groom::EditNote> notes;
+    if (bad == hair::groom::BadStrands::kept) {
+        EditedStrands mended = mendedOf(std::move(strands), options);
+        strands = std::move(mended.strands);
+        notes = std::move(mended.notes);
+    }
+    warnOf(options.in, strands.warnings);
+    engine::checkWritable(options.out);
+    const double unit = unitOf(strands, options);
+    if (options.scale) strands.metres_per_unit = unit;
+    EditedStrands edited;
+    try {
+        edited = edit(std::move(strands), unit);
+    } catch (const engine::Error& error) {
+        throw engine::Error(options.in.string(), error.what());
+    }
+    addNotes(notes, edited.notes);
+    for (const hair::groom::EditNote& note : notes)
+        std::cout << note.what << ": " << report::countText(note.count) << '\n';
+    // .hgl is the only format that is always in metres.
+    if (exporter.extension == ".hgl" && edited.strands.metres_per_unit != 1.0 && unit != 1.0) {
+        edited.strands = hair::groom::scaleLengths(std::move(edited.strands), unit);
+        edited.strands.metres_per_unit = 1.0;
+    }
+    try {
+        warnOf(
+            options.out,
+            hair::groom::exportStrands(edited.strands, options.out, engine::checkInterrupted));
+    } catch (const engine::Interrupted&) {
+        std::cerr << "hairbench: interrupted, " << options.out.string() << " is not written\n";
+        return report::kInterrupted;
+    }
+    say("wrote", options.out, edited.strands);
+    return report::kOk;
+}
+
+}  // namespace
+
+int filterGroom(const EditGroomOptions& options) {
+    const hair::groom::FilterSettings settings{
+        .shortest = metresOf(options.shortest),
+        .longest = metresOf(options.longest),
+        .fewest_points = options.fewest_points,
+        .most_points = options.most_points,
+        .farthest_root = metresOf(options.farthest_root),
+        .deepest = metresOf(options.deepest),
+        .groups = options.groups};
+    if ((settings.farthest_root || settings.deepest) && options.mesh.empty())
+        throw engine::Error("--mesh", "is missing; --farthest-root and --deepest need it");
+    if (!options.mesh.empty() && !settings.farthest_root && !settings.deepest)
+        throw engine::Error("--mesh", "has no effect without --farthest-root or --deepest");
+    const std::optional<hair::groom::BodyMesh> mesh = meshOf(options);
+    return editGroom(options, [&](const StrandSet& strands, double unit) {
+        return hair::groom::filterStrands(strands, settings, mesh ? &*mesh : nullptr, unit);
+    });
+}
+
+int smoothGroom(const EditGroomOptions& options) {
+    return editGroom(options, [&](StrandSet strands, double unit) {
+        EditedStrands edited{
+            .strands = {}, .notes = {{"smoothed: strands", strands.strandCount()}}};
+        edited.strands =
+            hair::groom::smoothStrands(std::move(strands), metresOf(options.smooth_length) / unit);
+        return edited;
+    });
+}
+
+int resampleGroom(const EditGroomOptions& options) {
+    if (options.vertices.has_value() == options.spacing.has_value())
+        throw engine::Error("--vertices, --spacing", "give exactly one of them");
+    return editGroom(options, [&](StrandSet strands, double unit) {
+        EditedStrands edited{
+            .strands = {}, .notes = {{"resampled: strands", strands.strandCount()}}};
+        edited.strands = options.vertices
+                             ? hair::groom::resample(std::move(strands), *options.vertices)
+                             : hair::groom::resampleBySpacing(
+                                   std::move(strands), metresOf(*options.spacing) / unit);
+        return edited;
+    });
+}
+
+int fixGroom(const EditGroomOptions& options) {
+    if (options.farthest_root && options.mesh.empty())
+        throw engine::Error("--mesh", "is missing; --farthest-root needs it");
+    constexpr double kFarthestRoot = 10.0;  // mm
+    const std::optional<hair::groom::BodyMesh> mesh = meshOf(options);
+    const GroomEdit edit = [&](StrandSet strands, double unit) {
+        if (options.scale) {
+            strands = hair::groom::scaleLengths(std::move(strands), unit);
+            strands.metres_per_unit = unit = 1.0;
+        }
+        return hair::groom::fixStrands(
+            strands, mesh ? &*mesh : nullptr, unit,
+            metresOf(options.farthest_root.value_or(kFarthestRoot)));
+    };
+    return editGroom(options, edit, hair::groom::BadStrands::kept);
+}
+
+// ---- hairbench groom compare --------------------------------------------------------------------
+
+namespace {
+
+// Reads a file and converts its strands to metres, by `scale` or the unit that the file states or
+// suggests.
+groom::ComparedFile readCompared(
+    const std::filesystem::path& path, std::optional<double> scale,
+    std::uint32_t points_per_strand) {
+    hair::groom::StrandSet strands = hair::groom::importStrands(path, points_per_strand);
+    hair::groom::Unit unit{};
+    if (scale) {
+        unit = hair::groom::statedUnit(*scale);
+        unit.reason = "An option states it.";
+    } else {
+        const auto findings = hair::groom::inspect(strands, nullptr, {});
+        unit = {findings.unit, findings.metres_per_unit, findings.unit_reason};
+        if (!findings.unit_stated && findings.metres_per_unit != 1.0)
+            std::cerr << "hairbench: " << engine::shownText(path.string())
+                      << ": states no unit; lengths are taken as " << findings.unit << '\n';
+    }
+    groom::ComparedFile file{
+        .file = path, .format = hair::groom::strandImporterOf(path).name, .unit = unit};
+    file.strands = unit.metres == 1.0 ? std::move(strands)
+                                      : hair::groom::scaleLengths(std::move(strands), unit.metres);
+    return file;
+}
+
+// "2/20": 2 mm, 20 degrees.
+hair::groom::MatchThreshold parsedThreshold(const std::string& text) {
+    try {
+        std::size_t used = 0;
+        const double distance = std::stod(text, &used);
+        if (used < text.size() && text[used] == '/') {
+            const std::string rest = text.substr(used + 1);
+            const double angle = std::stod(rest, &used);
+            if (used == rest.size()) return {distance / 1000.0, angle};
+        }
+    } catch (const std::exception&) {  // not a number: see below
+    }
+    throw engine::Error(
+        "--threshold", "'" + text + "' is not MM/DEGREES, as in 2/20 for 2 mm and 20 degrees");
+}
+
+}  // namespace
+
+int compareGrooms(const CompareGroomsOptions& options) {
+    hair::groom::CompareSettings settings{
+        .spacing = options.spacing / 1000.0,
+        .curvature_step = options.curvature_step / 1000.0,
+        .consistency_samples = options.consistency_samples,
+        .directions = options.undirected ? hair::groom::StrandDirections::either_way
+                                         : hair::groom::StrandDirections::from_root_to_tip,
+        .threads = options.threads};
+    if (!options.thresholds.empty()) settings.thresholds.clear();
+    for (const std::string& text : options.thresholds)
+        settings.thresholds.push_back(parsedThreshold(text));
+    std::optional<hair::groom::BodyMesh> mesh;
+    if (!options.mesh.empty()) mesh = hair::groom::bodyMesh(hair::groom::importMesh(options.mesh));
+    const groom::ComparedFile first =
+        readCompared(options.first, options.first_scale, options.first_points_per_strand);
+    const groom::ComparedFile second =
+        readCompared(options.second, options.second_scale, options.second_points_per_strand);
+    if (!options.out.empty()) engine::checkWritable(options.out);
+
+    const hair::groom::StrandComparison found = hair::groom::compareStrands(
+        first.strands, second.strands, mesh ? &*mesh : nullptr, settings);
+    const groom::GroomComparison comparison{first, second, settings, found};
+    const std::string json = groom::groomComparisonJson(comparison);
+    if (!options.out.empty())
+        engine::writeFileAtomically(options.out, [&](std::ostream& file) { file << json; });
+    std::cout << (options.json ? json : groom::groomComparisonText(comparison));
+    return report::kOk;
+}
+
+// ---- hairbench groom convert --------------------------------------------------------------------
+
+int convertGroom(const groom::ConvertOptions& options) {
+    const groom::ConvertLog log{
+        .say =
+            [](const std::string& line) {
+                std::cout << engine::shownText(line) << std::endl;  // flushes early
+            },
+        .warn =
+            [](const std::filesystem::path& file, const std::string& warning) {
+                std::cerr << "hairbench: " << engine::shownText(file.string() + ": " + warning)
+                          << '\n';
+            }};
+    try {
+        groom::convert(options, log);
+    } catch (const engine::Interrupted&) {
+        std::cerr << "hairbench: interrupted, " << options.out.string() << " is not written\n";
+        return report::kInterrupted;
+    }
+    return report::kOk;
+}
+
+// ---- hairbench groom info -----------------------------------------------------------------------
+
+hair::groom::StrandSet chosenGroups(
+    hair::groom::StrandSet strands, const std::vector<std::int32_t>& groups,
+    const std::filesystem::path& file) {
+    if (groups.empty()) return strands;
+    try {
+        return hair::groom::keepGroups(std::move(strands), groups);
+    } catch (const engine::Error& error) {
+        throw engine::Error(file.string() + ": --group", error.what());
+    }
+}
+
+int printGroomFormats(const GroomFormatsOptions& options) {
+    const std::string table = hair::groom::formatsMarkdown();
+    if (options.markdown) {
+        std::cout << table;
+        return report::kOk;
+    }
+    // Columns of a table are cells between bars; those of the plain text are as wide as needed.
+    std::vector<report::Column> columns;
+    std::istringstream lines(table);
+    for (std::string line; std::getline(lines, line);) {
+        if (line.starts_with("|---")) continue;
+        std::size_t column = 0;
+        for (std::size_t at = 1; at < line.size(); ++column) {
+            const std::size_t end = line.find('|', at);
+            std::string cell = line.substr(at, end - at);
+            std::erase(cell, '`');
+            cell.erase(0, std::min(cell.find_first_not_of(' '), cell.size()));
+            cell.erase(cell.find_last_not_of(' ') + 1);
+            if (columns.size() == column)
+                columns.push_back({.title = cell, .numeric = false});
+            else
+                columns[column].cells.push_back(cell);
+            at = end + 1;
+        }
+    }
+    for (std::size_t row = 0; row <= columns.front().cells.size(); ++row)
+        std::cout << report::columnsLine(columns, row);
+    return report::kOk;
+}
+
+int inspectGroom(const GroomInfoOptions& options) {
+    std::optional<hair::groom::Mesh> mesh;
+    if (!options.mesh.empty()) mesh = hair::groom::importMesh(options.mesh);
+    hair::groom::StrandSet strands = hair::groom::importStrands(
+        options.file, options.points_per_strand, {}, hair::groom::badStrands(options.strict));
+    strands = chosenGroups(std::move(strands), options.groups, options.file);
+    hair::groom::StrandFindings findings =
+        hair::groom::inspect(strands, mesh ? &*mesh : nullptr, options.scale);
+    if (options.scale) {
+        findings.unit = hair::groom::statedUnit(*options.scale).name;
+        findings.unit_stated = true;
+        findings.unit_reason = "--scale states it.";
+        findings.metres_per_unit = *options.scale;
+    }
+    const groom::GroomInfo info{
+        .file = options.file,
+        .format = hair::groom::strandImporterOf(options.file).name,
+        .strands = strands,
+        .findings = findings,
+        .oddities = groom::findOddities(strands, findings)};
+    std::cout << (options.json ? groom::groomInfoJson(info) : groom::groomInfoText(info));
+    return report::kOk;
+}
+
+}  // namespace benchmarks::commands

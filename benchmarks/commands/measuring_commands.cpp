@@ -1,0 +1,377 @@
+#include <algorithm>
+#include <filesystem>
+#include <iostream>
+#include <sstream>
+#include <string>
+
+#include <nlohmann/json.hpp>
+
+#include "benchmarks/ablate/ablation.h"
+#include "benchmarks/ablate/ladder_walk.h"
+#include "benchmarks/commands/commands.h"
+#include "benchmarks/gate/session.h"
+#include "benchmarks/lod/walk.h"
+#include "benchmarks/measure/hair_cache.h"
+#include "benchmarks/measure/progress.h"
+#include "benchmarks/physics/checks.h"
+#include "benchmarks/reference/picture_errors.h"
+#include "benchmarks/report/change.h"
+#include "benchmarks/report/compare.h"
+#include "benchmarks/report/environment.h"
+#include "benchmarks/report/text.h"
+#include "benchmarks/run/plan.h"
+#include "benchmarks/run/record.h"
+#include "benchmarks/run/run.h"
+#include "engine/error.h"
+#include "engine/files.h"
+#include "engine/process.h"
+
+namespace benchmarks::commands {
+
+// ---- hairbench run ------------------------------------------------------------------------------
+
+namespace {
+
+void printReport(const run::FinishedRun& finished, const std::filesystem::path& out) {
+    std::cout << finished.summary << "report: " << engine::shownText(out.string()) << '\n';
+}
+
+// The last line, if a case is not trusted.
+void tellTrust(const report::Verdicts& verdicts) {
+    if (const std::string summary = verdicts.summary(); !summary.empty())
+        std::cerr << "hairbench: " << engine::shownText(summary) << '\n';
+}
+
+int conclude(
+    const run::RunOptions& options, const run::FinishedRun& finished,
+    const std::filesystem::path& out) {
+    const bool any_ran = finished.measured > 0;
+    int status = any_ran ? report::kOk : report::kNothingRan;
+    if (any_ran && !options.baseline.empty())
+        status = compareReports(
+            {.a = {}, .b = out, .baseline = options.baseline, .verdict = options.verdict});
+    // Saved after the comparison, because it may replace the baseline that was compared with.
+    if (!options.save_baseline.empty()) report::saveBaseline(options.save_baseline, out);
+    tellTrust(finished.verdicts);
+    // A comparison of times that are not trusted says nothing.
+    const bool is_of_times =
+        status == report::kOk || status == report::kRegressed || status == report::kInconclusive;
+    if (is_of_times && options.fail_on && finished.verdicts.worst() >= *options.fail_on)
+        return report::kNotTrusted;
+    return status;
+}
+
+int printNothingToRun(const run::RunOptions& options, const run::RunPlan& plan) {
+    if (options.shard.empty())
+        std::cerr << "hairbench: no case's name matches '" << options.filter << "'\n";
+    else
+        std::cerr << "hairbench: none of the " << plan.case_count << " cases is in shard "
+                  << options.shard << '\n';
+    return report::kNothingRan;
+}
+
+}  // namespace
+
+int runScene(const run::RunOptions& options) {
+    measure::HairCache cache = measure::userHairCache(options.scene.cache);
+    scene::SceneOptions scene = options.scene;
+    scene.reads_assets = !options.dry_run;  // growing hair takes too long for an estimate
+    run::RunPlan plan = run::planRun(scene, options.filter, options.shard, &cache.assets());
+    plan.max_memory = options.max_memory;
+    if (options.list) return run::printNames(plan);
+    if (options.dry_run) return run::estimateRun(plan, options.scene.device, cache);
+    if (plan.cases.empty()) return printNothingToRun(options, plan);
+    // Checks the baselines first, so that errors do not show only after hours of work.
+    if (!options.save_baseline.empty()) report::baselineFile(options.save_baseline, plan.name);
+    if (!options.baseline.empty())
+        if (const auto file = report::baselineFile(options.baseline, plan.name);
+            !std::filesystem::is_regular_file(file)) {
+            std::cerr << "hairbench: no baseline '" << options.baseline << "': " << file.string()
+                      << ": there is no such file\n";
+            return report::kNoBaseline;
+        }
+    const std::filesystem::path out = run::reportFile(options, plan);
+    engine::checkWritable(out);
+    run::checkReferences(plan);
+
+    engine::processUse();  // counts threads that start from here on, including the device's
+    run::RunDevice device(options.scene.device);
+    std::cerr << report::versionOnDevice(device.get()) << '\n';
+    const auto print_short = [&](const char* why, const run::FinishedRun& finished) {
+        printReport(finished, out);
+        std::cerr << why << " after " << finished.done << " of " << plan.cases.size()
+                  << " cases; --resume continues\n";
+        tellTrust(finished.verdicts);
+    };
+    const auto print_interrupted = [&](const run::FinishedRun& finished) {
+        print_short("interrupted", finished);
+    };
+    const run::FinishedRun finished =
+        run::playRun(device, options, plan, out, cache, print_interrupted);
+    if (finished.interrupted) {
+        print_interrupted(finished);
+        return report::kInterrupted;
+    }
+    if (!finished.no_device.empty()) {
+        print_short("hairbench: the device was lost", finished);
+        std::cerr << "hairbench: " << engine::shownText(finished.no_device) << '\n';
+        return report::kNoDevice;
+    }
+    if (finished.was_complete)
+        std::cout << "nothing left to do: " << engine::shownText(out.string()) << " is complete\n";
+    else
+        printReport(finished, out);
+    return conclude(options, finished, out);
+}
+
+// ---- hairbench gate -----------------------------------------------------------------------------
+
+namespace {
+
+std::filesystem::path reportFile(const gate::GateOptions& options) {
+    if (!options.out.empty()) return options.out;
+    return std::filesystem::path("results/local") /
+           ("gate-" + options.scene.scene.stem().string() + ".json");
+}
+
+// Prints a failure. The lines that a failed process wrote are indented, so they can't pass for the
+// program's own.
+void printFailure(const std::string& text) {
+    std::istringstream lines(text);
+    std::string line;
+    std::getline(lines, line);
+    std::cerr << "hairbench: " << engine::shownText(line) << '\n';
+    while (std::getline(lines, line)) std::cerr << "    " << engine::shownText(line) << '\n';
+}
+
+void printEnd(const gate::GateRun& run) {
+    if (run.end == gate::GateRun::End::failed)
+        printFailure(run.failure);
+    else if (run.end == gate::GateRun::End::interrupted)
+        std::cerr << "interrupted after " << run.pairs << (run.pairs == 1 ? " pair\n" : " pairs\n");
+    else if (run.end == gate::GateRun::End::out_of_time)
+        std::cerr << "out of time after " << run.pairs << (run.pairs == 1 ? " pair\n" : " pairs\n");
+    else if (run.mismatches.empty() && run.changes.empty())
+        std::cerr << "hairbench: no case with a time to judge ran in both builds\n";
+    if (run.mismatches.empty() && (run.decided_at > 0 || run.end == gate::GateRun::End::decided) &&
+        !run.changes.empty())
+        std::cout << "verdict: " << report::verdictName(gate::overallVerdict(run)) << '\n';
+}
+
+}  // namespace
+
+int gateBuilds(const gate::GateOptions& options) {
+    const std::filesystem::path out = reportFile(options);
+    engine::checkWritable(out);
+    const gate::GateRun run = gate::runGate(options);
+    // Texts from drivers and the command line need not be UTF-8.
+    engine::writeFileAtomically(
+        out, gate::gateReport(run, options.verdict, options.command)
+                     .dump(1, ' ', false, scene::Json::error_handler_t::replace) +
+                 '\n');
+    std::cout << gate::gateText(run) << "report: " << out.string() << '\n';
+    printEnd(run);
+    return gate::exitStatus(run, options.verdict);
+}
+
+// ---- hairbench ablate ---------------------------------------------------------------------------
+
+namespace {
+
+std::vector<std::string> notesFor(const report::DeviceRecord& device) {
+    std::vector<std::string> notes{"a marginal cost is the time that a stage adds to the pass, not "
+                                   "the time that the stage works: stages overlap"};
+    if (device.type == "cpu")
+        notes.push_back("on a software device one thread makes the primitives while other threads "
+                        "work on fragments");
+    return notes;
+}
+
+void ablateAll(
+    const engine::Device& device, const run::RunPlan& plan, std::uint32_t laps,
+    measure::HairCache& cache, measure::Progress& progress,
+    std::vector<ablate::CaseAblation>& cases) {
+    for (const run::PlannedCase& each : plan.cases) {
+        progress.begin(each.spec.name);
+        const auto update = [&](const std::string& state) { progress.update(state); };
+        ablate::ablateCase(
+            device, each.spec, each.directory, laps, update, cache, cases.emplace_back());
+        for (const std::string& message : device.messages().take())
+            cases.back().warnings.push_back("validation: " + message);
+        progress.clear();
+        std::cout << ablate::ablationTable(cases.back()) << std::endl;
+    }
+}
+
+}  // namespace
+
+int ablateScene(const AblateOptions& options) {
+    measure::HairCache cache = measure::userHairCache(options.scene.cache);
+    const run::RunPlan plan = run::planRun(options.scene, options.filter, "", &cache.assets());
+    if (plan.cases.empty()) {
+        std::cerr << "hairbench: no case's name matches '" << options.filter << "'\n";
+        return report::kNothingRan;
+    }
+    const std::filesystem::path out = options.out.empty() ? std::filesystem::path("results/local") /
+                                                                ("ablation-" + plan.name + ".json")
+                                                          : options.out;
+    engine::checkWritable(out);
+
+    const engine::Device device(options.scene.device);
+    std::cerr << report::versionOnDevice(device) << '\n';
+    ablate::AblationReport report{
+        .environment = report::describeEnvironment(
+            device, options.command, plan.seed, options.scene.device.validation),
+        .scene = plan.scene,
+        .laps = options.passes};
+    report.notes = notesFor(report.environment.device);
+    measure::Progress progress(plan.cases.size());
+    const auto finish = [&] {
+        engine::writeFileAtomically(out, ablate::ablationText(report));
+        for (const std::string& note : report.notes)
+            std::cout << "note: " << engine::shownText(note) << '\n';
+        std::cout << "report: " << out.string() << '\n';
+    };
+    const auto finish_interrupted = [&] {
+        report.interrupted = true;
+        progress.clear();
+        const ablate::CaseAblation& interrupted_case = report.cases.back();
+        if (interrupted_case.attribution)
+            std::cout << ablate::ablationTable(interrupted_case) << '\n';
+        else
+            report.cases.pop_back();
+        finish();
+        std::cerr << "interrupted: " << report.cases.size() << " of " << plan.cases.size()
+                  << " cases have results\n";
+    };
+    const engine::InterruptMessage last_words(finish_interrupted);
+    try {
+        ablateAll(device, plan, options.passes, cache, progress, report.cases);
+    } catch (const engine::Interrupted&) {
+        finish_interrupted();
+        return report::kInterrupted;
+    }
+    finish();
+    const bool any_ran = std::ranges::any_of(
+        report.cases, [](const auto& each) { return each.status == report::Status::ok; });
+    return any_ran ? report::kOk : report::kNothingRan;
+}
+
+// ---- hairbench lod ------------------------------------------------------------------------------
+
+namespace {
+
+void simulateTo(const engine::Device& device, measure::Case& hair, std::uint32_t frame) {
+    engine::FrameLoop loop(device, engine::Timing::statistics);
+    engine::Step step("plays frames", frame + std::uint64_t{1});
+    for (std::uint32_t i = 0; i <= frame; ++i) {
+        step.advance();
+        loop.frame([&](engine::Passes& passes) { hair.simulate(passes); });
+    }
+}
+
+void checkPath(const lod::LodPath& path, const hair::Settings& settings) {
+    if (path.from >= path.to) throw engine::Error("--from", "is not below --to");
+    if (path.to > double{settings.camera.far_plane})
+        throw engine::Error("--to", "is beyond /camera/far_plane");
+    if (!settings.render.hair) throw engine::Error("/render/hair", "is false: nothing to compare");
+}
+
+}  // namespace
+
+int walkLod(const LodOptions& options) {
+    scene::Scene scene = scene::loadScene(options.scene.scene, options.scene.outside);
+    measure::HairCache cache = measure::userHairCache(options.scene.cache);
+    const scene::CaseSpec spec = scene::singleCase(scene, options.scene, &cache.assets());
+    const hair::Settings& settings = spec.settings;
+    const lod::LodPath path{.from = options.from, .to = options.to, .steps = options.steps};
+    checkPath(path, settings);
+    const std::filesystem::path out =
+        options.out.empty() ? std::filesystem::path("results/local/lod.json") : options.out;
+    engine::checkWritable(out);
+    if (options.reference) reference::checkReferenceTool();
+
+    const engine::Device device(options.scene.device);
+    std::cerr << report::versionOnDevice(device) << '\n';
+    lod::LodReport report{
+        .environment = report::describeEnvironment(
+            device, options.command, scene.settings.seed, options.scene.device.validation),
+        .scene =
+            {.path = scene.path.string(),
+             .hash = report::hashText(scene.resolved.text()),
+             .document = scene.resolved},
+        .frame = options.frame};
+    measure::Progress progress(path.steps);
+    const auto finish = [&] {
+        progress.clear();
+        for (const std::string& message : device.messages().take()) std::cerr << message << '\n';
+        engine::writeFileAtomically(out, lod::lodReportText(report));
+        std::cout << lod::lodTable(report) << "report: " << out.string() << '\n';
+        if (report.interrupted)
+            std::cerr << "interrupted after " << report.steps.size() << " of " << path.steps
+                      << " steps\n";
+    };
+    const engine::InterruptMessage last_words([&] {
+        report.interrupted = true;
+        finish();
+    });
+    try {
+        measure::Case hair(device, settings, scene.directory, &cache);
+        simulateTo(device, hair, options.frame);
+        lod::walk(
+            device, hair, settings, path,
+            [&](double distance) { progress.begin(report::shortNumber(distance) + " m"); },
+            report.steps);
+        progress.clear();
+        if (options.reference)
+            lod::compareWithTruth(
+                device, scene, hair, settings, {.frame = options.frame, .samples = options.samples},
+                cache, report.truth.emplace());
+    } catch (const engine::Interrupted&) {
+        report.interrupted = true;
+    }
+    finish();
+    return report.interrupted ? report::kInterrupted : report::kOk;
+}
+
+// ---- hairbench physics --------------------------------------------------------------------------
+
+namespace {
+
+constexpr std::uint64_t kSeed = 1;
+
+}  // namespace
+
+int checkPhysics(const PhysicsOptions& options) {
+    const std::vector<hair::Solver> solvers = physics::chosenSolvers(options.solvers);
+    const std::vector<physics::Check> checks = physics::chosenChecks(options.check);
+    if (checks.empty()) {
+        std::cerr << "hairbench: no check's name matches '" << options.check << "'\n";
+        return report::kNothingRan;
+    }
+    const std::filesystem::path out =
+        options.out.empty() ? std::filesystem::path("results/local/physics.json") : options.out;
+    engine::checkWritable(out);
+
+    const engine::Device device(options.device);
+    std::cerr << report::versionOnDevice(device) << '\n';
+    physics::PhysicsReport report{
+        .environment =
+            report::describeEnvironment(device, options.command, kSeed, options.device.validation),
+        .outcomes = {},
+        .curves = {}};
+    const auto finish = [&] {
+        engine::writeFileAtomically(out, physics::physicsReportText(report));
+        std::cout << physics::physicsTable(report) << "report: " << out.string() << '\n';
+        if (report.interrupted) std::cerr << "interrupted\n";
+    };
+    const engine::InterruptMessage last_words([&] {
+        report.interrupted = true;
+        finish();
+    });
+    physics::runChecks(device, checks, solvers, report);
+    finish();
+    return physics::exitStatus(report);
+}
+
+}  // namespace benchmarks::commands

@@ -1,0 +1,256 @@
+#include <cstdio>
+#include <functional>
+#include <iostream>
+#include <optional>
+
+#include <nlohmann/json.hpp>
+
+#include "benchmarks/commands/commands.h"
+#include "benchmarks/groom/recording.h"
+#include "benchmarks/measure/case.h"
+#include "benchmarks/measure/hair_cache.h"
+#include "benchmarks/measure/measure.h"
+#include "benchmarks/measure/progress.h"
+#include "benchmarks/reference/mitsuba.h"
+#include "benchmarks/reference/picture_errors.h"
+#include "benchmarks/report/change.h"
+#include "benchmarks/report/text.h"
+#include "benchmarks/scene/pattern.h"
+#include "engine/error.h"
+#include "engine/files.h"
+#include "engine/float_pictures.h"
+#include "engine/pictures.h"
+#include "engine/process.h"
+#include "hair/groom/files.h"
+
+namespace benchmarks::commands {
+
+// ---- hairbench render ---------------------------------------------------------------------------
+
+namespace {
+
+bool isLinear(const std::filesystem::path& file) {
+    return hair::groom::lowerCaseExtension(file) == ".exr";
+}
+
+void checkFormat(const std::filesystem::path& file) {
+    const std::string extension = hair::groom::lowerCaseExtension(file);
+    if (extension.empty() || extension == ".png" || extension == ".exr") return;
+    throw engine::Error(file.string(), "is neither .png nor .exr");
+}
+
+void writePicture(
+    const measure::Case& picture, const hair::RenderSettings& render,
+    const std::filesystem::path& file) {
+    if (isLinear(file)) {
+        engine::writeExr(file, render.width, render.height, picture.radiance());
+    } else {
+        engine::writePng(file, render.width, render.height, picture.picture());
+    }
+}
+
+// Plays a case from its first frame, one step of `progress` per frame, and draws the frames of the
+// range. Calls `drawn` after each drawn frame.
+void play(
+    const engine::Device& device, measure::Case& picture, const scene::FrameRange& range,
+    measure::Progress& progress, const std::function<void(std::uint32_t)>& drawn) {
+    engine::FrameLoop loop(device, engine::Timing::isolated);
+    for (std::uint32_t i = 0; i < range.end; ++i) {
+        engine::checkInterrupted();
+        const bool draws = range.holds(i);
+        progress.begin((draws ? "draws frame " : "plays frame ") + std::to_string(i));
+        loop.frame([&](engine::Passes& passes) {
+            draws ? picture.frame(passes) : picture.simulate(passes);
+        });
+        if (draws) drawn(i);
+    }
+}
+
+}  // namespace
+
+int renderScene(const RenderOptions& options) {
+    scene::FrameRange range{.first = options.frame, .end = options.frame + 1};
+    std::optional<scene::FramePaths> paths;
+    if (!options.frames.empty()) {
+        range = scene::parseFrameRange(options.frames);
+        paths.emplace(options.out);
+        if (!paths->hasNumber() && range.count() > 1)
+            throw engine::Error(
+                options.out.string(),
+                "needs a place for the number of the frame, as in out/%04d.png");
+    }
+    const auto file = [&](std::uint32_t frame) { return paths ? paths->of(frame) : options.out; };
+    checkFormat(file(range.first));
+
+    scene::Scene scene = scene::loadScene(options.scene.scene, options.scene.outside);
+    measure::HairCache cache = measure::userHairCache(options.scene.cache);
+    const scene::CaseSpec spec = scene::singleCase(scene, options.scene, &cache.assets());
+    engine::checkWritable(file(range.first));
+    const hair::RenderSettings& render = spec.settings.render;
+
+    const engine::Device device(options.scene.device);
+    measure::Case picture(device, spec.settings, scene.directory, &cache);
+    for (const std::string& warning : measure::inspectStart(picture).warnings)
+        std::cerr << "hairbench: " << engine::shownText(warning) << '\n';
+    measure::Progress progress(range.end);
+    std::uint32_t written = 0;
+    const auto say_interrupted = [&] {
+        std::cerr << "interrupted: " << written << " of " << range.count()
+                  << " pictures are written\n";
+    };
+    const engine::InterruptMessage last_words(say_interrupted);
+    try {
+        play(device, picture, range, progress, [&](std::uint32_t frame) {
+            writePicture(picture, render, file(frame));
+            ++written;
+        });
+    } catch (const engine::Interrupted&) {
+        progress.clear();
+        say_interrupted();
+        return report::kInterrupted;
+    }
+    progress.clear();
+    for (const std::string& warning : picture.warnings())
+        std::cerr << "hairbench: " << engine::shownText(warning) << '\n';
+    for (const std::string& message : device.messages().take()) std::cerr << message << '\n';
+    if (const std::string text = measure::droppedFragments(picture); !text.empty())
+        std::cerr << "hairbench: " << text << '\n';
+    std::cout << engine::shownText(options.out.string()) << ": ";
+    if (range.count() > 1) {
+        std::cout << range.count() << " pictures, frames " << range.first << " to "
+                  << range.first + (range.count() - 1) * range.step;
+    } else {
+        std::cout << "frame " << range.first;
+    }
+    std::cout << " of " << scene.name << ", " << render.width << " x " << render.height
+              << " px, image " << picture.pictureHash() << '\n';
+    return report::kOk;
+}
+
+// ---- hairbench reference ------------------------------------------------------------------------
+
+int renderReference(const ReferenceOptions& options) {
+    const std::string extension = hair::groom::lowerCaseExtension(options.out);
+    if (extension != ".exr" && extension != ".png")
+        throw engine::Error(options.out.string(), "is neither .png nor .exr");
+    scene::Scene scene = scene::loadScene(options.scene.scene, options.scene.outside);
+    measure::HairCache cache = measure::userHairCache(options.scene.cache);
+    const scene::CaseSpec spec = scene::singleCase(scene, options.scene, &cache.assets());
+    const hair::Settings& settings = spec.settings;
+    engine::checkWritable(options.out);
+    reference::checkReferenceTool();
+
+    try {
+        const engine::ScratchFolder folder;
+        {
+            const engine::Device device(options.scene.device);
+            reference::exportMitsuba(device, scene, settings, options.frame, folder.path(), cache);
+            for (const std::string& message : device.messages().take())
+                std::cerr << message << '\n';
+        }
+        reference::traceMitsuba(folder.path(), options.samples, options.out);
+    } catch (const engine::Interrupted&) {
+        std::cerr << "interrupted: nothing is written\n";
+        return report::kInterrupted;
+    }
+    std::cout << options.out.string() << ": frame " << options.frame << " of " << scene.name << ", "
+              << settings.render.width << " x " << settings.render.height << " px, "
+              << options.samples << " samples per pixel\n";
+    return report::kOk;
+}
+
+// ---- hairbench export ---------------------------------------------------------------------------
+
+int exportScene(const ExportOptions& options) {
+    scene::Scene scene = scene::loadScene(options.scene.scene, options.scene.outside);
+    measure::HairCache cache = measure::userHairCache(options.scene.cache);
+    const scene::CaseSpec spec = scene::singleCase(scene, options.scene, &cache.assets());
+    engine::checkWritable(options.mitsuba / "scene.xml");
+
+    const engine::Device device(options.scene.device);
+    try {
+        const reference::MitsubaExport written = reference::exportMitsuba(
+            device, scene, spec.settings, options.frame, options.mitsuba, cache);
+        for (const std::string& message : device.messages().take()) std::cerr << message << '\n';
+        std::cout << (options.mitsuba / "scene.xml").string() << ": frame " << options.frame
+                  << " of " << scene.name << ", " << written.strands << " strands, "
+                  << written.points << " points, " << written.triangles << " triangles\n";
+    } catch (const engine::Interrupted&) {
+        std::cerr << "interrupted: the scene is not written\n";
+        return report::kInterrupted;
+    }
+    return report::kOk;
+}
+
+// ---- hairbench diff -----------------------------------------------------------------------------
+
+namespace {
+
+std::string figure(double value) {
+    char text[32];
+    std::snprintf(text, sizeof text, "%.5g", value);
+    return text;
+}
+
+scene::Json toJson(const reference::PictureErrors& errors) {
+    return {{"width", errors.width},
+            {"height", errors.height},
+            {"rmse", errors.rmse},
+            {"psnr_db", errors.psnr ? scene::Json(*errors.psnr) : scene::Json()},
+            {"ssim", errors.ssim},
+            {"flip", errors.flip}};
+}
+
+}  // namespace
+
+int diffPictures(const DiffOptions& options) {
+    if (!options.out.empty()) engine::checkWritable(options.out);
+    const reference::PictureErrors errors =
+        reference::comparePictures(options.reference, options.picture, options.out);
+    if (options.json) {
+        std::cout << toJson(errors).dump(2) << '\n';
+        return report::kOk;
+    }
+    std::cout << engine::shownText(options.picture.string()) << " against "
+              << engine::shownText(options.reference.string()) << ", " << errors.width << " x "
+              << errors.height << " px\n"
+              << "RMSE  " << figure(errors.rmse) << '\n'
+              << "PSNR  " << (errors.psnr ? figure(*errors.psnr) : "infinite") << " dB\n"
+              << "SSIM  " << figure(errors.ssim) << '\n'
+              << "FLIP  " << figure(errors.flip) << '\n';
+    return report::kOk;
+}
+
+// ---- hairbench simulate -------------------------------------------------------------------------
+
+int simulateScene(const SimulateOptions& options) {
+    const groom::RecordingOptions& recording = options.recording;
+    scene::Scene scene = scene::loadScene(options.scene.scene, options.scene.outside);
+    measure::HairCache cache = measure::userHairCache(options.scene.cache);
+    const scene::CaseSpec spec = scene::singleCase(scene, options.scene, &cache.assets());
+    hair::groom::strandExporterOf(recording.out);  // throws early for an unknown format
+    engine::checkWritable(recording.out);
+
+    const engine::Device device(options.scene.device);
+    groom::Recorded recorded;
+    try {
+        recorded = groom::recordStrands(device, scene, spec.settings, recording, cache);
+    } catch (const engine::Interrupted&) {
+        std::cerr << "interrupted: nothing is written\n";
+        return report::kInterrupted;
+    }
+    for (const std::string& message : device.messages().take()) std::cerr << message << '\n';
+    for (const std::string& warning : recorded.warnings)
+        std::cerr << engine::shownText(warning) << '\n';
+    const std::string last = std::to_string(recording.frames - 1);
+    std::error_code no_size;  // for a pipe
+    const std::uintmax_t size = std::filesystem::file_size(recording.out, no_size);
+    std::cout << engine::shownText(recording.out.string()) << ": " << recorded.strands.strandCount()
+              << " strands, " << recorded.strands.points.size() << " points, "
+              << (groom::holdsFrames(recording.out) ? "frames 0 to " + last
+                                                    : "frame " + last + ", the last,")
+              << " of " << scene.name << (no_size ? "" : ", " + report::sizeText(size)) << '\n';
+    return report::kOk;
+}
+
+}  // namespace benchmarks::commands

@@ -1,0 +1,163 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include <glm/vec3.hpp>
+
+#include "engine/buffer_image.h"
+#include "engine/commands.h"
+#include "engine/pipeline.h"
+#include "hair/gpu_structs.h"
+#include "hair/settings.h"
+#include "hair/simulation/guide_solver.h"
+
+// Wind from the settings, and its acceleration of every guide vertex.
+
+namespace hair::simulation {
+
+// Returns the wind's direction, a unit vector. Throws Error for a direction without length.
+glm::dvec3 windDirection(const WindSettings& settings);
+
+// Returns four unit vectors at `cone_angle` from the wind's direction d, 90 degrees apart round it:
+// toward u, v, -u and -v, with u = perpendicular(d) and v = d x u. Throws Error for a direction
+// without length.
+std::array<glm::dvec3, 4> windCone(const WindSettings& settings);
+
+// Thesis eq. 13 with simulated time instead of the frame number: sin^2(gust_rate time) + 0.5.
+double windMagnitude(const WindSettings& settings, double time);
+
+// gpu::AirDrag in double precision.
+struct DragFactors {
+    double inertial;
+    double viscous;
+};
+DragFactors dragFactors(const WindSettings& settings, const MaterialSettings& material);
+
+// Air that drags guides in every substep of a solver: shaders/simulation/air_drag.glsl.
+struct AirAtGuides {
+    const engine::Buffer* velocities = nullptr;  // vec4 [strand][vertex], m/s; null: no drag
+    gpu::AirDrag drag{};
+};
+
+// Throws Error for wind with a direction without length.
+void checkWind(const WindSettings& settings);
+
+// The effect of air on every guide vertex in a time step. Thesis mode writes an acceleration to
+// GuideAddresses::accelerations. Drag mode writes none; solvers apply the drag of air(). The caller
+// orders earlier and later work.
+class WindPass {
+public:
+    // Throws like checkWind.
+    WindPass(
+        const engine::Device& device, std::uint32_t vertex_count,
+        const SimulationSettings& settings);
+
+    // `settings` must have the same mode and have passed checkWind.
+    void setWind(const WindSettings& settings) noexcept { settings_ = settings; }
+
+    void record(engine::Commands& commands, const GuideAddresses& guides, double time) const;
+
+    // Records still air instead. In thesis mode still air has no effect.
+    void recordCalm(engine::Commands& commands, const GuideAddresses& guides) const;
+
+    // Returns the air, which stands still until something is recorded; without velocities in thesis
+    // mode. Valid as long as the pass.
+    AirAtGuides air() const;
+
+private:
+    void
+    recordThesis(engine::Commands& commands, const GuideAddresses& guides, double magnitude) const;
+    void recordAir(
+        engine::Commands& commands, const GuideAddresses& guides, double speed, double time) const;
+
+    WindSettings settings_;
+    MaterialSettings material_;
+    std::uint32_t vertex_count_;
+    engine::ComputePipeline pipeline_;
+    std::optional<engine::Buffer> air_;  // in drag mode
+};
+
+// Evaluates the function of /simulation/force at every guide vertex, and adds the acceleration to
+// GuideAddresses::accelerations for a whole time step.
+class ForcePass {
+public:
+    // Throws Error if the file was not read or does not compile.
+    ForcePass(
+        const engine::Device& device, std::uint32_t vertex_count,
+        const SimulationSettings& settings);
+
+    // Records the time step that starts at `time`. Orders its work after earlier compute work. The
+    // caller orders later work.
+    void record(engine::Commands& commands, const GuideAddresses& guides, double time) const;
+
+private:
+    std::uint32_t vertex_count_;
+    engine::ComputePipeline pipeline_;
+};
+
+// The hand of a pull during a time step.
+struct Hand {
+    glm::dvec3 position;  // at the end of the step, m
+    glm::dvec3 velocity;  // mean over the step, m/s
+};
+
+// Returns the hand in the time step from `from` to `to` (s); none if it does not pull. It pulls in
+// steps with a middle between its first and last key, that is for most of each of these steps. So
+// keys at multiples of the step work as written, however they are rounded. Before its first key and
+// after its last, the hand is at that key's position.
+//
+// The implicit spring needs the hand's position at the end of the step. It uses the mean velocity,
+// not the path's velocity at one time, because keys may be much closer than steps, and the path
+// between them may be arbitrarily fast.
+std::optional<Hand> handIn(const PullSettings& pull, double from, double to);
+
+// Throws Error for pulls (/simulation/pulls/N) at missing vertices, and for keys with times that
+// don't ascend.
+void checkPulls(
+    std::span<const PullSettings> pulls, std::uint32_t guides, std::uint32_t vertices_per_guide);
+
+// Adds the acceleration of every guide vertex by the hands to GuideAddresses::accelerations, for a
+// whole time step.
+//
+// A critically damped spring with the stiffness k and the damping c = 2 sqrt(k) holds vertex x at
+// the hand h. Its acceleration a of x follows implicit Euler, which is stable for every k and time
+// step dt: from the states of vertex and hand at the end of the step,
+//     a = k (h' - x') + c (w - v'),   v' = v + dt (f + a),   x' = x + dt v',
+// with the hand's velocity w and the known acceleration f: gravity and the buffer's contents. Hence
+//     a = (k (h' - x - dt (v + dt f)) + c (w - v - dt f)) / (1 + c dt + k dt^2).
+// At rest f + a = 0 and h - x = -f / k: the spring's own equilibrium, whatever the step.
+//
+// A vertex at a rest distance d from x gets a exp(-(d / radius)^2). With radius 0, only x gets a.
+//
+// Hands pull one after the other, each on the buffer that the earlier ones left. So a vertex held
+// by several hands goes to their common equilibrium, and no further.
+class PullPass {
+public:
+    // `pulls` must have passed checkPulls.
+    PullPass(
+        const engine::Device& device, std::uint32_t strand_count, std::uint32_t vertices_per_strand,
+        const gpu::Step& step, std::vector<PullSettings> pulls);
+
+    // `pulls` must have passed checkPulls.
+    void setPulls(std::vector<PullSettings> pulls) noexcept { pulls_ = std::move(pulls); }
+
+    // Records the time step that starts at `time`. Orders its work after earlier compute work. The
+    // caller orders later work.
+    void record(engine::Commands& commands, const GuideAddresses& guides, double time) const;
+
+private:
+    std::uint32_t vertex_count_;
+    std::uint32_t vertices_per_strand_;
+    gpu::Step step_;
+    std::vector<PullSettings> pulls_;
+    engine::Buffer held_;  // vec4: acceleration of the held vertex
+    engine::ComputePipeline hold_;
+    engine::ComputePipeline spread_;
+};
+
+}  // namespace hair::simulation
