@@ -295,6 +295,25 @@ const Table& tableOf(const FilePlacementSettings*) {
     return table;
 }
 
+const Table& tableOf(const CacheSettings*) {
+    using S = CacheSettings;
+    static const Table table = tableWith<S>(
+        {choice(
+             "mode", &S::mode,
+             {{CacheMode::none, "none"}, {CacheMode::play, "play"}, {CacheMode::follow, "follow"}},
+             "none: guides start at rest; play: they are where the file has them, with solver "
+             "none; follow: the solver moves them, their roots are where the file has them, and "
+             "springs and the global shape constraint pull the rest there"),
+         fileName(
+             "file", &S::file,
+             "USD or Alembic file with samples over time of the same strands as /groom/file; "
+             "empty: that file itself"),
+         number(
+             "strength", &S::strength, 0, 1e6, "1/s^2",
+             "stiffness per mass of the critically damped springs of follow")});
+    return table;
+}
+
 const Table& tableOf(const GroomSettings*) {
     using S = GroomSettings;
     static const Table table = tableWith<S>(
@@ -332,7 +351,8 @@ const Table& tableOf(const GroomSettings*) {
          fileName(
              "fixed", &S::fixed,
              "file of further strands, in metres and with their widths, that only follow the head, "
-             "such as brows and lashes; drawn if /strands/source is groom; empty: none")});
+             "such as brows and lashes; drawn if /strands/source is groom; empty: none"),
+         group("cache", &S::cache, "motion of guides from a file")});
     return table;
 }
 

@@ -187,6 +187,17 @@ struct StrokeSettings {
 
 const Table& tableOf(const StrokeSettings*);
 
+enum class CacheMode { none, play, follow };
+
+// Motion of guides from a file of strands with samples over time.
+struct CacheSettings {
+    CacheMode mode = CacheMode::none;
+    std::string file;
+    float strength = 1000.0f;
+};
+
+const Table& tableOf(const CacheSettings*);
+
 struct GroomSettings {
     std::string file;
     std::uint32_t points_per_strand = 0;
@@ -199,6 +210,7 @@ struct GroomSettings {
     StyleSettings style;
     std::vector<StrokeSettings> edits;
     std::string fixed;
+    CacheSettings cache;
 };
 
 const Table& tableOf(const GroomSettings*);

@@ -6,7 +6,7 @@ namespace benchmarks::commands {
 namespace {
 
 constexpr const char* kConvertNotes =
-    R"(Strands are edited in this order: scale, followers, vertices, guides.
+    R"(Strands are edited in this order: scale, followers, vertices, guides, unit and axis.
 Without --scale lengths stay as they are. Only .hgl is always in metres: the unit that IN states is
 applied. An .hgl file gets root triangles if IN has none. Warnings on stderr name the data that a format
 can't hold. OUT may be IN: it is replaced once all is written, and an interrupt leaves it unchanged.)";
@@ -82,7 +82,81 @@ void addPositive(
     command.add_option(name, value, description)->check(CLI::PositiveNumber);
 }
 
+constexpr const char* kTransformNotes =
+    R"(Changes are applied in this order: unit, upward axis, mirror image, factor, translation. Widths scale
+with lengths. The upward axis changes by a quarter turn. Without --from-unit and --from-up, IN must state
+its unit and axis; formats other than USD, glTF and Alembic of hairbench state no axis. .usda states unit
+and axis of OUT.)";
+
+constexpr const char* kGroupsNotes =
+    R"(Lengths are in the file's unit. --renumber gives a group another number; groups that get the same number
+become one. All --renumber apply at once: 1=2 and 2=1 exchange two groups.)";
+
+CLI::Option* addChoice(
+    CLI::App& command, const std::string& name, std::string& value, const std::string& description,
+    const std::vector<std::string>& choices) {
+    return command.add_option(name, value, description)->check(CLI::IsMember(choices));
+}
+
+const std::vector<std::string> kUnits{"m", "cm", "mm", "inch"};
+const std::vector<std::string> kUpAxes{"x", "y", "z"};
+
 void addGroomEdits(const CommandLine& line, CLI::App& groom) {
+    addCommand<EditGroomOptions>(
+        line, groom,
+        {.name = "reverse",
+         .description = "exchanges root and tip of the strands of a file of hair",
+         .examples = {"hairbench groom reverse in.hair out.hair"},
+         .notes = "For files that begin at the tip. OUT is in IN's unit."},
+        reverseGroom, addEditedFiles);
+    addCommand<TransformGroomOptions>(
+        line, groom,
+        {.name = "transform",
+         .description =
+             "changes unit and upward axis of a file of hair; mirrors, scales and moves it",
+         .examples =
+             {"hairbench groom transform in.hair out.usda --from-unit cm --unit m --from-up z --up "
+              "y",
+              "hairbench groom transform in.hair out.hair --mirror x"},
+         .notes = kTransformNotes},
+        transformGroom, [](CLI::App& command, TransformGroomOptions& options) {
+            command.add_option("in", options.in, "file of hair")->required()->type_name("IN");
+            command.add_option("out", options.out, "file to write; it may be IN")
+                ->required()
+                ->type_name("OUT");
+            addPointsPerStrand(command, options.points_per_strand);
+            addChoice(command, "--from-unit", options.from_unit, "unit of IN", kUnits);
+            addChoice(command, "--unit", options.unit, "unit of OUT", kUnits);
+            addChoice(command, "--from-up", options.from_up, "upward axis of IN", kUpAxes);
+            addChoice(command, "--up", options.up, "upward axis of OUT", kUpAxes);
+            addChoice(
+                command, "--mirror", options.mirror,
+                "change the sign of this coordinate of OUT, before it is moved", kUpAxes);
+            addPositive(command, "--scale", options.scale, "factor of all lengths (default 1)");
+            command
+                .add_option("--translate", options.translation, "move by x, y and z, in OUT's unit")
+                ->expected(3)
+                ->type_name("X Y Z");
+        });
+    addCommand<GroomGroupsOptions>(
+        line, groom,
+        {.name = "groups",
+         .description = "lists the groups of a file of hair, and renumbers or joins them",
+         .examples =
+             {"hairbench groom groups in.usda",
+              "hairbench groom groups in.usda out.usda --renumber 3=0 --renumber 7=0"},
+         .notes = kGroupsNotes},
+        groomGroups, [](CLI::App& command, GroomGroupsOptions& options) {
+            command.add_option("in", options.in, "file of hair")->required()->type_name("IN");
+            command.add_option("out", options.out, "file to write, for --renumber; it may be IN")
+                ->type_name("OUT");
+            addPointsPerStrand(command, options.points_per_strand);
+            addRepeated(
+                command, "--renumber", options.renumber,
+                "give group OLD the number NEW; repeatable")
+                ->type_name("OLD=NEW");
+            command.add_flag("--json", options.json, "print JSON");
+        });
     addCommand<EditGroomOptions>(
         line, groom,
         {.name = "filter",
@@ -238,7 +312,8 @@ void addGroomCommands(const CommandLine& line) {
          .examples =
              {"hairbench groom convert mine.hair guides.hgl --guides 200 --vertices 16 --scale "
               "0.01",
-              "hairbench groom convert mine.hair mine.usda"},
+              "hairbench groom convert mine.hair mine.usda",
+              "hairbench groom convert mine.usda mine.abc --for unreal"},
          .notes = kConvertNotes},
         convertGroom, [](CLI::App& command, groom::ConvertOptions& options) {
             command.add_option("in", options.in, "file of hair")->required()->type_name("IN");
@@ -248,8 +323,17 @@ void addGroomCommands(const CommandLine& line) {
             command
                 .add_option(
                     "--scale", options.scale,
-                    "metres per unit of IN (0.01: centimetres); OUT is in metres")
+                    "metres per unit of IN (0.01: centimetres); OUT is in metres or in --unit")
                 ->check(CLI::PositiveNumber);
+            addChoice(command, "--unit", options.unit, "unit of OUT", kUnits);
+            addChoice(command, "--up", options.up, "upward axis of OUT", kUpAxes);
+            addChoice(
+                command, "--from-up", options.from_up,
+                "upward axis of IN (default: as the file states)", kUpAxes);
+            addChoice(
+                command, "--for", options.program,
+                "program that reads OUT (.abc, .usda): its unit, upward axis and names of data",
+                groom::programNames());
             command.add_option(
                 "--followers", options.followers,
                 "number of followers round each strand, as TressFX makes them");

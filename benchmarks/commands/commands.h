@@ -149,9 +149,35 @@ struct EditGroomOptions {
     std::optional<double> spacing;
 };
 int filterGroom(const EditGroomOptions& options);
+int reverseGroom(const EditGroomOptions& options);
 int smoothGroom(const EditGroomOptions& options);
 int resampleGroom(const EditGroomOptions& options);
 int fixGroom(const EditGroomOptions& options);
+
+struct TransformGroomOptions {
+    std::filesystem::path in;
+    std::filesystem::path out;
+    std::uint32_t points_per_strand = 0;  // of IN, if it does not state it
+    // Units are "m", "cm", "mm" or "inch" and axes "x", "y" or "z"; empty: as IN states, or no
+    // change.
+    std::string from_unit;
+    std::string unit;
+    std::string from_up;
+    std::string up;
+    std::string mirror;
+    double scale = 1.0;  // factor of lengths
+    std::vector<double> translation;  // none, or x, y, z in OUT's unit
+};
+int transformGroom(const TransformGroomOptions& options);
+
+struct GroomGroupsOptions {
+    std::filesystem::path in;
+    std::filesystem::path out;  // empty: only list
+    std::uint32_t points_per_strand = 0;  // of IN, if it does not state it
+    std::vector<std::string> renumber;  // "OLD=NEW"
+    bool json = false;
+};
+int groomGroups(const GroomGroupsOptions& options);
 
 struct CompareGroomsOptions {
     std::filesystem::path first;  // the reference

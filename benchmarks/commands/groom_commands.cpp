@@ -1,14 +1,19 @@
 #include <algorithm>
+#include <charconv>
 #include <cmath>
 #include <filesystem>
 #include <functional>
+#include <iomanip>
 #include <iostream>
 #include <optional>
 #include <ostream>
 #include <sstream>
 #include <string>
+#include <system_error>
 #include <utility>
 #include <vector>
+
+#include <nlohmann/json.hpp>
 
 #include "benchmarks/commands/commands.h"
 #include "benchmarks/groom/compare.h"
@@ -93,6 +98,23 @@ EditedStrands mendedOf(StrandSet strands, const EditGroomOptions& options) {
     }
 }
 
+void print(const std::vector<hair::groom::EditNote>& notes) {
+    for (const hair::groom::EditNote& note : notes)
+        std::cout << note.what << ": " << report::countText(note.count) << '\n';
+}
+
+// Writes the strands, and returns the exit status.
+int writeGroom(const StrandSet& strands, const std::filesystem::path& out) {
+    try {
+        warnOf(out, hair::groom::exportStrands(strands, out, engine::checkInterrupted));
+    } catch (const engine::Interrupted&) {
+        std::cerr << "hairbench: interrupted, " << out.string() << " is not written\n";
+        return report::kInterrupted;
+    }
+    say("wrote", out, strands);
+    return report::kOk;
+}
+
 // Strands that can't be used are mended if they are `kept`.
 int editGroom(
     const EditGroomOptions& options, const GroomEdit& edit,
@@ -117,26 +139,128 @@ int editGroom(
         throw engine::Error(options.in.string(), error.what());
     }
     addNotes(notes, edited.notes);
-    for (const hair::groom::EditNote& note : notes)
-        std::cout << note.what << ": " << report::countText(note.count) << '\n';
+    print(notes);
     // .hgl is the only format that is always in metres.
     if (exporter.extension == ".hgl" && edited.strands.metres_per_unit != 1.0 && unit != 1.0) {
         edited.strands = hair::groom::scaleLengths(std::move(edited.strands), unit);
         edited.strands.metres_per_unit = 1.0;
     }
-    try {
-        warnOf(
-            options.out,
-            hair::groom::exportStrands(edited.strands, options.out, engine::checkInterrupted));
-    } catch (const engine::Interrupted&) {
-        std::cerr << "hairbench: interrupted, " << options.out.string() << " is not written\n";
-        return report::kInterrupted;
+    return writeGroom(edited.strands, options.out);
+}
+
+// ---- Groups -------------------------------------------------------------------------------------
+
+hair::groom::GroupChange groupChange(const std::string& text) {
+    hair::groom::GroupChange change;
+    const char* const end = text.data() + text.size();
+    const auto from = std::from_chars(text.data(), end, change.from);
+    if (from.ec == std::errc() && from.ptr != end && *from.ptr == '=') {
+        const auto to = std::from_chars(from.ptr + 1, end, change.to);
+        if (to.ec == std::errc() && to.ptr == end) return change;
     }
-    say("wrote", options.out, edited.strands);
-    return report::kOk;
+    throw engine::Error("--renumber", "'" + text + "' is not OLD=NEW, such as 3=0");
+}
+
+nlohmann::ordered_json jsonOf(const std::vector<hair::groom::StrandGroup>& groups) {
+    auto all = nlohmann::ordered_json::array();
+    for (const hair::groom::StrandGroup& group : groups) {
+        auto& each = all.emplace_back(nlohmann::ordered_json::object());
+        if (group.number) each["group"] = *group.number;
+        each["strands"] = group.strands;
+        each["guides"] = group.guides;
+        each["points"] = group.points;
+        each["mean_length"] = group.mean_length;
+    }
+    return all;
+}
+
+void printGroups(const std::vector<hair::groom::StrandGroup>& groups) {
+    const auto row = [](const auto&... cells) {
+        ((std::cout << std::setw(12) << cells), ...);
+        std::cout << '\n';
+    };
+    row("group", "strands", "guides", "points", "mean length");
+    for (const hair::groom::StrandGroup& group : groups)
+        row(group.number ? std::to_string(*group.number) : "none", group.strands, group.guides,
+            group.points, report::plainNumber(group.mean_length));
 }
 
 }  // namespace
+
+int reverseGroom(const EditGroomOptions& options) {
+    return editGroom(options, [](StrandSet strands, double) {
+        EditedStrands edited{
+            .strands = {}, .notes = {{"reversed: strands", strands.strandCount()}}};
+        edited.strands = hair::groom::reverseStrands(std::move(strands));
+        return edited;
+    });
+}
+
+int transformGroom(const TransformGroomOptions& options) {
+    const auto unitNamed = [](const std::string& name) -> std::optional<double> {
+        if (name.empty()) return {};
+        return hair::groom::metresOf(name);
+    };
+    hair::groom::TransformSettings settings{
+        .from_metres_per_unit = unitNamed(options.from_unit),
+        .metres_per_unit = unitNamed(options.unit),
+        .from_up = groom::axisOf(options.from_up),
+        .up = groom::axisOf(options.up),
+        .mirror = groom::axisOf(options.mirror),
+        .scale = options.scale};
+    if (!options.translation.empty())
+        settings.translation = {
+            options.translation[0], options.translation[1], options.translation[2]};
+    if (settings.from_metres_per_unit && !settings.metres_per_unit)
+        throw engine::Error("--from-unit", "has no effect without --unit");
+    if (settings.from_up && !settings.up)
+        throw engine::Error("--from-up", "has no effect without --up");
+    StrandSet strands = hair::groom::importStrands(options.in, options.points_per_strand);
+    say("read", options.in, strands);
+    warnOf(options.in, strands.warnings);
+    if (settings.metres_per_unit && !settings.from_metres_per_unit && !strands.metres_per_unit)
+        throw engine::Error(options.in.string(), "states no unit: give --from-unit");
+    if (settings.up && !settings.from_up && !strands.up)
+        throw engine::Error(options.in.string(), "states no upward axis: give --from-up");
+    engine::checkWritable(options.out);
+    EditedStrands edited;
+    try {
+        edited = hair::groom::transformStrands(std::move(strands), settings);
+    } catch (const engine::Error& error) {
+        throw engine::Error(options.in.string(), error.what());
+    }
+    print(edited.notes);
+    return writeGroom(edited.strands, options.out);
+}
+
+int groomGroups(const GroomGroupsOptions& options) {
+    std::vector<hair::groom::GroupChange> changes;
+    for (const std::string& each : options.renumber) changes.push_back(groupChange(each));
+    if (options.json && !options.out.empty())
+        throw engine::Error("--json", "is for the list of groups, without OUT");
+    if (changes.empty() != options.out.empty())
+        throw engine::Error(
+            "--renumber", changes.empty() ? "is missing: OUT would be equal to IN"
+                                          : "needs a file to write, OUT");
+    StrandSet strands = hair::groom::importStrands(options.in, options.points_per_strand);
+    warnOf(options.in, strands.warnings);
+    EditedStrands edited;
+    try {
+        edited = hair::groom::renumberGroups(std::move(strands), changes);
+    } catch (const engine::Error& error) {
+        throw engine::Error(options.in.string(), error.what());
+    }
+    const auto groups = hair::groom::groupsOf(edited.strands);
+    if (options.json) {
+        std::cout << jsonOf(groups).dump(2) << '\n';
+    } else {
+        print(edited.notes);
+        printGroups(groups);
+    }
+    if (options.out.empty()) return report::kOk;
+    engine::checkWritable(options.out);
+    return writeGroom(edited.strands, options.out);
+}
 
 int filterGroom(const EditGroomOptions& options) {
     const hair::groom::FilterSettings settings{

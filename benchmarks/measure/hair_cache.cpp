@@ -219,6 +219,10 @@ std::string stateKey(
     simulation.erase("force_parameters");
     Key key("settled state");
     for (const std::string& mesh : meshes) key.add("mesh", mesh);
+    // Guides settle where a cache has them at first, and are pulled there if they follow it.
+    if (!groom.cache.times.empty())
+        key.add("cache", hashOf(groom.cache.points))
+            .add("strength", std::to_string(groom.cache.strength.value_or(0.0f)));
     return key.add("guides", std::to_string(groom.strand_count))
                .add("points", hashOf(groom.points))
                .add("seed", std::to_string(settings.seed))

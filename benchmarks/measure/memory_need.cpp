@@ -78,11 +78,17 @@ constexpr std::uint64_t kHostPixel = 32;  // per pixel of the picture
 constexpr std::uint64_t kHostComparedPixel = 256;  // per pixel, in double precision, for FLIP
 constexpr std::uint64_t kFileCopies = 3;  // text, values, strands
 
+// The file that plays, if one does.
+const std::string& cacheFile(const hair::GroomSettings& groom) {
+    return groom.cache.file.empty() ? groom.file : groom.cache.file;
+}
+
 hair::groom::GroomSize groomSize(
     const hair::Settings& settings, const fs::path& directory, const hair::groom::Groom* known) {
     if (known) return sizeOf(*known);
-    hair::groom::GroomSize size =
-        hair::groom::expectedSize(settings.groom, fileBytes(directory, settings.groom.file));
+    hair::groom::GroomSize size = hair::groom::expectedSize(
+        settings.groom, fileBytes(directory, settings.groom.file),
+        fileBytes(directory, cacheFile(settings.groom)));
     // Strands that follow only the head.
     if (!settings.groom.fixed.empty() && size.bound_strands > 0) {
         hair::GroomSettings fixed;

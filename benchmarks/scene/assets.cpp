@@ -142,7 +142,8 @@ std::string groomKey(const hair::Settings& settings, const std::filesystem::path
     std::string key = directory.string() + '\n' + writeFields(groom).dump() + '\n' +
                       std::to_string(settings.seed) + '\n' + meshKey(settings, directory);
     for (const std::string& file :
-         {groom.file, groom.grow.scalp, groom.grow.mask, groom.grow.length_map, groom.fixed})
+         {groom.file, groom.grow.scalp, groom.grow.mask, groom.grow.length_map, groom.fixed,
+          groom.cache.file})
         key += stampOf(directory, file);
     return key;
 }
@@ -180,7 +181,8 @@ const hair::groom::Groom& AssetStore::groom(
         checkOf(reach, directory / (groom.file.empty() ? groom.fixed : groom.file)));
     const std::size_t bytes = bytesOf(made.points) + bytesOf(made.widths) +
                               bytesOf(made.root_triangles) + bytesOf(made.bindings) +
-                              bytesOf(made.bound_ends) + bytesOf(made.bound_points);
+                              bytesOf(made.bound_ends) + bytesOf(made.bound_points) +
+                              bytesOf(made.cache.points);
     return grooms_.add(key, std::move(made), bytes);
 }
 

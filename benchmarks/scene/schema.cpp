@@ -48,6 +48,22 @@ Broken groomHasStrandsOfItsOwn(const hair::Settings& s) {
     return "is groom, but neither /groom/file nor /groom/grow/strands is set";
 }
 
+Broken cacheHasItsSolver(const hair::Settings& s) {
+    if (s.groom.cache.mode == hair::CacheMode::none) return {};
+    if (s.groom.file.empty()) return "is not none, but /groom/file is empty";
+    if (!s.groom.groups.empty())
+        return "is not none, and /groom/groups is set: 'hairbench groom filter' writes a file of "
+               "these groups alone";
+    if (!s.simulation.animation.clip.empty())
+        return "is not none, and /simulation/animation/clip is set: use only one of them";
+    const bool is_none = s.simulation.solver == hair::Solver::none;
+    if (s.groom.cache.mode == hair::CacheMode::play && !is_none)
+        return "is play, which needs /simulation/solver none; follow works with the others";
+    if (s.groom.cache.mode == hair::CacheMode::follow && is_none)
+        return "is follow, but /simulation/solver is none, which moves no guide: use play";
+    return {};
+}
+
 Broken partingHasLength(const hair::Settings& s) {
     const hair::PartingSettings& parting = s.groom.grow.parting;
     if (parting.strength == 0.0f || parting.from != parting.to) return {};
@@ -235,6 +251,7 @@ struct Rule {
 constexpr Rule kRules[] = {
     {"/groom/grow/mesh", hasGuides},
     {"/groom/vertices", strandsHaveTwoEnds},
+    {"/groom/cache/mode", cacheHasItsSolver},
     {"/groom/grow/parting/to", partingHasLength},
     {"/strands/source", groomHasStrandsOfItsOwn},
     {"/simulation/rest", solverHasBalancedRest},

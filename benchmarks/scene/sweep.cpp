@@ -333,8 +333,9 @@ std::vector<CaseSpec> selectCases(
         std::string files;
         for (const std::string& file :
              {groom.file, groom.mesh, groom.grow.mesh, groom.grow.scalp, groom.grow.mask,
-              groom.grow.length_map, each.settings.strands.offsets, each.settings.strands.texture,
-              each.settings.render.environment, each.settings.run.reference})
+              groom.grow.length_map, groom.cache.file, each.settings.strands.offsets,
+              each.settings.strands.texture, each.settings.render.environment,
+              each.settings.run.reference})
             files += file + '\n';
         for (const auto& mesh : each.settings.render.meshes) files += '\n' + mesh.file;
         for (const auto& field : each.settings.simulation.distance_fields)

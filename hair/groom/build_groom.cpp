@@ -206,10 +206,51 @@ StrandSet strandsOf(
     }
 }
 
+// Reads the file that plays; nothing if none does.
+StrandSamples samplesOf(
+    const GroomSettings& settings, const std::filesystem::path& directory,
+    const NamedFileCheck& check) {
+    if (settings.cache.mode == CacheMode::none) return {};
+    const std::string& name = settings.cache.file.empty() ? settings.file : settings.cache.file;
+    return importStrandSamples(directory / name, check);
+}
+
+// Returns the motion of the chosen guides. `ends` are of the strands of settings.file.
+GuideCache cacheOf(
+    const GroomSettings& settings, StrandSamples samples, const std::vector<std::uint32_t>& ends,
+    std::uint32_t vertices, const std::vector<std::uint32_t>& chosen) {
+    if (samples.ends != ends)
+        throw engine::Error(
+            "/groom/cache: the cache has " + std::to_string(samples.ends.size()) +
+            " strands with " + std::to_string(samples.ends.empty() ? 0 : samples.ends.back()) +
+            " points, but /groom/file has " + std::to_string(ends.size()) + " with " +
+            std::to_string(ends.back()) +
+            ", or other numbers of points: a cache needs the "
+            "same strands in the same order");
+    GuideCache cache{.times = std::move(samples.times), .points = {}, .strength = {}};
+    if (settings.cache.mode == CacheMode::follow) cache.strength = settings.cache.strength;
+    const std::size_t count = ends.back();
+    engine::Step step("reads samples of guides", cache.times.size());
+    for (std::size_t i = 0; i < cache.times.size(); ++i) {
+        step.advance();
+        const auto points = std::span<const glm::vec3>(samples.points).subspan(i * count, count);
+        StrandSet strands{
+            .ends = ends,
+            .points = {points.begin(), points.end()},
+            .metres_per_unit = samples.metres_per_unit};
+        strands = pickStrands(strands, chosen);
+        place(strands, settings.placement);
+        strands = resample(std::move(strands), vertices);
+        cache.points.insert(cache.points.end(), strands.points.begin(), strands.points.end());
+    }
+    return cache;
+}
+
 Groom fromFile(
     const GroomSettings& settings, const Mesh* mesh, const std::filesystem::path& directory,
     std::uint32_t seed, const NamedFileCheck& check) {
     const std::filesystem::path path = directory / settings.file;
+    StrandSamples samples = samplesOf(settings, directory, check);
     StrandSet strands = strandsOf(settings, path, check);
     try {
         const std::vector<std::uint32_t> flagged = flaggedGuides(strands);
@@ -226,6 +267,15 @@ Groom fromFile(
         file = drawnStrands(std::move(file), unstyled, dense.points);
         const Strokes strokes = strokesOf(settings, dense, mesh);
         const std::vector<std::uint32_t> chosen = guidesOf(dense, flagged, settings.guides, seed);
+        GuideCache cache;
+        if (settings.cache.mode != CacheMode::none) {
+            if (dense.points != unstyled || !settings.edits.empty())
+                throw engine::Error(
+                    "is styled by /groom/style or /groom/edits, but /groom/cache has positions "
+                    "without styling: use only one of them");
+            cache =
+                cacheOf(settings, std::move(samples), file.ends, dense.vertices_per_strand, chosen);
+        }
         replay(file.ends, file.points, strokes);
         Groom groom = withGuides(replay(std::move(dense), strokes), chosen, mesh);
         groom.warnings = std::move(warnings);
@@ -233,6 +283,7 @@ Groom fromFile(
             for (const std::uint32_t guide : chosen) groom.guide_groups.push_back(groups[guide]);
         groom.groups = groups;
         dropFlagged(groom, file, flagged);
+        groom.cache = std::move(cache);
         groom.bound_ends = std::move(file.ends);
         groom.bound_points = std::move(file.points);
         addFixedFile(groom, settings.fixed, directory, check);
@@ -246,7 +297,8 @@ Groom fromFile(
 
 // ---- Expected sizes -----------------------------------------------------------------------------
 
-GroomSize expectedSize(const GroomSettings& settings, std::uint64_t file_bytes) {
+GroomSize
+expectedSize(const GroomSettings& settings, std::uint64_t file_bytes, std::uint64_t cache_bytes) {
     constexpr std::uint64_t kPointBytes = sizeof(glm::vec3);
     const auto or_else = [](std::uint64_t asked, std::uint64_t otherwise) {
         return asked == 0 ? otherwise : asked;
@@ -272,6 +324,7 @@ GroomSize expectedSize(const GroomSettings& settings, std::uint64_t file_bytes) 
         size.vertices_per_guide =
             or_else(settings.vertices, or_else(settings.points_per_strand, kUncountedPoints));
     }
+    if (settings.cache.mode != CacheMode::none) size.cached_points = cache_bytes / kPointBytes;
     size.root_triangles = 2 * size.guides;  // at most, by Euler's formula of a disc
     return size;
 }

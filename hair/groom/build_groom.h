@@ -25,7 +25,9 @@ Groom buildGroom(
 // Predicts the size of buildGroom()'s result from the settings and the size of settings.file alone.
 // The settings give the counts of grown hair. For a file, a point is taken as 12 bytes and a strand
 // as kUncountedPoints points, if the settings don't say. A compressed file may hold more.
-GroomSize expectedSize(const GroomSettings& settings, std::uint64_t file_bytes);
+// `cache_bytes`: of the file that plays, if one does.
+GroomSize expectedSize(
+    const GroomSettings& settings, std::uint64_t file_bytes, std::uint64_t cache_bytes = 0);
 
 inline constexpr std::uint64_t kUncountedPoints = 16;
 

@@ -3,8 +3,11 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <map>
 #include <numeric>
 #include <sstream>
+#include <string>
+#include <string_view>
 #include <utility>
 
 #include <glm/geometric.hpp>
@@ -323,6 +326,142 @@ EditedStrands fixStrands(
     if (longer > 0) edited.strands = resample(std::move(edited.strands), sizes);
     edited.notes.push_back({"resampled to 256 points: strands with more", longer});
     if (mesh) putOnMesh(edited, *mesh, metres_per_unit, farthest_root);
+    return edited;
+}
+
+// ---- Reverse ------------------------------------------------------------------------------------
+
+StrandSet reverseStrands(StrandSet strands) {
+    const auto reverse = [&](auto& values) {
+        if (values.empty()) return;
+        for (std::uint32_t i = 0; i < strands.strandCount(); ++i)
+            std::reverse(
+                values.begin() + std::ptrdiff_t{strands.first(i)},
+                values.begin() + std::ptrdiff_t{strands.ends[i]});
+    };
+    reverse(strands.points);
+    reverse(strands.widths.values);
+    reverse(strands.transparencies.values);
+    reverse(strands.colors.values);
+    return strands;
+}
+
+// ---- Transform ----------------------------------------------------------------------------------
+
+glm::dmat3 upAxisTurn(std::uint8_t from, std::uint8_t to) {
+    if (from == to) return glm::dmat3(1.0);
+    // A turn about the third axis takes one of these to the other, and that to minus the first.
+    glm::dmat3 turn(0.0);
+    turn[3 - from - to][3 - from - to] = 1.0;
+    turn[from][to] = 1.0;
+    turn[to][from] = -1.0;
+    return turn;
+}
+
+EditedStrands transformStrands(StrandSet strands, const TransformSettings& settings) {
+    constexpr std::string_view kAxes = "xyz";
+    const std::uint64_t count = strands.strandCount();
+    EditedStrands edited;
+    const auto note = [&](std::string what) {
+        edited.notes.push_back({std::move(what) + ": strands", count});
+    };
+    double scale = 1.0;
+    if (settings.metres_per_unit) {
+        const auto from =
+            settings.from_metres_per_unit ? settings.from_metres_per_unit : strands.metres_per_unit;
+        if (!from) throw engine::Error("the present unit is not stated: give it");
+        scale = *from / *settings.metres_per_unit;
+        strands.metres_per_unit = settings.metres_per_unit;
+        if (scale != 1.0)
+            note(
+                "converted from " + statedUnit(*from).name + " to " +
+                statedUnit(*settings.metres_per_unit).name);
+    } else if (settings.from_metres_per_unit) {
+        strands.metres_per_unit = settings.from_metres_per_unit;
+    }
+    glm::dmat3 matrix(1.0);
+    if (settings.from_up) strands.up = settings.from_up;
+    if (settings.up) {
+        if (!strands.up) throw engine::Error("the present upward axis is not stated: give it");
+        matrix = upAxisTurn(*strands.up, *settings.up);
+        if (strands.up != settings.up)
+            note(
+                std::string("turned from +") + kAxes[*strands.up] + " to +" + kAxes[*settings.up] +
+                " up");
+        strands.up = settings.up;
+    }
+    if (settings.mirror) {
+        glm::dmat3 mirror(1.0);
+        mirror[*settings.mirror][*settings.mirror] = -1.0;
+        matrix = mirror * matrix;
+        for (auto& triangle : strands.root_triangles) std::swap(triangle[1], triangle[2]);
+        note(std::string("mirrored along ") + kAxes[*settings.mirror]);
+    }
+    if (settings.scale != 1.0) {
+        scale *= settings.scale;
+        std::ostringstream factor;
+        factor << settings.scale;
+        note("scaled by " + factor.str());
+    }
+    if (settings.translation != glm::dvec3(0.0)) note("translated");
+
+    engine::Step step("transforms strands", count);
+    for (std::uint32_t strand = 0; strand < count; ++strand) {
+        step.advance();
+        for (glm::vec3& point : pointsOf(strands, strand)) {
+            point = glm::vec3(matrix * (scale * glm::dvec3(point)) + settings.translation);
+            for (int axis = 0; axis < 3; ++axis)
+                if (!std::isfinite(point[axis]))
+                    throw engine::Error(
+                        "strand " + std::to_string(strand) +
+                        " would be outside the range of floats");
+        }
+    }
+    const auto scaleWidth = [&](float& width) { width = static_cast<float>(width * scale); };
+    std::ranges::for_each(strands.widths.values, scaleWidth);
+    if (strands.widths.everywhere) scaleWidth(*strands.widths.everywhere);
+    edited.strands = std::move(strands);
+    return edited;
+}
+
+// ---- Groups -------------------------------------------------------------------------------------
+
+std::vector<StrandGroup> groupsOf(const StrandSet& strands) {
+    std::map<std::optional<std::int32_t>, StrandGroup> groups;
+    for (std::uint32_t i = 0; i < strands.strandCount(); ++i) {
+        std::optional<std::int32_t> number;
+        if (!strands.groups.empty()) number = strands.groups[i];
+        StrandGroup& group = groups[number];
+        group.number = number;
+        ++group.strands;
+        group.guides += !strands.guides.empty() && strands.guides[i] != 0 ? 1 : 0;
+        group.points += strands.size(i);
+        group.mean_length += arcLength(strands.strand(i));
+    }
+    std::vector<StrandGroup> all;
+    for (const auto& [number, group] : groups) {
+        all.push_back(group);
+        all.back().mean_length /= group.strands;
+    }
+    return all;
+}
+
+EditedStrands renumberGroups(StrandSet strands, const std::vector<GroupChange>& changes) {
+    EditedStrands edited;
+    std::map<std::int32_t, std::int32_t> numbers;
+    for (const GroupChange& change : changes) {
+        const std::string from = std::to_string(change.from);
+        const auto count =
+            static_cast<std::uint64_t>(std::ranges::count(strands.groups, change.from));
+        if (count == 0) throw engine::Error("there is no group " + from);
+        if (!numbers.try_emplace(change.from, change.to).second)
+            throw engine::Error("group " + from + " is given two numbers");
+        edited.notes.push_back(
+            {"group " + from + " is now " + std::to_string(change.to) + ": strands", count});
+    }
+    for (std::int32_t& group : strands.groups)
+        if (const auto at = numbers.find(group); at != numbers.end()) group = at->second;
+    edited.strands = std::move(strands);
     return edited;
 }
 

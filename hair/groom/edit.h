@@ -5,6 +5,9 @@
 #include <string>
 #include <vector>
 
+#include <glm/mat3x3.hpp>
+#include <glm/vec3.hpp>
+
 #include "hair/groom/groom.h"
 #include "hair/groom/mesh/body_mesh.h"
 
@@ -68,5 +71,55 @@ EditedStrands mendStrands(StrandSet strands);
 // changes lengths there. Throws engine::Error if no strand is left.
 EditedStrands fixStrands(
     const StrandSet& strands, const BodyMesh* mesh, double metres_per_unit, double farthest_root);
+
+// Turns strands round, so that the last point becomes the root; their data of points turn with
+// them. Texture coordinates of roots stay: in files that begin at the tip they are of the other
+// end.
+StrandSet reverseStrands(StrandSet strands);
+
+// A change of the coordinates that strands are in: first the unit, then the upward axis, a mirror
+// image, a factor, a translation.
+struct TransformSettings {
+    std::optional<double> from_metres_per_unit;  // absent: as the strands state
+    std::optional<double> metres_per_unit;  // absent: the unit stays
+    std::optional<std::uint8_t> from_up;  // 0 x, 1 y, 2 z; absent: as the strands state
+    std::optional<std::uint8_t> up;  // absent: axes stay
+    std::optional<std::uint8_t> mirror;  // axis along which coordinates change their sign
+    double scale = 1.0;
+    glm::dvec3 translation{0.0};  // in the unit of the result
+};
+
+// Each coordinate is rounded once. The upward axis changes by a quarter turn that keeps
+// the third axis, so text and asymmetries stay readable. Widths scale too. Root triangles of a
+// mirror image go round the other way, so that they keep their outer side. Throws engine::Error if
+// a unit or axis is asked for and the present one is not known, or a coordinate gets too large for
+// a float.
+EditedStrands transformStrands(StrandSet strands, const TransformSettings& settings);
+
+// The matrix that takes directions with `from` up to directions with `to` up, as rows and columns
+// of -1, 0 and 1: a quarter turn, or nothing.
+glm::dmat3 upAxisTurn(std::uint8_t from, std::uint8_t to);
+
+// A group of strands.
+struct StrandGroup {
+    std::optional<std::int32_t> number;  // absent: of strands that have no groups
+    std::uint32_t strands = 0;
+    std::uint32_t guides = 0;
+    std::uint64_t points = 0;
+    double mean_length = 0.0;  // file's unit
+};
+
+// In ascending order of their numbers.
+std::vector<StrandGroup> groupsOf(const StrandSet& strands);
+
+// A new number for a group; several may get the same.
+struct GroupChange {
+    std::int32_t from = 0;
+    std::int32_t to = 0;
+};
+
+// Gives groups other numbers, all at once: {1 -> 2, 2 -> 1} exchanges them. Throws engine::Error
+// for a group that is not there or is changed twice.
+EditedStrands renumberGroups(StrandSet strands, const std::vector<GroupChange>& changes);
 
 }  // namespace hair::groom

@@ -37,11 +37,11 @@ constexpr StrandExporter kExporters[] = {
     {".ply", exportPly},
     {".gltf", exportGltf},
     {".glb", exportGlb},
-    {".usda", exportUsda},
+    {".usda", exportUsda, exportUsdaWith},
     {".data", exportHairData},
     {".npy", exportNpy},
     {".npz", exportNpz},
-    {".abc", exportAlembic},
+    {".abc", exportAlembic, exportAlembicWith},
     {".mitshair", exportMitsubaBinary},
     {".txt", exportMitsubaText},
     {".pbrt", exportPbrt},
@@ -79,14 +79,14 @@ constexpr StrandImporter kImporters[] = {
     {"glTF", kGltf, "", importGltfStrands},
     {"binary glTF", kGlb, "glTF", importGltfStrands},
     // USD has three magics, but its library recognises files by their extension.
-    {"USD", kUsd, "", importUsd, false},
+    {"USD", kUsd, "", importUsd, false, nullptr, importUsdCache},
     {"USC-HairSalon's strands", kData, "", importHairData},
     {"NumPy's array", kNpy, "\x93NUMPY", importNpy},
     // It has no magic here, because .usdz is a zip archive too.
     {"NumPy's archive", kNpz, "", importNpz},
     {"Embree's scene", kXml, "", importEmbreeXml},
     {"CT2Hair's strands", kBin, "", importCt2Hair},
-    {"Alembic", kAbc, "Ogawa", importAlembic},
+    {"Alembic", kAbc, "Ogawa", importAlembic, true, nullptr, importAlembicCache},
     {"Mitsuba's hair", kMitsuba, "BINARY_HAIR", importMitsubaHair},
     {"Mitsuba's hair in text", kMitsuba, "", importMitsubaHair},
     {"pbrt's scene", kPbrt, "", importPbrt},
@@ -154,12 +154,14 @@ const StrandExporter& strandExporterOf(const std::filesystem::path& path) {
 }
 
 std::vector<std::string> exportStrands(
-    const StrandSet& strands, const std::filesystem::path& path, const engine::WritePoll& poll) {
+    const StrandSet& strands, const std::filesystem::path& path, const engine::WritePoll& poll,
+    const ExportExtras& extras) {
     const StrandExporter& exporter = strandExporterOf(path);
     std::vector<std::string> warnings;
     const auto write = [&](std::ostream& out) {
         try {
-            warnings = exporter.write(strands, out);
+            warnings = exporter.write_with ? exporter.write_with(strands, extras, out)
+                                           : exporter.write(strands, out);
         } catch (const engine::Error& error) {
             throw engine::Error(path.string(), error.what());
         }
@@ -187,9 +189,14 @@ const StrandImporter& strandImporterOf(const fs::path& path) {
     return importerOf(path, file);
 }
 
-StrandSet importStrands(
+namespace {
+
+// Reads a file's bytes and returns what `read` makes of them: a function of the importer and the
+// file. Errors get the path.
+template <class Read>
+auto readFile(
     const fs::path& path, std::uint32_t points_per_strand, const NamedFileCheck& check,
-    BadStrands bad) {
+    const Read& read) {
     const engine::Step step("reads " + path.filename().string());
     engine::OpenFile file(path);
     const StrandImporter& importer = importerOf(path, file);
@@ -199,17 +206,41 @@ StrandSet importStrands(
     const std::span bytes(storage.get(), size);
     file.read(bytes);
     try {
-        StrandSet strands = importer.read(
-            {.bytes = std::as_bytes(bytes),
-             .path = path,
-             .points_per_strand = points_per_strand,
-             .check = orOwnFolder(check, path)});
-        if (bad == BadStrands::kept) return strands;
-        return usableStrands(std::move(strands), bad);
+        return read(
+            importer, StrandFile{
+                          .bytes = std::as_bytes(bytes),
+                          .path = path,
+                          .points_per_strand = points_per_strand,
+                          .check = orOwnFolder(check, path)});
     } catch (const engine::Error& error) {
         const std::string_view head(storage.get(), std::min<std::size_t>(size, kRecognisedBytes));
         throw engine::Error(path.string(), explained(error.what(), head, lowerCaseExtension(path)));
     }
+}
+
+}  // namespace
+
+StrandSet importStrands(
+    const fs::path& path, std::uint32_t points_per_strand, const NamedFileCheck& check,
+    BadStrands bad) {
+    return readFile(
+        path, points_per_strand, check,
+        [bad](const StrandImporter& importer, const StrandFile& file) {
+            StrandSet strands = importer.read(file);
+            if (bad == BadStrands::kept) return strands;
+            return usableStrands(std::move(strands), bad);
+        });
+}
+
+StrandSamples importStrandSamples(const fs::path& path, const NamedFileCheck& check) {
+    return readFile(path, 0, check, [](const StrandImporter& importer, const StrandFile& file) {
+        if (!importer.read_samples)
+            throw engine::Error(
+                std::string(importer.name) +
+                " has no samples over time; formats that have: .abc, .usd, .usda, .usdc, "
+                ".usdz");
+        return importer.read_samples(file);
+    });
 }
 
 // ---- Facts --------------------------------------------------------------------------------------

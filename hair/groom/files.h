@@ -28,10 +28,11 @@ const StrandExporter& strandExporterOf(const std::filesystem::path& path);
 
 // Writes the strands in the format of the path's extension, completely or not at all. Returns the
 // sentences of StrandExporter::write. `poll` is called now and then; an exception of it ends the
-// writing. Throws engine::Error "path: reason".
+// writing. `extras` are for formats with a StrandExporter::write_with. Throws engine::Error
+// "path: reason".
 std::vector<std::string> exportStrands(
-    const StrandSet& strands, const std::filesystem::path& path,
-    const engine::WritePoll& poll = {});
+    const StrandSet& strands, const std::filesystem::path& path, const engine::WritePoll& poll = {},
+    const ExportExtras& extras = {});
 
 // ".glb" for "head.GLB".
 inline std::string lowerCaseExtension(const std::filesystem::path& path) {
@@ -66,5 +67,10 @@ const StrandImporter& strandImporterOf(const std::filesystem::path& path);
 StrandSet importStrands(
     const std::filesystem::path& path, std::uint32_t points_per_strand = 0,
     const NamedFileCheck& check = {}, BadStrands bad = BadStrands::left_out);
+
+// Reads the strands at all samples over time. Throws engine::Error "path: reason" like
+// importStrands(), and for a format that has no samples.
+StrandSamples
+importStrandSamples(const std::filesystem::path& path, const NamedFileCheck& check = {});
 
 }  // namespace hair::groom

@@ -105,7 +105,8 @@ GroomSize sizeOf(const Groom& groom) {
         .vertices_per_guide = groom.vertices_per_strand,
         .root_triangles = groom.root_triangles.size(),
         .bound_strands = groom.bindings.size(),
-        .bound_points = groom.bound_points.size()};
+        .bound_points = groom.bound_points.size(),
+        .cached_points = groom.cache.points.size()};
 }
 
 std::optional<std::uint32_t> commonSize(const StrandSet& strands) {

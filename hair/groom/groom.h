@@ -27,6 +27,14 @@ struct StrandBinding {
     bool followsHead() const { return weights == glm::vec3(0.0f); }
 };
 
+// Positions of guides over time, from a file that plays: linear between samples, and still before
+// the first and after the last.
+struct GuideCache {
+    std::vector<double> times;  // [sample], s, ascending from 0; empty: there is no cache
+    std::vector<glm::vec3> points;  // [sample][strand][vertex], m
+    std::optional<float> strength;  // 1/s^2, of springs to it; absent: guides are put there
+};
+
 // Guide hairs at rest with the triangles that span them. Import and growth make it, simulation and
 // rendering read it. Nothing changes it after it is built.
 struct Groom {
@@ -50,6 +58,7 @@ struct Groom {
     std::vector<std::int32_t> guide_groups;  // [strand]
     std::vector<std::int32_t> groups;  // [binding]
     std::vector<std::string> warnings;  // of the file that strands are from
+    GuideCache cache;
 
     static constexpr std::int32_t kNoGroup = -1;
 
@@ -102,6 +111,7 @@ struct StrandSet {
     std::vector<std::uint8_t> guides;  // [strand], 1 for those that the file calls guides, or 0
     std::vector<std::array<std::uint32_t, 3>> root_triangles;  // strand indices
     std::optional<double> metres_per_unit;  // if the format or the file states it
+    std::optional<std::uint8_t> up;  // upward axis, 0 x, 1 y, 2 z, if the format or file states it
     std::string comment;  // the file's own description
     std::vector<std::string> warnings;  // data of the file that this can't hold
     std::vector<LeftOutStrands> left_out;  // one for each reason; `warnings` has them in words

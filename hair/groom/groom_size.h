@@ -14,6 +14,7 @@ struct GroomSize {
     std::uint64_t root_triangles = 0;
     std::uint64_t bound_strands = 0;
     std::uint64_t bound_points = 0;
+    std::uint64_t cached_points = 0;  // of all samples
 
     std::uint64_t vertices() const { return guides * vertices_per_guide; }
 };

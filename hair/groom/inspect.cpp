@@ -251,6 +251,12 @@ Unit statedUnit(double metres) {
     return {name.str(), metres, "The file states it."};
 }
 
+double metresOf(std::string_view unit) {
+    for (const Known& known : kKnown)
+        if (unit == known.name) return known.metres;
+    throw engine::Error("unknown unit '" + std::string(unit) + "'; known: m, cm, mm, inch");
+}
+
 // ---- Spreads ------------------------------------------------------------------------------------
 
 double quantileOf(std::span<float> numbers, double share) {

@@ -5,6 +5,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include <glm/vec3.hpp>
@@ -84,6 +85,9 @@ struct Unit {
 };
 
 Unit statedUnit(double metres);
+
+// Returns the length in metres of "m", "cm", "mm" or "inch". Throws engine::Error for others.
+double metresOf(std::string_view unit);
 
 // Returns the quantile at a share from 0 to 1, interpolated between two numbers if its rank isn't
 // whole (Hyndman and Fan 1996, Sample quantiles in statistical packages, definition 7). Needs at

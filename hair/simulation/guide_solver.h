@@ -78,6 +78,10 @@ public:
     // false if nothing is left to correct; then it is not called again.
     virtual bool correctBalance(const engine::Device&, std::span<const glm::vec3>) { return false; }
 
+    // The solver's own target positions, vec4 [strand][vertex], groom axes, m, that a cache of the
+    // guides' motion moves; null: there are none.
+    virtual const engine::Buffer* goals() const { return nullptr; }
+
     // The solver's own state, to save and restore.
     virtual std::vector<const engine::Buffer*> state() const { return {}; }
 };

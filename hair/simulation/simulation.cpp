@@ -100,6 +100,7 @@ std::uint64_t simulationBytes(
         bytes += (stepOf(settings).count + 1) * size.guides * sizeof(gpu::RigidFrame);
     for (const DistanceFieldSettings& field : settings.distance_fields)
         bytes += fieldBytes(field.resolution);
+    if (size.cached_points > 0) bytes += sizeof(glm::vec4) * size.cached_points + vectors;
     return bytes;
 }
 
@@ -145,6 +146,7 @@ Simulation::Simulation(
         start.emplace_back(placed[start.size() / vertices_per_strand_](point));
     setState(start, start);
     if (balance()) balanceRest(start);
+    if (!groom.cache.times.empty()) startCache(groom);
     for (const engine::Buffer* buffer : state())
         settled_.emplace_back(device, stateOf(*buffer, "settled state"));
     const auto fits = [](const std::vector<std::byte>& bytes, const engine::Buffer& buffer) {
@@ -198,6 +200,29 @@ void Simulation::balanceRest(std::span<const glm::vec3> start) {
     }
     engine::upload(*device_, std::as_bytes(std::span(with_bodies)), parameters_);
     setState(start, start);
+}
+
+void Simulation::startCache(const groom::Groom& groom) {
+    if (roots_)
+        throw engine::Error(
+            "/groom/cache/mode", "can't be used with an animation that deforms the mesh");
+    cache_.emplace(*device_, groom, rest_positions_, solver_ ? solver_->goals() : nullptr);
+    runOnce(*device_, [&](engine::Commands& commands) {
+        commands.barrier(Access::anything, Access::compute_write);
+        cache_->recordRest(commands, 0.0);
+        commands.barrier(Access::compute_write, Access::anything);
+    });
+    std::vector<glm::vec3> start;
+    start.reserve(groom.points.size());
+    const RigidMotion head = pose();
+    for (const glm::vec3& point : std::span(groom.cache.points).first(groom.points.size()))
+        start.emplace_back(head(point));
+    setState(start, start);
+}
+
+void Simulation::recordFollow(engine::Commands& commands, double from, double to) const {
+    if (cache_ && cache_->follows())
+        cache_->recordFollow(commands, addresses(), motion_.at(from), motion_.at(to), to);
 }
 
 SettledState Simulation::readSettled() const {
@@ -266,6 +291,7 @@ void Simulation::recordStep(engine::Commands& commands, Copy into) {
     if (!solver_) return;
     const double start = time();
     const std::uint32_t from = current_;
+    recordFollow(commands, start, start + double{step_.whole});
     ++steps_;
     if (into == Copy::other) current_ = 1 - current_;
     recordSubsteps(commands, step_.count, from, start, time());
@@ -281,6 +307,7 @@ void Simulation::settle(std::uint32_t steps) {
             for (std::uint32_t i = 0; i < batch; ++i) {
                 wind_.recordCalm(commands, addresses());
                 if (hair_hair_) hair_hair_->record(commands, addresses(), pose());
+                recordFollow(commands, time(), time());
                 recordSubsteps(commands, step_.count, current_, time(), time());
             }
         });
@@ -296,6 +323,9 @@ void Simulation::recordReset(engine::Commands& commands) {
         commands.copy(settled_[i], *state()[i], settled_[i].size());
     commands.fill(accelerations_, 0);
     commands.barrier(engine::Access::transfer_write, engine::Access::anything);
+    if (!cache_) return;
+    cache_->recordRest(commands, 0.0);
+    commands.barrier(engine::Access::compute_write, engine::Access::anything);
 }
 
 void Simulation::reset() {
@@ -392,6 +422,11 @@ void Simulation::recordSubsteps(
     const bool segments = segments_ && bodies_.count() > 0;
     for (std::uint32_t i = 0; i < count; ++i) {
         if (segments) segments_->recordStart(commands, positions_[i == 0 ? from_copy : current_]);
+        if (cache_) {
+            const double part = static_cast<double>(i + 1) / count;
+            commands.barrier(Access::compute_write, Access::compute_write);
+            cache_->recordRest(commands, from + part * (to - from));
+        }
         // Waits for the forces, or for the previous substep.
         commands.barrier(Access::compute_write, Access::compute_write);
         commands.uses(
@@ -402,6 +437,7 @@ void Simulation::recordSubsteps(
              {guides.previous, Access::compute_write}});
         if (air.velocities) commands.uses({{*air.velocities, Access::compute_read}});
         if (roots_) commands.uses({{roots_->frames(), Access::compute_read}});
+        if (cache_) commands.uses({{rest_positions_, Access::compute_read}});
         solver_->record(
             commands, {.guides = guides.parameters,
                        .from = before.parameters,

@@ -19,6 +19,7 @@
 #include "hair/groom/mesh/mesh.h"
 #include "hair/settings.h"
 #include "hair/simulation/bodies.h"
+#include "hair/simulation/cache.h"
 #include "hair/simulation/condition.h"
 #include "hair/simulation/forces.h"
 #include "hair/simulation/guide_solver.h"
@@ -172,6 +173,9 @@ private:
     GuideAddresses addresses(std::uint32_t copy) const;
     GuideAddresses addresses() const { return addresses(current_); }
     std::vector<gpu::VertexCondition> inspect() const;
+    // Moves rest positions to the cache's first sample, and guides to where they then are.
+    void startCache(const groom::Groom& groom);
+    void recordFollow(engine::Commands& commands, double from, double to) const;
     // Limits each vertex's margin to its present distance from bodies. Balances the solver's rest
     // shape with substeps in which the guides should stay at rest.
     void balanceRest(std::span<const glm::vec3> start);
@@ -201,6 +205,7 @@ private:
     std::optional<PullPass> pulls_;  // since the first pull
     std::optional<HairHair> hair_hair_;
     std::optional<SegmentPass> segments_;  // if segments collide
+    std::optional<CachePass> cache_;  // if the groom has a cache
     std::unique_ptr<GuideSolver> solver_;  // null: nothing moves
     std::vector<engine::Buffer> settled_;  // state() after construction
     std::uint64_t steps_ = 0;

@@ -45,6 +45,7 @@ public:
     void expectBodies(const engine::Device& device) override;
     const RestBalance* balance() const override { return balance_ ? &*balance_ : nullptr; }
     bool correctBalance(const engine::Device& device, std::span<const glm::vec3> moved) override;
+    const engine::Buffer* goals() const override { return &rest_positions_; }
 
 private:
     ShapeSolver(

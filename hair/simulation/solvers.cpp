@@ -46,7 +46,8 @@ void FtlSolver::record(engine::Commands& commands, gpu::SubstepPush push) const 
 
 namespace {
 
-// Hair frozen on a moving or deforming head: solver `none` with keyframes or an animation.
+// Hair frozen on a moving or deforming head, or where a cache has it: solver `none` with keyframes,
+// an animation or a cache.
 class RestSolver : public GuideSolver {
 public:
     RestSolver(
@@ -105,7 +106,9 @@ std::unique_ptr<GuideSolver> make(
 std::unique_ptr<GuideSolver> makeNone(
     const engine::Device& device, const groom::Groom& groom, const SimulationSettings& settings,
     const gpu::Step&) {
-    if (settings.motion.keyframes.empty() && !hasSkinnedRoots(settings)) return nullptr;
+    if (settings.motion.keyframes.empty() && !hasSkinnedRoots(settings) &&
+        groom.cache.times.empty())
+        return nullptr;
     return std::make_unique<RestSolver>(device, groom, settings);
 }
 

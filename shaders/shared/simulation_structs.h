@@ -155,6 +155,32 @@ struct PullPush {
     float implicit;  // 1 / (1 + damping step.whole + stiffness step.whole^2)
 };
 
+// Samples of a cache round a time; vec4 [strand][vertex], in the pose before the head moves, m.
+struct CachePlace {
+    Address before;
+    Address after;
+    float fraction;  // of the way between them
+};
+
+// Push constants of simulation/cache_rest.comp.
+struct CacheRestPush {
+    Address rest_positions;  // of the guides; written, except for their margins
+    Address goals;  // of the solver, written; address 0: none
+    Address goal_offsets;  // vec4 [strand][vertex]: goals from rest positions, m
+    CachePlace place;
+    uint vertex_count;
+};
+
+// Push constants of simulation/cache_follow.comp.
+struct CacheFollowPush {
+    Address guides;  // GuideParameters; their rest positions are the cache's at the step's start
+    Address accelerations;  // m/s^2, added to
+    CachePlace place;  // at the step's end
+    RigidFrame frame_before;  // of the head at the step's start
+    RigidFrame frame;  // at its end
+    float stiffness;  // 1/s^2
+};
+
 // The condition of a vertex, from simulation/condition.comp.
 struct VertexCondition {
     float stretch;  // of the segment that ends here, over its rest length; 1 without a segment

@@ -1,5 +1,5 @@
 #version 460
-// One substep of hair that is frozen at rest: the head carries every vertex. One invocation per
+// One substep of hair that is frozen at rest, which a cache may move: the head carries every vertex. One invocation per
 // vertex.
 #extension GL_GOOGLE_include_directive : require
 

@@ -106,6 +106,76 @@ TEST_F(GroomCli, ConvertTakesAStatedUnitToMetresForGuides) {
     EXPECT_GE(found["bounding_box"]["minimum"][0], -0.01);
 }
 
+// Epic's "Using Alembic for Grooms" 1.5: centimetres, groom_width, groom_id, groom_guide,
+// groom_group_id from 0 and groom_root_uv.
+TEST_F(GroomCli, ConvertsForPrograms) {
+    folder_.write(
+        "in.usda",
+        "#usda 1.0\n( metersPerUnit = 1\n  upAxis = \"Y\" )\n"
+        "def BasisCurves \"hair\" {\n    uniform token type = \"linear\"\n"
+        "    int[] curveVertexCounts = [2, 2]\n"
+        "    point3f[] points = [(0, 1.5, 0.25), (0, 1.75, 0.25), (1, 1.5, 0), (1, 2, 0)]\n"
+        "    float[] widths = [0.0001] ( interpolation = \"constant\" )\n"
+        "    texCoord2f[] primvars:st = [(0.25, 0.5), (0.5, 0.75)] ( interpolation = \"uniform\" "
+        ")\n"
+        "    int[] primvars:groom_group_id = [-3, 2] ( interpolation = \"uniform\" )\n"
+        "    int[] primvars:groom_guide = [1, 0] ( interpolation = \"uniform\" )\n}\n");
+    const Outcome made = convert("in.usda", "out.abc", "--for unreal");
+    if (made.output.find("Python environment") != std::string::npos)
+        GTEST_SKIP() << "no Python environment for USD";
+    ASSERT_EQ(made.status, 0) << made.output;
+    EXPECT_THAT(
+        made.output, AllOf(
+                         HasSubstr("converted from m to cm: strands: 2"),
+                         HasSubstr("turned from +y to +z up: strands: 2"),
+                         HasSubstr("renumbered: group -3 is now 0: strands: 1")));
+    const std::string bytes = textOf(folder_.file("out.abc"));
+    for (const char* const name :
+         {"groom_version_major", "groom_width", "groom_id", "groom_guide", "groom_group_id",
+          "groom_root_uv"})
+        EXPECT_THAT(bytes, HasSubstr(name));
+
+    // Back in metres with +y up, all is as it was.
+    EXPECT_EQ(convert("out.abc", "back.obj", "--unit m --up y").status, 0);
+    EXPECT_THAT(
+        textOf(folder_.file("back.obj")),
+        AllOf(HasSubstr("v 0 1.5 0.25\n"), HasSubstr("v 1 2 0\n")));
+    const std::string list = hairbench("groom groups --json " + quoted("out.abc")).output;
+    const auto groups = nlohmann::json::parse(list.substr(list.find("[\n")));
+    ASSERT_EQ(groups.size(), 2u);
+    EXPECT_EQ(groups[0]["group"], 0);
+    EXPECT_EQ(groups[0]["guides"], 1);
+    EXPECT_EQ(groups[1]["group"], 1);
+    EXPECT_EQ(groups[1]["guides"], 0);
+    EXPECT_NEAR(json("out.abc")["widths"]["maximum"].get<double>(), 1e-4, 1e-10);  // m
+
+    ASSERT_EQ(convert("in.usda", "out.usda", "--for unreal").status, 0);
+    const std::string usda = textOf(folder_.file("out.usda"));
+    EXPECT_THAT(
+        usda,
+        AllOf(
+            HasSubstr("metersPerUnit = 0.01"), HasSubstr("upAxis = \"Z\""),
+            HasSubstr("points = [(0, -25, 150), (0, -25, 175), (100, 0, 150), (100, 0, 200)]"),
+            HasSubstr("primvars:groom_id = [0, 1]")));
+    ASSERT_EQ(convert("in.usda", "out.abc", "--for unity").status, 0);
+    EXPECT_EQ(convert("out.abc", "back.obj", "--unit m").status, 0);
+    EXPECT_THAT(textOf(folder_.file("back.obj")), HasSubstr("v 0 1.5 0.25\n"));
+
+    const Outcome refused = convert("in.usda", "out.hair", "--for unreal");
+    EXPECT_EQ(refused.status, 2);
+    EXPECT_THAT(refused.output, HasSubstr("presets are for .abc and .usda"));
+    folder_.write("four.hair", fourStrands().text());
+    EXPECT_THAT(
+        convert("four.hair", "four.abc", "--for unreal").output, HasSubstr("states no unit"));
+    EXPECT_THAT(
+        convert("four.hair", "four.abc", "--for unreal --scale 0.01").output,
+        HasSubstr("states no upward axis"));
+    folder_.write("bare.obj", "v 0 0 0\nv 0 1 0\nl 1 2\n");
+    const Outcome given = convert("bare.obj", "bare.abc", "--for unreal --scale 1 --from-up y");
+    EXPECT_EQ(given.status, 0) << given.output;
+    EXPECT_THAT(given.output, HasSubstr("takes them as 1 cm wide"));
+}
+
 TEST_F(GroomCli, ConvertMayReplaceItsOwnFile) {
     folder_.write("four.hair", fourStrands().text());
     EXPECT_EQ(convert("four.hair", "four.hair", "--scale 2").status, 0);

@@ -158,6 +158,32 @@ TEST_F(GroomEditCli, ChoosesGroups) {
         HasSubstr("--group: no strand belongs to group 5; the file has -4, 3"));
 }
 
+TEST_F(GroomEditCli, ReversesTransformsAndListsGroups) {
+    folder_.write("four.hair", fourStrands().text());
+    EXPECT_EQ(edit("reverse", "four.hair", "").status, 0);
+    EXPECT_EQ(edit("reverse", "out.hair", "").status, 0);
+    EXPECT_EQ(dataOf("out.hair"), dataOf("four.hair"));
+
+    const Outcome moved = edit(
+        "transform", "four.hair", "--from-unit cm --unit m --from-up y --up z --translate 0 0 1");
+    EXPECT_EQ(moved.status, 0);
+    EXPECT_THAT(
+        moved.output, AllOf(
+                          HasSubstr("converted from cm to m: strands: 4\n"),
+                          HasSubstr("turned from +y to +z up: strands: 4\n"),
+                          HasSubstr("translated: strands: 4\n")));
+    const auto found = json("out.hair", "--scale 1");
+    EXPECT_NEAR(found["lengths"]["maximum"].get<double>(), 0.3, 1e-6);
+
+    const Outcome unknown = edit("transform", "four.hair", "--unit m");
+    EXPECT_EQ(unknown.status, 2);
+    EXPECT_THAT(unknown.output, HasSubstr("four.hair: states no unit: give --from-unit"));
+
+    const Outcome groups = hairbench("groom groups " + quoted("four.hair"));
+    EXPECT_EQ(groups.status, 0);
+    EXPECT_THAT(groups.output, ContainsRegex("none +4 +0 +13"));
+}
+
 TEST_F(GroomEditCli, RefusesInOneLineWithStatus2) {
     folder_.write("four.hair", fourStrands().text());
     const auto expectRefused = [&](const std::string& command, const std::string& options,

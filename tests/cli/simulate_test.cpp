@@ -1,7 +1,9 @@
 // Tests `hairbench simulate` as a user runs it.
 #include <algorithm>
 #include <filesystem>
+#include <sstream>
 #include <string>
+#include <vector>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -58,6 +60,53 @@ TEST_F(SimulateCli, WritesTheGuides) {
     const std::string text = textOf(folder_.file("guides.usda"));
     EXPECT_THAT(text, HasSubstr("hairbench:rootTriangles"));
     EXPECT_THAT(text, testing::Not(HasSubstr("widths")));
+}
+
+// Coordinates of the vertices of an .obj file, in order.
+std::vector<double> coordinatesOf(const std::string& text) {
+    std::vector<double> all;
+    std::istringstream lines(text);
+    for (std::string line; std::getline(lines, line);) {
+        std::istringstream words(line);
+        std::string kind;
+        words >> kind;
+        if (kind != "v") continue;
+        for (double number = 0.0; words >> number;) all.push_back(number);
+    }
+    return all;
+}
+
+// A file of guides that play is the motion that was written to it. Its first sample is at time 0,
+// and the first frame ends after a time step: so its frame 4 is sample 5.
+TEST_F(SimulateCli, PlaysWhatItWrote) {
+    const std::string guides = "--guides -a /groom/guides=86 ";
+    ASSERT_EQ(simulate("guides.usda", guides + "--frames 6").status, 0);
+    ASSERT_EQ(simulate("expected.obj", guides + "--frames 6").status, 0);
+    folder_.write(
+        "playing.json",
+        R"({ "groom": { "file": "guides.usda", "cache": { "mode": "play" } },
+             "simulation": { "solver": "none" } })");
+    const auto play = [&](const std::string& options) {
+        return hairbench(
+            "simulate " + quoted("playing.json") + " --guides --frames 5 --export " +
+            quoted("played.obj") + ' ' + options);
+    };
+    const Outcome played = play("");
+    if (played.output.find("Python environment") != std::string::npos)
+        return skipWithout(Need::python, kNoPython);
+    ASSERT_EQ(played.status, 0) << played.output;
+    const std::vector<double> expected = coordinatesOf(textOf(folder_.file("expected.obj")));
+    const std::vector<double> found = coordinatesOf(textOf(folder_.file("played.obj")));
+    ASSERT_EQ(found.size(), 3u * 688u);
+    ASSERT_EQ(found.size(), expected.size());
+    // Times are floats, so a frame is within 1e-6 of the way between two samples.
+    for (std::size_t i = 0; i < found.size(); ++i) ASSERT_NEAR(found[i], expected[i], 1e-6) << i;
+
+    const Outcome moved = play("--set /simulation/solver=shape");
+    EXPECT_EQ(moved.status, 2);
+    EXPECT_THAT(moved.output, HasSubstr("/groom/cache/mode: is play, which needs"));
+    const Outcome followed = play("--set /simulation/solver=shape --set /groom/cache/mode=follow");
+    EXPECT_EQ(followed.status, 0) << followed.output;
 }
 
 TEST_F(SimulateCli, RefusesAFormatThatItDoesNotKnowBeforeItBegins) {

@@ -127,6 +127,7 @@ Target strandTarget(const hair::groom::StrandImporter& row) {
         .read =
             [&row](std::string_view bytes) {
                 checkStrands(hair::groom::usableStrands(row.read({.bytes = asBytes(bytes)})));
+                if (row.read_samples) row.read_samples({.bytes = asBytes(bytes)});
             },
         .seeds = {{"tests/corpus/" + name, {}}}};
 }

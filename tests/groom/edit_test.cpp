@@ -243,5 +243,119 @@ TEST(FixStrands, PutsStrandsOntoAMesh) {
     EXPECT_EQ(found.mesh->strands_inside, 0u);
 }
 
+// ---- Reverse ------------------------------------------------------------------------------------
+
+TEST(ReverseStrands, TurnsPointsAndTheirDataRound) {
+    const StrandSet sample = sampleStrandSet();
+    const StrandSet turned = reverseStrands(sample);
+    EXPECT_EQ(turned.ends, sample.ends);
+    EXPECT_EQ(
+        turned.points,
+        (std::vector<glm::vec3>{{0, 1, 0}, {0, 0, 0}, {2, 0, 3}, {2, 0, 2}, {2, 0, 0}, {5, 5, 5}}));
+    EXPECT_EQ(turned.widths.values, (std::vector<float>{2, 1, 5, 4, 3, 6}));
+    EXPECT_EQ(turned.colors.values[2], glm::vec3(0.5f));
+    EXPECT_EQ(turned.transparencies.everywhere, 0.25f);
+    EXPECT_EQ(turned.root_uvs, sample.root_uvs);
+    EXPECT_EQ(turned.groups, sample.groups);
+    EXPECT_EQ(turned.root_triangles, sample.root_triangles);
+    EXPECT_EQ(reverseStrands(turned).points, sample.points);
+}
+
+// ---- Transform ----------------------------------------------------------------------------------
+
+TEST(TransformStrands, TurnsEachUpwardAxisToEachOther) {
+    for (std::uint8_t from = 0; from < 3; ++from) {
+        for (std::uint8_t to = 0; to < 3; ++to) {
+            const glm::dmat3 turn = upAxisTurn(from, to);
+            glm::dvec3 up(0.0);
+            up[from] = 1.0;
+            glm::dvec3 expected(0.0);
+            expected[to] = 1.0;
+            EXPECT_EQ(turn * up, expected);
+            EXPECT_EQ(glm::dot(turn[0], glm::cross(turn[1], turn[2])), 1.0) << "a mirror image";
+            EXPECT_EQ(upAxisTurn(to, from) * turn, glm::dmat3(1.0));
+        }
+    }
+}
+
+// An inch is 25.4 mm, and with +z up instead of +y, (x, y, z) becomes (x, -z, y).
+TEST(TransformStrands, ChangesUnitAxisMirrorFactorAndPlaceInThisOrder) {
+    StrandSet strands = strandSet({{{1, 2, 3}, {4, 5, 6}}});
+    strands.widths.everywhere = 0.5f;
+    const EditedStrands edited = transformStrands(
+        strands, {.from_metres_per_unit = 0.0254,
+                  .metres_per_unit = 0.001,
+                  .from_up = std::uint8_t{1},
+                  .up = std::uint8_t{2},
+                  .mirror = std::uint8_t{0},
+                  .scale = 2.0,
+                  .translation = {100, 0, 1}});
+    const std::vector<glm::dvec3> expected{
+        {100 - 50.8 * 1, -50.8 * 3, 1 + 50.8 * 2}, {100 - 50.8 * 4, -50.8 * 6, 1 + 50.8 * 5}};
+    ASSERT_EQ(edited.strands.points.size(), expected.size());
+    for (std::size_t i = 0; i < expected.size(); ++i)
+        for (int axis = 0; axis < 3; ++axis)
+            // One rounding to a float, below 512.
+            EXPECT_NEAR(edited.strands.points[i][axis], expected[i][axis], 2e-5);
+    EXPECT_FLOAT_EQ(*edited.strands.widths.everywhere, 25.4f);
+    EXPECT_EQ(edited.strands.metres_per_unit, 0.001);
+    EXPECT_EQ(edited.strands.up, 2);
+    EXPECT_THAT(countsOf(edited), ElementsAre(1, 1, 1, 1, 1));
+}
+
+TEST(TransformStrands, KeepsOuterSidesOfAMirrorImage) {
+    StrandSet strands = strandSet({{{0, 0, 0}}, {{1, 0, 0}}, {{0, 1, 0}}});
+    strands.root_triangles = {{0, 1, 2}};
+    const EditedStrands edited = transformStrands(strands, {.mirror = std::uint8_t{0}});
+    const auto& corners = edited.strands.root_triangles[0];
+    const auto at = [&](std::size_t i) { return edited.strands.points[corners[i]]; };
+    EXPECT_EQ(glm::cross(at(1) - at(0), at(2) - at(0)), glm::vec3(0, 0, 1));
+}
+
+TEST(TransformStrands, RefusesWhatItCannotKnowOrHold) {
+    const StrandSet strands = strandSet({{{0, 1e30f, 0}, {0, 2e30f, 0}}});
+    EXPECT_THAT(
+        errorText([&] { transformStrands(strands, {.metres_per_unit = 0.01}); }),
+        HasSubstr("unit is not stated"));
+    EXPECT_THAT(
+        errorText([&] { transformStrands(strands, {.up = std::uint8_t{2}}); }),
+        HasSubstr("axis is not stated"));
+    EXPECT_THAT(
+        errorText([&] { transformStrands(strands, {.scale = 1e10}); }),
+        HasSubstr("strand 0 would be outside"));
+}
+
+// ---- Groups -------------------------------------------------------------------------------------
+
+TEST(Groups, AreCountedInOrder) {
+    const std::vector<StrandGroup> groups = groupsOf(sampleStrandSet());
+    ASSERT_EQ(groups.size(), 3u);
+    EXPECT_EQ(groups[0].number, -5);  // a strand along z from 0 by 2 and 3
+    EXPECT_EQ(groups[0].strands, 1u);
+    EXPECT_EQ(groups[0].guides, 0u);
+    EXPECT_EQ(groups[0].points, 3u);
+    EXPECT_EQ(groups[0].mean_length, 3.0);
+    EXPECT_EQ(groups[1].number, 4);
+    EXPECT_EQ(groups[1].guides, 1u);
+    EXPECT_EQ(groups[2].number, 6);
+    StrandSet none = sampleStrandSet();
+    none.groups.clear();
+    ASSERT_EQ(groupsOf(none).size(), 1u);
+    EXPECT_EQ(groupsOf(none)[0].number, std::nullopt);
+    EXPECT_EQ(groupsOf(none)[0].strands, 3u);
+}
+
+TEST(Groups, AreRenumberedAllAtOnce) {
+    const EditedStrands edited = renumberGroups(sampleStrandSet(), {{4, 6}, {6, 4}, {-5, 4}});
+    EXPECT_THAT(edited.strands.groups, ElementsAre(6, 4, 4));
+    EXPECT_THAT(countsOf(edited), ElementsAre(1, 1, 1));
+    EXPECT_THAT(
+        errorText([] { renumberGroups(sampleStrandSet(), {{3, 1}}); }),
+        HasSubstr("there is no group 3"));
+    EXPECT_THAT(
+        errorText([] { renumberGroups(sampleStrandSet(), {{4, 1}, {4, 2}}); }),
+        HasSubstr("two numbers"));
+}
+
 }  // namespace
 }  // namespace hair::groom

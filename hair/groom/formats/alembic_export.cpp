@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <cstring>
 #include <limits>
+#include <numeric>
 #include <span>
 #include <string_view>
 #include <type_traits>
@@ -279,11 +280,13 @@ std::string_view scopeOf(const PointAttribute<Value>& attribute) {
 struct AlembicArrays {
     std::vector<std::int32_t> sizes;
     std::vector<std::int16_t> guides;
+    std::vector<std::int32_t> ids;
     std::array<glm::dvec3, 2> bounds{};
     std::array<std::uint8_t, 4> kind{1, 0, 0, 0};  // linear, with two ends, no basis
     std::int16_t major = 1;
     std::int16_t minor = 5;
     std::uint8_t yes = 1;
+    std::uint8_t up = 1;
     double metres_per_unit = 1.0;
     std::string comment;  // with the NUL that ends it
 };
@@ -305,12 +308,24 @@ AlembicArrays arraysOf(const StrandSet& strands) {
     }
     arrays.bounds = {glm::dvec3(low), glm::dvec3(high)};
     arrays.metres_per_unit = strands.metres_per_unit.value_or(1.0);
+    arrays.up = strands.up.value_or(1);
+    arrays.ids.resize(strands.ends.size());
+    std::iota(arrays.ids.begin(), arrays.ids.end(), 0);
     arrays.comment = strands.comment.substr(0, strands.comment.find('\0')) + '\0';
     return arrays;
 }
 
 void writeParameters(
-    OgawaCompound& parameters, const StrandSet& strands, const AlembicArrays& arrays) {
+    OgawaCompound& parameters, const StrandSet& strands, const AlembicArrays& arrays,
+    const ExportExtras& extras) {
+    if (extras.ids)
+        parameters.array(
+            "groom_id", parameterMetadata("uni", "int32_t", 1), AlembicType::int32, 1,
+            bytesIn(arrays.ids));
+    if (extras.groom_names && strands.widths.known())
+        parameters.array(
+            "groom_width", parameterMetadata(scopeOf(strands.widths), "float32_t", 1),
+            AlembicType::float32, 1, bytesIn(strands.widths));
     if (!strands.groups.empty())
         parameters.array(
             "groom_group_id", parameterMetadata("uni", "int32_t", 1), AlembicType::int32, 1,
@@ -334,6 +349,8 @@ void writeOwn(OgawaCompound& own, const StrandSet& strands, const AlembicArrays&
         own.scalar(
             "hairbench:metersPerUnit", "", AlembicType::float64, 1,
             bytesOfOne(arrays.metres_per_unit));
+    if (strands.up)
+        own.scalar("hairbench:upAxis", "", AlembicType::uint8, 1, bytesOfOne(arrays.up));
     if (!strands.root_triangles.empty())
         own.array(
             "hairbench:rootTriangles", "", AlembicType::uint32, 3, bytesIn(strands.root_triangles));
@@ -343,8 +360,9 @@ void writeOwn(OgawaCompound& own, const StrandSet& strands, const AlembicArrays&
             std::as_bytes(std::span(arrays.comment)));
 }
 
-OgawaObject
-writeCurves(OgawaWriter& writer, const StrandSet& strands, const AlembicArrays& arrays) {
+OgawaObject writeCurves(
+    OgawaWriter& writer, const StrandSet& strands, const AlembicArrays& arrays,
+    const ExportExtras& extras) {
     OgawaCompound geometry(writer);
     geometry.scalar(
         ".selfBnds", "interpretation=box", AlembicType::float64, 6, bytesOfOne(arrays.bounds));
@@ -356,8 +374,12 @@ writeCurves(OgawaWriter& writer, const StrandSet& strands, const AlembicArrays& 
         geometry.array(
             "width", parameterMetadata(scopeOf(strands.widths), "float32_t", 1),
             AlembicType::float32, 1, bytesIn(strands.widths));
+    if (extras.curve_uvs && !strands.root_uvs.empty())
+        geometry.array(
+            "uv", parameterMetadata("uni", "float32_t", 2, "vector"), AlembicType::float32, 2,
+            bytesIn(strands.root_uvs));
     OgawaCompound parameters(writer);
-    writeParameters(parameters, strands, arrays);
+    writeParameters(parameters, strands, arrays, extras);
     geometry.compound(".arbGeomParams", "", parameters);
     OgawaCompound own(writer);
     writeOwn(own, strands, arrays);
@@ -392,6 +414,11 @@ writeTransform(OgawaWriter& writer, const AlembicArrays& arrays, const OgawaObje
 }  // namespace
 
 std::vector<std::string> exportAlembic(const StrandSet& strands, std::ostream& out) {
+    return exportAlembicWith(strands, {}, out);
+}
+
+std::vector<std::string>
+exportAlembicWith(const StrandSet& strands, const ExportExtras& extras, std::ostream& out) {
     if (strands.ends.empty()) throw engine::Error("there are no strands");
     std::vector<std::string> warnings = leftOut(
         strands, {Part::widths, Part::colors, Part::root_uvs, Part::groups, Part::guides,
@@ -400,7 +427,7 @@ std::vector<std::string> exportAlembic(const StrandSet& strands, std::ostream& o
         warnings.emplace_back("the comment is written up to its first NUL");
     const AlembicArrays arrays = arraysOf(strands);
     OgawaWriter writer;
-    const OgawaObject curves = writeCurves(writer, strands, arrays);
+    const OgawaObject curves = writeCurves(writer, strands, arrays, extras);
     const OgawaObject transform = writeTransform(writer, arrays, curves);
     OgawaCompound nothing(writer);
     const OgawaObject top = writeObject(

@@ -10,6 +10,7 @@
 #include <optional>
 #include <set>
 #include <span>
+#include <sstream>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -36,6 +37,9 @@ using namespace std::string_view_literals;
 // Most bytes of points and triangles for each byte of the file. Equal objects share data in it,
 // but not without limit.
 constexpr std::uint64_t kMostShared = 16;
+
+// A day of 12 samples a second.
+constexpr std::uint32_t kMostSamples = 1 << 20;
 
 // The element that a parameter has a value for.
 enum class PerWhat : std::uint8_t { object, curve, vertex, end };
@@ -93,7 +97,30 @@ constexpr std::array kUserProperties{
 
 class AlembicReader {
 public:
-    explicit AlembicReader(std::span<const std::byte> bytes) : values_(bytes) {}
+    explicit AlembicReader(std::span<const std::byte> bytes, std::uint32_t sample = 0)
+        : values_(bytes, sample) {}
+
+    // Returns the times of the samples of all that moves, s from the first; after read(). Throws if
+    // they differ between objects.
+    std::vector<double> times() const {
+        if (clocks_.empty()) return {0.0};
+        std::vector<double> times;
+        for (const auto& [sampling, samples] : clocks_) {
+            if (samples > kMostSamples)
+                failAt(
+                    0, std::to_string(samples) + " samples, more than " +
+                           std::to_string(kMostSamples));
+            std::vector<double> own = values_.archive().timesOf(sampling, samples);
+            if (!times.empty() && own != times)
+                failAt(
+                    0, "curves or transforms have samples at different times: export them with "
+                       "the same");
+            times = std::move(own);
+        }
+        const double first = times.front();
+        for (double& time : times) time -= first;
+        return times;
+    }
 
     StrandSet read() {
         readObject(values_.archive().top(), "", {});
@@ -128,6 +155,7 @@ private:
 
     void warnOfSamples(const AlembicProperty& property, const std::string& path) {
         if (property.stored < 2) return;
+        clocks_.emplace(property.time_sampling, property.samples);
         if (moving_ == 0) first_moving_ = path;
         ++moving_;
         most_samples_ = std::max(most_samples_, property.samples);
@@ -243,6 +271,8 @@ private:
                 (points ? points->property : sizes->property).header, geometry.path,
                 points ? "positions without nVertices" : "nVertices without positions");
         warnOfSamples(points->property, path);
+        if (sizes->property.stored > 1)
+            clocks_.emplace(sizes->property.time_sampling, sizes->property.samples);
         AlembicTopology topology(values_, geometry, *sizes);
         const std::uint32_t first_strand = set_.strandCount();
         AlembicCurves curves;
@@ -481,6 +511,11 @@ private:
                 unit->fail("the unit differs from that of earlier objects");
             set_.metres_per_unit = metres;
         }
+        if (const auto up = values_.parameterOf(own, "hairbench:upAxis")) {
+            const std::int32_t axis = values_.integersOf(*up).front();
+            if (axis < 0 || axis > 2) up->fail("the upward axis is none of 0, 1 and 2");
+            set_.up = static_cast<std::uint8_t>(axis);
+        }
         if (const auto triangles = values_.parameterOf(own, "hairbench:rootTriangles")) {
             using Triangle = std::array<std::uint32_t, 3>;
             triangles->require(AlembicType::uint32, 3);
@@ -585,6 +620,7 @@ private:
     std::uint64_t shared_ = 0;  // bytes of points and triangles that were read
     std::map<std::string, std::int32_t> group_names_;
     std::set<std::string> left_out_;
+    std::set<std::pair<std::uint32_t, std::uint32_t>> clocks_;  // time sampling, samples
     std::string first_moving_;
     std::size_t moving_ = 0;  // objects
     std::uint32_t most_samples_ = 0;
@@ -593,5 +629,33 @@ private:
 }  // namespace
 
 StrandSet importAlembic(const StrandFile& file) { return AlembicReader(file.bytes).read(); }
+
+StrandSamples importAlembicCache(const StrandFile& file) {
+    AlembicReader first(file.bytes);
+    const StrandSet strands = first.read();
+    StrandSamples samples{
+        .ends = strands.ends,
+        .times = first.times(),
+        .points = {},
+        .metres_per_unit = strands.metres_per_unit};
+    const std::uint64_t count = strands.points.size();
+    if (count * samples.times.size() > kMostSampleBytes / sizeof(glm::vec3))
+        failAt(0, "its samples have more than 2 GiB of points");
+    samples.points.reserve(count * samples.times.size());
+    for (std::uint32_t i = 0; i < samples.times.size(); ++i) {
+        const StrandSet now = AlembicReader(file.bytes, i).read();
+        if (now.ends != strands.ends) {
+            std::ostringstream text;
+            text << "at sample " << i << " (" << samples.times[i] << " s) there are "
+                 << now.strandCount() << " strands with " << now.points.size() << " points, but "
+                 << strands.strandCount() << " with " << count
+                 << " at first, or other numbers of points: strands that change don't play";
+            failAt(0, text.str());
+        }
+        samples.points.insert(samples.points.end(), now.points.begin(), now.points.end());
+    }
+    requireFinite(samples.points, 0, "a point of a sample");
+    return samples;
+}
 
 }  // namespace hair::groom

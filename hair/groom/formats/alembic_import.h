@@ -30,4 +30,8 @@ namespace hair::groom {
 // engine::Error "byte N: path of the object or property: reason".
 StrandSet importAlembic(const StrandFile& file);
 
+// The strands of importAlembic() at all samples. All that moves must have samples at the same
+// times.
+StrandSamples importAlembicCache(const StrandFile& file);
+
 }  // namespace hair::groom

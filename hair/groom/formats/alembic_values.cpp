@@ -79,7 +79,7 @@ AlembicValues::parameterOf(const AlembicCompound& compound, std::string_view nam
             const std::string path = parameter.path + "/.indices";
             if (!indices->isOf(AlembicType::uint32, 1))
                 failIn(indices->header, path, "indices are of uint32");
-            if (const auto elements = archive_.firstOf(*indices, path)) {
+            if (const auto elements = archive_.sampleOf(*indices, path)) {
                 parameter.has_indices = true;
                 indices_start = elements->start;
                 parameter.indices =
@@ -88,7 +88,7 @@ AlembicValues::parameterOf(const AlembicCompound& compound, std::string_view nam
         }
         parameter.path += "/.vals";
     }
-    const auto elements = archive_.firstOf(parameter.property, parameter.path);
+    const auto elements = archive_.sampleOf(parameter.property, parameter.path);
     if (!elements || elements->count == 0) return {};
     parameter.elements = *elements;
     for (std::size_t i = 0; i < parameter.indices.size(); ++i)

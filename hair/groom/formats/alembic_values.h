@@ -54,9 +54,12 @@ struct AlembicParameter {
 // once.
 class AlembicValues {
 public:
-    explicit AlembicValues(std::span<const std::byte> bytes) : archive_(bytes) {}
+    // `sample`: AlembicArchive.
+    explicit AlembicValues(std::span<const std::byte> bytes, std::uint32_t sample = 0)
+        : archive_(bytes, sample) {}
 
     AlembicArchive& archive() { return archive_; }
+    const AlembicArchive& archive() const { return archive_; }
     std::span<const std::byte> bytes() const { return archive_.bytes(); }
 
     // Returns the compound `name` of an object's properties. Throws if there is none.

@@ -129,6 +129,8 @@ std::vector<std::string> write(const StrandSet& strands, std::ostream& out, Cont
     if (!strands.metres_per_unit) {
         warnings.push_back("the unit of length is not known; in glTF it is the metre");
     }
+    if (strands.up.value_or(1) != 1)
+        throw engine::Error("glTF has +y up, but the strands have another axis up: use --up y");
     LinesFile file;
     const std::size_t count = strands.points.size();
     file.addLines(edgesOf(strands, warnings));
@@ -283,6 +285,7 @@ public:
         completeTransparencies(set_, without_transparency_);
         completeColors(set_, without_color_);
         set_.metres_per_unit = 1.0;
+        set_.up = 1;
         return std::move(set_);
     }
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <iterator>
 
 #include "hair/groom/formats/binary_file.h"
@@ -105,7 +106,7 @@ struct PropertyInfo {
 // Counts the samples that are stored: the first, and those from the first change to the last.
 std::uint64_t storedSamples(
     AlembicCursor& cursor, const PropertyInfo& info, std::uint64_t number_size,
-    std::uint32_t samples) {
+    std::uint32_t samples, std::uint32_t& first_change) {
     std::uint32_t first = 1;
     std::uint32_t last = samples == 0 ? 0 : samples - 1;
     if (info.hasChanges()) {
@@ -115,6 +116,7 @@ std::uint64_t storedSamples(
         first = 0;
         last = 0;
     }
+    first_change = first;
     if (samples == 0) return 0;
     if (last >= samples || (last != 0 && (first == 0 || first > last)))
         cursor.fail(
@@ -214,7 +216,8 @@ std::string_view AlembicArchive::textOf(const Data& data) const {
     return {reinterpret_cast<const char*>(bytes_.data() + data.start), data.size};
 }
 
-AlembicArchive::AlembicArchive(std::span<const std::byte> bytes) : bytes_(bytes) {
+AlembicArchive::AlembicArchive(std::span<const std::byte> bytes, std::uint32_t sample)
+    : bytes_(bytes), sample_(sample) {
     constexpr auto kMagic = "Ogawa"sv;
     const auto head = textOf({0, std::min<std::uint64_t>(bytes.size(), kFileHeader)});
     if (!head.starts_with(kMagic.substr(0, std::min(kMagic.size(), head.size()))))
@@ -241,10 +244,49 @@ AlembicArchive::AlembicArchive(std::span<const std::byte> bytes) : bytes_(bytes)
     if (library < 9999)
         failAt(library_byte, "Alembic " + std::to_string(library) + ", expected 9999 or later");
     dataOf(root, 3, "");
-    dataOf(root, 4, "");
+    time_samplings_ = dataOf(root, 4, "");
     readMetadata(dataOf(root, 5, ""));
     top_.metadata = textOf(dataOf(root, 3, ""));
     top_.group = groupOf(root, 2, "");
+}
+
+// A time sampling is the greatest number of samples of a property with it, the seconds of a cycle,
+// and the times of the samples in a cycle. A cycle of more than 10^300 s stands for none: then
+// there is a time for each sample.
+std::vector<double>
+AlembicArchive::timesOf(std::uint32_t time_sampling, std::uint32_t samples) const {
+    constexpr double kNoCycle = 1e300;
+    const std::uint64_t end = time_samplings_.start + time_samplings_.size;
+    std::uint64_t at = time_samplings_.start;
+    const auto need = [&](std::uint64_t size) {
+        if (size > end - at) failAt(at, "truncated: a time sampling is expected");
+    };
+    for (std::uint32_t i = 0;; ++i) {
+        constexpr std::uint64_t kHead = 4 + 8 + 4;
+        need(kHead);
+        const auto cycle = valueAt<double>(bytes_, at + 4);
+        const auto count = valueAt<std::uint32_t>(bytes_, at + 12);
+        at += kHead;
+        need(std::uint64_t{count} * 8);
+        if (i < time_sampling) {
+            at += std::uint64_t{count} * 8;
+            continue;
+        }
+        const std::vector<double> own = arrayAt<double>(bytes_, at, count);
+        const bool has_cycle = cycle < kNoCycle;
+        if (own.empty() || (!has_cycle && own.size() < samples))
+            failAt(
+                at, std::to_string(own.size()) + " times, but there are " +
+                        std::to_string(samples) + " samples");
+        std::vector<double> times;
+        for (std::uint32_t s = 0; s < samples; ++s) {
+            const double cycles = has_cycle ? static_cast<double>(s / count) : 0.0;
+            times.push_back(own[has_cycle ? s % count : s] + (has_cycle ? cycles * cycle : 0.0));
+            const bool ascends = s == 0 || times[s] > times[s - 1];
+            if (!std::isfinite(times[s]) || !ascends) failAt(at, "times of samples don't ascend");
+        }
+        return times;
+    }
 }
 
 void AlembicArchive::readMetadata(const Data& data) {
@@ -284,8 +326,10 @@ AlembicArchive::readProperties(std::uint64_t byte, const std::string& path, std:
             property.extent = info.extent();
             if (property.extent == 0) cursor.fail("elements with no numbers");
             property.samples = cursor.number(number_size, "the number of samples");
-            property.stored = storedSamples(cursor, info, number_size, property.samples);
-            if (info.hasTimeSampling()) cursor.number(number_size, "the time sampling");
+            property.stored =
+                storedSamples(cursor, info, number_size, property.samples, property.first_change);
+            if (info.hasTimeSampling())
+                property.time_sampling = cursor.number(number_size, "the time sampling");
         }
         property.name = cursor.name(cursor.number(number_size, "the length of a name"));
         if (info.metadata() == kMetadataFollows) {
@@ -363,7 +407,7 @@ AlembicArchive::propertiesOf(const AlembicProperty& compound, const std::string&
 // ---- Samples ------------------------------------------------------------------------------------
 
 std::optional<AlembicElements>
-AlembicArchive::firstOf(const AlembicProperty& property, const std::string& path) {
+AlembicArchive::sampleOf(const AlembicProperty& property, const std::string& path) {
     const Group group = openGroup(property.group, path);
     const bool is_array = property.kind == AlembicKind::array;
     const std::uint64_t each = is_array ? 2 : 1;
@@ -373,7 +417,11 @@ AlembicArchive::firstOf(const AlembicProperty& property, const std::string& path
             std::to_string(group.count) + " parts, but there are " +
                 std::to_string(property.stored) + " samples of " + std::to_string(each));
     if (group.count == 0) return {};
-    const Data data = dataOf(group, 0, path);
+    const std::uint64_t stored =
+        sample_ < property.first_change || property.stored == 1
+            ? 0
+            : std::min<std::uint64_t>(sample_ - property.first_change + 1, property.stored - 1);
+    const Data data = dataOf(group, stored * each, path);
     if (data.size != 0 && data.size < kSampleKey)
         failIn(data.start, path, "a sample begins with 16 bytes of a hash");
     const std::uint64_t key = data.size == 0 ? 0 : kSampleKey;
@@ -389,7 +437,7 @@ AlembicArchive::firstOf(const AlembicProperty& property, const std::string& path
         failIn(data.start, path, "a scalar of " + std::to_string(elements.count));
     if (!is_array || is_text) return elements;
 
-    const Data dimensions = dataOf(group, 1, path);
+    const Data dimensions = dataOf(group, stored * each + 1, path);
     if (dimensions.size % kWord != 0)
         failIn(dimensions.start, path, "dimensions are of 64 bits each");
     std::uint64_t product = 1;

@@ -58,6 +58,8 @@ struct AlembicProperty {
     std::uint8_t extent = 1;  // numbers of an element
     std::uint32_t samples = 0;
     std::uint64_t stored = 0;  // samples that are in the file
+    std::uint32_t first_change = 1;  // sample; those before it are equal to the first
+    std::uint32_t time_sampling = 0;  // number
     std::uint64_t group = 0;  // byte; 0: empty
     std::uint64_t header = 0;  // byte, for messages
     std::uint32_t depth = 0;  // of compounds
@@ -93,7 +95,12 @@ struct AlembicElements {
 // functions throw engine::Error "byte N: path: reason".
 class AlembicArchive {
 public:
-    explicit AlembicArchive(std::span<const std::byte> bytes);
+    // `sample`: number of the sample that sampleOf() returns; after a property's last it is that.
+    explicit AlembicArchive(std::span<const std::byte> bytes, std::uint32_t sample = 0);
+
+    // Returns the times of a time sampling's first samples, in s, ascending. Throws if it has
+    // fewer.
+    std::vector<double> timesOf(std::uint32_t time_sampling, std::uint32_t samples) const;
 
     const AlembicObject& top() const { return top_; }
 
@@ -103,9 +110,9 @@ public:
     AlembicContents contentsOf(const AlembicObject& object, const std::string& path);
     std::vector<AlembicProperty>
     propertiesOf(const AlembicProperty& compound, const std::string& path);
-    // Returns the first sample of a scalar or array; absent if it has none.
+    // Returns the archive's sample of a scalar or array; absent if it has none.
     std::optional<AlembicElements>
-    firstOf(const AlembicProperty& property, const std::string& path);
+    sampleOf(const AlembicProperty& property, const std::string& path);
 
     std::span<const std::byte> bytes() const { return bytes_; }
 
@@ -138,6 +145,8 @@ private:
     std::span<const std::byte> bytes_;
     std::map<std::uint64_t, Claim> claims_;  // by their first byte
     std::vector<std::string_view> metadata_;  // by number
+    std::uint32_t sample_;
+    Data time_samplings_{};
     AlembicObject top_;
 };
 

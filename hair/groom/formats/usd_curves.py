@@ -7,8 +7,9 @@ properties of the prims or of those above them (Blender's custom properties): gr
 groom_group_name, groom_guide and, if the curves have none themselves, groom_width, groom_color,
 groom_root_uv. Numbers that are not finite are passed on, and so are curves of one vertex or none.
 Linear curves are their points; others are sampled (usd_cubic.py, usd_nurbs.py). Animated curves are
-taken at the default time, or else at their points' first sample. A stage that can't be read ends
-the program with one line on stderr.
+taken at the default time, or else at their points' first sample; with --samples their points are
+written at all times at which points, counts or transforms have samples. A stage that can't be read
+ends the program with one line on stderr.
 """
 
 import argparse
@@ -34,6 +35,7 @@ MOST_PRIMS = 20_000
 MOST_NESTED = 128  # nested prims
 MOST_COMPOSED = 256  # variants and prims that one prim refers to, directly or through others
 MOST_SUBLAYERS = 256  # of a layer and its sublayers together, each as often as it is named
+MOST_SAMPLES = 1 << 31  # bytes of points over time
 MOST_UNFOLDED = 32 << 20  # bytes of points and triangles, plus 16 times the size of its files
 
 OUT_OF_MEMORY = "needs more memory than a file of its size may use"
@@ -296,6 +298,30 @@ class Reader:
             points = [p[:, [0, 2, 1]] * np.array([1, 1, -1], p.dtype) for p in points]
         return points
 
+    def write_samples(self, stream):
+        """Writes the unit, the points of each strand, times in seconds from the first, and the
+        points at each: usd_import.cpp."""
+        codes = sorted(set().union(*(prim.times() for prim in self.prims)))
+        per_second = self.stage.GetTimeCodesPerSecond()
+        if not (np.isfinite(codes).all() and np.isfinite(per_second) and per_second > 0):
+            raise Refused("its times are not finite numbers")
+        sizes = joined([prim.sizes for prim in self.prims], "<u4")
+        count = int(sizes.sum(dtype=np.int64))
+        if 12 * count * len(codes) > MOST_SAMPLES:
+            raise Refused(f"{count} points at {len(codes)} times exceed 2 GiB")
+        if not codes:
+            codes = [Usd.TimeCode.EarliestTime().GetValue()]
+        times = (np.array(codes) - codes[0]) / per_second
+        stream.write(struct.pack("<dQ", self.metres_per_unit, len(sizes)))
+        stream.write(sizes.tobytes())
+        stream.write(struct.pack("<Q", len(times)) + times.astype("<f8").tobytes())
+        stream.write(struct.pack("<Q", count * len(codes)))
+        for code, time in zip(codes, times):
+            xforms = Xforms()  # keeps no transform of other times
+            for prim in self.prims:
+                prim.go_to(Usd.TimeCode(code), time, xforms)
+            stream.write(joined(self.points(), "<f4").tobytes())
+
     def part(self, name):
         """Returns a part for all prims, or nothing if none has it."""
         parts = [prim.parts[name] for prim in self.prims]
@@ -386,8 +412,16 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("stage", help=".usd, .usda, .usdc, .usdz")
     parser.add_argument("--below", action="append", default=[], help="a folder of files it may name")
+    parser.add_argument("--samples", action="store_true", help="points over time")
     options = parser.parse_args()
     reader = read(options.stage, options.below)
+    if options.samples:
+        try:
+            reader.write_samples(stream)
+        except (Tf.ErrorException, UnicodeDecodeError) as error:
+            raise Refused(words_of(error, options.stage)) from None
+        stream.close()
+        return
     arrays = [
         joined([prim.sizes for prim in reader.prims], "<u4"),
         joined(reader.points(), "<f4"),

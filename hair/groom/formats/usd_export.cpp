@@ -5,6 +5,7 @@
 #include <charconv>
 #include <cmath>
 #include <limits>
+#include <numeric>
 #include <optional>
 
 #include <glm/common.hpp>
@@ -62,7 +63,8 @@ void stage(
     if (!strands.metres_per_unit)
         warnings.emplace_back("the unit of length is not known; the file says metres");
     line(text, "    metersPerUnit", strands.metres_per_unit.value_or(1.0));
-    text.text("    upAxis = \"Y\"\n");
+    if (strands.up == 0) throw engine::Error("USD has no +x up: use --up y or z");
+    text.text(strands.up == 2 ? "    upAxis = \"Z\"\n" : "    upAxis = \"Y\"\n");
     if (timing) {
         // With the float next to 1/60 s as frame time, the rate is exactly 60.
         const double rate = 1.0 / timing->frame_time;
@@ -94,8 +96,9 @@ opacities(const PointAttribute<float>& transparencies, std::vector<std::string>&
 // Writes the file up to the points of its one prim, with all other data of the strands. Returns a
 // warning for all data that is not written equal to the last bit. Throws engine::Error for more
 // points than USD counts.
-std::vector<std::string>
-beginUsdaCurves(UsdaText& text, const StrandSet& strands, const std::optional<UsdaTiming>& timing) {
+std::vector<std::string> beginUsdaCurves(
+    UsdaText& text, const StrandSet& strands, const std::optional<UsdaTiming>& timing,
+    const ExportExtras& extras = {}) {
     if (strands.points.size() > std::numeric_limits<std::int32_t>::max())
         throw engine::Error("usda", "more points than an int can hold");
     std::vector<std::string> warnings;
@@ -113,6 +116,17 @@ beginUsdaCurves(UsdaText& text, const StrandSet& strands, const std::optional<Us
         attribute(
             text, "texCoord2f[] primvars:st", std::span<const glm::vec2>(strands.root_uvs),
             "uniform");
+    }
+    if (extras.groom_names && !strands.root_uvs.empty()) {
+        attribute(
+            text, "float2[] primvars:groom_root_uv", std::span<const glm::vec2>(strands.root_uvs),
+            "uniform");
+    }
+    if (extras.groom_names) attribute(text, "float[] primvars:groom_width", strands.widths);
+    if (extras.ids) {
+        std::vector<std::int32_t> ids(strands.strandCount());
+        std::iota(ids.begin(), ids.end(), 0);
+        attribute(text, "int[] primvars:groom_id", std::span<const std::int32_t>(ids), "uniform");
     }
     if (!strands.groups.empty()) {
         attribute(
@@ -200,8 +214,13 @@ void UsdaText::flush() {
 }
 
 std::vector<std::string> exportUsda(const StrandSet& strands, std::ostream& out) {
+    return exportUsdaWith(strands, {}, out);
+}
+
+std::vector<std::string>
+exportUsdaWith(const StrandSet& strands, const ExportExtras& extras, std::ostream& out) {
     UsdaText text(out);
-    std::vector<std::string> warnings = beginUsdaCurves(text, strands, {});
+    std::vector<std::string> warnings = beginUsdaCurves(text, strands, {}, extras);
     text.text("    point3f[] points = ");
     text.array(std::span<const glm::vec3>(strands.points));
     text.text("\n    float3[] extent = ");

@@ -12,13 +12,17 @@
 #include <glm/vec3.hpp>
 
 #include "hair/groom/groom.h"
+#include "hair/groom/strand_format.h"
 
 // Strands as text of Universal Scene Description (.usda), at rest or frame by frame.
 namespace hair::groom {
 
 // Writes text of Universal Scene Description: one linear BasisCurves, "/hair". It holds all data
-// that strands may have, so nothing is left out.
+// that strands may have, so nothing is left out. Throws engine::Error if +x is up, which USD can't
+// state.
 std::vector<std::string> exportUsda(const StrandSet& strands, std::ostream& out);
+std::vector<std::string>
+exportUsdaWith(const StrandSet& strands, const ExportExtras& extras, std::ostream& out);
 
 // Writes values in the text format of Universal Scene Description. Floats are the shortest
 // decimals that read back as the same floats. Data may not be in the stream before flush().

@@ -216,6 +216,7 @@ StrandSet readUsdStream(std::span<const std::byte> bytes) {
     Sections sections(bytes, header);
     StrandSet set;
     set.metres_per_unit = header.metres_per_unit;
+    set.up = 1;  // usd_curves.py turns the stage
     set.ends = endsOf(sections.take<std::uint32_t>(), header.points);
     set.points = sections.take<glm::vec3>();
     set.widths = sections.takeAttribute<float>();
@@ -248,6 +249,38 @@ StrandSet readUsdStream(std::span<const std::byte> bytes) {
 StrandSet importUsd(const StrandFile& file) {
     if (file.path.empty()) throw engine::Error("USD can be read only from a file, not from memory");
     return readStage("usd_curves.py", Samples::none, file.path, file.check, readUsdStream);
+}
+
+StrandSamples importUsdCache(const StrandFile& file) {
+    if (file.path.empty()) throw engine::Error("USD can be read only from a file, not from memory");
+    return readStage(
+        "usd_curves.py", Samples::all, file.path, file.check, [](std::span<const std::byte> bytes) {
+            StrandSamples samples;
+            MeshParser parser(bytes);
+            double unit = 0.0;
+            parser.value(unit);
+            if (!std::isfinite(unit) || unit <= 0.0) failAt(0, "the unit has no length");
+            samples.metres_per_unit = unit;
+            parser.array(samples.ends);
+            parser.array(samples.times);
+            parser.array(samples.points);
+            parser.end();
+            std::uint64_t points = 0;
+            for (std::uint32_t& size : samples.ends) {
+                points += size;
+                if (size == 0 || points > std::numeric_limits<std::uint32_t>::max())
+                    failAt(16, "a strand without points, or too many points");
+                size = static_cast<std::uint32_t>(points);
+            }
+            if (samples.times.empty() || samples.points.size() != samples.times.size() * points)
+                failAt(bytes.size(), "points of some of the samples");
+            for (std::size_t i = 0; i < samples.times.size(); ++i)
+                if (!(i == 0 ? samples.times[i] == 0.0 : samples.times[i] > samples.times[i - 1]) ||
+                    !std::isfinite(samples.times[i]))
+                    failAt(bytes.size(), "times don't ascend from 0");
+            requireFinite(samples.points, 0, "point");
+            return samples;
+        });
 }
 
 // ---- Meshes -------------------------------------------------------------------------------------

@@ -21,6 +21,10 @@ namespace hair::groom {
 // the last line of the tool's errors if it fails.
 StrandSet importUsd(const StrandFile& file);
 
+// The strands of importUsd() over time. Other errors than those: strands whose number, or number of
+// points, changes, with the time.
+StrandSamples importUsdCache(const StrandFile& file);
+
 // Reads the control meshes of every UsdGeomMesh of a stage that is rendered, by usd_mesh.py; its
 // comments have the details. Textures are not read, and files that the stage refers to are not
 // checked. Errors don't name the file; otherwise they are those of importUsd().

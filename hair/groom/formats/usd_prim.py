@@ -75,6 +75,34 @@ class Prim:
     def refuse(self, reason):
         raise Refused(f"{self.path}: {reason}")
 
+    def times(self):
+        """Returns the time codes at which the points or their places have samples."""
+        curves = self.curves
+        times = set(curves.GetPointsAttr().GetTimeSamples())
+        times |= set(curves.GetCurveVertexCountsAttr().GetTimeSamples())
+        prim = curves.GetPrim()
+        while prim and not prim.IsPseudoRoot():
+            if prim.IsA(UsdGeom.Xformable):
+                times |= set(UsdGeom.Xformable(prim).GetTimeSamples())
+            prim = prim.GetParent()
+        return times
+
+    def go_to(self, code, seconds, xforms):
+        """Takes the points at a time code, that many seconds after the first."""
+        self.time = code
+        topology = self._topology()
+        sizes = topology.point_counts()
+        if not np.array_equal(sizes, self.sizes):
+            same = sizes.size == self.sizes.size
+            what = "points" if same else "curves"
+            before, now = (self.sizes.sum(), sizes.sum()) if same else (self.sizes.size, sizes.size)
+            self.refuse(
+                f"at time code {code.GetValue():g} ({seconds:g} s) it has {now} {what}, but {before} "
+                "at first: strands that appear, vanish or change their number of points don't play"
+            )
+        self.topology = topology
+        self.points = self._points(np.array(xforms.at(code).GetLocalToWorldTransform(self.curves.GetPrim())))
+
     def _value(self, attribute):
         value = attribute.Get(self.time)
         return attribute.Get(Usd.TimeCode.EarliestTime()) if value is None else value

@@ -176,6 +176,7 @@ std::vector<Value> pickPoints(
 StrandSet pickStrands(const StrandSet& strands, std::span<const std::uint32_t> indices) {
     StrandSet picked{
         .metres_per_unit = strands.metres_per_unit,
+        .up = strands.up,
         .comment = strands.comment,
         .warnings = strands.warnings};
     std::size_t count = 0;

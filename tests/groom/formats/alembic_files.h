@@ -71,11 +71,13 @@ public:
         groups.push_back(data(headers.zeros(32).str()));
         return group(groups);
     }
-    std::string finish(std::uint64_t top) {
+    // `sampling`: the one time sampling; by default a sample a second from 0.
+    std::string finish(std::uint64_t top, const std::string& sampling = {}) {
         const std::uint64_t version = data(Bytes().u32(0).str());
         const std::uint64_t library = data(Bytes().u32(10703).str());
         const std::uint64_t about = data("_ai_Application=nothing");
-        const std::uint64_t times = data(Bytes().u32(1).f64(1.0).u32(1).f64(0.0).str());
+        const std::uint64_t times =
+            data(sampling.empty() ? Bytes().u32(1).f64(1.0).u32(1).f64(0.0).str() : sampling);
         const std::uint64_t root = group({version, library, top, about, times, kData});
         return patched(bytes_, 8, root);
     }
