@@ -320,6 +320,10 @@ const Table& tableOf(const RunSettings*) {
          number(
              "frame_time", &S::frame_time, 0, 1, "s",
              "simulated time that a frame advances; 0 draws the same instant again"),
+         toggle(
+             "interpolate", &S::interpolate,
+             "draw guides, roots and the head between the last two steps, at the frame's time less "
+             "one /simulation/time_step, so that motion is even if steps do not divide frames"),
          number(
              "frames_in_flight", &S::frames_in_flight, 1, 4, "count",
              "overlapped frames that are submitted before the first of them is waited for"),

@@ -184,6 +184,7 @@ struct RunSettings {
     float warmup_time = 0.1f;
     float round_time = 0.25f;
     float frame_time = 1.0f / 60.0f;
+    bool interpolate = false;
     std::uint32_t frames_in_flight = 2;
     bool overlapped_stamps = false;
     bool async_compute = false;

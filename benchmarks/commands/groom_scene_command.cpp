@@ -132,6 +132,25 @@ std::string optionsToOpen(const fs::path& scene) {
     }
 }
 
+// Returns the scene's text. Throws Error with the reason if a value lies outside its field's range,
+// so that every scene that is written can be read.
+std::string documentOf(
+    const GroomSceneOptions& options, const hair::Settings& settings,
+    const groom::GroomScene& made) {
+    const scene::Json document = scene::changedFields(settings);
+    try {
+        scene::checkSettings(scene::readSettings(document));
+    } catch (const engine::Error& error) {
+        std::string reasons;
+        for (const std::string& warning : made.warnings) reasons += "; " + warning;
+        throw engine::Error(
+            options.hair.string(),
+            std::string("no scene is written, because a value of it would not be valid: ") +
+                error.what() + "; the unit (--scale) or the hair's place may be wrong" + reasons);
+    }
+    return document.dump(2) + '\n';
+}
+
 int axisNamed(const std::string& name) { return name == "x" ? 0 : name == "y" ? 1 : 2; }
 
 }  // namespace
@@ -176,14 +195,14 @@ int makeGroomScene(const GroomSceneOptions& options) {
             .append(std::to_string(group));
     settings.groom.placement.scale = static_cast<float>(guess.hair.metres_per_unit / stated);
     if (head.mesh) settings.groom.mesh = namedFrom(options.out, head.file);
-    scene::checkSettings(settings);
+    const std::string document = documentOf(options, settings, made);
 
     for (const groom::SceneChoice& choice : made.choices) tell(choice.name, choice.reason);
     warnings.insert(warnings.end(), made.warnings.begin(), made.warnings.end());
     for (const std::string& warning : warnings)
         std::cerr << "hairbench: " << engine::shownText(options.hair.string() + ": " + warning)
                   << '\n';
-    engine::writeFileAtomically(options.out, scene::changedFields(settings).dump(2) + '\n');
+    engine::writeFileAtomically(options.out, document);
     tell(
         "wrote", options.out.string() + "; hairbench render " + optionsToOpen(options.out) +
                      options.out.string() + " -o picture.png");

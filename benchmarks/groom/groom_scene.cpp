@@ -145,6 +145,43 @@ void chooseStrands(const StrandSet& strands, GroomScene& scene) {
 
 // ---- Simulation ---------------------------------------------------------------------------------
 
+struct FieldChoice {
+    std::uint32_t resolution;
+    std::string reason;
+};
+
+// Returns the resolution of the head's distance field. Cells of 3 mm show ears and the nape. A
+// whole body needs more cells along its longest side than a head, but most of its box is narrow.
+FieldChoice fieldChoice(const Mesh& head) {
+    constexpr double kCell = 3e-3;  // m
+    constexpr double kRounded = 1e-3;  // cells; positions are rounded to floats
+    constexpr double kFewestCells = 96.0;
+    constexpr double kMostCells = 256.0;  // the greatest that /simulation/distance_fields permits
+    glm::dvec3 low(std::numeric_limits<double>::infinity());
+    glm::dvec3 high = -low;
+    for (const glm::vec3& position : head.positions) {
+        low = glm::min(low, glm::dvec3(position));
+        high = glm::max(high, glm::dvec3(position));
+    }
+    const glm::dvec3 size = high - low;
+    const double side = std::max({size.x, size.y, size.z});
+    const double cells = std::clamp(std::ceil(side / kCell - kRounded), kFewestCells, kMostCells);
+    const glm::dvec3 counts = size * (cells / side) + 3.0;
+    FieldChoice choice{
+        .resolution = static_cast<std::uint32_t>(cells),
+        .reason = "the head, a distance field of " + report::plainNumber(cells) + " cells of " +
+                  report::lengthText(side / cells)};
+    if (cells == kFewestCells) return choice;
+    const double megabytes = sizeof(float) * counts.x * counts.y * counts.z * 1e-6;
+    choice.reason += ", because the mesh is " + report::lengthText(side) +
+                     " long and a head needs cells of 3 mm" +
+                     (cells == kMostCells && side / cells > kCell
+                          ? " (256 is the greatest number; a mesh of the head alone is finer)"
+                          : "") +
+                     "; it takes " + report::shortNumber(megabytes) + " MB";
+    return choice;
+}
+
 void chooseSimulation(const Mesh* head, GroomScene& scene) {
     hair::SimulationSettings& simulation = scene.settings.simulation;
     simulation.solver = hair::Solver::rod;
@@ -164,9 +201,10 @@ void chooseSimulation(const Mesh* head, GroomScene& scene) {
         return;
     }
     simulation.collision = {.margin = 0.002f, .friction = 3.0f};
-    simulation.distance_fields = {{.resolution = 96}};
+    const FieldChoice field = fieldChoice(*head);
+    simulation.distance_fields = {{.resolution = field.resolution}};
     scene.settings.strands.collision = hair::StrandCollision::push_out;
-    scene.choices.push_back({"body", "the head, a distance field of 96 cells, margin 2 mm"});
+    scene.choices.push_back({"body", field.reason + ", margin 2 mm"});
 }
 
 // ---- Light and colour ---------------------------------------------------------------------------
@@ -291,6 +329,7 @@ std::vector<glm::dvec3> shownPoints(const StrandSet& strands, const Mesh* head) 
 }
 
 constexpr double kFieldOfView = 30.0;  // deg
+constexpr double kNearestCamera = 0.02;  // m: twice the default near plane
 constexpr double kFilled = 0.88;  // share of the picture
 
 // Returns the nearest camera that shows all points, looking from `toward`: of unit length and not
@@ -306,17 +345,23 @@ hair::CameraSettings cameraFrom(const std::vector<glm::dvec3>& points, const glm
     const glm::dvec3 right = glm::normalize(glm::cross(glm::dvec3(0.0, 1.0, 0.0), toward));
     const glm::dvec3 upward = glm::cross(toward, right);
     const double slope = kFilled * std::tan(glm::radians(0.5 * kFieldOfView));
-    double distance = 0.0;
+    double distance = kNearestCamera;
     for (const glm::dvec3& point : points) {
         const glm::dvec3 from = point - centre;
         const double off =
             std::max(std::abs(glm::dot(from, right)), std::abs(glm::dot(from, upward)));
         distance = std::max(distance, glm::dot(from, toward) + off / slope);
     }
-    return {
+    hair::CameraSettings camera{
         .position = rounded(centre + distance * toward),
         .target = rounded(centre),
         .field_of_view = static_cast<float>(kFieldOfView)};
+    // The farthest point is at most twice as far as the camera from the centre.
+    if (2.0 * distance > double{camera.far_plane}) {
+        camera.far_plane = static_cast<float>(std::ceil(2.0 * distance));
+        camera.near_plane = 1e-4f * camera.far_plane;
+    }
+    return camera;
 }
 
 void chooseView(const StrandSet& strands, const Mesh* head, GroomScene& scene) {
@@ -415,9 +460,26 @@ void findOnHead(
 }
 
 void findPlacement(const LayGuess& guess, GroomScene& scene) {
+    for (const std::string& doubt : guess.doubts) scene.warnings.push_back(doubt);
     if (!guess.best) return;
     const RootFit& best = guess.best->fit;
     const auto percent = [](double share) { return report::shortNumber(100.0 * share) + " %"; };
+    if (guess.reversed) {
+        scene.warnings.push_back(
+            "strands run from tip to root: " + percent(guess.reversed->fit.share) +
+            " of their last points are within 5 mm of the head, and " + percent(best.share) +
+            " of their first ones; hairbench groom reverse HAIR OUT turns them round");
+        return;
+    }
+    if (guess.against) {
+        scene.warnings.push_back(
+            "as the file states, " + layText(guess.best->hair) + ", " + percent(best.share) +
+            " of the roots are within 5 mm of the head, but " + percent(guess.against->fit.share) +
+            " would be " + layText(guess.against->hair) + "; if the file is wrong: --scale " +
+            report::plainNumber(guess.against->hair.metres_per_unit) + " --up " +
+            axisName(guess.against->hair.up));
+        return;
+    }
     if (!guess.fits) {
         scene.warnings.push_back(
             "the hair does not fit the head in any unit or orientation: at best " +
@@ -446,6 +508,7 @@ StrandSet placed(StrandSet strands, const Lay& lay) {
         *strands.widths.everywhere =
             static_cast<float>(*strands.widths.everywhere * lay.metres_per_unit);
     strands.metres_per_unit = 1.0;
+    strands.up = 1;
     return strands;
 }
 
@@ -482,13 +545,25 @@ GroomScene sceneOf(const StrandSet& strands, const Mesh* head, const LayGuess& g
     hair::FilePlacementSettings& placement = scene.settings.groom.placement;
     placement.rotation = guess.hair.eulerAngles();
     findPlacement(guess, scene);
+    const std::vector<hair::groom::Stray> strays = hair::groom::findStrays(strands);
+    if (!strays.empty())
+        scene.warnings.push_back(
+            report::countText(strays.size(), "strand") +
+            " apart from the others, which the view does not count: " + straysText(strays, 1.0) +
+            "; leave them out in the program that makes the hair");
     findLengths(strands, scene);
     chooseStrands(strands, scene);
     chooseSimulation(head, scene);
     if (head) findOnHead(strands, *head, guess, scene);
     chooseWidths(strands, scene);
     chooseColor(strands, scene);
-    chooseView(strands, head, scene);
+    if (strays.empty()) {
+        chooseView(strands, head, scene);
+    } else {
+        chooseView(
+            hair::groom::pickStrands(strands, hair::groom::strandsBut(strands, strays)), head,
+            scene);
+    }
     return scene;
 }
 

@@ -8,6 +8,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "benchmarks/groom/placement.h"
 #include "benchmarks/report/text.h"
 #include "benchmarks/scene/json.h"
 #include "engine/error.h"
@@ -142,6 +143,29 @@ void findInUnits(
         "state it: --scale " + scale +
             " here and in hairbench groom convert, /groom/placement/scale " + scale +
             " in a scene");
+    if (found.other_unit)
+        odd.add(
+            "stated_unit", 1,
+            "sizes of hair in " + found.other_unit->unit.name + " (" +
+                report::shortNumber(100.0 * std::min(found.other_unit->certainty, 0.999)) +
+                " % certain), but the file states " + found.unit,
+            "if the file is wrong: --scale " + report::plainNumber(found.other_unit->unit.metres) +
+                " here, in hairbench groom convert and in hairbench groom scene");
+    if (strands.up) {
+        const UpGuess up = guessUp(strands);
+        odd.add(
+            "stated_up", up.axis != *strands.up && up.lead >= kClearLead ? 1 : 0,
+            std::string("strands that leave the scalp and hang as if +") + axisName(up.axis) +
+                " were up, by " + report::shortNumber(up.lead) +
+                " of their length, but the file states +" + axisName(*strands.up),
+            std::string("if the file is wrong: hairbench groom scene --up ") + axisName(up.axis));
+    }
+    odd.add(
+        "strays", found.strays.size(),
+        report::countText(found.strays.size(), "strand") +
+            " apart from the others: " + straysText(found.strays, found.metres_per_unit),
+        "leave them out in the program that makes the hair; units, the box and views do not count "
+        "them");
     const double length = found.lengths.median * found.metres_per_unit;
     odd.add(
         "lengths", found.unit_stated && (length < kShortest || length > kLongest) ? 1 : 0,
@@ -158,13 +182,18 @@ void findInUnits(
         "only drawing");
 }
 
-void findOnMesh(const hair::groom::MeshFindings& found, Oddities& odd) {
+void findOnMesh(const hair::groom::MeshFindings& found, std::uint32_t strands, Oddities& odd) {
     odd.add(
         "roots_off_surface", found.roots_off_surface,
         report::countText(found.roots_off_surface, "root") + " further than " +
             report::lengthText(found.tolerance) + " from the mesh, up to " +
             report::lengthText(found.root_distances.maximum),
         "check the units (--scale) and that the hair was made for this mesh, in the same place");
+    odd.add(
+        "reversed", 2 * std::uint64_t{found.tips_on_surface} > strands ? found.tips_on_surface : 0,
+        report::countText(found.tips_on_surface, "strand") +
+            " from tip to root: the last point is on the mesh, the first is not",
+        "turn them round: hairbench groom reverse IN OUT");
     odd.add(
         "strands_inside", found.strands_inside.value_or(0),
         report::countText(found.strands_inside.value_or(0), "strand") + " deeper than " +
@@ -173,9 +202,11 @@ void findOnMesh(const hair::groom::MeshFindings& found, Oddities& odd) {
         "push them out in the program that makes the hair, or let a simulation with collision do "
         "it");
     odd.add(
-        "mesh_not_closed", found.not_closed.empty() ? 0 : 1,
-        "a mesh that is not closed: " + found.not_closed,
-        "close it, so that strands inside can be found");
+        "mesh_not_closed", found.closed ? 0 : 1, "a mesh that is not closed: " + found.not_closed,
+        found.strands_inside
+            ? "strands inside are those where the winding number is 1/2 or more; near openings "
+              "depths are too large: close it for exact ones"
+            : "close it, so that strands inside can be found");
 }
 
 }  // namespace
@@ -185,7 +216,7 @@ findOddities(const hair::groom::StrandSet& strands, const hair::groom::StrandFin
     Oddities odd;
     findInStrands(findings, odd);
     if (findings.strands > 0) findInUnits(strands, findings, odd);
-    if (findings.mesh) findOnMesh(*findings.mesh, odd);
+    if (findings.mesh) findOnMesh(*findings.mesh, findings.strands, odd);
     return odd.take();
 }
 
@@ -233,7 +264,8 @@ scene::Json toJson(const hair::groom::MeshFindings& mesh) {
         {"tolerance", {{"unit", "m"}, {"value", mesh.tolerance}}},
         {"root_distances", toJson(mesh.root_distances, "m")},
         {"roots_off_surface", mesh.roots_off_surface},
-        {"closed", mesh.not_closed.empty()}};
+        {"tips_on_surface", mesh.tips_on_surface},
+        {"closed", mesh.closed}};
     if (!mesh.not_closed.empty()) object["not_closed"] = mesh.not_closed;
     if (mesh.strands_inside) object["strands_inside"] = *mesh.strands_inside;
     if (mesh.points_inside) object["points_inside"] = *mesh.points_inside;
@@ -249,6 +281,23 @@ void putLengths(scene::Json& object, const GroomInfo& info) {
         {"metres", scale},
         {"stated", found.unit_stated},
         {"reason", found.unit_reason}};
+    if (found.other_unit)
+        object["unit"]["sizes_suggest"] = {
+            {"name", found.other_unit->unit.name},
+            {"metres", found.other_unit->unit.metres},
+            {"certainty", found.other_unit->certainty}};
+    const UpGuess up = guessUp(info.strands);
+    object["up"] = {
+        {"axis", axisName(info.strands.up.value_or(up.axis))},
+        {"stated", info.strands.up.has_value()},
+        {"guess", axisName(up.axis)},
+        {"lead", up.lead}};
+    scene::Json& strays = object["strays"] = scene::Json::array();
+    for (const hair::groom::Stray& stray : found.strays)
+        strays.push_back(
+            {{"strand", stray.strand},
+             {"by", stray.by_root ? "root" : "segment"},
+             {"distance", {{"unit", "m"}, {"value", stray.distance * scale}}}});
     object["bounding_box"] = {
         {"unit", "m"},
         {"minimum", toJson(found.minimum, scale)},
@@ -422,8 +471,21 @@ std::string summaries(const GroomInfo& info) {
     return table.text();
 }
 
+std::string upText(const hair::groom::StrandSet& strands) {
+    if (strands.up) return std::string("+") + axisName(*strands.up) + ". The file states it.";
+    const UpGuess up = guessUp(strands);
+    return std::string("+") + axisName(up.axis) +
+           ", a guess: strands leave the scalp toward it and hang down from it, by " +
+           report::shortNumber(up.lead) + " of their length more than for the next axis.";
+}
+
+std::string straysLeftOut(const hair::groom::StrandFindings& found) {
+    if (found.strays.empty()) return {};
+    return ", without " + report::countText(found.strays.size(), "stray strand");
+}
+
 std::string insideText(const hair::groom::MeshFindings& mesh) {
-    if (!mesh.strands_inside) return "not known, because the mesh is not closed";
+    if (!mesh.strands_inside) return "not known, because the mesh bounds no body";
     std::string text = report::countText(*mesh.strands_inside, "strand");
     if (mesh.points_inside) text += ", " + report::countText(*mesh.points_inside, "point");
     if (mesh.deepest && *mesh.deepest > 0.0)
@@ -443,7 +505,8 @@ std::string groomInfoText(const GroomInfo& info) {
     text += line("points", pointsText(found));
     if (found.strands > 0) {
         text += line("unit", found.unit + ". " + found.unit_reason);
-        text += line("box", boxText(found));
+        text += line("up", upText(info.strands));
+        text += line("box", boxText(found) + straysLeftOut(found));
     }
     text += attributes(info.strands, found.metres_per_unit);
     if (found.mesh) {

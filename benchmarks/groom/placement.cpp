@@ -26,8 +26,6 @@ namespace {
 constexpr std::array kUnits{1.0, 0.01, 0.001, 0.0254};  // m
 constexpr std::array kTurns{0, 90, 180, 270};  // deg
 
-const char* axisName(int axis) { return std::array{"x", "y", "z"}[static_cast<std::size_t>(axis)]; }
-
 glm::dmat3 turned(double degrees, const glm::dvec3& axis) {
     return glm::dmat3(glm::rotate(glm::dmat4(1.0), glm::radians(degrees), axis));
 }
@@ -91,11 +89,15 @@ std::vector<std::uint32_t> sampled(const hair::groom::StrandSet& strands) {
     return samples;
 }
 
+enum class End { root, tip };
+
 class Roots {
 public:
-    Roots(const hair::groom::StrandSet& strands, const hair::groom::Mesh& head)
+    Roots(const hair::groom::StrandSet& strands, const hair::groom::Mesh& head, End end)
         : surface_(head.positions, head.triangles), head_(boxOf(head)) {
-        for (const std::uint32_t i : sampled(strands)) roots_.push_back(strands.strand(i)[0]);
+        for (const std::uint32_t i : sampled(strands))
+            roots_.push_back(
+                end == End::root ? strands.strand(i).front() : strands.strand(i).back());
     }
 
     const Box& head() const { return head_; }
@@ -111,14 +113,14 @@ public:
         return entry->second;
     }
 
-    // Returns how far the middle of the roots lies above the middle of the head, in units of the
+    // Returns how far the median root lies above the middle of the head, in units of the
     // head's size.
     double above(const Lay& hair, const Lay& head) const {
-        glm::dvec3 middle(0.0);
-        for (const glm::vec3& root : roots_)
-            middle += hair(root) / static_cast<double>(roots_.size());
+        std::vector<float> heights;
+        for (const glm::vec3& root : roots_) heights.push_back(static_cast<float>(hair(root).y));
         const glm::dvec3 centre = head(glm::vec3(head_.centre()));
-        return (middle - centre).y / (head.metres_per_unit * head_.longestSide());
+        return (hair::groom::quantileOf(heights, 0.5) - centre.y) /
+               (head.metres_per_unit * head_.longestSide());
     }
 
 private:
@@ -144,11 +146,14 @@ private:
     std::map<std::array<double, 10>, RootFit> fits_;
 };
 
+}  // namespace
+
 // ---- Hair by itself -----------------------------------------------------------------------------
 
-// Returns the upward axis in the file of hair, and its lead over the next axis: strands leave the
-// scalp along its normal, which points up on average, and hang down from there.
-std::pair<int, double> upOf(const hair::groom::StrandSet& strands) {
+const char* axisName(int axis) { return std::array{"x", "y", "z"}[static_cast<std::size_t>(axis)]; }
+
+// Strands leave the scalp along its normal, which points up on average, and hang down from there.
+UpGuess guessUp(const hair::groom::StrandSet& strands) {
     glm::dvec3 leaves(0.0);
     glm::dvec3 hangs(0.0);
     for (const std::uint32_t i : sampled(strands)) {
@@ -171,10 +176,32 @@ std::pair<int, double> upOf(const hair::groom::StrandSet& strands) {
     return {scores[0].second, scores[0].first - scores[1].first};
 }
 
+std::string straysText(const std::vector<hair::groom::Stray>& strays, double metres_per_unit) {
+    constexpr std::size_t kMostNamed = 5;
+    std::string text;
+    for (std::size_t i = 0; i < std::min(strays.size(), kMostNamed); ++i) {
+        const hair::groom::Stray& stray = strays[i];
+        const std::string length = report::lengthText(stray.distance * metres_per_unit);
+        text += (i == 0 ? "strand " : ", strand ") + std::to_string(stray.strand) +
+                (i == 0 ? " (from 0)" : "") +
+                (stray.by_root ? " with its root " + length + " from the middle of the others"
+                               : " with a segment of " + length);
+    }
+    if (strays.size() > kMostNamed)
+        text += " and " + std::to_string(strays.size() - kMostNamed) + " more";
+    return text;
+}
+
+namespace {
+
 // ---- The guess ----------------------------------------------------------------------------------
 
 // With fewer of the roots on the head, no attempt is conclusive.
 constexpr double kLeastShare = 0.3;
+// More of the roots by this share speak against a statement.
+constexpr double kClearlyMore = 0.1;
+// With so many of the last points on the head, strands run from tip to root.
+constexpr double kMostTips = 0.5;
 // Attempts within these differences are equally good.
 constexpr double kEqualShare = 0.02;
 constexpr double kEqualMedian = 5e-4;  // m
@@ -253,12 +280,31 @@ void guessApart(
     guess.hair.metres_per_unit = hints.metres_per_unit.value_or(findings.metres_per_unit);
     guess.hair_reason =
         hints.metres_per_unit ? "The unit is stated by --scale." : findings.unit_reason;
+    if (!hints.metres_per_unit && findings.other_unit)
+        guess.doubts.push_back(
+            "the file states " + findings.unit + ", but sizes are those of hair in " +
+            findings.other_unit->unit.name + " (" +
+            percent(std::min(findings.other_unit->certainty, 0.999)) +
+            " certain): if the file is wrong, --scale " +
+            report::plainNumber(findings.other_unit->unit.metres) + " sets the unit");
     if (hints.up) {
         guess.hair.up = *hints.up;
         guess.hair_reason += std::string(" +") + axisName(*hints.up) + " is up, as --up states.";
         return;
     }
-    const auto [up, lead] = upOf(strands);
+    const auto [up, lead] = guessUp(strands);
+    if (strands.up) {
+        guess.hair.up = *strands.up;
+        guess.hair_reason +=
+            std::string(" +") + axisName(*strands.up) + " is up, as the file states.";
+        if (up != *strands.up && lead >= kClearLead)
+            guess.doubts.push_back(
+                std::string("the file states +") + axisName(*strands.up) +
+                " up, but strands leave the scalp and hang as if +" + axisName(up) +
+                " were up, by " + report::shortNumber(lead) +
+                " of their length: if the file is wrong, --up " + axisName(up) + " sets the axis");
+        return;
+    }
     guess.hair.up = up;
     guess.hair_reason += std::string(" +") + axisName(up) +
                          " is up: strands leave the scalp toward it and hang down from it, by " +
@@ -297,7 +343,7 @@ LayGuess guessLay(
         return guess;
     }
 
-    Roots roots(strands, *head);
+    Roots roots(strands, *head, End::root);
     const double size = roots.head().longestSide();
     const bool is_stated = hints.head_is_stated && isSizeOfHead(size);
     guess.head.metres_per_unit = is_stated ? 1.0 : headUnit(size);
@@ -308,15 +354,20 @@ LayGuess guessLay(
                   " m in " + hair::groom::statedUnit(guess.head.metres_per_unit).name +
                   " (a head is 0.2 m to 0.3 m high, a bust 0.5 m).";
 
-    std::vector<double> units(kUnits.begin(), kUnits.end());
-    if (hints.metres_per_unit) {
-        units = {*hints.metres_per_unit};
-    } else if (strands.metres_per_unit) {
-        units = {*strands.metres_per_unit};
-    }
+    // Options count more than the file's statements, and these count more than any fit.
+    std::vector<double> open_units(kUnits.begin(), kUnits.end());
+    if (hints.metres_per_unit) open_units = {*hints.metres_per_unit};
+    std::vector<double> units = open_units;
+    if (!hints.metres_per_unit && strands.metres_per_unit) units = {*strands.metres_per_unit};
+    LayHints all_hints = hints;
+    if (!hints.up) all_hints.up = strands.up;
     const std::vector<LayAttempt> attempts =
-        attemptsOf(roots, guess.head.metres_per_unit, units, hints);
+        attemptsOf(roots, guess.head.metres_per_unit, units, all_hints);
     guess.best = bestOf(attempts, roots);
+    const LayAttempt free =
+        bestOf(attemptsOf(roots, guess.head.metres_per_unit, open_units, hints), roots);
+    if (free.fit.share >= kLeastShare && free.fit.share > guess.best->fit.share + kClearlyMore)
+        guess.against = free;
     for (const LayAttempt& each : attempts) {
         if (placesAlike(each, *guess.best)) continue;
         if (!guess.runner_up ||
@@ -326,6 +377,18 @@ LayGuess guessLay(
     }
     guess.fits = guess.best->fit.share >= kLeastShare;
     if (!guess.fits) {
+        Roots tips(strands, *head, End::tip);
+        const LayAttempt turned_round =
+            bestOf(attemptsOf(tips, guess.head.metres_per_unit, units, all_hints), tips);
+        if (turned_round.fit.share >= kMostTips) {
+            guess.reversed = turned_round;
+            guess.hair = turned_round.hair;
+            guess.head = turned_round.head;
+            guess.hair_reason = "Strands run from tip to root: " + percent(turned_round.fit.share) +
+                                " of their last points are within " +
+                                report::lengthText(kFitTolerance) + " of the head.";
+            return guess;
+        }
         guessApart(strands, findings, hints, guess);
         if (!hints.head_is_stated) guess.head.up = guess.hair.up;
         return guess;

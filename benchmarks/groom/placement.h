@@ -3,11 +3,13 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include <glm/mat3x3.hpp>
 #include <glm/vec3.hpp>
 
 #include "hair/groom/groom.h"
+#include "hair/groom/inspect.h"
 #include "hair/groom/mesh/mesh.h"
 
 // Places files of hair and heads in a scene, which is in metres with +y up. Guesses units and axes
@@ -64,16 +66,38 @@ struct LayGuess {
     std::optional<LayAttempt> best;  // absent without a head
     std::optional<LayAttempt> runner_up;  // best attempt with another placement on the head
     bool fits = false;  // most roots are on the head; otherwise hair and head are placed separately
+    // Best attempt against the file's own statement, if clearly more roots are then on the head.
+    std::optional<LayAttempt> against;
+    // Best attempt with the strands' last points as roots, if few roots but most of these are on
+    // the head.
+    std::optional<LayAttempt> reversed;
+    std::vector<std::string> doubts;  // without a head: sizes and directions against statements
     std::string hair_reason;  // sentences
     std::string head_reason;  // empty without a head
 };
 
+// The upward axis by the directions in which strands leave the scalp and hang.
+struct UpGuess {
+    int axis;  // 0 x, 1 y, 2 z
+    double lead;  // over the next axis, in lengths of the directions
+};
+
+UpGuess guessUp(const hair::groom::StrandSet& strands);
+
+// With a smaller lead, a guess says nothing against a stated axis.
+inline constexpr double kClearLead = 0.1;
+
+const char* axisName(int axis);
+
+// Names strays: "strand 517 (from 0), with its root 10 m from the others". Lists at most five.
+std::string straysText(const std::vector<hair::groom::Stray>& strays, double metres_per_unit);
+
 // Guesses the placement of strands, at least one, and a head in its file's coordinates, or null.
-// Tries every unit among m, cm, mm and inch, every upward axis and every turn that the hints leave
-// open, and takes the attempt with the most roots on the head. Among attempts as good as the best
-// (within 2 % of the roots and 0.5 mm), prefers hair on top of the head, then the fewest changes.
-// Without a head, or if few roots fit it, takes the unit from hair::groom::inspect(), and takes as
-// up the direction in which strands leave the scalp and against which they hang.
+// Tries every unit among m, cm, mm and inch, every upward axis and every turn that hints and the
+// file's statements leave open, and takes the attempt with the most roots on the head. Among
+// attempts as good as the best (within 2 % of the roots and 0.5 mm), prefers hair on top of the
+// head, then the fewest changes. Without a head, or if few roots fit it, takes the unit from
+// hair::groom::inspect(), and as up the stated axis or else guessUp().
 LayGuess guessLay(
     const hair::groom::StrandSet& strands, const hair::groom::Mesh* head, const LayHints& hints);
 

@@ -60,7 +60,7 @@ void Recording::play(const std::function<void(std::uint32_t)>& after) {
 
 hair::groom::StrandSet Recording::strands() const {
     hair::groom::StrandSet strands = options_.guides
-                                         ? measure::guideStrands(case_.groom(), case_.guides())
+                                         ? measure::guideStrands(case_.groom(), case_.drawnGuides())
                                          : measure::drawnStrands(case_.strands());
     if (strands.ends.empty())
         throw engine::Error(scene_.path.string(), "no strands are drawn: --guides writes guides");

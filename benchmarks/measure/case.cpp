@@ -10,6 +10,7 @@
 #include "benchmarks/report/environment.h"
 #include "benchmarks/scene/assets.h"
 #include "benchmarks/scene/extensions.h"
+#include "benchmarks/scene/schema.h"
 #include "engine/buffer_image.h"
 #include "engine/error.h"
 #include "hair/groom/build_groom.h"
@@ -61,7 +62,9 @@ Case::Case(
       groom_buffers_(std::make_unique<hair::rendering::GroomBuffers>(groomBuffers(settings_))),
       renderer_(std::make_unique<hair::rendering::Renderer>(
           device, settings_, view(),
-          scene::loadRenderAssets(settings_, pointerTo(mesh_), directory))) {}
+          scene::loadRenderAssets(settings_, pointerTo(mesh_), directory))) {
+    if (settings_.run.interpolate && simulation_.moves()) simulation_.interpolate();
+}
 
 hair::rendering::GroomBuffers Case::groomBuffers(const hair::Settings& settings) const {
     return {
@@ -97,6 +100,8 @@ void Case::simulate(engine::Passes& passes) {
     const bool blows = settings_.simulation.solver != hair::Solver::none;
     const std::uint32_t steps =
         simulation_.moves() ? fixed_step_.stepsFor(double{settings_.run.frame_time}) : 0;
+    // Interpolation needs the positions before the last step, so every step changes the copy.
+    const bool between = settings_.run.interpolate && simulation_.moves();
     for (std::uint32_t i = 0; i < steps; ++i) {
         if (blows) {
             passes.pass("wind", engine::PassKind::compute, [&](engine::Commands& commands) {
@@ -120,14 +125,20 @@ void Case::simulate(engine::Passes& passes) {
         }
         passes.pass("simulate", engine::PassKind::compute, [&](engine::Commands& commands) {
             simulation_.recordStep(
-                commands, i == 0 ? hair::simulation::Copy::other : hair::simulation::Copy::same);
+                commands,
+                between || i == 0 ? hair::simulation::Copy::other : hair::simulation::Copy::same);
         });
     }
+    if (between)
+        passes.pass("interpolate", engine::PassKind::compute, [&](engine::Commands& commands) {
+            simulation_.recordInterpolation(commands, fixed_step_.remainder());
+        });
 }
 
 // Drawing reads one of two copies of the guides, so the next step may write the other meanwhile.
+// There is only one copy of interpolated guides.
 void Case::frame(engine::Passes& passes) {
-    passes.asyncCompute(1, [&] { simulate(passes); });
+    passes.asyncCompute(settings_.run.interpolate ? 0 : 1, [&] { simulate(passes); });
     draw(passes);
 }
 
@@ -165,6 +176,11 @@ std::vector<glm::vec3> Case::guides() const {
     throw engine::Error("/simulation", what.str());
 }
 
+std::vector<glm::vec3> Case::drawnGuides() const {
+    guides();
+    return simulation_.readDrawn();
+}
+
 std::vector<std::uint8_t> Case::picture() const {
     guides();
     return engine::readOutput(device_, renderer_->target());
@@ -198,7 +214,7 @@ std::string Case::stateHash() const {
 
 void Case::deform(hair::groom::Mesh& mesh) const {
     if (!deforming_) return;
-    const std::vector<glm::dvec3> positions = deforming_->positions(simulation_.time());
+    const std::vector<glm::dvec3> positions = deforming_->positions(simulation_.drawnTime());
     mesh.positions.assign(positions.begin(), positions.end());
     mesh.normals = deforming_->normals(positions);
 }
@@ -227,6 +243,11 @@ std::vector<std::pair<std::string, std::uint64_t>> Case::counts() const {
         {"guides", groom_.strand_count},
         {"vertices_per_guide", groom_.vertices_per_strand},
         {"root_triangles", groom_.root_triangles.size()}};
+    if (simulation_.moves()) {
+        const auto [fewest, most] = scene::stepsPerFrame(settings_);
+        counts.emplace_back("fewest_steps_per_frame", fewest);
+        counts.emplace_back("most_steps_per_frame", most);
+    }
     if (settings_.render.hair) {
         if (settings_.strands.source == hair::StrandSource::groom)
             counts.emplace_back("groom_strands", groom_.bindings.size());
@@ -249,9 +270,9 @@ hair::rendering::StrandView Case::viewOf(const hair::rendering::GroomBuffers& bu
     view.guides = guides.positions;
     view.contacts = guides.contacts;
     view.bodies = guides.bodies;
-    view.head = hair::simulation::toMatrix(simulation_.pose());
-    view.time = simulation_.time();
-    view.carried = glm::dmat4(hair::simulation::toMatrix(simulation_.carried()));
+    view.head = hair::simulation::toMatrix(simulation_.drawnPose());
+    view.time = simulation_.drawnTime();
+    view.carried = glm::dmat4(hair::simulation::toMatrix(simulation_.drawnCarried()));
     return view;
 }
 

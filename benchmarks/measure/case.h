@@ -82,15 +82,17 @@ public:
     // mostStretch(). So do picture(), radiance(), stateHash() and strands(): a wrong outcome is
     // neither measured nor written. strands() also refuses a drawn point that is not finite.
     std::vector<glm::vec3> guides() const;
+    // The guides as drawn: with /run/interpolate between the last two steps, otherwise guides().
+    std::vector<glm::vec3> drawnGuides() const;
     const hair::groom::Groom& groom() const { return groom_; }
     // Oddities of the input that do not prevent playing.
     std::vector<std::string> warnings() const { return simulation_.bodyWarnings(); }
     // Pose of the head in the last frame. If an animation deforms the head, it is the average pose
     // of its scalp.
-    hair::simulation::RigidMotion head() const { return simulation_.pose(); }
+    hair::simulation::RigidMotion head() const { return simulation_.drawnPose(); }
     // Motion that takes the mesh under the hair to its pose in the last frame. If an animation
     // deforms the mesh, call deform() first.
-    hair::simulation::RigidMotion carried() const { return simulation_.carried(); }
+    hair::simulation::RigidMotion carried() const { return simulation_.drawnCarried(); }
     // Deforms `mesh`, the mesh under the hair, to the last frame.
     void deform(hair::groom::Mesh& mesh) const;
 

@@ -184,6 +184,7 @@ report::MemoryNeed memoryNeed(
         hair::simulation::simulationBytes(device.info(), size, settings.simulation) +
         hair::rendering::groomBufferBytes(settings, size) +
         hair::rendering::rendererBytes(drawn, plan) + assets;
+    if (settings.run.interpolate) all += sizeof(glm::vec4) * size.vertices();
     if (settings.run.compare_backends) all += comparedBytes(drawn, plan);
     // Fields are baked before anything else is allocated.
     all = std::max(all + stagingBytes(settings, size, head), fields + baking);

@@ -220,6 +220,10 @@ Broken frameHasRoomForItsSteps(const hair::Settings& s) {
     return "is more than 200 times /simulation/time_step";
 }
 
+// Ratios of frame to step within this of a whole number count as whole. In ten minutes of frames, a
+// step that is due too early or too late then happens once at most.
+constexpr double kWholeRatio = 2e-5;
+
 Broken lightsHaveDirections(const hair::Settings& s) {
     for (std::size_t i = 0; i < s.shading.lights.size(); ++i) {
         const hair::LightSettings& light = s.shading.lights[i];
@@ -275,6 +279,29 @@ constexpr Rule kRules[] = {
     {"/run/frame_time", frameHasRoomForItsSteps}};
 
 }  // namespace
+
+std::pair<std::uint32_t, std::uint32_t> stepsPerFrame(const hair::Settings& settings) {
+    const double ratio = double{settings.run.frame_time} / double{settings.simulation.time_step};
+    const double whole = std::round(ratio);
+    if (std::abs(ratio - whole) <= kWholeRatio * std::max(1.0, ratio))
+        return {static_cast<std::uint32_t>(whole), static_cast<std::uint32_t>(whole)};
+    return {
+        static_cast<std::uint32_t>(std::floor(ratio)),
+        static_cast<std::uint32_t>(std::ceil(ratio))};
+}
+
+std::string stepWarning(const hair::Settings& settings) {
+    const auto [fewest, most] = stepsPerFrame(settings);
+    const bool moves = settings.simulation.solver != hair::Solver::none ||
+                       !settings.simulation.motion.keyframes.empty() ||
+                       !settings.simulation.animation.clip.empty();
+    if (fewest == most || settings.run.interpolate || !moves) return {};
+    const double step = double{settings.run.frame_time} / most;
+    return "/simulation/time_step does not divide /run/frame_time: a frame advances by " +
+           std::to_string(fewest) + " or " + std::to_string(most) +
+           " steps, so that hair and head move unevenly; set /simulation/time_step to " +
+           decimalText(static_cast<float>(step)) + " or /run/interpolate to true";
+}
 
 void checkSettings(const hair::Settings& settings) {
     for (const Rule& rule : kRules)

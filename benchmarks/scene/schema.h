@@ -1,7 +1,9 @@
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <string>
+#include <utility>
 
 #include "hair/settings.h"
 
@@ -12,6 +14,13 @@ namespace benchmarks::scene {
 // Checks the rules between fields, which the tables cannot express, such as a near plane in front
 // of the far plane. Throws engine::Error "<JSON pointer>: <reason>" for a broken rule.
 void checkSettings(const hair::Settings& settings);
+
+// The least and greatest number of steps that a frame advances by.
+std::pair<std::uint32_t, std::uint32_t> stepsPerFrame(const hair::Settings& settings);
+
+// Returns a warning if frames advance by unequal numbers of steps and are not interpolated, so that
+// motion is uneven; otherwise empty.
+std::string stepWarning(const hair::Settings& settings);
 
 // Returns the JSON Schema (draft-07) of a scene file, from the tables of hair/settings.h: types,
 // ranges, names, units, defaults. Ends with a newline; scenes/scene.schema.json is this text. It

@@ -342,6 +342,10 @@ std::vector<CaseSpec> selectCases(
             files += '\n' + field.mesh;
         for (const NamedExtension& extension : namedExtensions(each.settings))
             files += '\n' + extension.file;
+        if (const std::string warning = stepWarning(each.settings);
+            warnings && !warning.empty() &&
+            std::ranges::find(*warnings, warning) == warnings->end())
+            warnings->push_back(warning);
         if (!checked.insert(files).second) continue;
         for (const std::string& warning :
              checkAssets(each.settings, scene.path, assets ? *assets : own, scene.reach))

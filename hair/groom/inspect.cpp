@@ -5,17 +5,18 @@
 #include <bit>
 #include <cmath>
 #include <functional>
-#include <limits>
 #include <numeric>
 #include <span>
 #include <sstream>
 #include <utility>
+#include <variant>
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
 #include "engine/error.h"
 #include "engine/process.h"
+#include "hair/groom/mesh/body_mesh.h"
 #include "hair/groom/mesh/depth.h"
 #include "hair/groom/mesh/surface.h"
 
@@ -96,18 +97,27 @@ double deviation(double size, double expected, double scatter) {
     return off * off;
 }
 
+// Above this certainty, a guess that contradicts a statement is worth a warning.
+constexpr double kClear = 0.9;
+
 // Guesses the unit of human hair in which the extent of the roots is closest to a scalp's and the
-// median length is that of hair. An argument of 0 is ignored.
-Unit guessUnit(double root_extent, double median_length) {
-    const Known* best = &kKnown.front();
-    double least = std::numeric_limits<double>::infinity();
+// median length is that of hair. A size of 0 is ignored. Deviations count as those of a logarithmic
+// normal distribution. A stated unit competes with the known ones.
+UnitGuess guessUnit(double root_extent, double median_length, std::optional<double> stated) {
+    const auto deviationIn = [&](double metres) {
+        return deviation(root_extent * metres, kRootExtent, kRootScatter) +
+               deviation(median_length * metres, kLength, kLengthScatter);
+    };
+    const Known* best = &*std::ranges::min_element(
+        kKnown, {}, [&](const Known& known) { return deviationIn(known.metres); });
+    const double least = deviationIn(best->metres);
+    double sum = 0.0;  // of likelihoods, relative to that of the best
+    bool is_known = false;
     for (const Known& known : kKnown) {
-        const double found = deviation(root_extent * known.metres, kRootExtent, kRootScatter) +
-                             deviation(median_length * known.metres, kLength, kLengthScatter);
-        if (found >= least) continue;
-        least = found;
-        best = &known;
+        sum += std::exp(0.5 * (least - deviationIn(known.metres)));
+        is_known = is_known || (stated && std::abs(*stated / known.metres - 1.0) < 1e-6);
     }
+    if (stated && !is_known) sum += std::exp(0.5 * (least - deviationIn(*stated)));
     std::ostringstream reason;
     reason.precision(3);
     reason << "The file doesn't state it";
@@ -124,13 +134,14 @@ Unit guessUnit(double root_extent, double median_length) {
                    << " m long (hair: 0.01 m to 1 m)";
         reason << ", which fits best of m, cm, mm and inch.";
     }
-    return {best->name, best->metres, reason.str()};
+    return {.unit = {best->name, best->metres, reason.str()}, .certainty = 1.0 / sum};
 }
 
 // ---- Strands on a mesh --------------------------------------------------------------------------
 
-void inspectInside(
-    const StrandSet& strands, ClosedMesh mesh, double scale, MeshFindings& findings) {
+void inspectInside(const StrandSet& strands, BodyMesh mesh, double scale, MeshFindings& findings) {
+    findings.closed = std::holds_alternative<ClosedMesh>(mesh);
+    if (!findings.closed) findings.not_closed = std::get<OpenMesh>(mesh).reason;
     DepthInside depthOf(std::move(mesh));
     std::uint32_t strands_inside = 0;
     std::size_t points_inside = 0;
@@ -167,8 +178,13 @@ MeshFindings inspectOnMesh(const StrandSet& strands, const Mesh& mesh, double me
         distances.push_back(static_cast<float>(distance));
     }
     findings.root_distances = summaryOf(distances);
+    if (2 * findings.roots_off_surface > strands.strandCount())
+        for (std::uint32_t i = 0; i < strands.strandCount(); ++i)
+            if (surface(glm::dvec3(strands.strand(i).back()) * metres_per_unit).distance <=
+                kSurfaceTolerance)
+                ++findings.tips_on_surface;
     try {
-        inspectInside(strands, closeMesh(mesh), metres_per_unit, findings);
+        inspectInside(strands, bodyMesh(mesh), metres_per_unit, findings);
     } catch (const engine::Error& error) {
         findings.not_closed = error.what();
     }
@@ -210,13 +226,15 @@ void inspectLengths(const StrandSet& strands, StrandFindings& findings) {
     findings.segment_lengths = summaryOf(segments);
 }
 
-void inspectBox(const StrandSet& strands, StrandFindings& findings) {
-    if (strands.points.empty()) return;
-    findings.minimum = findings.maximum = strands.points.front();
-    for (const glm::vec3& point : strands.points) {
-        findings.minimum = glm::min(findings.minimum, point);
-        findings.maximum = glm::max(findings.maximum, point);
-    }
+void inspectBox(
+    const StrandSet& strands, std::span<const std::uint32_t> kept, StrandFindings& findings) {
+    if (kept.empty()) return;
+    findings.minimum = findings.maximum = strands.strand(kept.front())[0];
+    for (const std::uint32_t i : kept)
+        for (const glm::vec3& point : strands.strand(i)) {
+            findings.minimum = glm::min(findings.minimum, point);
+            findings.maximum = glm::max(findings.maximum, point);
+        }
 }
 
 void inspectWidths(const StrandSet& strands, StrandFindings& findings) {
@@ -225,12 +243,12 @@ void inspectWidths(const StrandSet& strands, StrandFindings& findings) {
     findings.widths = summaryOf(widths);
 }
 
-// The greatest side of the roots' bounding box.
-double rootExtent(const StrandSet& strands) {
-    if (strands.ends.empty()) return 0.0;
-    glm::vec3 low = strands.points.front();
+// Returns the greatest side of the bounding box of some strands' roots.
+double rootExtent(const StrandSet& strands, std::span<const std::uint32_t> kept) {
+    if (kept.empty()) return 0.0;
+    glm::vec3 low = strands.points[strands.first(kept.front())];
     glm::vec3 high = low;
-    for (std::uint32_t i = 0; i < strands.strandCount(); ++i) {
+    for (const std::uint32_t i : kept) {
         low = glm::min(low, strands.points[strands.first(i)]);
         high = glm::max(high, strands.points[strands.first(i)]);
     }
@@ -255,6 +273,59 @@ double metresOf(std::string_view unit) {
     for (const Known& known : kKnown)
         if (unit == known.name) return known.metres;
     throw engine::Error("unknown unit '" + std::string(unit) + "'; known: m, cm, mm, inch");
+}
+
+// ---- Strays -------------------------------------------------------------------------------------
+
+std::vector<Stray> findStrays(const StrandSet& strands) {
+    constexpr std::uint32_t kFewest = 20;
+    constexpr double kWithin = 0.95;
+    constexpr double kApart = 4.0;
+    const std::uint32_t count = strands.strandCount();
+    if (count < kFewest) return {};
+    glm::dvec3 middle(0.0);
+    std::vector<float> numbers(count);
+    for (int axis = 0; axis < 3; ++axis) {
+        for (std::uint32_t i = 0; i < count; ++i)
+            numbers[i] = strands.points[strands.first(i)][axis];
+        middle[axis] = quantileOf(numbers, 0.5);
+    }
+    std::vector<float> distances(count);
+    std::vector<float> longest(count);
+    std::vector<float> lengths(count);
+    for (std::uint32_t i = 0; i < count; ++i) {
+        const auto points = strands.strand(i);
+        distances[i] = static_cast<float>(glm::distance(glm::dvec3(points[0]), middle));
+        for (std::size_t k = 1; k < points.size(); ++k) {
+            const float segment = glm::distance(points[k - 1], points[k]);
+            longest[i] = std::max(longest[i], segment);
+            lengths[i] += segment;
+        }
+    }
+    const auto within = [&](const std::vector<float>& values) {
+        numbers = values;
+        return quantileOf(numbers, kWithin);
+    };
+    // Roots that lie in one place, such as a tuft's, are no closer than the hair is long.
+    const double farthest = std::max(kApart * within(distances), within(lengths));
+    const double most = kApart * within(longest);
+    std::vector<Stray> strays;
+    for (std::uint32_t i = 0; i < count; ++i) {
+        const bool by_root = distances[i] > farthest;
+        if (by_root || longest[i] > most)
+            strays.push_back({i, by_root, double{by_root ? distances[i] : longest[i]}});
+    }
+    std::ranges::stable_sort(strays, std::ranges::greater(), &Stray::distance);
+    return strays;
+}
+
+std::vector<std::uint32_t> strandsBut(const StrandSet& strands, const std::vector<Stray>& strays) {
+    std::vector<bool> is_stray(strands.strandCount(), false);
+    for (const Stray& stray : strays) is_stray[stray.strand] = true;
+    std::vector<std::uint32_t> kept;
+    for (std::uint32_t i = 0; i < strands.strandCount(); ++i)
+        if (!is_stray[i]) kept.push_back(i);
+    return kept;
 }
 
 // ---- Spreads ------------------------------------------------------------------------------------
@@ -306,7 +377,9 @@ inspect(const StrandSet& strands, const Mesh* mesh, std::optional<double> metres
     StrandFindings findings{.strands = strands.strandCount(), .points = strands.points.size()};
     inspectSizes(strands, findings);
     inspectLengths(strands, findings);
-    inspectBox(strands, findings);
+    findings.strays = findStrays(strands);
+    const std::vector<std::uint32_t> kept = strandsBut(strands, findings.strays);
+    inspectBox(strands, kept, findings);
     inspectWidths(strands, findings);
     findings.duplicate_strands = static_cast<std::uint32_t>(duplicateStrands(strands).size());
     findings.duplicate_roots =
@@ -314,9 +387,12 @@ inspect(const StrandSet& strands, const Mesh* mesh, std::optional<double> metres
                                        return strands.strand(i).first(1);
                                    }).size());
 
-    const Unit unit = strands.metres_per_unit
-                          ? statedUnit(*strands.metres_per_unit)
-                          : guessUnit(rootExtent(strands), findings.lengths.median);
+    const UnitGuess guess =
+        guessUnit(rootExtent(strands, kept), findings.lengths.median, strands.metres_per_unit);
+    const Unit unit = strands.metres_per_unit ? statedUnit(*strands.metres_per_unit) : guess.unit;
+    if (strands.metres_per_unit && guess.certainty >= kClear &&
+        std::abs(guess.unit.metres / unit.metres - 1.0) >= 1e-6)
+        findings.other_unit = guess;
     findings.unit = unit.name;
     findings.unit_stated = strands.metres_per_unit.has_value();
     findings.metres_per_unit = unit.metres;

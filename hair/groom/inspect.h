@@ -36,11 +36,45 @@ struct MeshFindings {
     Summary root_distances;  // of roots from the surface, unsigned
     std::uint32_t roots_off_surface = 0;  // further than `tolerance`
     double tolerance = 0.0;  // m
-    // Absent if the mesh is not closed: then nothing is inside it.
+    std::uint32_t tips_on_surface = 0;  // counted only if most roots are off it
+    // An open mesh has its inside where the winding number is 1/2 or more. Absent if the mesh
+    // bounds no body.
     std::optional<std::uint32_t> strands_inside;  // with a vertex deeper than `tolerance`
     std::optional<std::size_t> points_inside;  // deeper than `tolerance`
     std::optional<double> deepest;  // m
-    std::string not_closed;  // why the three are absent
+    bool closed = false;
+    std::string not_closed;  // why it is not closed, or why the three are absent
+};
+
+// A strand that lies apart from the others. Units, sizes and views do not count it.
+struct Stray {
+    std::uint32_t strand;
+    bool by_root;  // its root is far from the other roots; otherwise it has a far too long segment
+    double distance;  // from the middle of the roots, or that segment's length; file's unit
+};
+
+// Returns strays, farthest first. A root is astray at more than four times the distance from the
+// median root that 95 % of the roots are within, a segment at more than four times the length that
+// 95 % of the strands' longest segments are below. So at most 5 % of the strands are strays, and a
+// groom of fewer than 20 strands has none.
+std::vector<Stray> findStrays(const StrandSet& strands);
+
+// Returns the strands that are no strays, in ascending order.
+std::vector<std::uint32_t> strandsBut(const StrandSet& strands, const std::vector<Stray>& strays);
+
+struct Unit {
+    std::string name;  // "m", "cm", "mm" or "inch"; a stated one may be another: "0.5 m"
+    double metres;  // its length
+    std::string reason;  // a sentence
+};
+
+Unit statedUnit(double metres);
+
+// A unit by the sizes of a scalp and of hair, from those that are not strays.
+struct UnitGuess {
+    Unit unit;
+    // Its likelihood over the sum for all units that are tried, 0 to 1.
+    double certainty = 0.0;
 };
 
 // Contents and oddities of a groom. Lengths are in the file's unit.
@@ -50,7 +84,8 @@ struct StrandFindings {
     Summary points_per_strand;
     Summary lengths;
     Summary segment_lengths;
-    glm::vec3 minimum{0.0f};  // bounding box
+    std::vector<Stray> strays;
+    glm::vec3 minimum{0.0f};  // bounding box without strays
     glm::vec3 maximum{0.0f};
     Summary widths;  // all 0 if not known
 
@@ -64,6 +99,7 @@ struct StrandFindings {
     bool unit_stated = false;
     double metres_per_unit = 1.0;
     std::string unit_reason;  // a sentence: the file states it, or what the guess rests on
+    std::optional<UnitGuess> other_unit;  // if a unit is stated and sizes clearly suggest another
     std::optional<MeshFindings> mesh;
 };
 
@@ -77,14 +113,6 @@ double arcLength(std::span<const glm::vec3> points);
 
 // Returns the strands that are equal to an earlier one, point for point, in ascending order.
 std::vector<std::uint32_t> duplicateStrands(const StrandSet& strands);
-
-struct Unit {
-    std::string name;  // "m", "cm", "mm" or "inch"; a stated one may be another: "0.5 m"
-    double metres;  // its length
-    std::string reason;  // a sentence
-};
-
-Unit statedUnit(double metres);
 
 // Returns the length in metres of "m", "cm", "mm" or "inch". Throws engine::Error for others.
 double metresOf(std::string_view unit);

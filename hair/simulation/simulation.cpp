@@ -82,6 +82,8 @@ std::uint32_t FixedStep::stepsFor(double frame_time) {
     return static_cast<std::uint32_t>(steps);
 }
 
+double FixedStep::remainder() const { return static_cast<double>(parts_) / double{kPartsPerStep}; }
+
 // ---- Guides on the device -----------------------------------------------------------------------
 
 std::uint64_t simulationBytes(
@@ -294,7 +296,25 @@ void Simulation::recordStep(engine::Commands& commands, Copy into) {
     recordFollow(commands, start, start + double{step_.whole});
     ++steps_;
     if (into == Copy::other) current_ = 1 - current_;
+    has_earlier_ = into == Copy::other;
+    drawn_share_.reset();
     recordSubsteps(commands, step_.count, from, start, time());
+}
+
+void Simulation::interpolate() {
+    if (!interpolation_) interpolation_.emplace(*device_, strand_count_ * vertices_per_strand_);
+}
+
+void Simulation::recordInterpolation(engine::Commands& commands, double share) {
+    const std::uint32_t from = has_earlier_ ? 1 - current_ : current_;
+    interpolation_->record(
+        commands, positions_[from].address(), positions_[current_].address(), share);
+    drawn_share_ = share;
+}
+
+double Simulation::drawnTime() const {
+    if (!drawn_share_ || !has_earlier_) return time();
+    return time() - (1.0 - *drawn_share_) * double{step_.whole};
 }
 
 void Simulation::settle(std::uint32_t steps) {
@@ -318,6 +338,8 @@ void Simulation::settle(std::uint32_t steps) {
 
 void Simulation::recordReset(engine::Commands& commands) {
     steps_ = 0;
+    has_earlier_ = false;
+    drawn_share_.reset();
     commands.barrier(engine::Access::anything, engine::Access::transfer_write);
     for (std::size_t i = 0; i < settled_.size(); ++i)
         commands.copy(settled_[i], *state()[i], settled_[i].size());
@@ -335,6 +357,8 @@ void Simulation::reset() {
 void Simulation::setState(
     std::span<const glm::vec3> positions, std::span<const glm::vec3> previous) {
     assert(positions.size() == previous.size());
+    has_earlier_ = false;
+    drawn_share_.reset();
     const auto now = withMasses(positions);
     std::vector<glm::vec4> before;
     for (const glm::vec3& point : previous) before.emplace_back(point, 0.0f);
@@ -370,6 +394,12 @@ std::vector<glm::vec3> Simulation::readPositions() const {
     return {points.begin(), points.end()};
 }
 
+std::vector<glm::vec3> Simulation::readDrawn() const {
+    if (!drawn_share_) return readPositions();
+    const auto points = engine::downloadAs<glm::vec4>(*device_, interpolation_->positions());
+    return {points.begin(), points.end()};
+}
+
 std::vector<glm::vec3> Simulation::readPrevious() const {
     const auto points = engine::downloadAs<glm::vec4>(*device_, previous_[current_]);
     return {points.begin(), points.end()};
@@ -393,7 +423,8 @@ GuideCondition Simulation::condition() const {
 
 GuideView Simulation::guides() const {
     return {
-        .positions = positions_[current_].address(),
+        .positions =
+            drawn_share_ ? interpolation_->positions().address() : positions_[current_].address(),
         .contacts = previous_[current_].address(),
         .bodies = parameters_.address() + offsetof(gpu::GuideParameters, bodies),
         .strand_count = strand_count_,

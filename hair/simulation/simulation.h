@@ -25,6 +25,7 @@
 #include "hair/simulation/guide_solver.h"
 #include "hair/simulation/hair_hair.h"
 #include "hair/simulation/head_motion.h"
+#include "hair/simulation/interpolation.h"
 #include "hair/simulation/solvers.h"
 
 namespace hair::simulation {
@@ -39,6 +40,9 @@ public:
 
     // Returns the steps to simulate for a frame that advances `frame_time` >= 0, s.
     std::uint32_t stepsFor(double frame_time);
+
+    // The time carried over to the next step, in steps, below 1.
+    double remainder() const;
 
     void reset() { parts_ = 0; }
 
@@ -118,6 +122,12 @@ public:
     // step writes the other copy of the guides, later steps write the same copy.
     void recordStep(engine::Commands& commands, Copy into = Copy::other);
 
+    // Makes guides(), drawnTime() and readDrawn() those between the last two steps, once
+    // recordInterpolation() has been called. Each step must then be recorded into the other copy.
+    void interpolate();
+    // Records the guides at a share, 0 to 1, of the last step.
+    void recordInterpolation(engine::Commands& commands, double share);
+
     // Simulates steps without wind, scene force and hands, and waits for them. Simulated time does
     // not advance.
     void settle(std::uint32_t steps);
@@ -145,6 +155,8 @@ public:
     // Read back after everything submitted before, [strand][vertex], m.
     std::vector<glm::vec3> readPositions() const;
     std::vector<glm::vec3> readPrevious() const;
+    // The positions that guides() has.
+    std::vector<glm::vec3> readDrawn() const;
     // True at vertices in contact with a body and at all vertices below them on the strand.
     std::vector<bool> readContacts() const;
 
@@ -156,6 +168,11 @@ public:
     // Whether a step records anything. With `none`, only if the head moves.
     bool moves() const { return solver_ != nullptr; }
     double time() const { return static_cast<double>(steps_) * double{step_.whole}; }
+    // The time of guides(): time(), or the time between two steps that they are interpolated to.
+    double drawnTime() const;
+    // The head's motions at that time, as pose() and carried().
+    RigidMotion drawnPose() const { return poseAt(drawnTime()); }
+    RigidMotion drawnCarried() const { return motion_.at(drawnTime()); }
     // Returns the head's present rigid motion. If an animation deforms the head, it is the mean of
     // the guides' roots.
     RigidMotion pose() const { return poseAt(time()); }
@@ -209,6 +226,9 @@ private:
     std::unique_ptr<GuideSolver> solver_;  // null: nothing moves
     std::vector<engine::Buffer> settled_;  // state() after construction
     std::uint64_t steps_ = 0;
+    std::optional<GuideInterpolation> interpolation_;
+    bool has_earlier_ = false;  // the other copy has the positions before the last step
+    std::optional<double> drawn_share_;  // of the last step; absent: guides() is after it
 };
 
 }  // namespace hair::simulation

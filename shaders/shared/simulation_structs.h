@@ -181,6 +181,15 @@ struct CacheFollowPush {
     float stiffness;  // 1/s^2
 };
 
+// Push constants of simulation/interpolate.comp.
+struct InterpolatePush {
+    Address from;  // vec4 [vertex]
+    Address to;  // vec4 [vertex]
+    Address drawn;  // vec4 [vertex], written
+    float share;  // 0: from, 1: to
+    uint vertex_count;
+};
+
 // The condition of a vertex, from simulation/condition.comp.
 struct VertexCondition {
     float stretch;  // of the segment that ends here, over its rest length; 1 without a segment

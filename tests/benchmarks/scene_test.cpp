@@ -148,7 +148,7 @@ const BadScene kBadFields[] = {
                           "lod, shading, camera, render, run, $schema, base, sweep"},
     {R"({"run": {"a/b\n~": 1}})",
      ": /run/a~1b?~0: unknown key; known: warmup, frames, precision, "
-     "max_time, case_timeout, warmup_time, round_time, frame_time, frames_in_flight, "
+     "max_time, case_timeout, warmup_time, round_time, frame_time, interpolate, frames_in_flight, "
      "overlapped_stamps, "
      "async_compute, clocks, busy_pass, busy_work, reference, compare_backends"},
     {R"({"strands": 3})", ": /strands: expected an object, found 3"},

@@ -111,7 +111,8 @@ TEST_F(Sweep, RefusesBadOverrides) {
     EXPECT_EQ(
         error("{}", {scene::parseAxis("/run/frame=1")}),
         "-a: /run/frame: unknown key (did you mean 'frames'?); known: warmup, frames, "
-        "precision, max_time, case_timeout, warmup_time, round_time, frame_time, frames_in_flight, "
+        "precision, max_time, case_timeout, warmup_time, round_time, frame_time, interpolate, "
+        "frames_in_flight, "
         "overlapped_stamps, async_compute, clocks, busy_pass, busy_work, "
         "reference, compare_backends");
     EXPECT_EQ(error("{}", {scene::parseAxis("/seed=1,1")}), "-a: /seed: 1 appears twice");

@@ -160,6 +160,249 @@ TEST_F(GroomSceneCli, SaysThatHairFitsNoHead) {
         outcome.output, HasSubstr("the hair does not fit the head in any unit or orientation"));
 }
 
+// Strands along +x from one place, in metres, with +y up. Only the file's statement says so.
+constexpr const char* kSideways =
+    "def BasisCurves \"h\" {\n    uniform token type = \"linear\"\n"
+    "    int[] curveVertexCounts = [2, 2, 2, 2]\n"
+    "    point3f[] points = [(0, 1.7, 0), (0.1, 1.7, 0.001), (0.01, 1.7, 0), (0.11, 1.7, 0),\n"
+    "        (0, 1.71, 0), (0.1, 1.71, 0), (0, 1.7, 0.01), (0.1, 1.7, 0.011)]\n}\n";
+
+TEST_F(GroomSceneCli, BelievesAStatedUnitAndUpwardAxis) {
+    folder_.write(
+        "y.usda", std::string("#usda 1.0\n(metersPerUnit = 1\nupAxis = \"Y\")\n") + kSideways);
+    // The reader turns +z to +y, so the stage's +y becomes -z.
+    folder_.write(
+        "z.usda", std::string("#usda 1.0\n(metersPerUnit = 1\nupAxis = \"Z\")\n") + kSideways);
+    ASSERT_EQ(convert("y.usda", "y.gltf").status, 0);
+    for (const char* name : {"y.usda", "z.usda", "y.gltf"}) {
+        const Outcome outcome =
+            hairbench("groom scene " + quoted(name) + " -o " + quoted("mine.json") + " --force");
+        ASSERT_EQ(outcome.status, 0) << outcome.output;
+        EXPECT_THAT(
+            outcome.output,
+            AllOf(
+                HasSubstr("hair: in m, +y up. The file states it."),
+                HasSubstr("the file states +y up, but strands leave the scalp and hang as if +x "
+                          "were up")))
+            << name;
+        EXPECT_FALSE(written()["groom"].contains("placement")) << name;
+        EXPECT_TRUE(json(name)["up"]["stated"]);
+        EXPECT_EQ(json(name)["up"]["axis"], "y");
+    }
+    const Outcome overridden =
+        hairbench("groom scene " + quoted("y.usda") + " -o " + quoted("x.json") + " --up x");
+    EXPECT_THAT(overridden.output, HasSubstr("+x is up, as --up states"));
+}
+
+// Hair in metres on its head, in a file that states another unit: the statement stands.
+TEST_F(GroomSceneCli, WarnsIfAStatementContradictsTheHead) {
+    folder_.write("metres.hair", hairOnHead({}));
+    folder_.write("head.obj", headObj({}));
+    ASSERT_EQ(convert("metres.hair", "mine.usda").status, 0);
+    std::string text = textOf(folder_.file("mine.usda"));
+    const std::size_t at = text.find("metersPerUnit = 1");
+    ASSERT_NE(at, std::string::npos);
+    text.insert(at + std::string("metersPerUnit = ").size(), "0.0");  // 0.01
+    folder_.write("mine.usda", text);
+    const Outcome outcome = hairbench(
+        "groom scene " + quoted("mine.usda") + " --head " + quoted("head.obj") + " -o " +
+        quoted("mine.json"));
+    ASSERT_EQ(outcome.status, 0) << outcome.output;
+    EXPECT_THAT(
+        outcome.output, AllOf(
+                            HasSubstr("hair: in cm, +y up"),
+                            HasSubstr("as the file states, in cm, +y up, 0 % of the roots"),
+                            HasSubstr("100 % would be in m, +y up"), HasSubstr("--scale 1 ")));
+    const nlohmann::json found = json("mine.usda");
+    EXPECT_EQ(found["unit"]["name"], "cm");
+    EXPECT_TRUE(found["unit"]["stated"]);
+    EXPECT_EQ(found["unit"]["sizes_suggest"]["name"], "m");
+    EXPECT_GT(found["unit"]["sizes_suggest"]["certainty"], 0.99);
+}
+
+TEST_F(GroomSceneCli, TriesAllUnitsIfUsdStatesNone) {
+    for (const double metres : {1.0, 0.01, 0.001}) {
+        folder_.write("file.hair", hairOnHead({metres}));
+        folder_.write("head.obj", headObj({}));
+        ASSERT_EQ(convert("file.hair", "mine.usda").status, 0);
+        std::string text = textOf(folder_.file("mine.usda"));
+        const std::size_t at = text.find("    metersPerUnit");
+        ASSERT_NE(at, std::string::npos);
+        folder_.write("mine.usda", text.erase(at, text.find('\n', at) + 1 - at));
+        EXPECT_FALSE(json("mine.usda")["unit"]["stated"]);
+        const Outcome outcome = hairbench(
+            "groom scene " + quoted("mine.usda") + " --head " + quoted("head.obj") +
+            " --force -o " + quoted("mine.json"));
+        ASSERT_EQ(outcome.status, 0) << outcome.output;
+        EXPECT_THAT(outcome.output, HasSubstr("100 % of the roots are within 5"));
+        const nlohmann::json groom = written()["groom"];
+        const nlohmann::json placement = groom.value("placement", nlohmann::json::object());
+        EXPECT_FLOAT_EQ(placement.value("scale", 1.0f), static_cast<float>(metres));
+    }
+}
+
+// Returns 1,000 strands of 6 points of hairOnHead(), 1.6 m above the ground.
+HairFile thousandStrands() {
+    HairFile file{.thickness = 80e-6f};
+    for (int ring = 0; ring < 20; ++ring)
+        for (int k = 0; k < 50; ++k) {
+            file.segments.push_back(5);
+            for (int vertex = 0; vertex < 6; ++vertex) {
+                const HeadPoint p = onHead(
+                    0.2 + 0.06 * ring, std::numbers::pi * (1.0 + 1.4 * (k / 49.0 - 0.5)),
+                    1.0 + 0.2 * vertex);
+                for (const double c : {p.x, p.y + 1.6, p.z})
+                    file.points.push_back(static_cast<float>(c));
+            }
+        }
+    return file;
+}
+
+constexpr std::size_t kStray = 517;
+constexpr std::size_t kFloats = 18;  // of a strand
+
+class GroomSceneStrays : public GroomSceneCli, public testing::WithParamInterface<const char*> {
+protected:
+    // Writes the hair in the format under test, and returns its name.
+    std::string writeStray(const HairFile& file) const {
+        folder_.write("stray.hair", file.text());
+        const std::string name = std::string("mine") + GetParam();
+        EXPECT_EQ(convert("stray.hair", name, "--scale 1").status, 0);
+        return name;
+    }
+    Outcome sceneOf(const std::string& name) const {
+        return hairbench("groom scene " + quoted(name) + " --force -o " + quoted("mine.json"));
+    }
+};
+
+TEST_P(GroomSceneStrays, DoNotDecideForTheOthers) {
+    for (const float metres : {10.0f, 100.0f, 1000.0f}) {
+        HairFile file = thousandStrands();
+        for (std::size_t k = 0; k < kFloats; k += 3) file.points[kStray * kFloats + k] += metres;
+        const std::string name = writeStray(file);
+        const nlohmann::json found = json(name);
+        EXPECT_EQ(found["unit"]["name"], "m") << metres;
+        ASSERT_EQ(found["strays"].size(), 1u) << metres;
+        EXPECT_EQ(found["strays"][0]["strand"], kStray);
+        EXPECT_NEAR(found["strays"][0]["distance"]["value"], metres, 0.2);
+        EXPECT_LT(found["bounding_box"]["maximum"][0], 0.2);
+
+        const Outcome outcome = sceneOf(name);
+        ASSERT_EQ(outcome.status, 0) << outcome.output;
+        EXPECT_THAT(outcome.output, HasSubstr("strand 517 (from 0) with its root "));
+        const nlohmann::json camera = written()["camera"];
+        for (int axis = 0; axis < 3; ++axis) {  // hair within 0.25 m of (0, 1.7, 0)
+            const double middle = axis == 1 ? 1.7 : 0.0;
+            EXPECT_NEAR(camera["target"][axis], middle, 0.25);
+            EXPECT_NEAR(camera["position"][axis], middle, 2.0);
+        }
+        const Outcome valid = hairbench("validate " + quoted("mine.json"));
+        EXPECT_EQ(valid.status, 0) << valid.output;
+    }
+}
+
+TEST_P(GroomSceneStrays, ATipAtTheOriginIsNamed) {
+    HairFile file = thousandStrands();
+    for (std::size_t k = kFloats - 3; k < kFloats; ++k) file.points[kStray * kFloats + k] = 0.0f;
+    const std::string name = writeStray(file);
+    const nlohmann::json found = json(name);
+    ASSERT_EQ(found["strays"].size(), 1u);
+    EXPECT_EQ(found["strays"][0]["strand"], kStray);
+    EXPECT_EQ(found["strays"][0]["by"], "segment");
+    // The point before the tip is at 1.6 m plus at most 1.8 times the head's half height.
+    EXPECT_NEAR(found["strays"][0]["distance"]["value"], 1.7, 0.15);
+    EXPECT_THAT(sceneOf(name).output, HasSubstr("strand 517 (from 0) with a segment of 1.7"));
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Formats, GroomSceneStrays, testing::Values(".hair", ".ply", ".npy", ".abc", ".usda", ".gltf"),
+    [](const auto& format) { return std::string(format.param).substr(1); });
+
+// Whatever the unit, a scene is either valid, or not written and the reason is said.
+TEST_F(GroomSceneCli, WritesOnlyScenesThatValidateAccepts) {
+    folder_.write("mine.hair", hairOnHead({}));
+    int refused = 0;
+    for (const char* scale : {"1e-6", "1e-4", "0.0254", "1", "30", "1000", "1e4", "1e5", "1e6"}) {
+        const Outcome outcome = scene(std::string("--force --scale ") + scale);
+        if (outcome.status != 0) {
+            ++refused;
+            EXPECT_EQ(outcome.status, 2);
+            EXPECT_THAT(
+                outcome.output, AllOf(
+                                    HasSubstr("no scene is written"),
+                                    HasSubstr("is outside [-1000, 1000]"), HasSubstr("--scale")));
+            continue;
+        }
+        const Outcome valid = hairbench("validate " + quoted("mine.json"));
+        EXPECT_EQ(valid.status, 0) << scale << ": " << valid.output;
+        const nlohmann::json camera = written()["camera"];
+        double distance = 0.0;
+        for (int axis = 0; axis < 3; ++axis)
+            distance += std::pow(
+                camera["position"][axis].get<double>() -
+                    camera.value("target", nlohmann::json{0, 0, 0})[axis].get<double>(),
+                2);
+        EXPECT_GT(camera.value("far_plane", 100.0), std::sqrt(distance)) << scale;
+        EXPECT_LT(camera.value("near_plane", 0.01), std::sqrt(distance)) << scale;
+    }
+    // Hair of 0.3 m is 300 km large at a scale of 10^6; cameras are within 1 km of the origin.
+    EXPECT_GE(refused, 3);
+    EXPECT_LE(refused, 4);
+}
+
+TEST_F(GroomSceneCli, NamesStrandsThatRunFromTipToRoot) {
+    folder_.write("head.obj", headObj({}));
+    HairFile file = thousandStrands();
+    for (std::size_t i = 0; i < file.points.size(); i += kFloats)
+        for (std::size_t k = 0; k < 3; ++k)
+            for (std::size_t axis = 0; axis < 3; ++axis)
+                std::swap(file.points[i + 3 * k + axis], file.points[i + 15 - 3 * k + axis]);
+    for (std::size_t k = 1; k < file.points.size(); k += 3) file.points[k] -= 1.6f;
+    folder_.write("mine.hair", file.text());
+    const Outcome outcome = sceneOnHead();
+    ASSERT_EQ(outcome.status, 0) << outcome.output;
+    EXPECT_THAT(
+        outcome.output, AllOf(
+                            HasSubstr("strands run from tip to root: 100 % of their last points"),
+                            HasSubstr("hairbench groom reverse"), Not(HasSubstr("in any unit"))));
+    EXPECT_THAT(
+        info("mine.hair", "--mesh " + quoted("head.obj")).output,
+        HasSubstr("1,000 strands from tip to root"));
+}
+
+// Returns a box round (0, height / 2, 0) with its triangles facing outward.
+std::string boxObj(double width, double height, double depth) {
+    std::ostringstream text;
+    for (int i = 0; i < 8; ++i)
+        text << "v " << width * ((i & 1) - 0.5) << ' ' << height * ((i >> 1) & 1) << ' '
+             << depth * ((i >> 2) - 0.5) << '\n';
+    text << "f 1 3 4 2\nf 5 6 8 7\nf 1 2 6 5\nf 3 7 8 4\nf 1 5 7 3\nf 2 4 8 6\n";
+    return text.str();
+}
+
+// Cells of 3 mm: 96 suffice for a head of 0.28 m; a bust of 0.6 m needs 200. A body of 1.72 m would
+// need 574, more than the field permits.
+TEST_F(GroomSceneCli, GivesALargeBodyAFineDistanceField) {
+    for (const auto& [height, cells] : {std::pair{0.28, 96}, {0.6, 200}, {1.72, 256}}) {
+        HairFile file{.thickness = 80e-6f};
+        for (int i = 0; i < 100; ++i) {
+            file.segments.push_back(1);
+            const double x = 0.1 * (i % 10 / 9.0 - 0.5);
+            const double z = 0.1 * (i / 10 / 9.0 - 0.5);
+            for (const double c : {x, height, z, x, height + 0.1, z})
+                file.points.push_back(static_cast<float>(c));
+        }
+        folder_.write("mine.hair", file.text());
+        folder_.write("head.obj", boxObj(0.2, height, 0.2));
+        const Outcome outcome = sceneOnHead("--force --scale 1 --up y");
+        ASSERT_EQ(outcome.status, 0) << outcome.output;
+        EXPECT_EQ(written()["simulation"]["distance_fields"][0]["resolution"], cells);
+        if (cells > 96) {
+            EXPECT_THAT(outcome.output, HasSubstr("MB, margin 2 mm"));
+        }
+    }
+}
+
 TEST_F(GroomSceneCli, TakesWhatIsStated) {
     folder_.write("mine.hair", hairOnHead({0.01}));
     const Outcome outcome = scene("--scale 0.001 --up z");

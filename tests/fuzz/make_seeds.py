@@ -336,7 +336,7 @@ def usd_stream():
         (b"one warning\nanother", 1),
     ]
     counts = [len(data) // size for data, size in sections]
-    header = struct.pack("<8sd11Q", b"HBCURVES", 0.01, *counts)
+    header = struct.pack("<8sd12Q", b"HBCURVES", 0.01, *counts, 3)
     return header + b"".join(data for data, _ in sections)
 
 

@@ -145,6 +145,13 @@ TEST_F(FramesHazards, AreNoneInAnySceneOrFeatureAndNoBarrierIsSuperfluous) {
         skinned.run.frame_time = 0.5f * skinned.simulation.time_step;
         silent("skinned, curl " + std::to_string(curl), made(skinned));
     }
+    // Frames of no step, one, two and three steps, drawn between steps.
+    for (const float steps : {0.4f, 1.5f, 2.5f}) {
+        hair::Settings between = everything();
+        between.run.interpolate = true;
+        between.run.frame_time = steps * between.simulation.time_step;
+        silent("interpolated, steps " + std::to_string(steps), made(between));
+    }
     for (const hair::Solver solver :
          {hair::Solver::rod, hair::Solver::stable_cosserat, hair::Solver::position_based_rod,
           hair::Solver::augmented_mass_spring}) {

@@ -48,8 +48,10 @@ Ends ends(
 using FramesInFlight = GpuTest;
 
 // Expects the same result for every overlap, with offsets, shadows and substeps.
-void expectEqualEnds(const engine::Device& device, hair::Solver solver, float steps) {
+void expectEqualEnds(
+    const engine::Device& device, hair::Solver solver, float steps, bool interpolate = false) {
     hair::Settings settings = movingHair(solver);
+    settings.run.interpolate = interpolate;
     hair::lit(settings);
     settings.shading.shadows.resolution = 64;
     settings.strands.curl.radius = 0.004f;
@@ -82,6 +84,8 @@ TEST_F(FramesInFlight, EndAlikeHoweverManyThereAre) {
 TEST_F(FramesInFlight, EndAlikeWhereFramesAreShorterOrLongerThanSteps) {
     expectEqualEnds(device(), hair::Solver::shape, 0.4f);
     expectEqualEnds(device(), hair::Solver::shape, 2.5f);
+    expectEqualEnds(device(), hair::Solver::shape, 0.4f, true);
+    expectEqualEnds(device(), hair::Solver::rod, 2.5f, true);
 }
 
 // Whether nothing orders a frame's strand draws (vertex and fragment stage) before the next frame's

@@ -230,7 +230,7 @@ def metres_per_unit_of(stage):
 
 
 class Reader:
-    """Reads a stage: `prims`, `metres_per_unit`, `comment`, `warnings`."""
+    """Reads a stage: `prims`, `metres_per_unit`, `stated`, `comment`, `warnings`."""
 
     def __init__(self, path, below):
         self.stage, unfolded = open_stage(path, below)
@@ -263,9 +263,10 @@ class Reader:
             self.warnings.append(f"{self._hidden_text()}: left out")
         if left_out:
             self.warnings.append(f"{', '.join(sorted(left_out))}: left out")
-        if not UsdGeom.StageHasAuthoredMetersPerUnit(self.stage):
-            self.warnings.append("the stage states no unit: taken as cm, as USD says")
-        self.metres_per_unit = metres_per_unit_of(self.stage)
+        # USD's defaults, cm and +Y up, are no statements: many programs leave out the unit of metres.
+        states_unit = UsdGeom.StageHasAuthoredMetersPerUnit(self.stage)
+        self.stated = states_unit | self.stage.HasAuthoredMetadata(UsdGeom.Tokens.upAxis) << 1
+        self.metres_per_unit = metres_per_unit_of(self.stage) if states_unit else 1.0
 
     @staticmethod
     def _is_read(prim):
@@ -436,7 +437,7 @@ def main():
     texts = [reader.comment, "\n".join(reader.warnings)]
     texts = [np.frombuffer(text.encode(), np.uint8) for text in texts]
     sizes = [len(array) for array in arrays + texts]
-    stream.write(struct.pack("<8sd11Q", b"HBCURVES", reader.metres_per_unit, *sizes))
+    stream.write(struct.pack("<8sd12Q", b"HBCURVES", reader.metres_per_unit, *sizes, reader.stated))
     for array in arrays + texts:
         stream.write(memoryview(array).cast("B") if array.size else b"")
     stream.close()

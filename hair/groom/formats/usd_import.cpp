@@ -42,13 +42,14 @@ constexpr Section kSections[] = {
 
 UsdStreamHeader readHeader(std::span<const std::byte> bytes) {
     if (bytes.size() < sizeof(UsdStreamHeader)) {
-        failAt(bytes.size(), "truncated: the header is 104 bytes");
+        failAt(bytes.size(), "truncated: the header is 112 bytes");
     }
     const auto header = valueAt<UsdStreamHeader>(bytes, 0);
     if (header.magic != UsdStreamHeader::kMagic) failAt(0, "no \"HBCURVES\"");
     if (!std::isfinite(header.metres_per_unit) || header.metres_per_unit <= 0.0) {
         failAt(8, "the unit is " + std::to_string(header.metres_per_unit) + " m");
     }
+    if (header.stated > 3) failAt(104, "unknown bits of what is stated");
     std::uint64_t size = sizeof header;
     for (std::size_t i = 0; i < std::size(kSections); ++i) {
         const std::uint64_t count = header.*kSections[i].count;
@@ -215,8 +216,8 @@ StrandSet readUsdStream(std::span<const std::byte> bytes) {
     const UsdStreamHeader header = readHeader(bytes);
     Sections sections(bytes, header);
     StrandSet set;
-    set.metres_per_unit = header.metres_per_unit;
-    set.up = 1;  // usd_curves.py turns the stage
+    if (header.stated & 1) set.metres_per_unit = header.metres_per_unit;
+    if (header.stated & 2) set.up = 1;
     set.ends = endsOf(sections.take<std::uint32_t>(), header.points);
     set.points = sections.take<glm::vec3>();
     set.widths = sections.takeAttribute<float>();

@@ -56,8 +56,9 @@ struct UsdStreamHeader {
     std::uint64_t guides;  // uint8; 0 or one for each strand, 0 or 1
     std::uint64_t comment;  // bytes of UTF-8
     std::uint64_t warnings;  // bytes of UTF-8, a line for each
+    std::uint64_t stated;  // bit 0: the stage states its unit; bit 1: its upward axis
 };
-static_assert(sizeof(UsdStreamHeader) == 104);
+static_assert(sizeof(UsdStreamHeader) == 112);
 
 // Refuses malformed streams. Throws engine::Error "byte N: reason".
 StrandSet readUsdStream(std::span<const std::byte> bytes);

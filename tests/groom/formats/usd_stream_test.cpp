@@ -35,10 +35,11 @@ constexpr UsdStreamHeader kHeader{
     .groups = 2,
     .guides = 2,
     .comment = 4,
-    .warnings = 7};
+    .warnings = 7,
+    .stated = 3};
 
 // The offsets of the arrays.
-constexpr std::size_t kSizes = 104;
+constexpr std::size_t kSizes = 112;
 constexpr std::size_t kPointStream = kSizes + 8;
 constexpr std::size_t kWidths = kPointStream + 36;
 constexpr std::size_t kTriangles = kWidths + 12 + 4 + 36 + 16;
@@ -84,8 +85,18 @@ TEST(UsdStream, HoldsAllThatStrandsHave) {
     EXPECT_THAT(set.groups, ElementsAre(-7, 8));
     EXPECT_THAT(set.guides, ElementsAre(1, 0));
     EXPECT_EQ(set.metres_per_unit, 0.01);
+    EXPECT_EQ(set.up, 1);
     EXPECT_EQ(set.comment, "hair");
     EXPECT_THAT(set.warnings, ElementsAre("one", "two"));
+}
+
+TEST(UsdStream, HasNoUnitAndNoUpwardAxisUnlessStated) {
+    constexpr std::size_t kStated = 104;
+    EXPECT_FALSE(readUsdStream(with(kStated, std::uint64_t{2})).metres_per_unit);
+    EXPECT_EQ(readUsdStream(with(kStated, std::uint64_t{2})).up, 1);
+    EXPECT_EQ(readUsdStream(with(kStated, std::uint64_t{1})).metres_per_unit, 0.01);
+    EXPECT_FALSE(readUsdStream(with(kStated, std::uint64_t{1})).up);
+    EXPECT_THAT(refusal(with(kStated, std::uint64_t{4})), StartsWith("byte 104: "));
 }
 
 TEST(UsdStream, RefusesEveryTruncationAndTrailingBytes) {
@@ -116,13 +127,13 @@ TEST(UsdStream, RefusesNumbersThatMakeNoSense) {
     EXPECT_THAT(refusal(with(8, 0.0)), StartsWith("byte 8: "));
     EXPECT_THAT(refusal(with(8, -1.0)), StartsWith("byte 8: "));
     EXPECT_THAT(refusal(with(8, std::numeric_limits<double>::infinity())), StartsWith("byte 8: "));
-    EXPECT_THAT(refusal(with(kSizes, std::array{1u, 3u})), StartsWith("byte 108: "));
-    EXPECT_THAT(refusal(with(kSizes, std::array{2u, ~0u})), StartsWith("byte 108: "));
+    EXPECT_THAT(refusal(with(kSizes, std::array{1u, 3u})), StartsWith("byte 116: "));
+    EXPECT_THAT(refusal(with(kSizes, std::array{2u, ~0u})), StartsWith("byte 116: "));
     EXPECT_THAT(refusal(with(kSizes, std::array{1u, 1u})), StartsWith("byte 24: "));
-    EXPECT_THAT(refusal(with(kWidths, -1.0f)), StartsWith("byte 148: width 0 is negative"));
-    EXPECT_THAT(refusal(with(kTriangles + 4, 2u)), StartsWith("byte 216: strand 2"));
+    EXPECT_THAT(refusal(with(kWidths, -1.0f)), StartsWith("byte 156: width 0 is negative"));
+    EXPECT_THAT(refusal(with(kTriangles + 4, 2u)), StartsWith("byte 224: strand 2"));
     EXPECT_THAT(
-        refusal(with(kTriangles + 12 + 8, std::uint8_t{2})), StartsWith("byte 236: a guide"));
+        refusal(with(kTriangles + 12 + 8, std::uint8_t{2})), StartsWith("byte 244: a guide"));
 }
 
 }  // namespace

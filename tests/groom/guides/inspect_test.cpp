@@ -1,6 +1,10 @@
 #include "hair/groom/inspect.h"
 
+#include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstdint>
+#include <vector>
 
 #include <glm/geometric.hpp>
 #include <gmock/gmock.h>
@@ -130,6 +134,65 @@ TEST(Inspect, BelievesAStatedUnit) {
     EXPECT_EQ(inspect(strands, nullptr, {}).metres_per_unit, 0.5);
 }
 
+// A square of roots as wide as a head, with hair of 0.1 m.
+StrandSet squareOfHair(double metres_per_unit) {
+    StrandSet strands;
+    for (int i = 0; i < 400; ++i) {
+        const glm::dvec3 root(0.01 * (i % 20), 0.0, 0.01 * (i / 20));
+        for (int k = 0; k < 3; ++k)
+            strands.points.emplace_back((root + glm::dvec3(0, 0.05 * k, 0)) / metres_per_unit);
+        strands.ends.push_back(static_cast<std::uint32_t>(strands.points.size()));
+    }
+    return strands;
+}
+
+// Only a clear contradiction is one: half a metre is within the scatter of a head's size.
+TEST(Inspect, DoubtsAStatedUnitThatSizesContradict) {
+    for (const auto& [stated, doubted] :
+         {std::pair{1.0, false}, {0.5, false}, {0.01, true}, {0.001, true}}) {
+        StrandSet strands = squareOfHair(1.0);
+        strands.metres_per_unit = stated;
+        const StrandFindings found = inspect(strands, nullptr, {});
+        EXPECT_EQ(found.metres_per_unit, stated);
+        ASSERT_EQ(found.other_unit.has_value(), doubted) << stated;
+        if (!doubted) continue;
+        EXPECT_EQ(found.other_unit->unit.name, "m");
+        EXPECT_GT(found.other_unit->certainty, 0.99);
+        EXPECT_LE(found.other_unit->certainty, 1.0);
+    }
+}
+
+TEST(FindStrays, FindsRootsAndSegmentsThatAreFarOff) {
+    StrandSet strands = squareOfHair(0.01);
+    EXPECT_TRUE(findStrays(strands).empty());
+    for (int k = 0; k < 3; ++k) strands.points[3 * 17 + k].z += 1000.0f;
+    strands.points[3 * 230 + 2].y = -500.0f;
+    const std::vector<Stray> strays = findStrays(strands);
+    ASSERT_EQ(strays.size(), 2u);
+    EXPECT_EQ(strays[0].strand, 17u);
+    EXPECT_TRUE(strays[0].by_root);
+    EXPECT_NEAR(strays[0].distance, 1000.0, 10.0);  // the roots are within 10 cm of their middle
+    EXPECT_EQ(strays[1].strand, 230u);
+    EXPECT_FALSE(strays[1].by_root);
+    EXPECT_NEAR(strays[1].distance, 505.0, 1e-3);
+    EXPECT_EQ(strandsBut(strands, strays).size(), 398u);
+    const StrandFindings found = inspect(strands, nullptr, {});
+    EXPECT_EQ(found.unit, "cm");
+    EXPECT_LT(found.maximum.z, 20.0f);
+    EXPECT_GE(found.minimum.y, 0.0f);
+}
+
+TEST(FindStrays, LeavesFewStrandsAndTwoHeadsAlone) {
+    StrandSet few = squareOfHair(1.0);
+    few.ends.resize(19);
+    few.points.resize(few.ends.back());
+    few.points[0].x = 1000.0f;
+    EXPECT_TRUE(findStrays(few).empty());
+    StrandSet heads = squareOfHair(1.0);
+    for (std::size_t i = 0; i < heads.points.size() / 10; ++i) heads.points[i].x += 10.0f;
+    EXPECT_TRUE(findStrays(heads).empty());  // a tenth of the strands
+}
+
 // In a box from 0 to 1 m the points' distances from the sides are known.
 TEST(Inspect, MeasuresAgainstAClosedMesh) {
     StrandSet strands;
@@ -171,13 +234,38 @@ TEST(Inspect, FindsTheDepthsInASphere) {
     EXPECT_EQ(found.roots_off_surface, 400u);
 }
 
-TEST(Inspect, SaysWhyNothingIsInsideAnOpenMesh) {
-    const Mesh cap = makeCap();
-    const MeshFindings found = *inspect(sampleStrandSet(), &cap, {}).mesh;
+// As before, on the upper half of a sphere that has a hole of 25 degrees at the bottom.
+TEST(Inspect, FindsTheDepthsInAnOpenMesh) {
+    Mesh sphere = simulation::makeSphere({0, 1, 0}, 0.1, 4);
+    std::erase_if(sphere.triangles, [&](const std::array<std::uint32_t, 3>& triangle) {
+        return std::ranges::all_of(
+            triangle, [&](std::uint32_t vertex) { return sphere.positions[vertex].y < 0.91f; });
+    });
+    const Groom groom = sampleGroom(200, 12, [](std::uint32_t strand, double t) {
+        const double y = (strand + 0.5) / 200.0;
+        const double r = std::sqrt(1.0 - y * y);
+        const glm::dvec3 out(r * std::cos(2.4 * strand), y, r * std::sin(2.4 * strand));
+        return glm::dvec3(0, 1, 0) + (0.05 + 0.11 * t) * out;
+    });
+    const MeshFindings found = *inspect(strandsOf(groom), &sphere, {}).mesh;
+    EXPECT_FALSE(found.closed);
+    EXPECT_THAT(found.not_closed, HasSubstr("edges with one triangle"));
+    EXPECT_EQ(found.strands_inside, 200u);
+    EXPECT_EQ(found.points_inside, 5u * 200u);
+    EXPECT_NEAR(found.deepest.value(), 0.05, 1e-4);
+}
+
+TEST(Inspect, SaysWhyNothingIsInsideAPlane) {
+    Mesh plane;
+    plane.positions = {{0, 0, 0}, {1, 0, 0}, {0, 0, 1}, {1, 0, 1}};
+    plane.normals.resize(4, glm::vec3(0, 1, 0));
+    plane.triangles = {{0, 2, 1}, {1, 2, 3}};
+    const MeshFindings found = *inspect(sampleStrandSet(), &plane, {}).mesh;
+    EXPECT_FALSE(found.closed);
     EXPECT_FALSE(found.strands_inside.has_value());
     EXPECT_FALSE(found.points_inside.has_value());
     EXPECT_FALSE(found.deepest.has_value());
-    EXPECT_THAT(found.not_closed, HasSubstr("not closed"));
+    EXPECT_FALSE(found.not_closed.empty());
 }
 
 }  // namespace
