@@ -65,6 +65,7 @@ Buffer::Buffer(const Device& device, const BufferDescription& description) : Buf
     address_ = vkGetBufferDeviceAddress(device.get(), &info);
     device.setName(
         VK_OBJECT_TYPE_BUFFER, reinterpret_cast<std::uint64_t>(buffer_), description.name);
+    tracked_ = device.resources().addBuffer(address_, size_);
     if (HazardLog* const hazards = device.hazards())
         known_ = hazards->addBuffer(
             address_, size_, mapped_ ? mapped() : std::span<std::byte>{}, description.name);
@@ -82,6 +83,7 @@ void Buffer::swap(Buffer& other) noexcept {
     std::swap(size_, other.size_);
     std::swap(mapped_, other.mapped_);
     std::swap(line_, other.line_);
+    std::swap(tracked_, other.tracked_);
     std::swap(known_, other.known_);
 }
 
@@ -172,6 +174,7 @@ Image::Image(const Device& device, const ImageDescription& description)
     check(vkCreateImageView(device.get(), &view, nullptr, &handle), "create an image view");
     view_ = {device.get(), handle};
     device.setName(VK_OBJECT_TYPE_IMAGE, reinterpret_cast<std::uint64_t>(image_), description.name);
+    tracked_ = device.resources().addImage();
     if (HazardLog* const hazards = device.hazards())
         known_ = hazards->addImage(image_, description.name);
 }
@@ -180,7 +183,8 @@ Image::Image(Image&& other) noexcept
     : allocator_(other.allocator_), allocation_(std::exchange(other.allocation_, nullptr)),
       format_(other.format_), extent_(other.extent_), aspect_(other.aspect_),
       image_(std::exchange(other.image_, VkImage{})), view_(std::move(other.view_)),
-      line_(std::move(other.line_)), known_(std::move(other.known_)) {}
+      line_(std::move(other.line_)), tracked_(std::move(other.tracked_)),
+      known_(std::move(other.known_)) {}
 
 Image::~Image() {
     view_ = {};

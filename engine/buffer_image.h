@@ -68,6 +68,7 @@ private:
     std::size_t size_ = 0;
     void* mapped_ = nullptr;
     MemoryLedger::Line line_;
+    TrackedResources::Entry tracked_;
     HazardLog::Entry known_;
 };
 
@@ -111,6 +112,7 @@ public:
     VkFormat format() const { return format_; }
     VkExtent2D extent() const { return extent_; }
     VkImageAspectFlags aspect() const { return aspect_; }
+    TrackedResources::Id tracked() const { return tracked_.id(); }
 
 private:
     Image(VmaAllocator_T* allocator, const ImageDescription& description);
@@ -123,6 +125,7 @@ private:
     VkImage image_{};
     Handle<VkImageView, &vkDestroyImageView> view_;
     MemoryLedger::Line line_;
+    TrackedResources::Entry tracked_;
     HazardLog::Entry known_;
 };
 

@@ -20,63 +20,10 @@ constexpr Scope kDepthAttachment{
     VK_PIPELINE_STAGE_2_EARLY_FRAGMENT_TESTS_BIT | VK_PIPELINE_STAGE_2_LATE_FRAGMENT_TESTS_BIT,
     VK_ACCESS_2_DEPTH_STENCIL_ATTACHMENT_READ_BIT | VK_ACCESS_2_DEPTH_STENCIL_ATTACHMENT_WRITE_BIT};
 
-Scope scope(Access access) {
-    switch (access) {
-    case Access::compute_read:
-        return {VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT, VK_ACCESS_2_SHADER_READ_BIT};
-    case Access::compute_write:
-        return {
-            VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT,
-            VK_ACCESS_2_SHADER_READ_BIT | VK_ACCESS_2_SHADER_WRITE_BIT};
-    case Access::graphics_read:
-        return {
-            VK_PIPELINE_STAGE_2_ALL_GRAPHICS_BIT,
-            VK_ACCESS_2_SHADER_READ_BIT | VK_ACCESS_2_INDEX_READ_BIT};
-    case Access::indirect_read:
-        return {VK_PIPELINE_STAGE_2_DRAW_INDIRECT_BIT, VK_ACCESS_2_INDIRECT_COMMAND_READ_BIT};
-    case Access::vertex_read:
-        return {VK_PIPELINE_STAGE_2_PRE_RASTERIZATION_SHADERS_BIT, VK_ACCESS_2_SHADER_READ_BIT};
-    case Access::fragment_read:
-        return {VK_PIPELINE_STAGE_2_FRAGMENT_SHADER_BIT, VK_ACCESS_2_SHADER_READ_BIT};
-    case Access::shading_read:
-        return {
-            VK_PIPELINE_STAGE_2_FRAGMENT_SHADER_BIT | VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT,
-            VK_ACCESS_2_SHADER_READ_BIT};
-    case Access::fragment_write:
-        return {
-            VK_PIPELINE_STAGE_2_FRAGMENT_SHADER_BIT,
-            VK_ACCESS_2_SHADER_READ_BIT | VK_ACCESS_2_SHADER_WRITE_BIT};
-    case Access::attachment:
-        return {
-            kColorAttachment.stages | kDepthAttachment.stages,
-            kColorAttachment.access | kDepthAttachment.access};
-    case Access::transfer_read:
-        return {VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT, VK_ACCESS_2_TRANSFER_READ_BIT};
-    case Access::transfer_write:
-        return {VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT, VK_ACCESS_2_TRANSFER_WRITE_BIT};
-    case Access::host_read:
-        return {VK_PIPELINE_STAGE_2_HOST_BIT, VK_ACCESS_2_HOST_READ_BIT};
-    case Access::anything:
-        break;
-    }
-    return {
-        VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT,
-        VK_ACCESS_2_MEMORY_READ_BIT | VK_ACCESS_2_MEMORY_WRITE_BIT};
-}
-
-bool isGraphics(const Scope& scope) {
-    constexpr VkPipelineStageFlags2 kGraphics =
-        VK_PIPELINE_STAGE_2_ALL_GRAPHICS_BIT | VK_PIPELINE_STAGE_2_DRAW_INDIRECT_BIT |
-        VK_PIPELINE_STAGE_2_PRE_RASTERIZATION_SHADERS_BIT |
-        VK_PIPELINE_STAGE_2_FRAGMENT_SHADER_BIT | VK_PIPELINE_STAGE_2_COLOR_ATTACHMENT_OUTPUT_BIT |
-        VK_PIPELINE_STAGE_2_EARLY_FRAGMENT_TESTS_BIT | VK_PIPELINE_STAGE_2_LATE_FRAGMENT_TESTS_BIT;
-    return (scope.stages & kGraphics) != 0;
-}
-
 // Stages and accesses of a use. An attachment has only the stages of its own aspect, colour or
 // depth.
 Scope scopeOf(const Use& use) {
-    if (use.access != Access::attachment) return scope(use.access);
+    if (use.access != Access::attachment) return scopeOf(use.access);
     return use.image->aspect() == VK_IMAGE_ASPECT_DEPTH_BIT ? kDepthAttachment : kColorAttachment;
 }
 
@@ -173,6 +120,13 @@ void DescriptorSets::reset() {
 
 // ---- Commands -----------------------------------------------------------------------------------
 
+Commands::~Commands() {
+    if (!is_open_) return;
+    // The recording is not submitted, so its barriers order nothing.
+    --plan_.open;
+    plan_.forgetOrder();
+}
+
 void Commands::begin() {
     sets_.reset();
     const VkCommandBufferBeginInfo info{
@@ -181,107 +135,41 @@ void Commands::begin() {
         .flags = VK_COMMAND_BUFFER_USAGE_ONE_TIME_SUBMIT_BIT,
         .pInheritanceInfo = nullptr};
     check(vkBeginCommandBuffer(buffer_, &info), "begin a command buffer");
+    is_nested_ = plan_.open++ > 0;
+    is_open_ = true;
 }
 
 void Commands::end() {
+    order();
     check(vkEndCommandBuffer(buffer_), "end a command buffer");
-    if (hazards_) hazards_->submit(std::exchange(recording_, {}));
+    --plan_.open;
+    is_open_ = false;
+    // Submitted before commands that were recorded earlier.
+    if (is_nested_) plan_.forgetOrder();
+    if (hazards_) hazards_->submit(std::exchange(recording_, {}), queue_);
 }
 
 // ---- Barriers -----------------------------------------------------------------------------------
 
-void Commands::barrier(
-    std::initializer_list<Dependency> dependencies, const std::source_location& place) {
-    std::array<VkMemoryBarrier2, 4> memory;
-    std::uint32_t count = 0;
-    assert(dependencies.size() <= memory.size());
-    std::vector<RecordedBarrier> recorded;
-    for (const Dependency& dependency : dependencies) {
-        const Scope from = scope(dependency.before);
-        const Scope to = scope(dependency.after);
-        if (queue_ == QueueKind::compute && (isGraphics(from) || isGraphics(to))) continue;
-        if (hazards_) {
-            std::string name = textOf(place);
-            if (dependencies.size() > 1)
-                name += " #" + std::to_string(&dependency - dependencies.begin() + 1);
-            if (hazards_->isDropped(pass_, name)) continue;
-            recorded.push_back({.before = from, .after = to, .image = {}, .place = name});
-        }
-        memory[count++] = {
-            .sType = VK_STRUCTURE_TYPE_MEMORY_BARRIER_2,
-            .pNext = nullptr,
-            .srcStageMask = from.stages,
-            .srcAccessMask = from.access,
-            .dstStageMask = to.stages,
-            .dstAccessMask = to.access};
-    }
-    if (hazards_)
-        recording_.push_back({.pass = pass_, .uses = {}, .barriers = std::move(recorded)});
-    VkDependencyInfo info{};
-    info.sType = VK_STRUCTURE_TYPE_DEPENDENCY_INFO;
-    info.memoryBarrierCount = count;
-    info.pMemoryBarriers = memory.data();
-    if (count > 0) vkCmdPipelineBarrier2(buffer_, &info);
-}
-
-void Commands::transition(
-    const Image& image, VkImageLayout from, VkImageLayout to, Access before, Access after,
-    const std::source_location& place) {
-    Scope source = scope(before);
-    Scope target = scope(after);
-    if (hazards_) {
-        // The layout changes even if the dependency is dropped.
-        if (hazards_->isDropped(pass_, textOf(place))) source = target = {};
-        recording_.push_back(
-            {.pass = pass_,
-             .uses = {},
-             .barriers = {
-                 {.before = source,
-                  .after = target,
-                  .image = hazards_->image(image.get()),
-                  .transitions_layout = true,
-                  .place = textOf(place)}}});
-    }
-    const VkImageMemoryBarrier2 barrier{
-        .sType = VK_STRUCTURE_TYPE_IMAGE_MEMORY_BARRIER_2,
-        .pNext = nullptr,
-        .srcStageMask = source.stages,
-        .srcAccessMask = source.access,
-        .dstStageMask = target.stages,
-        .dstAccessMask = target.access,
-        .oldLayout = from,
-        .newLayout = to,
-        .srcQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED,
-        .dstQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED,
-        .image = image.get(),
-        .subresourceRange = {image.aspect(), 0, VK_REMAINING_MIP_LEVELS, 0, 1}};
-    VkDependencyInfo dependency{};
-    dependency.sType = VK_STRUCTURE_TYPE_DEPENDENCY_INFO;
-    dependency.imageMemoryBarrierCount = 1;
-    dependency.pImageMemoryBarriers = &barrier;
-    vkCmdPipelineBarrier2(buffer_, &dependency);
-}
-
-// ---- Declared uses ------------------------------------------------------------------------------
-
-void Commands::touch(std::initializer_list<Use> uses) {
-    Recorded& recorded = recording_.emplace_back();
-    recorded.pass = pass_;
+void Commands::uses(std::initializer_list<Use> uses, const std::source_location& place) {
+    place_ = place;
     for (const Use& use : uses) {
-        std::optional<ResourceId> id;
-        if (use.image)
-            id = hazards_->image(use.image->get());
-        else
-            id = hazards_->bufferAt(use.address);
+        if (!use.image && use.address == 0) continue;
+        const std::optional<TrackedResources::Id> id =
+            use.image ? use.image->tracked() : sets_.device().resources().bufferAt(use.address);
         if (!id) {
-            if (use.address != 0)
-                hazards_->complain(pass_, "declares an address outside all buffers");
+            if (hazards_) hazards_->complain(pass_, "declares an address outside all buffers");
             continue;
         }
+        plan_.require(*id, use.access);
+        if (!hazards_) continue;
+        const ResourceId resource =
+            use.image ? hazards_->image(use.image->get()) : hazards_->bufferAt(use.address).value();
         const Scope touched = scopeOf(use);
-        const auto same = std::ranges::find(recorded.uses, *id, &RecordedUse::resource);
-        if (same == recorded.uses.end()) {
-            recorded.uses.push_back({*id, touched});
+        declared_.push_back(resource);
+        const auto same = std::ranges::find(declared_uses_, resource, &RecordedUse::resource);
+        if (same == declared_uses_.end()) {
+            declared_uses_.push_back({resource, touched});
         } else {
             same->scope.stages |= touched.stages;
             same->scope.access |= touched.access;
@@ -289,17 +177,139 @@ void Commands::touch(std::initializer_list<Use> uses) {
     }
 }
 
-void Commands::declare(std::initializer_list<Use> uses) {
-    touch(uses);
-    for (const RecordedUse& use : recording_.back().uses) declared_.push_back(use.resource);
+void Commands::usesAgain() {
+    plan_.requireAgain();
+    declared_uses_ = last_uses_;
+    for (const RecordedUse& use : last_uses_) declared_.push_back(use.resource);
 }
+
+void Commands::transition(
+    const Image& image, VkImageLayout from, VkImageLayout to, const std::source_location& place) {
+    place_ = place;
+    if (change_count_ == kMostChanges) record(*plan_.take());
+    plan_.change(image.tracked(), to);
+    changes_[change_count_++] = {&image, from, to};
+}
+
+void Commands::order() {
+    if (plan_.isNeeded()) {
+        if (!renders_)
+            record(*plan_.take());
+        else if (hazards_)
+            hazards_->complain(pass_, "a draw needs a barrier, which a rendering can't hold");
+    }
+    plan_.commit();
+    if (!declared_uses_.empty()) {
+        last_uses_ = std::exchange(declared_uses_, {});
+        recording_.push_back({.pass = pass_, .uses = last_uses_, .barriers = {}});
+    }
+}
+
+void Commands::record(const PlannedBarrier& planned) {
+    PlannedBarrier barrier = planned;
+    if (hazards_) {
+        // Layouts change even if the barrier is dropped.
+        const std::string place = textOf(place_);
+        if (hazards_->isDropped(pass_, place)) barrier = {};
+        std::vector<RecordedBarrier> recorded;
+        for (const Dependency& each : {barrier.shaders, barrier.drawing})
+            if (each.before.stages != 0)
+                recorded.push_back(
+                    {.before = each.before, .after = each.after, .image = {}, .place = place});
+        for (const LayoutChange& change : std::span(changes_).first(change_count_))
+            recorded.push_back(
+                {.before = barrier.layouts.before,
+                 .after = barrier.layouts.after,
+                 .image = hazards_->image(change.image->get()),
+                 .transitions_layout = true,
+                 .place = place});
+        recording_.push_back({.pass = pass_, .uses = {}, .barriers = std::move(recorded)});
+    }
+    std::array<VkMemoryBarrier2, 2> memory;
+    VkDependencyInfo info{};
+    info.sType = VK_STRUCTURE_TYPE_DEPENDENCY_INFO;
+    info.pMemoryBarriers = memory.data();
+    for (const Dependency& each : {barrier.shaders, barrier.drawing})
+        if (each.before.stages != 0)
+            memory[info.memoryBarrierCount++] = {
+                .sType = VK_STRUCTURE_TYPE_MEMORY_BARRIER_2,
+                .pNext = nullptr,
+                .srcStageMask = each.before.stages,
+                .srcAccessMask = each.before.access,
+                .dstStageMask = each.after.stages,
+                .dstAccessMask = each.after.access};
+    std::array<VkImageMemoryBarrier2, kMostChanges> images;
+    info.pImageMemoryBarriers = images.data();
+    for (const LayoutChange& change : std::span(changes_).first(change_count_))
+        images[info.imageMemoryBarrierCount++] = {
+            .sType = VK_STRUCTURE_TYPE_IMAGE_MEMORY_BARRIER_2,
+            .pNext = nullptr,
+            .srcStageMask = barrier.layouts.before.stages,
+            .srcAccessMask = barrier.layouts.before.access,
+            .dstStageMask = barrier.layouts.after.stages,
+            .dstAccessMask = barrier.layouts.after.access,
+            .oldLayout = change.from,
+            .newLayout = change.to,
+            .srcQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED,
+            .dstQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED,
+            .image = change.image->get(),
+            .subresourceRange = {change.image->aspect(), 0, VK_REMAINING_MIP_LEVELS, 0, 1}};
+    if (info.memoryBarrierCount + info.imageMemoryBarrierCount > 0)
+        vkCmdPipelineBarrier2(buffer_, &info);
+    change_count_ = 0;
+    ++barriers_;
+}
+
+void Commands::orderAll(const std::source_location& place) {
+    assert(!renders_);
+    place_ = place;
+    if (change_count_ > 0) order();
+    const VkMemoryBarrier2 memory{
+        .sType = VK_STRUCTURE_TYPE_MEMORY_BARRIER_2,
+        .pNext = nullptr,
+        .srcStageMask = kEverything.stages,
+        .srcAccessMask = kEverything.access,
+        .dstStageMask = kEverything.stages,
+        .dstAccessMask = kEverything.access};
+    VkDependencyInfo info{};
+    info.sType = VK_STRUCTURE_TYPE_DEPENDENCY_INFO;
+    info.memoryBarrierCount = 1;
+    info.pMemoryBarriers = &memory;
+    vkCmdPipelineBarrier2(buffer_, &info);
+    ++barriers_;
+    plan_.orderedAll();
+    if (hazards_)
+        recording_.push_back(
+            {.pass = pass_,
+             .uses = {},
+             .barriers = {
+                 {.before = kEverything,
+                  .after = kEverything,
+                  .image = {},
+                  .place = textOf(place_)}}});
+}
+
+void Commands::beginRendering(const VkRenderingInfo& info) {
+    plan_.requireForRendering();
+    order();
+    renders_ = true;
+    vkCmdBeginRendering(buffer_, &info);
+}
+
+void Commands::endRendering() {
+    order();
+    renders_ = false;
+    vkCmdEndRendering(buffer_);
+}
+
+// ---- Declared uses ------------------------------------------------------------------------------
 
 // Declares the host-written buffers that push constants lead to.
 void Commands::declarePushed(const std::vector<ResourceId>& pushed, Access access) {
     if (pushed.empty()) return;
     Recorded& recorded = recording_.emplace_back();
     recorded.pass = pass_;
-    for (const ResourceId id : pushed) recorded.uses.push_back({id, scope(access)});
+    for (const ResourceId id : pushed) recorded.uses.push_back({id, scopeOf(access)});
 }
 
 void Commands::checkDeclared() {
@@ -317,14 +327,26 @@ void Commands::checkDeclared() {
 
 // ---- Copies and fills ---------------------------------------------------------------------------
 
-void Commands::copy(const Buffer& source, const Buffer& destination, std::size_t bytes) {
-    if (hazards_) touch({{source, Access::transfer_read}, {destination, Access::transfer_write}});
+// Operands of a copy or fill.
+void Commands::touch(std::initializer_list<Use> operands, const std::source_location& place) {
+    if (!declared_uses_.empty())
+        hazards_->complain(pass_, "a copy or fill comes between uses and their command");
+    uses(operands, place);
+    declared_.clear();
+    order();
+}
+
+void Commands::copy(
+    const Buffer& source, const Buffer& destination, std::size_t bytes,
+    const std::source_location& place) {
+    touch({{source, Access::transfer_read}, {destination, Access::transfer_write}}, place);
     const VkBufferCopy region{.srcOffset = 0, .dstOffset = 0, .size = bytes};
     vkCmdCopyBuffer(buffer_, source.get(), destination.get(), 1, &region);
 }
 
-void Commands::copy(const Image& source, const Buffer& destination) {
-    if (hazards_) touch({{source, Access::transfer_read}, {destination, Access::transfer_write}});
+void Commands::copy(
+    const Image& source, const Buffer& destination, const std::source_location& place) {
+    touch({{source, Access::transfer_read}, {destination, Access::transfer_write}}, place);
     const VkExtent2D extent = source.extent();
     const VkBufferImageCopy region{
         .bufferOffset = 0,
@@ -337,8 +359,9 @@ void Commands::copy(const Image& source, const Buffer& destination) {
         buffer_, source.get(), VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, destination.get(), 1, &region);
 }
 
-void Commands::copy(const Image& source, const Image& destination) {
-    if (hazards_) touch({{source, Access::transfer_read}, {destination, Access::transfer_write}});
+void Commands::copy(
+    const Image& source, const Image& destination, const std::source_location& place) {
+    touch({{source, Access::transfer_read}, {destination, Access::transfer_write}}, place);
     const VkExtent2D extent = source.extent();
     const VkImageCopy region{
         .srcSubresource = {source.aspect(), 0, 0, 1},
@@ -352,10 +375,11 @@ void Commands::copy(const Image& source, const Image& destination) {
 }
 
 void Commands::copy(
-    const Buffer& source, std::size_t offset, const Image& destination, std::uint32_t level) {
+    const Buffer& source, std::size_t offset, const Image& destination, std::uint32_t level,
+    const std::source_location& place) {
     // Levels are written one after the other, each once, so the first stands for all.
-    if (hazards_ && level == 0)
-        touch({{source, Access::transfer_read}, {destination, Access::transfer_write}});
+    if (level == 0)
+        touch({{source, Access::transfer_read}, {destination, Access::transfer_write}}, place);
     const VkExtent2D extent = destination.extent();
     const VkBufferImageCopy region{
         .bufferOffset = offset,
@@ -369,15 +393,16 @@ void Commands::copy(
         buffer_, source.get(), destination.get(), VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, 1, &region);
 }
 
-void Commands::fill(const Buffer& buffer, std::uint32_t value) {
-    if (hazards_) touch({{buffer, Access::transfer_write}});
+void Commands::fill(const Buffer& buffer, std::uint32_t value, const std::source_location& place) {
+    touch({{buffer, Access::transfer_write}}, place);
     vkCmdFillBuffer(buffer_, buffer.get(), 0, VK_WHOLE_SIZE, value);
 }
 
-void Commands::write(const Buffer& buffer, std::span<const std::byte> bytes) {
+void Commands::write(
+    const Buffer& buffer, std::span<const std::byte> bytes, const std::source_location& place) {
     constexpr std::size_t kMost = 65536;  // limit of vkCmdUpdateBuffer
     assert(bytes.size() % 4 == 0 && bytes.size() <= buffer.size());
-    if (hazards_) touch({{buffer, Access::transfer_write}});
+    touch({{buffer, Access::transfer_write}}, place);
     for (std::size_t first = 0; first < bytes.size(); first += kMost) {
         const auto part = bytes.subspan(first, std::min(kMost, bytes.size() - first));
         vkCmdUpdateBuffer(buffer_, buffer.get(), first, part.size(), part.data());
@@ -389,8 +414,8 @@ void Commands::write(const Buffer& buffer, std::span<const std::byte> bytes) {
 void Commands::images(
     const ComputePipeline& pipeline, std::span<const Image* const> sampled,
     std::span<const Image* const> storage) {
-    for (const Image* image : sampled) uses({{*image, Access::compute_read}});
-    for (const Image* image : storage) uses({{*image, Access::compute_write}});
+    for (const Image* image : sampled) uses({{*image, Access::compute_read}}, place_);
+    for (const Image* image : storage) uses({{*image, Access::compute_write}}, place_);
     ImageWrites writes;
     for (const Image* image : sampled)
         writes.add(
@@ -425,7 +450,7 @@ void Commands::bindSampled(
     std::span<const SampledImage> sampled, Access access,
     std::span<const TexelView* const> texels) {
     if (sampled.empty() && texels.empty()) return;
-    for (const SampledImage& entry : sampled) uses({{*entry.image, access}});
+    for (const SampledImage& entry : sampled) uses({{*entry.image, access}}, place_);
     ImageWrites writes;
     for (const SampledImage& entry : sampled)
         writes.add(
@@ -452,11 +477,18 @@ void Commands::bindImages(
 
 void Commands::dispatch(std::uint32_t groups_x, std::uint32_t groups_y) {
     if (hazards_) checkDeclared();
+    order();
     vkCmdDispatch(buffer_, groups_x, groups_y, 1);
 }
 
+void Commands::withdraw() {
+    plan_.withdraw();
+    declared_uses_.clear();
+    declared_.clear();
+}
+
 void Commands::dispatchGroups(std::uint32_t groups) {
-    if (groups == 0) return;
+    if (groups == 0) return withdraw();
     const std::uint32_t columns = std::min(groups, kMostGroupsInRow);
     dispatch(columns, (groups + columns - 1) / columns);
 }
@@ -466,17 +498,20 @@ void Commands::dispatchInvocations(std::uint32_t invocations, std::uint32_t size
 }
 
 void Commands::draw(const Draw& draw) {
+    order();
     vkCmdDraw(buffer_, draw.vertices, draw.instances, draw.first_vertex, draw.first_instance);
 }
 
 void Commands::drawIndexed(const Buffer& indices, const IndexedDraw& draw) {
+    order();
     vkCmdBindIndexBuffer(buffer_, indices.get(), 0, VK_INDEX_TYPE_UINT32);
     vkCmdDrawIndexed(
         buffer_, draw.indices, draw.instances, draw.first_index, 0, draw.first_instance);
 }
 
 void Commands::drawIndexed(const Buffer& indices, const Buffer& arguments, std::uint32_t draws) {
-    if (hazards_) touch({{arguments, Access::indirect_read}});
+    uses({{arguments, Access::indirect_read}}, place_);
+    order();
     vkCmdBindIndexBuffer(buffer_, indices.get(), 0, VK_INDEX_TYPE_UINT32);
     constexpr std::uint32_t kStride = sizeof(VkDrawIndexedIndirectCommand);
     const Device& device = sets_.device();
@@ -489,7 +524,8 @@ void Commands::drawIndexed(const Buffer& indices, const Buffer& arguments, std::
 }
 
 void Commands::drawMeshTasks(std::uint32_t groups) {
-    if (groups == 0) return;
+    if (groups == 0) return withdraw();
+    order();
     const std::uint32_t columns = std::min(groups, kMostGroupsInRow);
     vkCmdDrawMeshTasksEXT(buffer_, columns, (groups + columns - 1) / columns, 1);
 }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <initializer_list>
@@ -10,6 +11,7 @@
 #include <type_traits>
 #include <vector>
 
+#include "engine/barriers.h"
 #include "engine/buffer_image.h"
 #include "engine/hazards.h"
 
@@ -17,30 +19,6 @@ namespace engine {
 
 class ComputePipeline;
 class GraphicsPipeline;
-
-// Stages and memory accesses of a command, or of one side of a barrier.
-enum class Access {
-    compute_read,
-    compute_write,  // also reads
-    graphics_read,  // buffers and images read by any graphics stage
-    indirect_read,  // arguments of an indirect draw
-    vertex_read,  // buffers read by the stages before the rasteriser: vertex to geometry, or task
-                  // and mesh
-    fragment_read,  // buffers and images read by the fragment stage
-    shading_read,  // images read during shading, by the fragment stage or by compute
-    fragment_write,  // buffers read and written by the fragment stage
-    attachment,  // colour and depth attachments, read and written
-    transfer_read,
-    transfer_write,
-    host_read,
-    anything,
-};
-
-// Makes accesses `before` visible to accesses `after`.
-struct Dependency {
-    Access before;
-    Access after;
-};
 
 // A buffer, given by any address in it, or an image, and how a command touches it.
 struct Use {
@@ -92,20 +70,19 @@ private:
     std::size_t allocated_ = 0;  // sets since reset()
 };
 
-// Commands that a queue accepts.
-enum class QueueKind {
-    all,
-    compute,  // no graphics: barriers omit graphics stages, which others order
-};
-
-// A command buffer being recorded. Borrows the buffer and its sets; adds no barriers by itself.
+// A command buffer being recorded. Borrows the buffer and its sets. Its barriers follow from what
+// commands touch (engine/barriers.h): each stands in front of the first command that needs it.
 class Commands {
 public:
     // `hazards`: log of everything that is recorded; null: none.
     Commands(
         VkCommandBuffer buffer, DescriptorSets& sets, HazardLog* hazards = nullptr,
         QueueKind queue = QueueKind::all)
-        : buffer_(buffer), sets_(sets), hazards_(hazards), queue_(queue) {}
+        : buffer_(buffer), sets_(sets), hazards_(hazards), queue_(queue),
+          plan_(sets.device().barriers(queue)) {}
+    Commands(const Commands&) = delete;
+    Commands& operator=(const Commands&) = delete;
+    ~Commands();
 
     VkCommandBuffer get() const { return buffer_; }
     // The device must have finished the earlier recording.
@@ -113,43 +90,63 @@ public:
     // Ends the recording, which must be submitted next.
     void end();
 
-    // Makes accesses `before` visible to accesses `after`, for all memory.
-    void barrier(
-        Access before, Access after,
-        const std::source_location& place = std::source_location::current()) {
-        barrier({{before, after}}, place);
-    }
-    void barrier(
-        std::initializer_list<Dependency> dependencies,
-        const std::source_location& place = std::source_location::current());
+    // Orders everything before against everything after, also what no command declares. For
+    // measurements, and for commands that are recorded elsewhere.
+    void orderAll(const std::source_location& place = std::source_location::current());
 
-    // Moves an image from one layout to another with a barrier. UNDEFINED as `from` discards the
-    // contents.
+    // Moves an image from one layout to another, in front of the next command. UNDEFINED as `from`
+    // discards the contents.
     void transition(
-        const Image& image, VkImageLayout from, VkImageLayout to, Access before, Access after,
+        const Image& image, VkImageLayout from, VkImageLayout to,
         const std::source_location& place = std::source_location::current());
 
-    // Declares what the next dispatch or draws touch, for the hazard checker (engine/hazards.h):
-    // all buffers that a frame's commands write and that this dispatch or these draws read or
-    // write. Buffers that only the host writes need no declaration. Images bound by images() or
-    // rendered to, and operands of copies and fills, are known. Every dispatch of a pass needs a
-    // declaration. Its uses don't depend on one another.
-    void uses(std::initializer_list<Use> uses) {
-        if (hazards_) declare(uses);
-    }
+    // Declares what the next dispatch, draws or rendering touch: all buffers that a frame's
+    // commands write and that they read or write. Barriers follow from this, so what is not
+    // declared is not ordered. Buffers that only the host or set-up writes need no declaration.
+    // Images bound by images() or rendered to, and operands of copies and fills, are known. Every
+    // dispatch of a pass needs a declaration. Its uses don't depend on one another.
+    void uses(
+        std::initializer_list<Use> uses,
+        const std::source_location& place = std::source_location::current());
 
-    void copy(const Buffer& source, const Buffer& destination, std::size_t bytes);
+    // Declares for the next dispatch what the last one touched, because it is another part of it.
+    void usesAgain();
+
+    // Records the barrier that the declared uses need. Only for commands that are recorded by the
+    // Vulkan function itself.
+    void order();
+
+    // Between these a barrier is impossible. So everything that earlier compute, transfers and
+    // fragments wrote is made visible in front, with what was declared.
+    void beginRendering(const VkRenderingInfo& info);
+    void endRendering();
+
+    // Number of barriers recorded so far.
+    std::uint32_t barriers() const { return barriers_; }
+
+    void copy(
+        const Buffer& source, const Buffer& destination, std::size_t bytes,
+        const std::source_location& place = std::source_location::current());
     // Copies between images of equal size, from TRANSFER_SRC_OPTIMAL to TRANSFER_DST_OPTIMAL.
-    void copy(const Image& source, const Image& destination);
+    void copy(
+        const Image& source, const Image& destination,
+        const std::source_location& place = std::source_location::current());
     // Copies an image in TRANSFER_SRC_OPTIMAL into tightly packed pixels.
-    void copy(const Image& source, const Buffer& destination);
+    void copy(
+        const Image& source, const Buffer& destination,
+        const std::source_location& place = std::source_location::current());
     // Copies tightly packed pixels into a level of an image in TRANSFER_DST_OPTIMAL.
-    void
-    copy(const Buffer& source, std::size_t offset, const Image& destination, std::uint32_t level);
-    void fill(const Buffer& buffer, std::uint32_t value);
+    void copy(
+        const Buffer& source, std::size_t offset, const Image& destination, std::uint32_t level,
+        const std::source_location& place = std::source_location::current());
+    void fill(
+        const Buffer& buffer, std::uint32_t value,
+        const std::source_location& place = std::source_location::current());
     // Writes bytes, stored in the command buffer itself, to the start of a buffer; whole 4-byte
     // words.
-    void write(const Buffer& buffer, std::span<const std::byte> bytes);
+    void write(
+        const Buffer& buffer, std::span<const std::byte> bytes,
+        const std::source_location& place = std::source_location::current());
 
     // Binds a pipeline, with the push constants of its next dispatch or draws.
     void bind(const ComputePipeline& pipeline);
@@ -196,8 +193,10 @@ public:
     void endLabel();
 
 private:
-    void touch(std::initializer_list<Use> uses);
-    void declare(std::initializer_list<Use> uses);
+    void record(const PlannedBarrier& barrier);
+    // Forgets the uses of a command that has nothing to do.
+    void withdraw();
+    void touch(std::initializer_list<Use> operands, const std::source_location& place);
     void declarePushed(const std::vector<ResourceId>& pushed, Access access);
     void checkDeclared();
     void bindCompute(const ComputePipeline& pipeline, std::span<const std::byte> push);
@@ -214,7 +213,23 @@ private:
     DescriptorSets& sets_;
     HazardLog* hazards_;
     QueueKind queue_;
+    BarrierPlan& plan_;
+    struct LayoutChange {
+        const Image* image;
+        VkImageLayout from;
+        VkImageLayout to;
+    };
+    static constexpr std::size_t kMostChanges = 8;
+    std::array<LayoutChange, kMostChanges> changes_{};  // in front of the next command
+    std::size_t change_count_ = 0;
+    bool is_open_ = false;  // between begin() and end()
+    bool is_nested_ = false;  // another recording for the queue was open at begin()
+    bool renders_ = false;
+    std::uint32_t barriers_ = 0;
     // For the hazard checker:
+    std::source_location place_;  // of the last declaration
+    std::vector<RecordedUse> declared_uses_;  // of the next command
+    std::vector<RecordedUse> last_uses_;  // of the last one
     Recording recording_;
     std::string pass_;
     std::vector<ResourceId> declared_;  // since the last dispatch

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <chrono>
 #include <cstdint>
 #include <filesystem>
@@ -13,6 +14,7 @@
 #include <utility>
 #include <vector>
 
+#include "engine/barriers.h"
 #include "engine/hazards.h"
 #include "engine/instance.h"
 #include "engine/process.h"
@@ -153,6 +155,11 @@ public:
     VkPipelineCache pipelineCache() const { return cache_->get(); }
     const DeviceInfo& info() const { return info_; }
     MessageLog& messages() const { return instance_.messages(); }
+    // Its buffers and images, and the barriers of commands for each kind of queue.
+    TrackedResources& resources() const { return *resources_; }
+    BarrierPlan& barriers(QueueKind queue) const {
+        return *barriers_[static_cast<std::size_t>(queue)];
+    }
     // The hazard log; null if validation is off.
     HazardLog* hazards() const { return hazards_.get(); }
 
@@ -221,6 +228,10 @@ private:
     VkQueue queue_{};
     VkQueue compute_queue_{};
     std::unique_ptr<VmaAllocator_T, DestroyAllocator> allocator_;
+    std::unique_ptr<TrackedResources> resources_ = std::make_unique<TrackedResources>();
+    std::array<std::unique_ptr<BarrierPlan>, 2> barriers_{
+        std::make_unique<BarrierPlan>(*resources_, QueueKind::all),
+        std::make_unique<BarrierPlan>(*resources_, QueueKind::compute)};
     std::unique_ptr<HazardLog> hazards_;
     std::unique_ptr<MemoryLedger> memory_;
     std::unique_ptr<ShaderLibrary> shaders_;

@@ -192,9 +192,9 @@ public:
         case Timing::isolated: {
             auto& stamps = slot_data_.timestamps;
             const std::uint32_t first = stamps ? stamps->write(*commands_) : 0;
-            commands_->barrier(Access::anything, Access::anything);
+            commands_->orderAll();
             record(*commands_);
-            commands_->barrier(Access::anything, Access::anything);
+            commands_->orderAll();
             if (stamps) slot_data_.spans.push_back({name, first, stamps->write(*commands_)});
             break;
         }
@@ -265,9 +265,9 @@ public:
         Commands commands(slot_data_.buffer, slot_data_.sets, device_.hazards());
         commands.begin();
         commands.beginLabel(name);
-        commands.barrier(Access::anything, Access::anything);
+        commands.orderAll();
         record(commands);
-        commands.barrier(Access::anything, Access::anything);
+        commands.orderAll();
         commands.endLabel();
         commands.end();
         const ProcessUse used = processUse();

@@ -37,7 +37,7 @@ constexpr VkPipelineStageFlags2 allGraphics() {
     return stages;
 }
 
-constexpr VkPipelineStageFlags2 kTransfer =
+constexpr VkPipelineStageFlags2 kTransferStages =
     VK_PIPELINE_STAGE_2_COPY_BIT | VK_PIPELINE_STAGE_2_RESOLVE_BIT | VK_PIPELINE_STAGE_2_BLIT_BIT |
     VK_PIPELINE_STAGE_2_CLEAR_BIT;
 
@@ -67,10 +67,10 @@ Scope expanded(Scope scope) {
         VK_PIPELINE_STAGE_2_MESH_SHADER_BIT_EXT;
     expand(
         scope.stages, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT,
-        allGraphics() | kTransfer | VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT |
+        allGraphics() | kTransferStages | VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT |
             VK_PIPELINE_STAGE_2_HOST_BIT);
     expand(scope.stages, VK_PIPELINE_STAGE_2_ALL_GRAPHICS_BIT, allGraphics());
-    expand(scope.stages, VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT, kTransfer);
+    expand(scope.stages, VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT, kTransferStages);
     expand(scope.stages, VK_PIPELINE_STAGE_2_PRE_RASTERIZATION_SHADERS_BIT, kBeforeRaster);
     expand(scope.access, VK_ACCESS_2_MEMORY_READ_BIT, kReads);
     expand(scope.access, VK_ACCESS_2_MEMORY_WRITE_BIT, kWrites);
@@ -141,8 +141,9 @@ const char* textOf(Hazard::Kind kind) {
 
 // ---- The rules ----------------------------------------------------------------------------------
 
-std::vector<Hazard> HazardChecker::submit(const Recording& recording) {
+std::vector<Hazard> HazardChecker::submit(const Recording& recording, QueueKind queue) {
     ++submissions_;
+    queue_ = queue;
     std::vector<Hazard> found;
     for (const Recorded& each : recording) {
         apply(each.barriers, each.pass, found);
@@ -172,7 +173,8 @@ void HazardChecker::forgetIf(const std::function<bool(const Done&)>& is_over) {
 void HazardChecker::apply(
     const std::vector<RecordedBarrier>& barriers, const std::string& pass,
     std::vector<Hazard>& found) {
-    const auto comesBefore = [](const RecordedBarrier& barrier, const Done& done) {
+    const auto comesBefore = [&](const RecordedBarrier& barrier, const Done& done) {
+        if (done.queue != queue_) return false;
         const VkPipelineStageFlags2 waited_for = withEarlier(expanded(barrier.before).stages);
         return isWithin(done.scope.stages, waited_for) || (done.ordered & waited_for);
     };
@@ -212,6 +214,7 @@ void HazardChecker::transitionLayout(
     const Scope after = expanded(barrier.after);
     const VkPipelineStageFlags2 waited_for = withEarlier(before.stages);
     const auto comesBefore = [&](const Done& done) {
+        if (done.queue != queue_) return false;
         return isWithin(done.scope.stages, waited_for) || (done.ordered & waited_for);
     };
     State& state = states_[*barrier.image];
@@ -225,6 +228,7 @@ void HazardChecker::transitionLayout(
         .scope = {kBetweenStages, 0},
         .pass = pass,
         .submission = submissions_,
+        .queue = queue_,
         .ordered = withLater(after.stages),
         .available = true,
         .visible = {after}};
@@ -237,19 +241,22 @@ void HazardChecker::apply(
         const Scope reads{scope.stages, scope.access & kReads};
         const Scope writes{scope.stages, scope.access & kWrites};
         State& state = states_[use.resource];
-        if (state.write && reads.access && !isVisibleTo(state.write->visible, reads))
+        const auto isVisible = [&](const Scope& later) {
+            return state.write->queue == queue_ && isVisibleTo(state.write->visible, later);
+        };
+        if (state.write && reads.access && !isVisible(reads))
             found.push_back(
                 {Hazard::Kind::read_after_write, use.resource, state.write->pass, pass});
-        else if (state.write && writes.access && !isVisibleTo(state.write->visible, writes))
+        else if (state.write && writes.access && !isVisible(writes))
             found.push_back(
                 {Hazard::Kind::write_after_write, use.resource, state.write->pass, pass});
         if (writes.access)
             for (const Done& read : state.reads)
-                if (!isWithin(scope.stages, read.ordered))
+                if (read.queue != queue_ || !isWithin(scope.stages, read.ordered))
                     found.push_back(
                         {Hazard::Kind::write_after_read, use.resource, read.pass, pass});
 
-        const Done done{.scope = scope, .pass = pass, .submission = submissions_};
+        const Done done{.scope = scope, .pass = pass, .submission = submissions_, .queue = queue_};
         if (writes.access) {
             state.reads.clear();
             state.write = done;
@@ -269,8 +276,8 @@ std::set<std::string> barrierPlaces(std::span<const Recording> recordings) {
     std::set<std::string> places;
     for (const Recording& recording : recordings)
         for (const Recorded& each : recording)
-            for (const RecordedBarrier& barrier : each.barriers)
-                if (!barrier.transitions_layout) places.insert(barrier.place);
+            if (std::ranges::none_of(each.barriers, &RecordedBarrier::transitions_layout))
+                for (const RecordedBarrier& barrier : each.barriers) places.insert(barrier.place);
     return places;
 }
 
@@ -373,7 +380,7 @@ std::vector<ResourceId> HazardLog::writtenBuffersIn(std::span<const std::byte> b
 
 // ---- Submissions --------------------------------------------------------------------------------
 
-void HazardLog::submit(Recording recording) {
+void HazardLog::submit(Recording recording, QueueKind queue) {
     ++submissions_;
     for (const Recorded& each : recording)
         for (const RecordedUse& use : each.uses) {
@@ -387,7 +394,7 @@ void HazardLog::submit(Recording recording) {
     const auto passText = [](const std::string& pass) {
         return pass.empty() ? std::string("set-up") : "pass '" + pass + "'";
     };
-    for (const Hazard& hazard : checker_.submit(recording))
+    for (const Hazard& hazard : checker_.submit(recording, queue))
         report(
             std::string(textOf(hazard.kind)) + " of '" + name(hazard.resource) +
             "': " + passText(hazard.later) + " is not ordered after " + passText(hazard.earlier));

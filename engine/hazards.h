@@ -12,22 +12,17 @@
 #include <utility>
 #include <vector>
 
+#include "engine/barriers.h"
 #include "engine/instance.h"
 
 // Checks that recorded commands are synchronised. The validation layer doesn't see memory that
 // shaders reach by address, and on a device that runs commands one after the other, missing
-// barriers have no effect. So commands declare what they touch (Commands::uses). The declared uses
-// are checked against the barriers between them by the rules of chapter 7 of the Vulkan
-// specification.
+// barriers have no effect. So what commands declare that they touch (Commands::uses) is checked
+// against the barriers between them by the rules of chapter 7 of the Vulkan specification, whatever
+// planned these barriers.
 namespace engine {
 
 class MessageLog;
-
-// Pipeline stages and their memory accesses.
-struct Scope {
-    VkPipelineStageFlags2 stages = 0;
-    VkAccessFlags2 access = 0;
-};
 
 // A buffer or image for its lifetime; numbers are not reused.
 using ResourceId = std::uint32_t;
@@ -67,11 +62,12 @@ struct Hazard {
     std::string later;  // pass
 };
 
-// Follows submissions to one queue, one after the other, and finds the hazards in them.
+// Follows submissions, one after the other, and finds the hazards in them. A barrier orders only
+// what was submitted to its own kind of queue.
 class HazardChecker {
 public:
     // Returns the hazards within the recording and against everything before it.
-    std::vector<Hazard> submit(const Recording& recording);
+    std::vector<Hazard> submit(const Recording& recording, QueueKind queue = QueueKind::all);
 
     // The host has waited for all submissions up to this one, counted from 1. Later work depends on
     // nothing in them.
@@ -88,6 +84,7 @@ private:
         Scope scope;
         std::string pass;
         std::uint64_t submission = 0;
+        QueueKind queue = QueueKind::all;
         VkPipelineStageFlags2 ordered = 0;  // stages in which all later commands come after it
         bool available = false;  // a write: a barrier has made it available
         std::vector<Scope> visible;  // for a write: the scopes it is visible to
@@ -108,6 +105,7 @@ private:
 
     std::map<ResourceId, State> states_;
     std::uint64_t submissions_ = 0;
+    QueueKind queue_ = QueueKind::all;  // of the recording that is looked at
 };
 
 // Returns the places of barriers that can each be left out: without it, the recordings, submitted
@@ -115,7 +113,7 @@ private:
 // needs them. Two barriers that make each other redundant are both listed.
 std::vector<std::string> redundantBarriers(std::span<const Recording> recordings);
 
-// Returns the places of all barriers except layout changes.
+// Returns the places of all barriers except those that change layouts too.
 std::set<std::string> barrierPlaces(std::span<const Recording> recordings);
 
 // The buffers and images of a device, the submissions to its queue, and the hazards in them, as
@@ -172,7 +170,7 @@ public:
     std::vector<ResourceId> writtenBuffersIn(std::span<const std::byte> bytes) const;
 
     // Takes a recording that is submitted next. Hazards become messages.
-    void submit(Recording recording);
+    void submit(Recording recording, QueueKind queue = QueueKind::all);
     // Number of submissions so far.
     std::uint64_t submissions() const { return submissions_; }
     // The host has waited for this submission and all before it.

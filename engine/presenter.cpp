@@ -232,6 +232,7 @@ void Swapchain::finish() const {
 void Swapchain::copy(Commands& commands, const Image& picture, std::uint32_t index) const {
     const VkImage image = slots_[index].image;
     commands.uses({{picture, Access::transfer_read}});
+    commands.order();
     imageBarrier(
         commands.get(), image, VK_IMAGE_LAYOUT_UNDEFINED, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL,
         VK_ACCESS_2_NONE, VK_ACCESS_2_TRANSFER_WRITE_BIT);
@@ -447,20 +448,18 @@ void Presenter::record(
     commands.begin();
     commands.beginLabel("ui");
     timestamps_->write(commands);
-    commands.barrier(Access::anything, Access::anything);
+    commands.orderAll();
     before(commands);
     commands.transition(
-        *canvas_, VK_IMAGE_LAYOUT_UNDEFINED, VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL,
-        Access::transfer_read, Access::attachment);
+        *canvas_, VK_IMAGE_LAYOUT_UNDEFINED, VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL);
     const Attachment canvas{.image = &*canvas_, .load = Load::clear, .clear = {0, 0, 0, 1}};
     beginRendering(commands, std::span(&canvas, 1), std::nullopt);
     draw(commands);
     endRendering(commands);
     commands.transition(
-        *canvas_, VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL,
-        Access::attachment, Access::transfer_read);
+        *canvas_, VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL);
     swapchain_->copy(commands, *canvas_, index);
-    commands.barrier(Access::anything, Access::anything);
+    commands.orderAll();
     timestamps_->write(commands);
     commands.endLabel();
     commands.end();

@@ -70,19 +70,6 @@ made(const Device& device, const std::optional<ImageDescription>& description) {
     return std::optional<Image>(std::in_place, device, *description);
 }
 
-// Returns how the rendered image is read.
-Access reader(Resolve resolve) {
-    switch (resolve) {
-    case Resolve::none:
-        return Access::transfer_read;
-    case Resolve::attachment:
-        return Access::attachment;
-    case Resolve::compute:
-        break;
-    }
-    return Access::compute_read;
-}
-
 }  // namespace
 
 // ---- Rendering to attachments -------------------------------------------------------------------
@@ -114,7 +101,7 @@ void beginRendering(
         if (color.resolved) commands.uses({{*color.resolved, Access::attachment}});
     }
     if (depth) commands.uses({{*depth->image, Access::attachment}});
-    vkCmdBeginRendering(commands.get(), &info);
+    commands.beginRendering(info);
 
     setArea(commands, rendered);
 }
@@ -131,7 +118,7 @@ void setArea(Commands& commands, const VkRect2D& area) {
     vkCmdSetScissor(commands.get(), 0, 1, &area);
 }
 
-void endRendering(Commands& commands) { vkCmdEndRendering(commands.get()); }
+void endRendering(Commands& commands) { commands.endRendering(); }
 
 // ---- The images of an offscreen picture ---------------------------------------------------------
 
@@ -192,18 +179,11 @@ void Target::beginRendering(
     constexpr VkImageLayout kColor = VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL;
     constexpr VkImageLayout kDepth = VK_IMAGE_LAYOUT_DEPTH_ATTACHMENT_OPTIMAL;
     if (load == Load::clear) {
-        commands.transition(
-            this->color(), VK_IMAGE_LAYOUT_UNDEFINED, kColor, reader(resolve()),
-            Access::attachment);  // after the last frame's readers
-        commands.transition(
-            depth_, VK_IMAGE_LAYOUT_UNDEFINED, kDepth, Access::attachment, Access::attachment);
-    } else {
-        commands.barrier(Access::attachment, Access::attachment);
+        commands.transition(this->color(), VK_IMAGE_LAYOUT_UNDEFINED, kColor);
+        commands.transition(depth_, VK_IMAGE_LAYOUT_UNDEFINED, kDepth);
     }
     const bool resolves = last == Last::yes && resolve() == Resolve::attachment;
-    if (resolves)
-        commands.transition(
-            output_, VK_IMAGE_LAYOUT_UNDEFINED, kColor, Access::transfer_read, Access::attachment);
+    if (resolves) commands.transition(output_, VK_IMAGE_LAYOUT_UNDEFINED, kColor);
 
     const Attachment color{
         .image = &this->color(),
@@ -219,42 +199,33 @@ void Target::endRendering(Commands& commands, Last last) const {
     engine::endRendering(commands);
     if (last == Last::no || resolve() == Resolve::compute) return;
     commands.transition(
-        output_, VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL,
-        Access::attachment, Access::transfer_read);
+        output_, VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL);
 }
 
 void Target::beginDepthRead(Commands& commands) const {
     assert(description_.sampled_depth);
     commands.transition(
-        depth_, VK_IMAGE_LAYOUT_DEPTH_ATTACHMENT_OPTIMAL, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL,
-        Access::attachment, Access::compute_read);
+        depth_, VK_IMAGE_LAYOUT_DEPTH_ATTACHMENT_OPTIMAL, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL);
 }
 
 void Target::endDepthRead(Commands& commands) const {
     commands.transition(
-        depth_, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL, VK_IMAGE_LAYOUT_DEPTH_ATTACHMENT_OPTIMAL,
-        Access::compute_read, Access::attachment);
+        depth_, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL, VK_IMAGE_LAYOUT_DEPTH_ATTACHMENT_OPTIMAL);
 }
 
 void Target::beginResolve(Commands& commands) const {
     assert(resolve() == Resolve::compute);
     commands.transition(
-        *color_, VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL,
-        Access::attachment, Access::compute_read);
-    const auto begin = [&](const Image& written) {
-        commands.transition(
-            written, VK_IMAGE_LAYOUT_UNDEFINED, VK_IMAGE_LAYOUT_GENERAL, Access::transfer_read,
-            Access::compute_write);
-    };
-    begin(output_);
-    if (radiance_) begin(*radiance_);
+        *color_, VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL,
+        VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL);
+    commands.transition(output_, VK_IMAGE_LAYOUT_UNDEFINED, VK_IMAGE_LAYOUT_GENERAL);
+    if (radiance_)
+        commands.transition(*radiance_, VK_IMAGE_LAYOUT_UNDEFINED, VK_IMAGE_LAYOUT_GENERAL);
 }
 
 void Target::endResolve(Commands& commands) const {
     const auto end = [&](const Image& written) {
-        commands.transition(
-            written, VK_IMAGE_LAYOUT_GENERAL, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL,
-            Access::compute_write, Access::transfer_read);
+        commands.transition(written, VK_IMAGE_LAYOUT_GENERAL, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL);
     };
     end(output_);
     if (radiance_) end(*radiance_);

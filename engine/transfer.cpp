@@ -15,7 +15,9 @@ void runOnce(const Device& device, const std::function<void(Commands&)>& record)
     device.submitOnce([&](VkCommandBuffer buffer) {
         Commands commands(buffer, sets, device.hazards());
         commands.begin();
+        commands.orderAll();
         record(commands);
+        commands.orderAll();
         commands.end();
     });
 }
@@ -24,20 +26,13 @@ void upload(const Device& device, std::span<const std::byte> bytes, const Buffer
     const Buffer staging(
         device, {.size = bytes.size(), .usage = Usage::upload, .name = "upload staging"});
     std::ranges::copy(bytes, staging.mapped().begin());
-    runOnce(device, [&](Commands& commands) {
-        commands.copy(staging, destination, bytes.size());
-        commands.barrier(Access::transfer_write, Access::anything);
-    });
+    runOnce(device, [&](Commands& commands) { commands.copy(staging, destination, bytes.size()); });
 }
 
 std::vector<std::byte> download(const Device& device, const Buffer& source) {
     const Buffer staging(
         device, {.size = source.size(), .usage = Usage::readback, .name = "download staging"});
-    runOnce(device, [&](Commands& commands) {
-        commands.barrier(Access::anything, Access::transfer_read);
-        commands.copy(source, staging, source.size());
-        commands.barrier(Access::transfer_write, Access::host_read);
-    });
+    runOnce(device, [&](Commands& commands) { commands.copy(source, staging, source.size()); });
     const std::span<std::byte> mapped = staging.mapped();
     return {mapped.begin(), mapped.end()};
 }
@@ -48,11 +43,7 @@ Buffer readImage(const Device& device, const Image& image, std::size_t bytes_per
         device, {.size = bytes_per_pixel * extent.width * extent.height,
                  .usage = Usage::readback,
                  .name = "picture"});
-    runOnce(device, [&](Commands& commands) {
-        commands.barrier(Access::anything, Access::transfer_read);
-        commands.copy(image, staging);
-        commands.barrier(Access::transfer_write, Access::host_read);
-    });
+    runOnce(device, [&](Commands& commands) { commands.copy(image, staging); });
     return staging;
 }
 
@@ -188,8 +179,7 @@ Texture::Texture(
     const Buffer staging(device, {.size = bytes, .usage = Usage::upload, .name = name});
     runOnce(device, [&](Commands& commands) {
         commands.transition(
-            image_, VK_IMAGE_LAYOUT_UNDEFINED, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL,
-            Access::anything, Access::transfer_write);
+            image_, VK_IMAGE_LAYOUT_UNDEFINED, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL);
         std::size_t offset = 0;
         for (std::uint32_t i = 0; i < levels.size(); ++i) {
             std::ranges::copy(
@@ -199,8 +189,7 @@ Texture::Texture(
             offset += levels[i].rgba.size();
         }
         commands.transition(
-            image_, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL,
-            Access::transfer_write, Access::graphics_read);
+            image_, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL);
     });
 }
 

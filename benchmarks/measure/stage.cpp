@@ -35,11 +35,11 @@ BusyWork::BusyWork(const engine::Device& device, std::uint32_t steps)
 void BusyWork::record(engine::Commands& commands) const {
     using engine::Access;
     if (steps_ == 0) return;
-    commands.barrier(engine::Access::anything, engine::Access::compute_write);
+    commands.orderAll();
     commands.bind(pipeline_, gpu::BusyPush{.results = results_.address(), .steps = steps_});
     commands.uses({{results_, Access::compute_write}});
     commands.dispatch(std::min(steps_, groups_));
-    commands.barrier(engine::Access::compute_write, engine::Access::anything);
+    commands.orderAll();
 }
 
 BusyWork::Done BusyWork::done() const {

@@ -239,10 +239,7 @@ std::vector<double> copyBandwidth(const engine::Device& device) {
     return ratesOf(
         device, engine::PassKind::compute, 2.0 * kCopied,
         [&](engine::Commands& commands, std::uint32_t times) {
-            for (std::uint32_t i = 0; i < times; ++i) {
-                commands.barrier(Access::transfer_write, Access::transfer_write);
-                commands.copy(from, to, kCopied);
-            }
+            for (std::uint32_t i = 0; i < times; ++i) commands.copy(from, to, kCopied);
         });
 }
 
@@ -253,7 +250,6 @@ std::vector<double> computeArithmetic(const engine::Device& device) {
     return ratesOf(
         device, engine::PassKind::compute, kInvocations * kInvocationOperations,
         [&](engine::Commands& commands, std::uint32_t times) {
-            commands.barrier(Access::compute_write, Access::compute_write);
             commands.uses({{results, Access::compute_write}});
             commands.bind(pipeline, limitPush(results.address()));
             commands.dispatchGroups(times * (kInvocations / gpu::kLimitGroup));
@@ -281,8 +277,7 @@ std::vector<double> graphicsArithmetic(const engine::Device& device, StageKind k
         device, engine::PassKind::graphics, invocations * kInvocationOperations,
         [&](engine::Commands& commands, std::uint32_t times) {
             commands.transition(
-                picture, VK_IMAGE_LAYOUT_UNDEFINED, VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL,
-                Access::attachment, Access::attachment);
+                picture, VK_IMAGE_LAYOUT_UNDEFINED, VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL);
             const engine::Attachment color{.image = &picture, .load = engine::Load::clear};
             engine::beginRendering(commands, std::span(&color, 1), std::nullopt);
             commands.bind(pipeline, limitPush(0));

@@ -45,18 +45,14 @@ void DifferencePass::record(
     const engine::Image& difference, std::uint32_t gain) {
     const auto [width, height] = difference.extent();
     pixels_ = std::uint64_t{width} * height;
-    commands.barrier(engine::Access::anything, engine::Access::transfer_write);
     commands.fill(counts_, 0);
-    commands.barrier(engine::Access::transfer_write, engine::Access::compute_write);
     commands.bind(pipeline_, gpu::DifferencePush{.counts = counts_.address(), .gain = gain});
     commands.uses({{counts_, engine::Access::compute_write}});
     commands.images(pipeline_, std::array{&a, &b}, std::array{&difference});
     commands.dispatch(
         (width + gpu::kDifferenceGroupSide - 1) / gpu::kDifferenceGroupSide,
         (height + gpu::kDifferenceGroupSide - 1) / gpu::kDifferenceGroupSide);
-    commands.barrier(engine::Access::compute_write, engine::Access::transfer_read);
     commands.copy(counts_, readback_, sizeof(gpu::DifferenceCounts));
-    commands.barrier(engine::Access::transfer_write, engine::Access::host_read);
 }
 
 DifferenceFigures DifferencePass::figures() const {
@@ -112,13 +108,10 @@ bool ShownPicture::copy(
             device_,
             {.size = rgba.size(), .usage = engine::Usage::upload, .name = "shown picture"});
     staging_.write(std::as_bytes(rgba));
-    commands.transition(
-        image, VK_IMAGE_LAYOUT_UNDEFINED, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL,
-        engine::Access::anything, engine::Access::transfer_write);
+    commands.transition(image, VK_IMAGE_LAYOUT_UNDEFINED, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL);
     commands.copy(staging_, 0, image, 0);
     commands.transition(
-        image, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL,
-        engine::Access::transfer_write, engine::Access::graphics_read);
+        image, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL);
     return !retired_;
 }
 
@@ -129,13 +122,9 @@ void PictureDifference::record(
     if (recorded_) figures_ = pass_.figures();
     const engine::Image& image =
         picture_.renew(VK_FORMAT_R8G8B8A8_UNORM, a.extent(), VK_IMAGE_USAGE_STORAGE_BIT);
-    commands.transition(
-        image, VK_IMAGE_LAYOUT_UNDEFINED, VK_IMAGE_LAYOUT_GENERAL, engine::Access::anything,
-        engine::Access::compute_write);
+    commands.transition(image, VK_IMAGE_LAYOUT_UNDEFINED, VK_IMAGE_LAYOUT_GENERAL);
     pass_.record(commands, a.image(), b.image(), image, gain);
-    commands.transition(
-        image, VK_IMAGE_LAYOUT_GENERAL, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL,
-        engine::Access::compute_write, engine::Access::graphics_read);
+    commands.transition(image, VK_IMAGE_LAYOUT_GENERAL, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL);
     recorded_ = true;
 }
 

@@ -246,9 +246,6 @@ public:
         constants.points = 0;
         commands.bind(list_, constants);
         commands.dispatchInvocations(draws_, gpu::kPointsGroup);
-        commands.barrier(
-            {{Access::compute_write, Access::indirect_read},
-             {Access::compute_write, Access::vertex_read}});
     }
 
     void draw(engine::Commands& commands, const StrandPicture& picture) const override {

@@ -89,7 +89,6 @@ SkinnedHead::SkinnedHead(
     runOnce(device, [&](engine::Commands& commands) {
         if (frames) {
             frames->record(commands, rest);
-            commands.barrier(Access::compute_write, Access::compute_read);
             commands.uses(
                 {{frames->normals().address(), Access::compute_read},
                  {frames->turns().address(), Access::compute_read}});
@@ -103,7 +102,6 @@ SkinnedHead::SkinnedHead(
                            .found = corrections_.address(),
                            .count = strand_count_});
         commands.dispatchInvocations(strand_count_, gpu::kSkinGroupSize);
-        commands.barrier(Access::compute_write, Access::anything);
     });
     std::vector<glm::vec3> found;
     for (const glm::vec4& root : engine::downloadAs<glm::vec4>(device, corrections_))
@@ -133,9 +131,6 @@ void SkinnedHead::record(
     engine::Commands& commands, std::uint64_t picture, const gpu::PictureParameters& parameters,
     std::uint32_t slot) const {
     if (!roots_.address()) return;
-    // Waits for draws that still read the old corrections, and so, by the chain of barriers, for
-    // the frames along guides.
-    commands.barrier(Access::vertex_read, Access::compute_write);
     commands.uses(
         {{parameters.guides, Access::compute_read},
          {parameters.contacts, Access::compute_read},
@@ -150,7 +145,6 @@ void SkinnedHead::record(
                        .found = corrections_.address(),
                        .count = strand_count_});
     commands.dispatchInvocations(strand_count_, gpu::kSkinGroupSize);
-    commands.barrier(Access::compute_write, Access::vertex_read);
 }
 
 // ---- Points of strands --------------------------------------------------------------------------
@@ -255,10 +249,7 @@ PointsPass::PointsPass(
 void PointsPass::record(
     engine::Commands& commands, std::uint64_t picture,
     const gpu::PictureParameters& parameters) const {
-    // Waits for the last frame's picture and for this frame's frames along guides.
-    commands.barrier(Access::compute_write, Access::transfer_write);
     commands.fill(bounds_, 0);
-    commands.barrier(Access::transfer_write, Access::compute_write);
     gpu::PointsPush push = push_;
     push.picture = picture;
     commands.uses(
@@ -272,9 +263,6 @@ void PointsPass::record(
          {bounds_, Access::compute_write}});
     commands.bind(evaluate_, push);
     commands.dispatchInvocations(blocks_, gpu::kPointsGroup);
-    commands.barrier(
-        {{Access::compute_write, Access::compute_read},
-         {Access::compute_write, Access::vertex_read}});
 }
 
 engine::Constants placeConstants(const StrandPlan& plan) {

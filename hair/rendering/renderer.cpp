@@ -486,11 +486,9 @@ StrandPoints evaluateStrandPoints(
         runOnce(device, [&](engine::Commands& commands) {
             if (frames && first == 0) {
                 frames->record(commands, view);
-                commands.barrier(engine::Access::compute_write, engine::Access::compute_read);
             }
             if (skin && first == 0) {
                 skin->record(commands, parameters.address(), picture, 0);
-                commands.barrier(engine::Access::compute_write, engine::Access::compute_read);
             }
             commands.uses(
                 {{view.guides, engine::Access::compute_read},
@@ -506,7 +504,6 @@ StrandPoints evaluateStrandPoints(
                               .count = part,
                               .first = first});
             commands.dispatchInvocations(part, gpu::kStrandPointsGroupSize);
-            commands.barrier(engine::Access::compute_write, engine::Access::transfer_read);
         });
         const std::vector<Record> evaluated = engine::downloadAs<Record>(device, records);
         result.records.insert(result.records.end(), evaluated.begin(), evaluated.begin() + part);

@@ -222,17 +222,12 @@ engine::ImageDescription opacityOfHair(const ShadowAtlas* atlas) {
 }
 
 void toRead(engine::Commands& commands, const engine::Image& image, VkImageLayout from) {
-    const bool was_drawn = from != VK_IMAGE_LAYOUT_UNDEFINED;
-    commands.transition(
-        image, from, kRead, was_drawn ? engine::Access::attachment : engine::Access::anything,
-        engine::Access::shading_read);
+    commands.transition(image, from, kRead);
 }
 
 // Prepares the image for the next draws, after the last frame's pictures have read it.
 void toDraw(engine::Commands& commands, const engine::Image& image, VkImageLayout to) {
-    commands.transition(
-        image, VK_IMAGE_LAYOUT_UNDEFINED, to, engine::Access::shading_read,
-        engine::Access::attachment);
+    commands.transition(image, VK_IMAGE_LAYOUT_UNDEFINED, to);
 }
 
 }  // namespace

@@ -255,7 +255,6 @@ void SoftwareBackend::cullPieces(engine::Commands& commands, gpu::SoftwarePush c
     constants.pyramid = pyramid_.address();
     constants.counts = counts_.address();
     constants.list = list_.address();
-    commands.barrier(Access::compute_write, Access::compute_write);
     commands.uses(
         {{points_.points(), Access::compute_read},
          {points_.pieces(), Access::compute_read},
@@ -279,7 +278,6 @@ void SoftwareBackend::rasterizePieces(
     constants.visibility = visibility_.address();
     constants.counts = counts_.address();
     constants.large = large_.address();
-    commands.barrier(Access::compute_write, Access::compute_write);
     commands.uses(
         {{points_.points(), Access::compute_read},
          {points_.pieces(), Access::compute_read},
@@ -300,7 +298,6 @@ void SoftwareBackend::rasterizeLarge(
     constants.visibility = visibility_.address();
     constants.counts = counts_.address();
     constants.large = large_.address();
-    commands.barrier(Access::compute_write, Access::compute_write);
     commands.uses(
         {{points_.points(), Access::compute_read},
          {points_.pieces(), Access::compute_read},
@@ -316,7 +313,6 @@ void SoftwareBackend::reduceTiles(engine::Commands& commands, gpu::SoftwarePush 
     constants.visibility = visibility_.address();
     constants.bounds = points_.bounds().address();
     constants.tile_depths = tile_depths_.address();
-    commands.barrier(Access::compute_write, Access::compute_write);
     commands.uses(
         {{visibility_, Access::compute_read},
          {points_.bounds(), Access::compute_read},
@@ -330,7 +326,6 @@ void SoftwareBackend::buildPyramid(engine::Commands& commands, gpu::SoftwarePush
     constants.bounds = points_.bounds().address();
     constants.tile_depths = tile_depths_.address();
     constants.pyramid = pyramid_.address();
-    commands.barrier(Access::compute_write, Access::compute_write);
     commands.uses(
         {{tile_depths_, Access::compute_read},
          {points_.bounds(), Access::compute_read},
@@ -368,7 +363,6 @@ void SoftwareBackend::shade(engine::Commands& commands, const StrandPicture& pic
     constants.visibility = visibility_.address();
     constants.bounds = points_.bounds().address();
     if (target_.hasRadiance()) constants.colors = colors_.address();
-    commands.barrier(Access::compute_write, Access::compute_write);
     commands.uses(
         {{points_.points(), Access::compute_read},
          {points_.pieces(), Access::compute_read},
@@ -385,11 +379,9 @@ void SoftwareBackend::shade(engine::Commands& commands, const StrandPicture& pic
 
 void SoftwareBackend::prepare(engine::Commands& commands, const StrandPicture& picture) const {
     commands.fill(counts_, 0);
-    commands.barrier(Access::transfer_write, Access::compute_write);
     clear(commands, picture);
     rasterize(commands, picture);
     shade(commands, picture);
-    commands.barrier(Access::compute_write, Access::fragment_read);
 }
 
 void SoftwareBackend::draw(engine::Commands& commands, const StrandPicture& picture) const {

@@ -240,8 +240,6 @@ FramesPass::FramesPass(const engine::Device& device, const StrandView& view) {
 
 void FramesPass::record(engine::Commands& commands, const StrandView& view) const {
     using engine::Access;
-    // Waits for draws that still read the old frames.
-    commands.barrier(Access::vertex_read, Access::compute_write);
     if (frame_) {
         commands.uses({{view.guides, Access::compute_read}, {normals_, Access::compute_write}});
         commands.bind(
@@ -267,7 +265,6 @@ void FramesPass::record(engine::Commands& commands, const StrandView& view) cons
                         .vertices_per_guide = view.vertices_per_guide});
         commands.dispatchInvocations(view.guide_count, gpu::kFramesGroupSize);
     }
-    commands.barrier(Access::compute_write, Access::vertex_read);
 }
 
 bool hasOffsets(const StrandSettings& settings) {

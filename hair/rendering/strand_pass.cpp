@@ -195,7 +195,6 @@ public:
             list(commands, target, strands);
         });
         passes.pass("composite", engine::PassKind::graphics, [&](engine::Commands& commands) {
-            commands.barrier(Access::fragment_write, Access::fragment_read);
             target.beginRendering(commands, engine::Load::keep, {}, strands.last);
             commands.uses({{heads_, Access::fragment_read}, {nodes_, Access::fragment_read}});
             commands.bind(
@@ -222,12 +221,8 @@ private:
         engine::Commands& commands, const engine::Target& target,
         const RecordedStrands& strands) const {
         strands.prepare(commands);
-        // The lists may still be in use by the last picture's passes.
-        commands.barrier(Access::fragment_write, Access::transfer_write);
         commands.fill(heads_, gpu::kNoFragment);
         commands.fill(counter_, 0);
-        commands.barrier(Access::transfer_write, Access::fragment_write);
-        commands.barrier(Access::attachment, Access::attachment);
         engine::beginRendering(commands, {}, engine::Attachment{.image = &target.depth()});
         commands.uses(
             {{heads_, Access::fragment_write},
@@ -333,10 +328,8 @@ private:
         strands.prepare(commands);
         for (const engine::Image* image : {&sum_, &revealed_}) {
             commands.transition(
-                *image, VK_IMAGE_LAYOUT_UNDEFINED, VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL,
-                Access::fragment_read, Access::attachment);
+                *image, VK_IMAGE_LAYOUT_UNDEFINED, VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL);
         }
-        commands.barrier(Access::attachment, Access::attachment);
         const std::array sums{
             engine::Attachment{.image = &sum_, .load = engine::Load::clear, .clear = {}},
             engine::Attachment{.image = &revealed_, .load = engine::Load::clear, .clear = {1}}};
@@ -350,8 +343,7 @@ private:
         for (const engine::Image* image : {&sum_, &revealed_}) {
             commands.transition(
                 *image, VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL,
-                VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL, Access::attachment,
-                Access::fragment_read);
+                VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL);
         }
         target.beginRendering(commands, engine::Load::keep, {}, last);
         // One draw per sample, because sample-rate shading is a feature that not every device has.

@@ -96,7 +96,6 @@ std::vector<float> windingsAt(
         runOnce(device, [&](engine::Commands& commands) {
             commands.bind(pipeline, push);
             commands.dispatchGroups(push.block_count);
-            commands.barrier(engine::Access::compute_write, engine::Access::anything);
         });
         step.advance(push.block_count);
     }
@@ -519,7 +518,6 @@ DistanceField::DistanceField(
         runOnce(device, [&](engine::Commands& commands) {
             commands.bind(pipeline, push);
             commands.dispatchGroups(groups);
-            commands.barrier(engine::Access::compute_write, engine::Access::anything);
         });
     };
     run((count + kGroup - 1) / kGroup);
@@ -605,19 +603,12 @@ SegmentPass::SegmentPass(
                    .push_size = sizeof(gpu::SegmentPush)}) {}
 
 void SegmentPass::recordStart(engine::Commands& commands, const engine::Buffer& positions) const {
-    // Waits for the previous substep, which wrote the positions and read the copies of the
-    // positions at its start.
-    commands.barrier(
-        {{Access::compute_write, Access::transfer_read},
-         {Access::compute_write, Access::transfer_write}});
     commands.copy(positions, starts_, starts_.size());
-    commands.barrier(Access::transfer_write, Access::compute_write);
 }
 
 void SegmentPass::record(
     engine::Commands& commands, const GuideAddresses& guides, const gpu::RigidFrame& frame,
     const gpu::RigidFrame& frame_before) const {
-    commands.barrier(Access::compute_write, Access::compute_write);
     commands.uses(
         {{guides.positions, Access::compute_write},
          {guides.previous, Access::compute_write},

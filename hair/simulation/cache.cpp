@@ -95,7 +95,6 @@ void CachePass::recordRest(engine::Commands& commands, double time) const {
 void CachePass::recordFollow(
     engine::Commands& commands, const GuideAddresses& guides, const RigidMotion& head_before,
     const RigidMotion& head_after, double to) const {
-    commands.barrier(Access::compute_write, Access::compute_write);
     commands.bind(
         follow_, gpu::CacheFollowPush{
                      .guides = guides.parameters,

@@ -8,7 +8,7 @@
 #include "engine/pipeline.h"
 #include "hair/gpu_structs.h"
 #include "hair/groom/groom.h"
-#include "hair/simulation/guide_view.h"
+#include "hair/simulation/guide_solver.h"
 #include "hair/simulation/head_motion.h"
 
 namespace hair::simulation {

@@ -81,13 +81,11 @@ std::vector<gpu::VertexCondition> inspectVertices(
     const engine::ComputePipeline pipeline(
         device, {.shader = "simulation/condition.comp", .push_size = sizeof(gpu::ConditionPush)});
     runOnce(device, [&](engine::Commands& commands) {
-        commands.barrier(engine::Access::anything, engine::Access::compute_write);
         commands.bind(
             pipeline, gpu::ConditionPush{
                           .guides = guides, .conditions = conditions.address(), .frame = frame});
         commands.uses({{conditions, engine::Access::compute_write}});
         commands.dispatchInvocations(count, gpu::kGuideGroupSize);
-        commands.barrier(engine::Access::compute_write, engine::Access::transfer_read);
     });
     return engine::downloadAs<gpu::VertexCondition>(device, conditions);
 }

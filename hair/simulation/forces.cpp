@@ -190,7 +190,6 @@ ForcePass::ForcePass(
 void ForcePass::record(
     engine::Commands& commands, const GuideAddresses& guides, double time) const {
     using engine::Access;
-    commands.barrier(Access::compute_write, Access::compute_write);
     commands.bind(
         pipeline_, gpu::ForcePush{
                        .guides = guides.parameters,
@@ -291,7 +290,6 @@ void PullPass::record(engine::Commands& commands, const GuideAddresses& guides, 
             .stiffness = static_cast<float>(stiffness),
             .damping = static_cast<float>(damping),
             .implicit = static_cast<float>(1.0 / (1.0 + damping * dt + stiffness * dt * dt))};
-        commands.barrier(engine::Access::compute_write, engine::Access::compute_write);
         commands.bind(hold_, push);
         commands.uses(
             {{guides.positions, Access::compute_read},
@@ -299,7 +297,6 @@ void PullPass::record(engine::Commands& commands, const GuideAddresses& guides, 
              {guides.accelerations, Access::compute_read},
              {held_, Access::compute_write}});
         commands.dispatch(1);
-        commands.barrier(engine::Access::compute_write, engine::Access::compute_write);
         commands.bind(spread_, push);
         commands.uses(
             {{held_, Access::compute_read}, {guides.accelerations, Access::compute_write}});

@@ -48,8 +48,7 @@ struct AirAtGuides {
 void checkWind(const WindSettings& settings);
 
 // The effect of air on every guide vertex in a time step. Thesis mode writes an acceleration to
-// GuideAddresses::accelerations. Drag mode writes none; solvers apply the drag of air(). The caller
-// orders earlier and later work.
+// GuideAddresses::accelerations. Drag mode writes none; solvers apply the drag of air().
 class WindPass {
 public:
     // Throws like checkWind.
@@ -91,8 +90,7 @@ public:
         const engine::Device& device, std::uint32_t vertex_count,
         const SimulationSettings& settings);
 
-    // Records the time step that starts at `time`. Orders its work after earlier compute work. The
-    // caller orders later work.
+    // Records the time step that starts at `time`.
     void record(engine::Commands& commands, const GuideAddresses& guides, double time) const;
 
 private:
@@ -146,8 +144,7 @@ public:
     // `pulls` must have passed checkPulls.
     void setPulls(std::vector<PullSettings> pulls) noexcept { pulls_ = std::move(pulls); }
 
-    // Records the time step that starts at `time`. Orders its work after earlier compute work. The
-    // caller orders later work.
+    // Records the time step that starts at `time`.
     void record(engine::Commands& commands, const GuideAddresses& guides, double time) const;
 
 private:

@@ -58,9 +58,9 @@ public:
     virtual ~GuideSolver() = default;
 
     // Records one substep: integrate, constrain the strands, push them out of bodies. The caller
-    // fills in the push constants except `solver` and `first_strand`, declares the uses of the
-    // guides (Commands::uses), and orders earlier and later work by barriers. The solver declares
-    // the uses of its own buffers.
+    // fills in the push constants except `solver` and `first_strand`, and declares the uses of the
+    // guides (Commands::uses) for the first dispatch. The solver declares the uses of its own
+    // buffers, and in further dispatches all of them (Commands::usesAgain).
     virtual void record(engine::Commands& commands, gpu::SubstepPush push) const = 0;
 
     // Derives the solver's own state from positions and previous positions that other code wrote.

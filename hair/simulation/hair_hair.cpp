@@ -230,11 +230,7 @@ HairHair::HairHair(
 }
 
 void HairHair::forget(const engine::Device& device) {
-    runOnce(device, [&](engine::Commands& commands) {
-        commands.barrier(Access::anything, Access::transfer_write);
-        commands.fill(kept_, 0);
-        commands.barrier(Access::transfer_write, Access::anything);
-    });
+    runOnce(device, [&](engine::Commands& commands) { commands.fill(kept_, 0); });
 }
 
 void HairHair::record(
@@ -244,11 +240,8 @@ void HairHair::record(
         .volume = parameters_.address(),
         .accelerations = 0,
         .frame = toGpu(later)};
-    // The step before may still read the grids.
-    commands.barrier(Access::compute_write, Access::transfer_write);
     commands.fill(sums_, 0);
     commands.fill(blocks_, 0);
-    commands.barrier(Access::transfer_write, Access::compute_write);
 
     commands.bind(sample_, push);
     commands.uses(
@@ -258,7 +251,6 @@ void HairHair::record(
          {blocks_, Access::compute_write}});
     commands.dispatchInvocations(vertex_count_, gpu::kGuideGroupSize);
 
-    commands.barrier(Access::compute_write, Access::compute_write);
     commands.bind(splat_, push);
     commands.uses(
         {{samples_, Access::compute_read},
@@ -266,7 +258,6 @@ void HairHair::record(
          {sums_, Access::compute_write}});
     commands.dispatchInvocations(vertex_count_, gpu::kGuideGroupSize);
 
-    commands.barrier(Access::compute_write, Access::compute_write);
     push.accelerations = guides.accelerations;
     commands.bind(force_, push);
     commands.uses(

@@ -96,9 +96,7 @@ public:
         const engine::Device& device, const groom::Groom& groom, const SimulationSettings& settings,
         const gpu::Step& step);
 
-    // Adds the accelerations of the next step. `later` is the head's motion at its end. Orders its
-    // work after earlier compute work, except the writes of the guides' positions. The caller
-    // orders later work.
+    // Adds the accelerations of the next step. `later` is the head's motion at its end.
     void record(
         engine::Commands& commands, const GuideAddresses& guides, const RigidMotion& later) const;
 

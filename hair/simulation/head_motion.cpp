@@ -188,9 +188,7 @@ std::span<const RigidMotion> SkinnedRoots::record(
     }
     const auto frames = std::as_bytes(std::span(work_.frames));
     assert(frames.size() <= frames_.size());
-    commands.barrier(Access::compute_read, Access::transfer_write);
     commands.write(frames_, frames);
-    commands.barrier(Access::transfer_write, Access::compute_read);
     return work_.means;
 }
 

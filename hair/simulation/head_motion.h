@@ -80,9 +80,8 @@ public:
 
     // Writes the roots' frames at the start of each substep and at the end of the last. The
     // `substeps`, at most as many as in a step, divide the time from `from` to `to` (s) evenly.
-    // `head` moves the deformed mesh. Orders its work after all compute reads of the previous
-    // step, and makes the frames visible to compute. Returns the head's mean motions at these
-    // times, valid until the next call.
+    // `head` moves the deformed mesh. Returns the head's mean motions at these times, valid until
+    // the next call.
     std::span<const RigidMotion> record(
         engine::Commands& commands, const HeadMotion& head, std::uint32_t substeps, double from,
         double to) const;

@@ -23,9 +23,6 @@ GuideInterpolation::GuideInterpolation(const engine::Device& device, std::uint32
 void GuideInterpolation::record(
     engine::Commands& commands, std::uint64_t from, std::uint64_t to, double share) const {
     // Waits for the step, and for the drawing of the frame before.
-    commands.barrier(
-        {{Access::compute_write, Access::compute_write},
-         {Access::vertex_read, Access::compute_write}});
     commands.bind(
         pipeline_, gpu::InterpolatePush{
                        .from = from,
@@ -38,9 +35,6 @@ void GuideInterpolation::record(
          {to, Access::compute_read},
          {positions_, Access::compute_write}});
     commands.dispatchInvocations(vertex_count_, gpu::kGuideGroupSize);
-    commands.barrier(
-        {{Access::compute_write, Access::vertex_read},
-         {Access::compute_write, Access::compute_write}});
 }
 
 }  // namespace hair::simulation

@@ -162,11 +162,9 @@ Simulation::Simulation(
     }
     settle(settings.settle_steps);
     runOnce(device, [&](engine::Commands& commands) {
-        commands.barrier(engine::Access::anything, engine::Access::transfer_write);
         for (std::size_t i = 0; i < settled_.size(); ++i)
             commands.copy(*state()[i], settled_[i], settled_[i].size());
         commands.fill(accelerations_, 0);
-        commands.barrier(engine::Access::transfer_write, engine::Access::anything);
     });
 }
 
@@ -209,11 +207,7 @@ void Simulation::startCache(const groom::Groom& groom) {
         throw engine::Error(
             "/groom/cache/mode", "can't be used with an animation that deforms the mesh");
     cache_.emplace(*device_, groom, rest_positions_, solver_ ? solver_->goals() : nullptr);
-    runOnce(*device_, [&](engine::Commands& commands) {
-        commands.barrier(Access::anything, Access::compute_write);
-        cache_->recordRest(commands, 0.0);
-        commands.barrier(Access::compute_write, Access::anything);
-    });
+    runOnce(*device_, [&](engine::Commands& commands) { cache_->recordRest(commands, 0.0); });
     std::vector<glm::vec3> start;
     start.reserve(groom.points.size());
     const RigidMotion head = pose();
@@ -340,14 +334,11 @@ void Simulation::recordReset(engine::Commands& commands) {
     steps_ = 0;
     has_earlier_ = false;
     drawn_share_.reset();
-    commands.barrier(engine::Access::anything, engine::Access::transfer_write);
     for (std::size_t i = 0; i < settled_.size(); ++i)
         commands.copy(settled_[i], *state()[i], settled_[i].size());
     commands.fill(accelerations_, 0);
-    commands.barrier(engine::Access::transfer_write, engine::Access::anything);
     if (!cache_) return;
     cache_->recordRest(commands, 0.0);
-    commands.barrier(engine::Access::compute_write, engine::Access::anything);
 }
 
 void Simulation::reset() {
@@ -369,7 +360,6 @@ void Simulation::setState(
     runOnce(*device_, [&](engine::Commands& commands) {
         const gpu::RigidFrame frame = toGpu(pose());
         if (roots_) roots_->record(commands, motion_, 1, time(), time());
-        commands.barrier(engine::Access::anything, engine::Access::compute_write);
         commands.uses(
             {{positions_[current_], engine::Access::compute_read},
              {previous_[current_], engine::Access::compute_read}});
@@ -380,7 +370,6 @@ void Simulation::setState(
                        .frame_before = frame,
                        .roots = roots_ ? roots_->address(0) : 0,
                        .roots_before = roots_ ? roots_->address(0) : 0});
-        commands.barrier(engine::Access::compute_write, engine::Access::anything);
     });
 }
 
@@ -433,10 +422,6 @@ GuideView Simulation::guides() const {
 
 // Records the first `count` substeps of a step. The head's frames divide the step's time evenly.
 // The first substep takes the guides from one copy to the current one; later substeps stay there.
-//
-// The barriers at the end are for the next step. They are recorded here, before this step is drawn,
-// so that the next step does not wait for that drawing or for anything in between. It waits only
-// for pictures of the previous frame, which were drawn from the copy that it overwrites.
 void Simulation::recordSubsteps(
     engine::Commands& commands, std::uint32_t count, std::uint32_t from_copy, double from,
     double to) const {
@@ -455,11 +440,8 @@ void Simulation::recordSubsteps(
         if (segments) segments_->recordStart(commands, positions_[i == 0 ? from_copy : current_]);
         if (cache_) {
             const double part = static_cast<double>(i + 1) / count;
-            commands.barrier(Access::compute_write, Access::compute_write);
             cache_->recordRest(commands, from + part * (to - from));
         }
-        // Waits for the forces, or for the previous substep.
-        commands.barrier(Access::compute_write, Access::compute_write);
         commands.uses(
             {{before.positions, Access::compute_read},
              {before.previous, Access::compute_read},
@@ -483,10 +465,6 @@ void Simulation::recordSubsteps(
         if (segments) segments_->record(commands, guides, frameAfter(i + 1), frameAfter(i));
         before = guides;
     }
-    commands.barrier(
-        {{Access::compute_write, Access::vertex_read},
-         {Access::compute_write, Access::compute_write},
-         {Access::vertex_read, Access::compute_write}});
 }
 
 RigidMotion Simulation::poseAt(double time) const {

@@ -76,8 +76,7 @@ std::uint64_t simulationBytes(
 // if there is one, recordVolume (hasVolume), recordForce (hasForce) and recordPulls (hasPulls),
 // then recordStep. Simulated time is the number of recorded steps times the time step: nothing
 // depends on frames or clocks. Solver `none` keeps the guides at rest on the head, and records
-// nothing if the head stands still. The barriers recorded here also order the device's work between
-// submissions. Borrows the device.
+// nothing if the head stands still. Borrows the device.
 class Simulation {
 public:
     // The groom needs at least one strand and two vertices per strand. `field_meshes[i]` is the

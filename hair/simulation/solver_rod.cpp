@@ -306,10 +306,9 @@ RodSolver::RodSolver(
 void RodSolver::record(engine::Commands& commands, gpu::SubstepPush push) const {
     push.solver = parameters_.address();
     for (std::uint32_t first = 0; first < strand_count_; first += most_strands_) {
-        // The strands of the last dispatch may still use the scratch memory.
-        if (first > 0) commands.barrier(Access::compute_write, Access::compute_write);
         push.first_strand = first;
         commands.bind(step_, push);
+        if (first > 0) commands.usesAgain();
         commands.uses({{motion_, Access::compute_write}, {scratch_, Access::compute_write}});
         if (accelerations_) commands.uses({{*accelerations_, Access::compute_write}});
         commands.dispatchInvocations(

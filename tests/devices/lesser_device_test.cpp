@@ -436,9 +436,6 @@ TEST_F(LesserDevice, BindsAnyNumberOfImagesWithoutPushDescriptors) {
                 target.endRendering(commands);
                 target.beginResolve(commands);
                 for (int i = 0; i < 150; ++i) {
-                    if (i > 0)
-                        commands.barrier(
-                            engine::Access::compute_write, engine::Access::compute_write);
                     commands.bind(resolve);
                     const engine::Image* const from = &target.color();
                     const engine::Image* const to = &target.output();

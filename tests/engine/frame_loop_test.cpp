@@ -30,10 +30,7 @@ protected:
     // Two passes of very different cost. The first has two parts.
     void record(Passes& passes) {
         const auto fill = [&](const Buffer& buffer) {
-            return [&](Commands& commands) {
-                commands.fill(buffer, 1);
-                commands.barrier(Access::transfer_write, Access::anything);
-            };
+            return [&](Commands& commands) { commands.fill(buffer, 1); };
         };
         passes.pass("big", PassKind::compute, fill(*big_));
         passes.pass("small", PassKind::compute, fill(*small_));

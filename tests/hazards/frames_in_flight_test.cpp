@@ -88,10 +88,11 @@ TEST_F(FramesInFlight, EndAlikeWhereFramesAreShorterOrLongerThanSteps) {
     expectEqualEnds(device(), hair::Solver::rod, 2.5f, true);
 }
 
-// Whether nothing orders a frame's strand draws (vertex and fragment stage) before the next frame's
-// `simulate`. Plants a read of an extra buffer in the draws and a write in `simulate`: these are a
-// hazard if nothing orders them.
-bool mayRunBeside(const engine::Device& device, const hair::Settings& settings) {
+// Whether nothing orders a stage of a frame's strand draws before the next frame's `simulate`.
+// Plants a read of an extra buffer in the draws and a write in `simulate`: these are a hazard if
+// nothing orders them.
+bool mayRunBeside(
+    const engine::Device& device, const hair::Settings& settings, VkPipelineStageFlags2 stage) {
     Case played(device, settings, HAIRBENCH_SCENES_DIR);
     engine::HazardLog& log = *device.hazards();
     engine::FrameLoop loop(device, engine::Timing::overlapped);
@@ -110,10 +111,7 @@ bool mayRunBeside(const engine::Device& device, const hair::Settings& settings) 
         }
         FAIL() << "no pass " << pass;
     };
-    plant(
-        2, "strands",
-        {VK_PIPELINE_STAGE_2_VERTEX_SHADER_BIT | VK_PIPELINE_STAGE_2_FRAGMENT_SHADER_BIT,
-         VK_ACCESS_2_SHADER_READ_BIT});
+    plant(2, "strands", {stage, VK_ACCESS_2_SHADER_READ_BIT});
     plant(3, "simulate", {VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT, VK_ACCESS_2_SHADER_WRITE_BIT});
     engine::HazardChecker checker;
     std::size_t hazards = 0;
@@ -122,15 +120,20 @@ bool mayRunBeside(const engine::Device& device, const hair::Settings& settings) 
     return hazards == 1;
 }
 
+constexpr VkPipelineStageFlags2 kVertex = VK_PIPELINE_STAGE_2_VERTEX_SHADER_BIT;
+constexpr VkPipelineStageFlags2 kFragment = VK_PIPELINE_STAGE_2_FRAGMENT_SHADER_BIT;
+
 TEST_F(FramesInFlight, TheNextSimulationMayRunBesideTheDrawing) {
     for (const hair::Solver solver :
          {hair::Solver::shape, hair::Solver::ftl, hair::Solver::rod, hair::Solver::stable_cosserat,
           hair::Solver::position_based_rod, hair::Solver::augmented_mass_spring}) {
         hair::Settings settings = movingHair(solver);
-        EXPECT_TRUE(mayRunBeside(device(), settings));
+        for (const VkPipelineStageFlags2 stage : {kVertex, kFragment})
+            EXPECT_TRUE(mayRunBeside(device(), settings, stage));
         settings.strands.curl.radius = 0.004f;
         settings.run.frame_time = 2.0f * settings.simulation.time_step;
-        EXPECT_TRUE(mayRunBeside(device(), settings));
+        for (const VkPipelineStageFlags2 stage : {kVertex, kFragment})
+            EXPECT_TRUE(mayRunBeside(device(), settings, stage));
     }
 }
 
@@ -138,7 +141,7 @@ TEST_F(FramesInFlight, TheNextSimulationMayRunBesideTheDrawing) {
 TEST_F(FramesInFlight, AResolveByComputeIsWaitedFor) {
     hair::Settings settings = movingHair(hair::Solver::shape);
     settings.render.ssaa = 2;
-    EXPECT_FALSE(mayRunBeside(device(), settings));
+    EXPECT_FALSE(mayRunBeside(device(), settings, kFragment));
 }
 
 // Lets work beside drawing wait for one frame less than it should.

@@ -80,8 +80,6 @@ protected:
                 for (const char* name : {"wind", "strands", "wind"})
                     slowed.pass(name, engine::PassKind::compute, [&](engine::Commands& commands) {
                         commands.fill(*buffer_, 1);
-                        commands.barrier(
-                            engine::Access::transfer_write, engine::Access::transfer_write);
                     });
             });
         frames_ = loop.finish();

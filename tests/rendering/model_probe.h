@@ -36,7 +36,6 @@ inline std::vector<gpu::ModelProbe> probeModels(
             gpu::ProbeModelsPush{
                 .lights = light_buffer.address(), .probes = buffer.address(), .count = count});
         commands.dispatch((count + 63) / 64, 1);
-        commands.barrier(engine::Access::compute_write, engine::Access::transfer_read);
     });
     return engine::downloadAs<gpu::ModelProbe>(device, buffer);
 }

@@ -199,7 +199,6 @@ protected:
         runOnce(device(), [&](engine::Commands& commands) {
             commands.bind(pipeline, push);
             commands.dispatch((push.count + 63) / 64, 1);
-            commands.barrier(engine::Access::compute_write, engine::Access::transfer_read);
         });
         return engine::downloadAs<gpu::RectangleProbe>(device(), buffer);
     }

@@ -79,8 +79,7 @@ inline std::vector<FoundPath> findPaths(
             passes.pass("probe", engine::PassKind::graphics, [&](engine::Commands& commands) {
                 for (const engine::Image& image : found)
                     commands.transition(
-                        image, VK_IMAGE_LAYOUT_UNDEFINED, VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL,
-                        engine::Access::anything, engine::Access::attachment);
+                        image, VK_IMAGE_LAYOUT_UNDEFINED, VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL);
                 const std::array colors{
                     engine::Attachment{&found[0], engine::Load::clear, {}},
                     engine::Attachment{&found[1], engine::Load::clear, {}}};
@@ -96,11 +95,8 @@ inline std::vector<FoundPath> findPaths(
                 for (const engine::Image& image : found)
                     commands.transition(
                         image, VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL,
-                        VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, engine::Access::attachment,
-                        engine::Access::transfer_read);
-                commands.barrier(engine::Access::anything, engine::Access::transfer_write);
+                        VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL);
                 for (std::size_t i = 0; i < found.size(); ++i) commands.copy(found[i], read[i]);
-                commands.barrier(engine::Access::transfer_write, engine::Access::host_read);
             });
         });
     }

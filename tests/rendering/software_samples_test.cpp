@@ -69,7 +69,6 @@ protected:
                                   .strands = count,
                                   .choice = choice});
                 commands.dispatch(1);
-                commands.barrier(engine::Access::compute_write, engine::Access::transfer_read);
             });
         Probe result{engine::downloadAs<gpu::SamplePlaces>(device(), places).front(), {}};
         const auto found = engine::downloadAs<glm::uvec2>(device(), pairs);

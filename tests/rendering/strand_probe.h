@@ -55,7 +55,6 @@ inline std::vector<gpu::StrandProbe> shadeStrands(
             gpu::ProbeStrandPush{
                 .picture = parameters.address(), .probes = buffer.address(), .count = count});
         commands.dispatch((count + 63) / 64, 1);
-        commands.barrier(engine::Access::compute_write, engine::Access::transfer_read);
     });
     return engine::downloadAs<gpu::StrandProbe>(device, buffer);
 }

@@ -57,7 +57,6 @@ protected:
         runOnce(device(), [&](engine::Commands& commands) {
             commands.bind(pipeline, push);
             commands.dispatchInvocations(push.count, 64);
-            commands.barrier(engine::Access::compute_write, engine::Access::transfer_read);
         });
         return engine::downloadAs<SurfaceProbe>(device(), buffer);
     }

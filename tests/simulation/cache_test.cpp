@@ -70,7 +70,7 @@ std::vector<glm::vec3> expectedAt(const groom::Groom& groom, double time) {
 }
 
 // Coordinates are below 1 m, where floats are 6e-8 m apart; time is the float next to 1/60 s.
-constexpr double kRounding = 2e-7;
+constexpr double kCacheRounding = 2e-7;
 
 SimulationSettings still() {
     SimulationSettings settings;
@@ -90,7 +90,7 @@ TEST_F(Cache, PlaysSamplesOf24FramesASecondAt60) {
         advance(device(), simulation, 1);
         EXPECT_LT(
             largestDifference(simulation.readPositions(), expectedAt(groom, frame / 60.0)),
-            kRounding)
+            kCacheRounding)
             << frame;
     }
     // The samples end after 20 frames. A second round is equal to the first.
@@ -99,7 +99,7 @@ TEST_F(Cache, PlaysSamplesOf24FramesASecondAt60) {
     EXPECT_EQ(largestDifference(simulation.readPositions(), expectedAt(groom, 0.0)), 0.0);
     advance(device(), simulation, 7);
     EXPECT_LT(
-        largestDifference(simulation.readPositions(), expectedAt(groom, 7 / 60.0)), kRounding);
+        largestDifference(simulation.readPositions(), expectedAt(groom, 7 / 60.0)), kCacheRounding);
 }
 
 TEST_F(Cache, IsCarriedByTheHead) {

@@ -38,7 +38,6 @@ inline std::vector<gpu::DistanceProbe> probe(
     runOnce(device, [&](engine::Commands& commands) {
         commands.bind(pipeline, push);
         commands.dispatchInvocations(push.count, 64);
-        commands.barrier(engine::Access::compute_write, engine::Access::transfer_read);
     });
     return engine::downloadAs<gpu::DistanceProbe>(device, buffer);
 }

@@ -54,14 +54,12 @@ protected:
             device(), std::span<const gpu::GuideParameters>(guides), "parameters");
         const WindPass pass(device(), groom.strand_count * groom.vertices_per_strand, settings);
         runOnce(device(), [&](engine::Commands& commands) {
-            commands.barrier(engine::Access::anything, engine::Access::compute_write);
             pass.record(
                 commands,
                 {.parameters = parameters.address(),
                  .positions = now.address(),
                  .accelerations = accelerations.address()},
                 time);
-            commands.barrier(engine::Access::compute_write, engine::Access::anything);
         });
         for (const glm::vec4& each : engine::downloadAs<glm::vec4>(device(), accelerations))
             EXPECT_EQ(each, glm::vec4(0.0f));

@@ -52,7 +52,6 @@ protected:
         const PullPass pass(
             device(), groom.strand_count, groom.vertices_per_strand, step, settings.pulls);
         runOnce(device(), [&](engine::Commands& commands) {
-            commands.barrier(engine::Access::anything, engine::Access::compute_write);
             pass.record(
                 commands,
                 {.parameters = parameters.address(),
@@ -60,7 +59,6 @@ protected:
                  .previous = earlier.address(),
                  .accelerations = result.address()},
                 time);
-            commands.barrier(engine::Access::compute_write, engine::Access::anything);
         });
         return engine::downloadAs<glm::vec4>(device(), result);
     }

@@ -65,7 +65,6 @@ public:
         upload(previous, previous_);
         upload(std::vector(groom_.points.size(), others), accelerations_);
         runOnce(device_, [&](engine::Commands& commands) {
-            commands.barrier(engine::Access::anything, engine::Access::compute_write);
             hair_hair_.record(
                 commands,
                 {.parameters = parameters_.address(),

@@ -64,13 +64,11 @@ protected:
         std::ranges::copy(std::as_bytes(std::span(bytes)), staging.mapped().begin());
         runOnce(device(), [&](engine::Commands& commands) {
             commands.transition(
-                made, VK_IMAGE_LAYOUT_UNDEFINED, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL,
-                engine::Access::anything, engine::Access::transfer_write);
+                made, VK_IMAGE_LAYOUT_UNDEFINED, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL);
             commands.copy(staging, 0, made, 0);
             commands.transition(
                 made, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL,
-                VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL, engine::Access::transfer_write,
-                engine::Access::compute_read);
+                VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL);
         });
         return made;
     }
@@ -81,13 +79,10 @@ protected:
         const engine::Image output =
             image(size, VK_IMAGE_USAGE_STORAGE_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT);
         runOnce(device(), [&](engine::Commands& commands) {
-            commands.transition(
-                output, VK_IMAGE_LAYOUT_UNDEFINED, VK_IMAGE_LAYOUT_GENERAL,
-                engine::Access::anything, engine::Access::compute_write);
+            commands.transition(output, VK_IMAGE_LAYOUT_UNDEFINED, VK_IMAGE_LAYOUT_GENERAL);
             pass.record(commands, a_image, b_image, output, gain);
             commands.transition(
-                output, VK_IMAGE_LAYOUT_GENERAL, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL,
-                engine::Access::compute_write, engine::Access::transfer_read);
+                output, VK_IMAGE_LAYOUT_GENERAL, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL);
         });
         const engine::Buffer pixels = engine::readImage(device(), output, 4);
         const auto* first = reinterpret_cast<const std::uint8_t*>(pixels.mapped().data());

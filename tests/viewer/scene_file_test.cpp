@@ -89,7 +89,7 @@ TEST(DroppedFiles, AreWhatTheyHold) {
     EXPECT_EQ(kind("a.tfx", ""), Dropped::groom);
     EXPECT_EQ(kind("a.usda", "#usda 1.0"), Dropped::groom);
     EXPECT_EQ(kind("a.stl", ""), Dropped::mesh);
-    EXPECT_EQ(kind("a.txt", "text"), Dropped::unknown);
+    EXPECT_EQ(kind("a.log", "text"), Dropped::unknown);
     EXPECT_EQ(whatIs(folder.file("gone.hair")), Dropped::unknown);
     EXPECT_EQ(whatIs(folder.path()), Dropped::unknown);
     EXPECT_EQ(whatIs(kScenes + "/assets/head.glb"), Dropped::mesh);
@@ -228,8 +228,8 @@ TEST_F(DroppedOn, WhatCannotBeUsedSaysWhy) {
         return folder_.relative(errorText([&] { dropped(file); }));
     };
     EXPECT_EQ(
-        error(folder_.write("a.txt", "x")),
-        "a.txt: is not a groom, mesh or environment (.exr, .hdr)");
+        error(folder_.write("a.log", "x")),
+        "a.log: is not a groom, mesh or environment (.exr, .hdr)");
     EXPECT_EQ(error(folder_.file("gone.hair")), "gone.hair: no such file");
     EXPECT_THAT(error(folder_.write("a.hair", "HAIR")), HasSubstr("a.hair: byte "));
     EXPECT_THAT(error(folder_.write("a.exr", "x")), HasSubstr("a.exr: "));
