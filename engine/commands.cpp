@@ -257,7 +257,6 @@ void Commands::record(const PlannedBarrier& planned) {
     if (info.memoryBarrierCount + info.imageMemoryBarrierCount > 0)
         vkCmdPipelineBarrier2(buffer_, &info);
     change_count_ = 0;
-    ++barriers_;
 }
 
 void Commands::orderAll(const std::source_location& place) {
@@ -276,7 +275,6 @@ void Commands::orderAll(const std::source_location& place) {
     info.memoryBarrierCount = 1;
     info.pMemoryBarriers = &memory;
     vkCmdPipelineBarrier2(buffer_, &info);
-    ++barriers_;
     plan_.orderedAll();
     if (hazards_)
         recording_.push_back(

@@ -121,9 +121,6 @@ public:
     void beginRendering(const VkRenderingInfo& info);
     void endRendering();
 
-    // Number of barriers recorded so far.
-    std::uint32_t barriers() const { return barriers_; }
-
     void copy(
         const Buffer& source, const Buffer& destination, std::size_t bytes,
         const std::source_location& place = std::source_location::current());
@@ -225,7 +222,6 @@ private:
     bool is_open_ = false;  // between begin() and end()
     bool is_nested_ = false;  // another recording for the queue was open at begin()
     bool renders_ = false;
-    std::uint32_t barriers_ = 0;
     // For the hazard checker:
     std::source_location place_;  // of the last declaration
     std::vector<RecordedUse> declared_uses_;  // of the next command

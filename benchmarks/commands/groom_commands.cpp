@@ -7,7 +7,6 @@
 #include <iostream>
 #include <optional>
 #include <ostream>
-#include <sstream>
 #include <string>
 #include <system_error>
 #include <utility>
@@ -433,28 +432,21 @@ hair::groom::StrandSet chosenGroups(
 }
 
 int printGroomFormats(const GroomFormatsOptions& options) {
-    const std::string table = hair::groom::formatsMarkdown();
     if (options.markdown) {
-        std::cout << table;
+        std::cout << hair::groom::formatsMarkdown();
         return report::kOk;
     }
-    // Columns of a table are cells between bars; those of the plain text are as wide as needed.
     std::vector<report::Column> columns;
-    std::istringstream lines(table);
-    for (std::string line; std::getline(lines, line);) {
-        if (line.starts_with("|---")) continue;
-        std::size_t column = 0;
-        for (std::size_t at = 1; at < line.size(); ++column) {
-            const std::size_t end = line.find('|', at);
-            std::string cell = line.substr(at, end - at);
+    for (const std::vector<std::string>& row : hair::groom::formatsTable()) {
+        const bool is_header = columns.empty();
+        if (is_header) columns.resize(row.size());
+        for (std::size_t i = 0; i < row.size(); ++i) {
+            std::string cell = row[i];
             std::erase(cell, '`');
-            cell.erase(0, std::min(cell.find_first_not_of(' '), cell.size()));
-            cell.erase(cell.find_last_not_of(' ') + 1);
-            if (columns.size() == column)
-                columns.push_back({.title = cell, .numeric = false});
+            if (is_header)
+                columns[i] = {.title = cell, .numeric = false};
             else
-                columns[column].cells.push_back(cell);
-            at = end + 1;
+                columns[i].cells.push_back(cell);
         }
     }
     for (std::size_t row = 0; row <= columns.front().cells.size(); ++row)

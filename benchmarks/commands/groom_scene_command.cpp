@@ -12,6 +12,7 @@
 #include <nlohmann/json.hpp>
 
 #include "benchmarks/commands/commands.h"
+#include "benchmarks/groom/convert.h"
 #include "benchmarks/groom/groom_scene.h"
 #include "benchmarks/groom/placement.h"
 #include "benchmarks/measure/case.h"
@@ -151,8 +152,6 @@ std::string documentOf(
     return document.dump(2) + '\n';
 }
 
-int axisNamed(const std::string& name) { return name == "x" ? 0 : name == "y" ? 1 : 2; }
-
 }  // namespace
 
 int makeGroomScene(const GroomSceneOptions& options) {
@@ -177,7 +176,7 @@ int makeGroomScene(const GroomSceneOptions& options) {
 
     groom::LayHints hints{.head_is_stated = formatStatesAxes(options.head)};
     hints.metres_per_unit = options.scale;
-    if (!options.up.empty()) hints.up = axisNamed(options.up);
+    hints.up = groom::axisOf(options.up);
     const groom::LayGuess guess = groom::guessLay(strands, mesh ? &*mesh : nullptr, hints);
     tell("hair", groom::layText(guess.hair) + ". " + guess.hair_reason);
     const SceneHead head = headOf(options, std::move(mesh), guess);

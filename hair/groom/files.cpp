@@ -376,25 +376,31 @@ std::string cellOf(const FormatFacts& format, Fact fact) {
 
 std::span<const FormatFacts> formatFacts() { return kFormatFacts; }
 
-std::string formatsMarkdown() {
-    std::string header = "| |";
-    std::string line = "|---|";
-    for (const std::string_view name : kFactNames) {
-        header.append(" ").append(name).append(" |");
-        line += "---|";
-    }
-    std::string table = header + '\n' + line + '\n';
+std::vector<std::vector<std::string>> formatsTable() {
+    std::vector<std::vector<std::string>> rows{{""}};
+    for (const std::string_view name : kFactNames) rows.front().emplace_back(name);
     for (const FormatFacts& format : kFormatFacts) {
-        table += '|';
+        std::string names;
         for (const std::string_view extension : format.extensions)
-            table.append(extension == format.extensions.front() ? " `" : ", `")
-                .append(extension)
-                .append("`");
-        table.append(" ").append(format.name).append(" |");
-        for (std::size_t i = 0; i < kFactNames.size(); ++i) {
-            const std::string cell = cellOf(format, static_cast<Fact>(i));
-            table += cell.empty() ? " |" : ' ' + cell + " |";
-        }
+            names.append(names.empty() ? "`" : ", `").append(extension).append("`");
+        std::vector<std::string>& row = rows.emplace_back();
+        row.push_back(names.append(" ").append(format.name));
+        for (std::size_t i = 0; i < kFactNames.size(); ++i)
+            row.push_back(cellOf(format, static_cast<Fact>(i)));
+    }
+    return rows;
+}
+
+std::string formatsMarkdown() {
+    std::string table;
+    for (const std::vector<std::string>& row : formatsTable()) {
+        const bool is_header = table.empty();
+        table += '|';
+        for (const std::string& cell : row) table += (cell.empty() ? "" : ' ' + cell) + " |";
+        table += '\n';
+        if (!is_header) continue;
+        table += '|';
+        for (std::size_t i = 0; i < row.size(); ++i) table += "---|";
         table += '\n';
     }
     return table;

@@ -52,7 +52,9 @@ std::string readExtensions();
 // facts.
 std::span<const FormatFacts> formatFacts();
 
-// Returns the table of docs/grooms.md.
+// Returns the facts as rows of cells, the first with the titles. Extensions stand in backquotes.
+std::vector<std::vector<std::string>> formatsTable();
+// Returns this table as it stands in docs/grooms.md.
 std::string formatsMarkdown();
 
 // Returns the importer of a file: by its first bytes if they are a format's magic, otherwise by its

@@ -25,7 +25,6 @@
 #include "hair/simulation/guide_solver.h"
 #include "hair/simulation/hair_hair.h"
 #include "hair/simulation/head_motion.h"
-#include "hair/simulation/interpolation.h"
 #include "hair/simulation/solvers.h"
 
 namespace hair::simulation {
@@ -71,6 +70,27 @@ struct MadeBefore {
 std::uint64_t simulationBytes(
     const engine::DeviceInfo& device, const groom::GroomSize& size,
     const SimulationSettings& settings);
+
+// Guides between two steps, for drawing. If steps do not divide frames, frames advance by unequal
+// numbers of steps, and guides that are drawn where the last step left them jump. Between the last
+// two steps they move evenly. They are then drawn one time step late. A position is linear between
+// two steps, so a turn by an angle a in a step cuts off at most the sagitta, a^2 / 8 of the radius.
+class GuideInterpolation {
+public:
+    GuideInterpolation(const engine::Device& device, std::uint32_t vertex_count);
+
+    // Writes the positions at a share, 0 to 1, of the way from those at address `from` to those at
+    // `to`, both vec4 [vertex], m.
+    void
+    record(engine::Commands& commands, std::uint64_t from, std::uint64_t to, double share) const;
+
+    const engine::Buffer& positions() const { return positions_; }  // vec4 [vertex], m
+
+private:
+    std::uint32_t vertex_count_;
+    engine::Buffer positions_;
+    engine::ComputePipeline pipeline_;
+};
 
 // The guides on the device and the compute passes that move them. A time step is recordWind, then,
 // if there is one, recordVolume (hasVolume), recordForce (hasForce) and recordPulls (hasPulls),
