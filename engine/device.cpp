@@ -61,33 +61,6 @@ std::vector<char> checkedData(const std::filesystem::path& file) {
     return data;
 }
 
-// Removes the least recently used files, whose drivers may be gone, while all together are too
-// large.
-void trimCaches(const std::filesystem::path& folder) {
-    struct Entry {
-        std::filesystem::path path;
-        std::filesystem::file_time_type used;
-        std::uintmax_t size;
-    };
-    std::vector<Entry> entries;
-    std::uintmax_t bytes = 0;
-    std::error_code error;
-    for (const auto& each : std::filesystem::directory_iterator(folder, error)) {
-        if (!each.path().filename().string().starts_with("pipelines-")) continue;
-        std::error_code gone;  // another process may have removed it
-        const Entry entry{each.path(), each.last_write_time(gone), each.file_size(gone)};
-        if (gone) continue;
-        bytes += entry.size;
-        entries.push_back(entry);
-    }
-    std::ranges::sort(entries, {}, &Entry::used);
-    for (const Entry& entry : entries) {
-        if (bytes <= kMostCacheBytes) break;
-        std::filesystem::remove(entry.path, error);
-        bytes -= entry.size;
-    }
-}
-
 // Whether the data belongs to this device's driver. Drivers must check this too, but not all do.
 bool belongsTo(const std::vector<char>& data, const VkPhysicalDeviceProperties& properties) {
     VkPipelineCacheHeaderVersionOne header{};
@@ -214,11 +187,13 @@ PipelineCache::~PipelineCache() {
         });
     } catch (const Error&) {  // the next start compiles them again
     }
-    trimCaches(file_.parent_path());
+    // The drivers of the oldest files may be gone.
+    trimCache(file_.parent_path(), kMostCacheBytes, [](std::string_view name) {
+        return name.starts_with("pipelines-");
+    });
 }
 
-// ---- The store of pipelines
-// ----------------------------------------------------------------------
+// ---- The store of pipelines ---------------------------------------------------------------------
 
 PipelineStore::Objects
 PipelineStore::get(const std::string& key, const std::function<PipelineObjects()>& make) {

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <array>
 #include <cerrno>
+#include <chrono>
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
@@ -14,6 +15,7 @@
 #include <optional>
 #include <system_error>
 #include <utility>
+#include <vector>
 
 #include <ext/stdio_filebuf.h>
 
@@ -267,6 +269,40 @@ void replaceFile(const fs::path& path, const Writer& write) {
     std::error_code ignored;
     fs::create_directories(path.parent_path(), ignored);
     replaceFile(path, path, write, {});
+}
+
+void trimCache(
+    const fs::path& folder, std::uintmax_t most_bytes,
+    const std::function<bool(std::string_view name)>& is_entry) {
+    constexpr std::chrono::hours kStale{1};  // no writer takes that long
+    struct Entry {
+        fs::path path;
+        fs::file_time_type used;
+        std::uintmax_t size;
+    };
+    std::vector<Entry> entries;
+    std::uintmax_t bytes = 0;
+    std::error_code error;
+    const fs::file_time_type now = fs::file_time_type::clock::now();
+    for (const fs::directory_entry& each : fs::directory_iterator(folder, error)) {
+        std::error_code gone;  // another process may have removed it
+        const Entry entry{each.path(), each.last_write_time(gone), each.file_size(gone)};
+        if (gone) continue;
+        const fs::path name = entry.path.filename();
+        if (name.extension() == ".partial") {  // partialName()
+            if (now - entry.used > kStale && is_entry(name.stem().stem().native()))
+                fs::remove(entry.path, gone);
+        } else if (is_entry(name.native())) {
+            bytes += entry.size;
+            entries.push_back(entry);
+        }
+    }
+    std::ranges::sort(entries, {}, &Entry::used);
+    for (const Entry& entry : entries) {
+        if (bytes <= most_bytes) break;
+        fs::remove(entry.path, error);
+        bytes -= entry.size;
+    }
 }
 
 fs::path userCacheFolder() {

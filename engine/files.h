@@ -66,6 +66,13 @@ void writeFileAtomically(
 void replaceFile(
     const std::filesystem::path& path, const std::function<void(std::ostream&)>& write);
 
+// Removes the least recently used entries of a cache's folder until they take at most `most_bytes`
+// together, and parts of entries whose writers died an hour ago or earlier. `is_entry` tells an
+// entry by its file name.
+void trimCache(
+    const std::filesystem::path& folder, std::uintmax_t most_bytes,
+    const std::function<bool(std::string_view name)>& is_entry);
+
 // Whether the path is a regular file or does not exist, so that a file can be put in its place and
 // others beside it. False for the program's open files (/dev/stdout, the shell's >(command)), pipes
 // and devices.

@@ -230,14 +230,17 @@ constexpr std::string_view kToolVariables[] = {
     "LSAN_OPTIONS", "PATH", "TMPDIR", "TSAN_OPTIONS", "UBSAN_OPTIONS",
 };
 
-std::vector<char*> environmentFor(const ChildLimits& limits) {
+// `variable`, like "TMPDIR=/tmp", replaces this process's if it is not empty.
+std::vector<char*> environmentFor(const ChildLimits& limits, const std::string& variable) {
+    const auto nameOf = [](std::string_view each) { return each.substr(0, each.find('=')); };
     std::vector<char*> all;
     for (char** each = environ; *each; ++each) {
-        const std::string_view variable(*each);
-        const std::string_view name = variable.substr(0, variable.find('='));
+        const std::string_view name = nameOf(*each);
+        if (!variable.empty() && name == nameOf(variable)) continue;
         if (!limits.reads || std::ranges::find(kToolVariables, name) != std::end(kToolVariables))
             all.push_back(*each);
     }
+    if (!variable.empty()) all.push_back(const_cast<char*>(variable.c_str()));
     all.push_back(nullptr);
     return all;
 }
@@ -267,12 +270,12 @@ class Child {
 public:
     Child(
         const std::vector<std::string>& arguments, const ChildLimits& limits, const File& output,
-        const File& errors) {
+        const File& errors, const std::string& variable = {}) {
         std::vector<char*> pointers;
         for (const std::string& argument : arguments)
             pointers.push_back(const_cast<char*>(argument.c_str()));  // execve's interface
         pointers.push_back(nullptr);
-        const std::vector<char*> environment = environmentFor(limits);
+        const std::vector<char*> environment = environmentFor(limits, variable);
         const File rules = rulesFor(limits);
         std::vector<sock_filter> filter;
         if (limits.reads) filter = filterFor(Runs::program);
@@ -314,6 +317,18 @@ public:
         kill(-id_, SIGKILL);
         kill(id_, SIGKILL);  // it may have no group yet
         wait();
+    }
+
+    void interrupt() const { kill(-id_, SIGINT); }
+
+    // Returns the child's status as waitpid gives it, if the child has ended.
+    std::optional<int> end() {
+        int status = 0;
+        const pid_t ended = waitpid(id_, &status, WNOHANG);
+        if (ended == 0 || (ended < 0 && errno == EINTR)) return {};
+        id_ = 0;
+        if (ended < 0) failWith(errno, "waitpid");
+        return status;
     }
 
     // Returns the child's status as waitpid gives it. Calls `poll` while it waits.
@@ -525,6 +540,44 @@ void runTool(
         },
         poll);
     if (!rest.empty()) each_line(rest);
+}
+
+ProgramEnd runProgram(
+    const std::vector<std::string>& command, const std::filesystem::path& output,
+    const std::filesystem::path& temporary) {
+    using Clock = std::chrono::steady_clock;
+    // Polling costs microseconds, which is negligible for a long run, and a short run is not waited
+    // for much longer than it takes.
+    constexpr std::chrono::milliseconds kShortestLook{1}, kLongestLook{20};
+    // A run that waits for its device ends within a second; this program should end within two.
+    constexpr std::chrono::milliseconds kGrace{1700};
+    constexpr int kNotFound = 127;
+
+    const File file(
+        open(output.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_APPEND | O_CLOEXEC, 0600));
+    if (file.get() < 0) failWith(errno, output.c_str());
+    std::optional<Child> child;
+    try {
+        child.emplace(command, ChildLimits{}, file, file, "TMPDIR=" + temporary.string());
+    } catch (const std::system_error& error) {
+        const int code = error.code().value();
+        if (code == ENOENT || code == EACCES || code == ENOEXEC) return {.status = kNotFound};
+        throw;
+    }
+    std::optional<Clock::time_point> asked_to_end;
+    Clock::duration look = kShortestLook;
+    for (;;) {
+        const std::optional<int> status = child->end();
+        if (asked_to_end && (status || Clock::now() > *asked_to_end + kGrace)) throw Interrupted();
+        if (status && WIFSIGNALED(*status)) return {128 + WTERMSIG(*status), true};
+        if (status) return {WEXITSTATUS(*status), false};
+        if (interrupted() && !asked_to_end) {
+            child->interrupt();
+            asked_to_end = Clock::now();
+        }
+        std::this_thread::sleep_for(look);
+        look = std::min<Clock::duration>(look * 5 / 4, kLongestLook);
+    }
 }
 
 }  // namespace engine

@@ -42,10 +42,8 @@ runTool(const std::vector<std::string>& arguments, const ChildLimits& limits = {
 // Runs `work` in a fork of this process and returns its result. This is for work that may never
 // end, exhaust memory or crash. The fork has only the calling thread, so `work` must wait for no
 // other thread, and can open no file. It must not throw. If the child does not return, throws an
-// Error
-// that says how it ended. An interrupt, or the end of a TimeLimit, ends the child and throws
-// as
-// checkInterrupted() does.
+// Error that says how it ended. An interrupt, or the end of a TimeLimit, ends the child and throws
+// as checkInterrupted() does.
 std::string runApart(const std::function<std::string()>& work, const ChildLimits& limits);
 
 // Runs a program as the function above does, except for interrupts. Passes each line of its stdout
@@ -55,5 +53,19 @@ void runTool(
     const std::vector<std::string>& arguments,
     const std::function<void(std::string_view line)>& each_line,
     const std::function<void()>& poll = {});
+
+// How a program ended.
+struct ProgramEnd {
+    int status = 0;  // exit status; 128 + signal if a signal ended it, as shells count
+    bool signaled = false;
+};
+
+// Runs a program, found as a shell finds it, to its end. It has no input; its output goes to the
+// file `output` and its temporary files to the folder `temporary`. It has its own process group. If
+// this program is interrupted, the group is interrupted, killed if it runs for 1.7 s more, and
+// Interrupted is thrown. The status is 127 if there is no such program.
+ProgramEnd runProgram(
+    const std::vector<std::string>& command, const std::filesystem::path& output,
+    const std::filesystem::path& temporary);
 
 }  // namespace engine

@@ -1,22 +1,12 @@
 #include "benchmarks/gate/blocks.h"
 
-#include <fcntl.h>
-#include <spawn.h>
-#include <sys/wait.h>
-#include <unistd.h>
-
 #include <algorithm>
 #include <cassert>
-#include <cerrno>
-#include <chrono>
 #include <cmath>
-#include <csignal>
 #include <iterator>
 #include <limits>
 #include <span>
 #include <string_view>
-#include <system_error>
-#include <thread>
 #include <utility>
 
 #include <nlohmann/json.hpp>
@@ -26,8 +16,7 @@
 #include "benchmarks/report/verdict.h"
 #include "engine/error.h"
 #include "engine/files.h"
-
-extern "C" char** environ;
+#include "engine/run_tool.h"
 
 namespace benchmarks::gate {
 
@@ -265,120 +254,6 @@ std::vector<report::Mismatch> mismatches(const BlockReport& a, const BlockReport
 
 namespace {
 
-// ---- Child process ------------------------------------------------------------------------------
-
-// How a process ended.
-struct ChildEnd {
-    int status = 0;  // exit status; 128 + signal if a signal ended it, as shells count
-    bool signaled = false;
-};
-
-using Clock = std::chrono::steady_clock;
-
-// Polling intervals while a child runs. Polling costs microseconds, which is negligible for a long
-// measurement, and a short run is not waited for much longer than it takes.
-constexpr std::chrono::milliseconds kShortestLook{1};
-constexpr std::chrono::milliseconds kLongestLook{20};
-// A run that waits for its device ends within a second; this program should end within two.
-constexpr std::chrono::milliseconds kGrace{1700};
-constexpr int kNotFound = 127;
-
-// This program's environment with another folder for temporary files.
-std::vector<std::string> environmentWith(const std::filesystem::path& temporary) {
-    std::vector<std::string> all{"TMPDIR=" + temporary.string()};
-    for (char** each = environ; *each; ++each)
-        if (!std::string_view(*each).starts_with("TMPDIR=")) all.emplace_back(*each);
-    return all;
-}
-
-// Converts words to the form for posix_spawn.
-std::vector<char*> pointersTo(const std::vector<std::string>& words) {
-    std::vector<char*> pointers;
-    for (const std::string& each : words) pointers.push_back(const_cast<char*>(each.c_str()));
-    pointers.push_back(nullptr);
-    return pointers;
-}
-
-// A child process that is always gone after destruction.
-class Child {
-public:
-    Child(
-        const std::vector<std::string>& command, const std::filesystem::path& output,
-        const std::filesystem::path& temporary) {
-        const std::vector<char*> arguments = pointersTo(command);
-        const std::vector<std::string> environment = environmentWith(temporary);
-        posix_spawn_file_actions_t actions;
-        posix_spawn_file_actions_init(&actions);
-        posix_spawn_file_actions_addopen(&actions, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
-        posix_spawn_file_actions_addopen(
-            &actions, STDOUT_FILENO, output.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_APPEND, 0600);
-        posix_spawn_file_actions_adddup2(&actions, STDOUT_FILENO, STDERR_FILENO);
-        posix_spawnattr_t attributes;
-        posix_spawnattr_init(&attributes);
-        posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETPGROUP);
-        error_ = posix_spawnp(
-            &id_, arguments.front(), &actions, &attributes, arguments.data(),
-            pointersTo(environment).data());
-        posix_spawnattr_destroy(&attributes);
-        posix_spawn_file_actions_destroy(&actions);
-        if (error_ != 0) id_ = 0;
-    }
-    Child(const Child&) = delete;
-    Child& operator=(const Child&) = delete;
-    ~Child() {
-        if (id_ <= 0) return;
-        signal(SIGKILL);
-        waitpid(id_, nullptr, 0);
-    }
-
-    int error() const { return error_; }
-
-    void signal(int number) const { kill(-id_, number); }
-
-    // How it ended, if it has ended.
-    std::optional<ChildEnd> end() {
-        int status = 0;
-        const pid_t ended = waitpid(id_, &status, WNOHANG);
-        if (ended == 0 || (ended < 0 && errno == EINTR)) return {};
-        id_ = 0;
-        if (ended < 0) throw std::system_error(errno, std::generic_category(), "waitpid");
-        if (WIFSIGNALED(status)) return ChildEnd{128 + WTERMSIG(status), true};
-        return ChildEnd{WEXITSTATUS(status), false};
-    }
-
-private:
-    pid_t id_ = 0;
-    int error_ = 0;
-};
-
-// Runs a program, found as a shell finds it, to its end. It has no input; its output goes to the
-// file `output` and its temporary files to the folder `temporary`. It has its own process group. If
-// this program is interrupted, the group is interrupted, killed if it runs for 1.7 s more, and
-// Interrupted is thrown. The status is 127 if there is no such program.
-ChildEnd runChild(
-    const std::vector<std::string>& command, const std::filesystem::path& output,
-    const std::filesystem::path& temporary) {
-    Child child(command, output, temporary);
-    if (child.error() == ENOENT || child.error() == EACCES || child.error() == ENOEXEC)
-        return {.status = kNotFound};
-    if (child.error() != 0)
-        throw std::system_error(child.error(), std::generic_category(), command.front());
-    std::optional<Clock::time_point> asked_to_end;
-    Clock::duration look = kShortestLook;
-    for (;;) {
-        const std::optional<ChildEnd> end = child.end();
-        if (asked_to_end && (end || Clock::now() > *asked_to_end + kGrace))
-            throw engine::Interrupted();
-        if (end) return *end;
-        if (engine::interrupted() && !asked_to_end) {
-            child.signal(SIGINT);
-            asked_to_end = Clock::now();
-        }
-        std::this_thread::sleep_for(look);
-        look = std::min<Clock::duration>(look * 5 / 4, kLongestLook);
-    }
-}
-
 // ---- Command of a side --------------------------------------------------------------------------
 
 bool isProgram(const fs::path& path) {
@@ -517,11 +392,12 @@ int exitStatusFor(int status) {
 }
 
 // Runs also write a report if every case was skipped or failed.
-bool wroteReport(const ChildEnd& end) {
+bool wroteReport(const engine::ProgramEnd& end) {
     return !end.signaled && (end.status == report::kOk || end.status == report::kNothingRan);
 }
 
-std::string failureText(const Side& side, const ChildEnd& end, const std::filesystem::path& log) {
+std::string
+failureText(const Side& side, const engine::ProgramEnd& end, const std::filesystem::path& log) {
     std::string text{side.name};
     text += " (" + side.text + ") ";
     text += end.signaled ? "was ended by signal " + std::to_string(end.status - 128)
@@ -543,7 +419,8 @@ BlockReport BlockRunner::run(const Side& side, std::uint32_t seed) {
     fs::create_directories(temporary);
     const fs::path report = folder / "report.json";
     const fs::path log = folder / "output.txt";
-    const ChildEnd end = runChild(blockCommand(side, scene_, report, seed), log, temporary);
+    const engine::ProgramEnd end =
+        engine::runProgram(blockCommand(side, scene_, report, seed), log, temporary);
     if (!wroteReport(end))
         throw BlockFailed(failureText(side, end, log), exitStatusFor(end.status));
     try {

@@ -29,9 +29,6 @@ namespace fs = std::filesystem;
 constexpr std::string_view kMagic = "hairbench-cache 1\n";
 constexpr std::string_view kExtension = ".entry";
 
-// Partial files older than this were left by a process that was killed while writing.
-constexpr std::chrono::hours kStale{1};
-
 struct Header {
     std::uint64_t key_size = 0;
     std::uint64_t size = 0;
@@ -104,39 +101,9 @@ void DiskCache::store(const std::string& key, const std::string& bytes) const {
         });
     } catch (const engine::Error&) {  // the next run makes it again
     }
-    trim();
-}
-
-void DiskCache::trim() const {
-    struct Entry {
-        fs::path path;
-        fs::file_time_type used;
-        std::uintmax_t size;
-    };
-    std::vector<Entry> entries;
-    std::uintmax_t bytes = 0;
-    std::error_code error;
-    const fs::file_time_type now = fs::file_time_type::clock::now();
-    for (const fs::directory_entry& each : fs::directory_iterator(options_.folder, error)) {
-        std::error_code gone;  // another process may have removed it
-        const Entry entry{each.path(), each.last_write_time(gone), each.file_size(gone)};
-        if (gone) continue;
-        if (entry.path.extension() == kExtension) {
-            bytes += entry.size;
-            entries.push_back(entry);
-        } else if (
-            entry.path.filename().string().find(std::string(kExtension) + '.') !=
-                std::string::npos &&
-            now - entry.used > kStale) {
-            fs::remove(entry.path, gone);
-        }
-    }
-    std::ranges::sort(entries, {}, &Entry::used);
-    for (const Entry& entry : entries) {
-        if (bytes <= options_.most_bytes) break;
-        fs::remove(entry.path, error);
-        bytes -= entry.size;
-    }
+    engine::trimCache(options_.folder, options_.most_bytes, [](std::string_view name) {
+        return name.ends_with(kExtension);
+    });
 }
 
 // ---- Data that cases share ----------------------------------------------------------------------

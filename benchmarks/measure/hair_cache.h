@@ -57,8 +57,6 @@ public:
     void warn(const std::string& key, const std::string& reason) const;
 
 private:
-    void trim() const;
-
     DiskCacheOptions options_;
 };
 

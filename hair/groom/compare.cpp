@@ -203,12 +203,12 @@ public:
     // false. It also visits some segments farther away, and some more than once.
     template <class Visit>
     void forEachNear(const glm::dvec3& point, double square, Visit&& visit) const {
-        std::array<std::uint32_t, kStackSize> stack;
+        std::array<std::uint32_t, kBvhStackSize> stack;
         std::size_t count = 0;
         stack[count++] = 0;
         while (count > 0) {
             const TriangleBvh::Node& node = tree_.nodes[stack[--count]];
-            if (squareDistanceOf(point, node) > square) continue;
+            if (squareDistance(point, node) > square) continue;
             for (std::size_t i = 0; i < node.count; ++i) {
                 const Segment& segment = segments_[node.first + i];
                 if (!visit(segment, squareDistanceOf(point, segment))) return;
@@ -226,43 +226,15 @@ public:
 
     // The nearest segment, or none if it is not nearer than `bound`.
     Nearest nearest(const glm::dvec3& point, double bound) const {
-        struct StackEntry {
-            std::uint32_t node;
-            double square;
-        };
         Nearest best{.square = bound * bound};
-        std::array<StackEntry, kStackSize> stack;
-        std::size_t count = 0;
-        const auto push = [&](std::uint32_t node) {
-            stack[count++] = {node, squareDistanceOf(point, tree_.nodes[node])};
-        };
-        push(0);
-        while (count > 0) {
-            const StackEntry next = stack[--count];
-            if (next.square >= best.square) continue;
-            const TriangleBvh::Node& node = tree_.nodes[next.node];
-            for (std::size_t i = 0; i < node.count; ++i) {
-                const Segment& segment = segments_[node.first + i];
-                const double square = squareDistanceOf(point, segment);
-                if (square < best.square) best = {square, &segment};
-            }
-            if (node.count > 0) continue;
-            push(node.first);
-            push(node.first + 1);
-            if (stack[count - 2].square < stack[count - 1].square)
-                std::swap(stack[count - 2], stack[count - 1]);
-        }
+        forEachNearer(tree_, point, best.square, [&](std::size_t slot) {
+            const double square = squareDistanceOf(point, segments_[slot]);
+            if (square < best.square) best = {square, &segments_[slot]};
+        });
         return best;
     }
 
 private:
-    static constexpr std::size_t kStackSize = 64;  // enough: every split halves, and counts have
-                                                   // 32 bits
-
-    static double squareDistanceOf(const glm::dvec3& point, const TriangleBvh::Node& box) {
-        const glm::dvec3 off = point - glm::clamp(point, glm::dvec3(box.low), glm::dvec3(box.high));
-        return glm::dot(off, off);
-    }
     static double squareDistanceOf(const glm::dvec3& point, const Segment& segment) {
         const glm::dvec3 from(segment.from);
         const glm::dvec3 along = glm::dvec3(segment.to) - from;

@@ -393,16 +393,10 @@ namespace {
 // ---- Nearest surface ----------------------------------------------------------------------------
 
 constexpr std::size_t kMostInLeaf = 4;
-constexpr std::size_t kNearestStackSize =
-    64;  // enough: every split halves, and counts have 32 bits
 
 using CornerPoints = std::array<glm::vec3, 3>;
 
 double square(const glm::dvec3& v) { return glm::dot(v, v); }
-
-double squareDistance(const glm::dvec3& p, const glm::vec3& low, const glm::vec3& high) {
-    return square(p - glm::clamp(p, glm::dvec3(low), glm::dvec3(high)));
-}
 
 using Candidate = NearestCandidate;
 
@@ -465,31 +459,10 @@ std::optional<MeshPoint> NearestSurface::within(const glm::dvec3& point, double 
 }
 
 Candidate NearestSurface::nearest(const glm::dvec3& point, double square) const {
-    struct StackEntry {
-        std::uint32_t node;
-        double square;  // of its box's distance
-    };
-    std::array<StackEntry, kNearestStackSize> stack;
-    std::size_t count = 0;
-    const auto push = [&](std::uint32_t node) {
-        const TriangleBvh::Node& box = tree_.nodes[node];
-        stack[count++] = {node, squareDistance(point, box.low, box.high)};
-    };
     Candidate best{.square = square};
-    push(0);
-    while (count > 0) {
-        const StackEntry next = stack[--count];
-        if (next.square >= best.square) continue;
-        const TriangleBvh::Node& node = tree_.nodes[next.node];
-        for (std::size_t i = 0; i < node.count; ++i)
-            compare(point, corners_[node.first + i], node.first + i, best);
-        if (node.count > 0) continue;
-        push(node.first);
-        push(node.first + 1);
-        if (stack[count - 2].square < stack[count - 1].square)
-            std::swap(stack[count - 2], stack[count - 1]);
-    }
-
+    forEachNearer(tree_, point, best.square, [&](std::size_t slot) {
+        compare(point, corners_[slot], slot, best);
+    });
     return best;
 }
 

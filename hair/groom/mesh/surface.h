@@ -6,9 +6,10 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
-#include <glm/vec3.hpp>
+#include <glm/glm.hpp>
 
 #include "hair/groom/mesh/mesh.h"
 
@@ -77,6 +78,43 @@ struct TriangleBvh {
 TriangleBvh buildTriangleBvh(
     std::span<const glm::vec3> positions, std::span<const std::array<std::uint32_t, 3>> triangles,
     std::size_t most_in_leaf);
+
+// The squared distance of a point from a node's box.
+inline double squareDistance(const glm::dvec3& point, const TriangleBvh::Node& box) {
+    const glm::dvec3 off = point - glm::clamp(point, glm::dvec3(box.low), glm::dvec3(box.high));
+    return glm::dot(off, off);
+}
+
+// Depth of a traversal: every split halves the triangles, and counts have 32 bits.
+inline constexpr std::size_t kBvhStackSize = 64;
+
+// Calls visit(slot) for each triangle in a box within the square root of `square` of a point, by
+// its place in the order of the leaves and near boxes first. visit() may lessen `square`.
+template <class Visit>
+void forEachNearer(
+    const TriangleBvh& tree, const glm::dvec3& point, const double& square, Visit&& visit) {
+    struct StackEntry {
+        std::uint32_t node;
+        double square;  // of its box's distance
+    };
+    std::array<StackEntry, kBvhStackSize> stack;
+    std::size_t count = 0;
+    const auto push = [&](std::uint32_t node) {
+        stack[count++] = {node, squareDistance(point, tree.nodes[node])};
+    };
+    push(0);
+    while (count > 0) {
+        const StackEntry next = stack[--count];
+        if (next.square >= square) continue;
+        const TriangleBvh::Node& node = tree.nodes[next.node];
+        for (std::size_t i = 0; i < node.count; ++i) visit(node.first + i);
+        if (node.count > 0) continue;
+        push(node.first);
+        push(node.first + 1);
+        if (stack[count - 2].square < stack[count - 1].square)
+            std::swap(stack[count - 2], stack[count - 1]);
+    }
+}
 
 // A point of a triangle mesh.
 struct MeshPoint {
