@@ -37,7 +37,7 @@ constexpr std::array kStages{
 
 VkShaderStageFlagBits stageOf(const std::string& path) {
     for (const auto& [extension, stage] : kStages) {
-        if (path.ends_with(extension)) return stage;
+        if (shaderFile(path).ends_with(extension)) return stage;
     }
     throw Error("shader '" + path + "'", "its extension names no stage");
 }

@@ -33,7 +33,7 @@ struct ShaderExtension;
 using ShaderExtensions = std::vector<std::shared_ptr<const ShaderExtension>>;
 
 struct ComputeDescription {
-    std::string shader;  // path under shaders/, e.g. "simulation/wind.comp"
+    std::string shader;  // engine::shaderCode()
     Constants constants;
     ShaderExtensions extensions{};  // shaders.h: for the entry points that call them
     std::uint32_t push_size = 0;  // B

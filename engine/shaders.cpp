@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cctype>
 #include <cstring>
 #include <map>
 #include <memory>
@@ -107,12 +108,29 @@ constexpr std::array kStages{
     Stage{".comp", EShLangCompute},
 };
 
-const Stage& stageOf(const std::string& path) {
+const Stage& stageOf(const std::string& file) {
     for (const Stage& stage : kStages) {
-        if (path.ends_with(stage.extension)) return stage;
+        if (file.ends_with(stage.extension)) return stage;
     }
-    throw Error("shader '" + path + "'", "its extension names no stage");
+    throw Error("shader '" + file + "'", "its extension names no stage");
 }
+
+// The file of an entry point and the macros of its variant: "rod.comp+packed" is the file
+// "rod.comp" with HAIRBENCH_PACKED.
+struct Variant {
+    explicit Variant(const std::string& path) : file(shaderFile(path)) {
+        std::istringstream words(path.substr(std::min(file.size() + 1, path.size())));
+        for (std::string word; std::getline(words, word, '+');) {
+            std::ranges::transform(word, word.begin(), [](unsigned char c) {
+                return static_cast<char>(std::toupper(c));
+            });
+            macros.push_back("HAIRBENCH_" + word);
+        }
+    }
+
+    std::string file;
+    std::vector<std::string> macros;
+};
 
 // Returns the first error in a log of lines such as "ERROR: ./common/picture.glsl:12: 'x' :
 // undeclared identifier".
@@ -338,21 +356,29 @@ ShaderCompiler::~ShaderCompiler() { glslang::FinalizeProcess(); }
 
 CompiledShader ShaderCompiler::compile(
     const std::string& path, const ReadShader& read, const ShaderExtensions& extensions) const {
-    const Stage& stage = stageOf(path);
-    CompiledShader compiled{.code = {}, .files = {path}, .error = {}};
-    const std::optional<std::string> text = read(path);
+    const Variant variant(path);
+    const std::string& file = variant.file;
+    const Stage& stage = stageOf(file);
+    CompiledShader compiled{.code = {}, .files = {file}, .error = {}};
+    const std::optional<std::string> text = read(file);
     if (!text) {
-        compiled.error = {path, 0, "there is no such file in the folder of shaders"};
+        compiled.error = {file, 0, "there is no such file in the folder of shaders"};
         return compiled;
     }
 
     const char* const string = text->data();
     const int length = static_cast<int>(text->size());
-    const char* const name = path.c_str();
+    const char* const name = file.c_str();
     glslang::TShader shader(stage.language);
     shader.setStringsWithLengthsAndNames(&string, &length, &name, 1);
     setTarget(shader, stage.language);
     std::string macros;
+    std::vector<std::string> processes;  // the compiler's record of -D in the build
+    for (const std::string& macro : variant.macros) {
+        macros += "#define " + macro + " \n";
+        processes.push_back("define-macro " + macro);
+    }
+    shader.addProcesses(processes);
     for (const auto& extension : extensions) macros += "#define " + extension->macro + " 1\n";
     shader.setPreamble(macros.c_str());
     GlslIncluder includer(read);
@@ -360,7 +386,7 @@ CompiledShader ShaderCompiler::compile(
         shader.parse(GetDefaultResources(), kDefaultVersion, false, kMessages, includer);
     compiled.files.insert(compiled.files.end(), includer.files().begin(), includer.files().end());
     if (!parsed) {
-        compiled.error = firstError(shader.getInfoLog(), path);
+        compiled.error = firstError(shader.getInfoLog(), file);
         return compiled;
     }
 
@@ -377,7 +403,7 @@ CompiledShader ShaderCompiler::compile(
     // Last: its stage settings apply where earlier units have none.
     program.addShader(&shader);
     if (!program.link(kMessages) || !program.mapIO()) {
-        compiled.error = extensions.empty() ? firstError(program.getInfoLog(), path)
+        compiled.error = extensions.empty() ? firstError(program.getInfoLog(), file)
                                             : linkError(program.getInfoLog(), *extensions.front());
         return compiled;
     }

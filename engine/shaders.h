@@ -44,7 +44,7 @@ using ShaderExtensions = std::vector<std::shared_ptr<const ShaderExtension>>;
 // Code for pipelines: compiled into the program (shaderCode()), or its replacement.
 class ShaderLibrary {
 public:
-    // Code by entry point, "simulation/wind.comp".
+    // Code by entry point or variant, as for shaderCode().
     using Replacements = std::map<std::string, ShaderCode, std::less<>>;
 
     // Returns the code of an entry point, valid until replace(). For an unknown path throws an
@@ -70,6 +70,9 @@ private:
     // by a text of everything that the code was compiled from
     mutable std::map<std::string, std::shared_ptr<const ShaderCode>> extended_;
 };
+
+// Returns the file of an entry point or a variant: "rod.comp" for "rod.comp+packed".
+inline std::string_view shaderFile(std::string_view path) { return path.substr(0, path.find('+')); }
 
 struct ShaderError {
     std::string file;  // relative to the shader folder
@@ -97,7 +100,8 @@ public:
     ShaderCompiler(const ShaderCompiler&) = delete;
     ShaderCompiler& operator=(const ShaderCompiler&) = delete;
 
-    // `path`: an entry point, with its stage as extension: "strands/strand.frag". Includes are
+    // `path`: an entry point, with its stage as extension, "strands/strand.frag", or a variant of
+    // it, "simulation/rod.comp+packed", for which HAIRBENCH_PACKED is defined. Includes are
     // always relative to the shader folder, whichever file includes them. With extensions, all
     // units are linked together and the code carries no sources; an error in an extension has the
     // extension's name as its file. A fault that judgeSpirv() finds in an extension by itself is
@@ -107,9 +111,10 @@ public:
         const ShaderExtensions& extensions = {}) const;
 };
 
-// Returns the SPIR-V of an entry point under shaders/, compiled into the program:
-// "simulation/wind.comp". The code lives as long as the program. For an unknown path throws an
-// Error that lists the known ones. The call of hairbench_shaders() in CMake lists the shaders.
+// Returns the SPIR-V of an entry point under shaders/, or of a variant of one, compiled into the
+// program: "simulation/wind.comp", "simulation/rod.comp+packed". The code lives as long as the
+// program. For an unknown path throws an Error that lists the known ones. The call of
+// hairbench_shaders() in CMake lists the shaders.
 std::span<const std::uint32_t> shaderCode(std::string_view path);
 
 // Returns the entry points compiled into the program.

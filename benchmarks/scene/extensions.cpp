@@ -308,7 +308,8 @@ std::vector<std::string> entryPointsOf(const engine::ShaderExtension& extension)
     std::vector<std::string> paths;
     std::set<std::string> kinds;
     for (const std::string_view path : engine::shaderPaths()) {
-        const std::string kind = std::filesystem::path(path).extension().string();
+        const std::string kind =
+            std::filesystem::path(engine::shaderFile(path)).extension().string();
         if (!kinds.contains(kind) &&
             engine::shaderSources(engine::shaderCode(path)).contains(extension.interface)) {
             kinds.insert(kind);

@@ -310,7 +310,7 @@ void ShaderReload::Parts::compile(
     for (const engine::ShaderBinding& binding : engine::shaderBindings(compiled.code))
         if (!had.contains(binding))
             addProblem(
-                path, 0,
+                std::string(engine::shaderFile(path)), 0,
                 "has an image at binding " + std::to_string(binding.binding) + " of set " +
                     std::to_string(binding.set) + " that the program does not bind");
     replacements[path] = std::move(compiled.code);
@@ -371,7 +371,9 @@ void ShaderReload::accept() {
     parts.reloaded = {
         .paths = {}, .seconds = took.count(), .when = std::chrono::system_clock::now()};
     for (auto& [path, its_files] : parts.attempt->files) {
-        parts.reloaded.paths.push_back(path);
+        const std::string_view file = engine::shaderFile(path);  // of adjacent variants
+        std::vector<std::string>& reloaded = parts.reloaded.paths;
+        if (reloaded.empty() || reloaded.back() != file) reloaded.emplace_back(file);
         parts.now_files[path] = std::move(its_files);
     }
     parts.attempt.reset();
@@ -380,7 +382,10 @@ void ShaderReload::accept() {
 void ShaderReload::reject(const std::string& reason) {
     Parts& parts = *parts_;
     if (!parts.attempt) return;
-    std::string file = parts.attempt->files.size() == 1 ? parts.attempt->files.begin()->first : "";
+    std::set<std::string_view> tried;
+    for (const auto& [path, its_files] : parts.attempt->files)
+        tried.insert(engine::shaderFile(path));
+    std::string file(tried.size() == 1 ? *tried.begin() : "");
     parts.device.shaders().replace(std::move(parts.attempt->before));
     parts.used = std::move(parts.attempt->used);
     parts.attempt.reset();

@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "engine/error.h"
+#include "engine/shaders.h"
 #include "engine/transfer.h"
 #include "hair/gpu_structs.h"
 #include "hair/rendering/mesh_backend.h"
@@ -25,7 +26,7 @@ using engine::Access;
 
 // The geometry stage that makes the quads.
 std::string geometryShader(QuadKind quads) {
-    return quads == QuadKind::camera ? "strands/strand.geom" : "shadows/hair.geom";
+    return quads == QuadKind::camera ? "strands/strand.geom" : "strands/strand.geom+shadow";
 }
 
 // Draws no strands.
@@ -108,9 +109,11 @@ private:
         description.constants.emplace_back(
             gpu::kStrictLinesConstant, context.device.info().limits.strictLines == VK_TRUE);
         description.constants.emplace_back(gpu::kLinesConstant, true);
-        const bool is_opaque = context.output.fragment == "strands/strand.frag";
-        description.shaders = {
-            "strands/lines.vert", is_opaque ? "strands/samples.frag" : context.output.fragment};
+        constexpr std::string_view kOpaque = "strands/strand.frag";
+        std::string fragment = context.output.fragment;
+        if (engine::shaderFile(fragment) == kOpaque)
+            fragment.replace(0, kOpaque.size(), "strands/samples.frag");
+        description.shaders = {"strands/lines.vert", fragment};
         description.topology = VK_PRIMITIVE_TOPOLOGY_LINE_LIST;
         return description;
     }
@@ -198,7 +201,7 @@ private:
         description.constants.emplace_back(gpu::kStrandBlockConstant, block);
         description.shaders = {
             context.output.quads == QuadKind::camera ? "strands/pulling.vert"
-                                                     : "shadows/pulling.vert",
+                                                     : "strands/pulling.vert+shadow",
             context.output.fragment};
         return description;
     }
@@ -310,10 +313,10 @@ private:
         engine::GraphicsDescription description = strandPipeline(context);
         const engine::Constants places = placeConstants(context.plan);
         description.constants.insert(description.constants.end(), places.begin(), places.end());
-        const std::string folder =
-            context.output.quads == QuadKind::camera ? "strands/" : "shadows/";
         description.shaders = {
-            folder + (readsPairs(context.device) ? "expanded_packed.vert" : "expanded.vert"),
+            std::string("strands/expanded.vert") +
+                (context.output.quads == QuadKind::camera ? "" : "+shadow") +
+                (readsPairs(context.device) ? "+packed" : ""),
             context.output.fragment};
         description.push_size = sizeof(gpu::ExpandedPush);
         return description;
@@ -335,19 +338,17 @@ private:
 std::vector<std::string> stageShaders(const BackendContext& context) {
     const StrandStages& stages = context.stages;
     const auto path = [&](StrandStage stage, const std::string& file) {
-        return (stages.watched == stage ? "strands/watched/" : "strands/") + file;
+        return file + (stages.watched == stage ? "+watched" : "");
     };
-    std::vector<std::string> shaders{path(StrandStage::vertex, "tessellation.vert")};
+    std::vector<std::string> shaders{path(StrandStage::vertex, "strands/tessellation.vert")};
     if (stages.last >= StrandStage::evaluation) {
         context.device.require(engine::Feature::tessellation, "/strands/backend: tessellation");
         shaders.emplace_back("strands/tessellation.tesc");
-        shaders.push_back(path(StrandStage::evaluation, "tessellation.tese"));
+        shaders.push_back(path(StrandStage::evaluation, "strands/tessellation.tese"));
     }
     if (stages.last >= StrandStage::geometry) {
         context.device.require(engine::Feature::geometry, "/strands/backend: tessellation");
-        shaders.push_back(
-            stages.watched == StrandStage::geometry ? "strands/watched/strand.geom"
-                                                    : geometryShader(context.output.quads));
+        shaders.push_back(path(StrandStage::geometry, geometryShader(context.output.quads)));
     }
     if (stages.last >= StrandStage::fragment) shaders.push_back(context.output.fragment);
     return shaders;

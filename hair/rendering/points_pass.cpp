@@ -197,7 +197,7 @@ evaluateStage(const engine::Device& device, const Settings& settings, const Stra
         gpu::kStrandBlockConstant, evaluatedBlock(device, settings.strands, plan));
     constants.emplace_back(gpu::kPixelSamplesConstant, settings.render.msaa);
     return {
-        .shader = readsPairs(device) ? "strands/points/evaluate_packed.comp"
+        .shader = readsPairs(device) ? "strands/points/evaluate.comp+packed"
                                      : "strands/points/evaluate.comp",
         .constants = constants,
         .extensions = strandExtensions(settings.strands),

@@ -28,12 +28,12 @@ namespace {
 
 engine::ComputeDescription
 pipelineFor(const RenderSettings& render, const engine::TargetDescription& target) {
-    const std::string variant = target.msaa > 1 ? "_multisample.comp" : ".comp";
+    const std::string variant = target.msaa > 1 ? "+multisample" : "";
     engine::Constants constants{
         {gpu::kResolveSamplesConstant, target.msaa}, {gpu::kResolveFactorConstant, target.ssaa}};
     if (!hasLinearLight(render)) {
         return {
-            .shader = "post/resolve" + variant,
+            .shader = "post/resolve.comp" + variant,
             .constants = constants,
             .sampled_images = 1,
             .storage_images = 1};
@@ -41,7 +41,7 @@ pipelineFor(const RenderSettings& render, const engine::TargetDescription& targe
     constants.emplace_back(gpu::kResolveToneMapConstant, shaderCode(render.tone_map));
     constants.emplace_back(gpu::kResolveExposureConstant, std::exp2(render.exposure));
     return {
-        .shader = "post/develop" + variant,
+        .shader = "post/develop.comp" + variant,
         .constants = constants,
         .sampled_images = 1,
         .storage_images = 2};

@@ -87,14 +87,14 @@ const engine::TexelView* texelsOf(const BackendContext& context) {
     return fits && isPacked(context.device) ? context.points->texels() : nullptr;
 }
 
-std::string shaderOf(const BackendContext& context, const std::string& name, const char* stage) {
-    return "strands/software/" + name + (isPacked(context.device) ? "_packed" : "") + stage;
+std::string shaderOf(const BackendContext& context, const std::string& name) {
+    return "strands/software/" + name + (isPacked(context.device) ? "+packed" : "");
 }
 
 engine::ComputeDescription
 softwareStage(const BackendContext& context, const std::string& name, std::uint32_t block = 1) {
     return {
-        .shader = shaderOf(context, name, ".comp"),
+        .shader = shaderOf(context, name),
         .constants = softwareConstants(context, block),
         .extensions = context.output.extensions,
         .push_size = sizeof(gpu::SoftwarePush)};
@@ -105,20 +105,20 @@ engine::ComputeDescription texelStage(
     const BackendContext& context, const std::string& name, std::uint32_t buffers,
     std::uint32_t block = 1) {
     if (!texelsOf(context)) return softwareStage(context, name, block);
-    engine::ComputeDescription stage = softwareStage(context, name + "_texels", block);
+    engine::ComputeDescription stage = softwareStage(context, name + "+texels", block);
     stage.texel_buffers = buffers;
     return stage;
 }
 
 engine::ComputeDescription clearStage(const BackendContext& context) {
-    engine::ComputeDescription stage =
-        softwareStage(context, context.output.samples > 1 ? "clear_multisample" : "clear");
+    engine::ComputeDescription stage = softwareStage(
+        context, context.output.samples > 1 ? "clear.comp+multisample" : "clear.comp");
     stage.sampled_images = 1;
     return stage;
 }
 
 engine::ComputeDescription shadeStage(const BackendContext& context) {
-    engine::ComputeDescription stage = texelStage(context, "shade", 2);
+    engine::ComputeDescription stage = texelStage(context, "shade.comp", 2);
     stage.combined_images = context.output.sampled_images;
     return stage;
 }
@@ -128,7 +128,7 @@ engine::GraphicsDescription blitStage(const BackendContext& context) {
     return {
         .shaders =
             {"strands/software/blit.vert",
-             shaderOf(context, has_texels ? "blit_texels" : "blit", ".frag")},
+             shaderOf(context, has_texels ? "blit.frag+texels" : "blit.frag")},
         .constants = softwareConstants(context, 1),
         .push_size = sizeof(gpu::SoftwarePush),
         .colors = context.output.colors,
@@ -175,11 +175,11 @@ SoftwareBackend::SoftwareBackend(const BackendContext& context, const SoftwareSi
       tile_depths_(softwareBuffer(context.device, sizes.tile_depths, "depths of tiles")),
       pyramid_(softwareBuffer(context.device, sizes.pyramid, "depth pyramid")),
       clear_(context.device, clearStage(context)),
-      reduce_tiles_(context.device, texelStage(context, "tiles", 1)),
-      build_pyramid_(context.device, texelStage(context, "pyramid", 1)),
-      cull_(context.device, texelStage(context, "cull", 2, block_)),
-      rasterize_(context.device, texelStage(context, "raster", 2)),
-      rasterize_large_(context.device, texelStage(context, "raster_large", 2)),
+      reduce_tiles_(context.device, texelStage(context, "tiles.comp", 1)),
+      build_pyramid_(context.device, texelStage(context, "pyramid.comp", 1)),
+      cull_(context.device, texelStage(context, "cull.comp", 2, block_)),
+      rasterize_(context.device, texelStage(context, "raster.comp", 2)),
+      rasterize_large_(context.device, texelStage(context, "raster_large.comp", 2)),
       shaded_columns_(
           shadesPixelPerInvocation(context)
               ? divideUp(target_.color().extent().width, pixelGroup(context.device))
@@ -293,7 +293,9 @@ void SoftwareBackend::rasterizePieces(
 
 void SoftwareBackend::rasterizeLarge(
     engine::Commands& commands, gpu::SoftwarePush constants) const {
+    constants = ofPart(constants, gpu::kOtherPart);
     constants.points = points_.points().address();
+    constants.list = list_.address();
     constants.pieces = points_.pieces().address();
     constants.visibility = visibility_.address();
     constants.counts = counts_.address();
@@ -301,12 +303,16 @@ void SoftwareBackend::rasterizeLarge(
     commands.uses(
         {{points_.points(), Access::compute_read},
          {points_.pieces(), Access::compute_read},
+         {list_, Access::compute_read},
          {visibility_, Access::compute_write},
          {counts_, Access::compute_read},
          {large_, Access::compute_read}});
     commands.bind(rasterize_large_, constants);
     if (texels_) commands.images(rasterize_large_, {}, std::array{texels_, &visibility_texels_});
-    commands.dispatch(gpu::kLargeGroups);
+    constexpr std::uint32_t kMostGroups = 65535;  // of a dimension, on every device
+    const std::size_t parts = sampleCount(target_.description()) / gpu::kLargeGroupSamples + 1;
+    commands.dispatch(
+        static_cast<std::uint32_t>(std::min<std::size_t>(gpu::kLargeGroups * parts, kMostGroups)));
 }
 
 void SoftwareBackend::reduceTiles(engine::Commands& commands, gpu::SoftwarePush constants) const {

@@ -273,7 +273,7 @@ engine::Image sumImage(const BlendContext& context, VkFormat format, const char*
 engine::GraphicsDescription composite(const RenderSettings& render) {
     engine::GraphicsDescription description = compositePipeline(
         render,
-        render.msaa > 1 ? "composite/weighted_multisample.frag" : "composite/weighted.frag");
+        render.msaa > 1 ? "composite/weighted.frag+multisample" : "composite/weighted.frag");
     description.sampled_images = 2;
     return description;
 }
@@ -398,10 +398,16 @@ std::unique_ptr<StrandBlend> makeBlend(const BlendContext& context) {
 
 // ---- The pass -----------------------------------------------------------------------------------
 
+bool isAnalytic(const RenderSettings& render) {
+    return render.coverage == Coverage::analytic && render.show == Show::shading;
+}
+
 StrandOutput shaded(StrandOutput output, const Settings& settings) {
     output.shading = shadingConstants(settings);
     output.extensions = shaderExtensions(settings.shading.model_parameters);
     output.sampled_images = kStrandImages;
+    if (output.samples > 1 && !output.fragment.empty() && !isAnalytic(settings.render))
+        output.fragment += "+centroid";
     return output;
 }
 
@@ -446,8 +452,7 @@ engine::Constants shadingConstants(const Settings& settings) {
         {gpu::kHairShadowsConstant, shaderCode(shading.shadows.hair)},
         {gpu::kEnvironmentConstant, environmentCode(settings)},
         {gpu::kLinearLightConstant, hasLinearLight(render)},
-        {gpu::kAnalyticCoverageConstant,
-         render.coverage == Coverage::analytic && render.show == Show::shading},
+        {gpu::kAnalyticCoverageConstant, isAnalytic(render)},
         {gpu::kStrandTextureConstant, !settings.strands.texture.empty()},
         {gpu::kShowConstant, shaderCode(render.show)},
         {gpu::kLightKindsConstant, lightKinds(settings)},

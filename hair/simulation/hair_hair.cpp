@@ -131,7 +131,7 @@ std::size_t blockCount(const SimulationSettings& settings) {
     return cellCount(((settings.hair_hair.resolution - 1) >> gpu::kVolumeBlockBits) + 1);
 }
 
-// Whether two components of a sum share one 64-bit integer, as in volume_splat_packed.comp. This
+// Whether two components of a sum share one 64-bit integer, as in volume_splat.comp+packed. This
 // halves the atomic operations.
 bool isPacked(const engine::Device& device) {
     return device.has(engine::Feature::long_integers) && device.has(engine::Feature::long_atomics);
@@ -215,7 +215,7 @@ HairHair::HairHair(
       kept_(device, {.size = vertex_count_ * sizeof(glm::vec4), .name = "volume kept"}),
       sample_(pipeline(device, "simulation/volume_sample.comp")),
       splat_(pipeline(
-          device, isPacked(device) ? "simulation/volume_splat_packed.comp"
+          device, isPacked(device) ? "simulation/volume_splat.comp+packed"
                                    : "simulation/volume_splat.comp")),
       force_(pipeline(device, "simulation/volume_force.comp")) {
     gpu::VolumeParameters parameters = parametersOf(groom, settings, step);

@@ -212,7 +212,6 @@ rodSizes(const engine::DeviceInfo& device, const groom::GroomSize& size, const R
 RodMethod rodMethod(const SimulationSettings& settings) {
     return {
         .shader = "simulation/rod.comp",
-        .packed_shader = "simulation/rod_packed.comp",
         .scratch_rows = gpu::kRodScratchRows +
                         (settings.collision.warm_start ? gpu::kRodContactScratchRows : 0) +
                         (segmentsOf(settings) == gpu::kRodNoSegments ? 0 : 1),
@@ -224,7 +223,6 @@ RodMethod rodMethod(const SimulationSettings& settings) {
 RodMethod stableCosseratMethod(const SimulationSettings& settings) {
     return {
         .shader = "simulation/stable_cosserat.comp",
-        .packed_shader = "simulation/stable_cosserat_packed.comp",
         .scratch_rows = gpu::kStableCosseratScratchRows,
         .iterations = settings.stable_cosserat.iterations,
         .stretching =
@@ -234,7 +232,6 @@ RodMethod stableCosseratMethod(const SimulationSettings& settings) {
 RodMethod positionBasedMethod(const SimulationSettings& settings) {
     return {
         .shader = "simulation/position_based_rod.comp",
-        .packed_shader = "simulation/position_based_rod_packed.comp",
         .scratch_rows = gpu::kPositionBasedScratchRows,
         .iterations = settings.position_based_rod.iterations,
         .stretching = double{settings.material.youngs_modulus} / double{settings.material.density}};
@@ -244,7 +241,6 @@ RodMethod augmentedMassSpringMethod(const SimulationSettings& settings) {
     const AugmentedMassSpringSettings& springs = settings.augmented_mass_spring;
     return {
         .shader = "simulation/augmented_mass_spring.comp",
-        .packed_shader = "simulation/augmented_mass_spring_packed.comp",
         .scratch_rows = gpu::kMassSpringScratchRows,
         .iterations = springs.iterations,
         .stretching = double{springs.spring_modulus} / double{settings.material.density},
@@ -287,8 +283,8 @@ RodSolver::RodSolver(
               .damping = static_cast<float>(method.damping / step.sub)}}),
           "rod parameters")),
       step_(
-          device, {.shader = device.has(engine::Feature::long_integers) ? method.packed_shader
-                                                                        : method.shader,
+          device, {.shader = std::string(method.shader) +
+                             (device.has(engine::Feature::long_integers) ? "+packed" : ""),
                    .constants =
                        {{gpu::kContinuousCollisionConstant, settings.collision.continuous},
                         {gpu::kEllipticSectionConstant, settings.material.ellipticity != 1.0f},

@@ -18,7 +18,6 @@ struct RodRest;
 // Differences between the rod solvers.
 struct RodMethod {
     const char* shader;  // of a substep
-    const char* packed_shader;  // the same for devices with 64-bit integers
     std::uint32_t scratch_rows;  // vec4 per vertex
     std::uint32_t iterations;
     double stretching = 0.0;  // modulus of stretch and shear over the density, m^2/s^2

@@ -183,7 +183,7 @@ constexpr std::uint32_t kFewest = 2;
 constexpr std::uint32_t kMost = 32;
 constexpr std::uint32_t kOnGpu = 8;  // about 100 registers by a count of values; not measured
 
-// Shared memory per invocation of simulation/shape.glsl, B: seven vec4 and a float; with an energy
+// Shared memory per invocation of simulation/shape.comp, B: seven vec4 and a float; with an energy
 // one float more.
 constexpr std::uint32_t kSharedBytes = 7 * 16 + 4;
 constexpr std::uint32_t kSharedBytesOfEnergy = kSharedBytes + 4;
@@ -204,17 +204,18 @@ std::uint32_t wantedPerChunk(
 }
 
 // Returns the size of chunks of about equal size. It is even if there are several chunks:
-// simulation/shape.glsl.
+// simulation/shape.comp.
 std::uint32_t verticesPerChunk(std::uint32_t vertices, std::uint32_t wanted) {
     const std::uint32_t chunks = divideUp(vertices, wanted);
     return chunks == 1 ? vertices : divideUp(divideUp(vertices, chunks), 2) * 2;
 }
 
-const char* shaderOf(const engine::DeviceInfo& device, const SimulationSettings& settings) {
+std::string shaderOf(const engine::DeviceInfo& device, const SimulationSettings& settings) {
+    const std::string variant = bends(settings) ? "+energy" : "";
+    if (settings.parallelism == Parallelism::serial)
+        return "simulation/shape_serial.comp" + variant;
     const bool packed = device.features.contains(engine::Feature::long_integers);
-    if (bends(settings))
-        return packed ? "simulation/shape_energy_packed.comp" : "simulation/shape_energy.comp";
-    return packed ? "simulation/shape_packed.comp" : "simulation/shape.comp";
+    return "simulation/shape.comp" + variant + (packed ? "+packed" : "");
 }
 
 // Throws Unsupported if strands have more vertices than 32 for each invocation of the device's
@@ -226,8 +227,7 @@ ShapePlan planShape(
     const bool tridiagonal = settings.length.method == LengthMethod::tridiagonal;
     if (settings.parallelism == Parallelism::serial)
         return {
-            .shader = bends(settings) ? "simulation/shape_energy_serial.comp"
-                                      : "simulation/shape_serial.comp",
+            .shader = shaderOf(device, settings),
             .constants =
                 {{gpu::kContinuousCollisionConstant, settings.collision.continuous},
                  {gpu::kSkinnedRootsConstant, hasSkinnedRoots(settings)},

@@ -5,9 +5,10 @@
 # Adds the static library <target>, which defines <name>::shaderCode() and <name>::shaderPaths() as
 # declared in <header>. engine/shaders.h declares those of the program. A path is an entry point,
 # relative to the calling folder, with its stage as extension: simulation/wind.comp,
-# strands/tessellation.tese. Included files are found relative to that folder and to shaders/. They
-# need not be listed: the compiler reports them, and a change to one rebuilds all files that include
-# it.
+# strands/tessellation.tese. "+word" after it compiles a variant of the file, with HAIRBENCH_WORD
+# defined: simulation/rod.comp+packed. Included files are found relative to that folder and to
+# shaders/. They need not be listed: the compiler reports them, and a change to one rebuilds all
+# files that include it.
 function(hairbench_shaders target)
     cmake_parse_arguments(PARSE_ARGV 1 arg "" "HEADER;NAMESPACE" "SHADERS")
     set(source_dir "${CMAKE_CURRENT_SOURCE_DIR}")
@@ -49,6 +50,10 @@ endfunction()
 # Compiles one shader: GLSL -> SPIR-V, validated if spirv-val exists -> a list of words to #include.
 # The remaining arguments are -I options of the compiler.
 function(_hairbench_shader source_dir output_dir shader)
+    string(REPLACE "+" ";" words "${shader}")
+    list(POP_FRONT words file)
+    list(TRANSFORM words TOUPPER)
+    list(TRANSFORM words PREPEND "-DHAIRBENCH_")
     set(spirv "${output_dir}/${shader}.spv")
     set(embed "${CMAKE_CURRENT_FUNCTION_LIST_DIR}/EmbedShader.cmake")
     get_filename_component(folder "${spirv}" DIRECTORY)
@@ -64,13 +69,13 @@ function(_hairbench_shader source_dir output_dir shader)
     set(absolute "${CMAKE_CURRENT_FUNCTION_LIST_DIR}/AbsoluteDepfile.cmake")
     add_custom_command(
         OUTPUT "${spirv}"
-        COMMAND "${GLSLANG_VALIDATOR}" --quiet --target-env vulkan1.3 -g ${ARGN}
-            --depfile "${spirv}.d" -o "${spirv}" "${shader}"
+        COMMAND "${GLSLANG_VALIDATOR}" --quiet --target-env vulkan1.3 -g ${words} ${ARGN}
+            --depfile "${spirv}.d" -o "${spirv}" "${file}"
         COMMAND "${CMAKE_COMMAND}" "-DDEPFILE=${spirv}.d" "-DOUTPUT=${spirv}"
             "-DFOLDER=${source_dir}" -P "${absolute}"
         ${validate}
         WORKING_DIRECTORY "${source_dir}"
-        DEPENDS "${source_dir}/${shader}" "${absolute}"
+        DEPENDS "${source_dir}/${file}" "${absolute}"
         DEPFILE "${spirv}.d"
         COMMENT "Compiling shader ${shader}"
         VERBATIM)

@@ -96,7 +96,7 @@ const uint kSkinnedStrandsConstant = 35u;
 // Constants of strands/software and strands/mesh: strands/software/software.glsl.
 const uint kMostSegmentsConstant = 10u;
 const uint kMostPiecesConstant = 11u;
-// Constant of those two and of strands/pulling.glsl.
+// Constant of those two and of strands/pulling.vert.
 const uint kStrandBlockConstant = 12u;
 // Invocations of a work group in the per-pixel passes of strands/software.
 const uint kPixelGroupConstant = 29u;
@@ -145,16 +145,16 @@ const uint kOffsetReachConstant = 36u;
 // Constant of environment/background.frag.
 const uint kBackgroundLinearLightConstant = 0u;
 
-// Constants of post/develop.glsl. post/resolve.glsl uses the first two.
+// Constants of post/develop.comp. post/resolve.comp uses the first two.
 const uint kResolveSamplesConstant = 0u;
 const uint kResolveFactorConstant = 1u;
 const uint kResolveToneMapConstant = 2u;
 const uint kResolveExposureConstant = 3u;
 
-// Invocations along each side of a work group of post/resolve.glsl and post/develop.glsl.
+// Invocations along each side of a work group of post/resolve.comp and post/develop.comp.
 const uint kResolveGroupSide = 8u;
 
-// Constants of simulation/shape.glsl. simulation/shape_serial.glsl uses all except the last.
+// Constants of simulation/shape.comp. simulation/shape_serial.comp uses all except the last.
 const uint kShapeGroupSizeConstant = 0u;
 const uint kShapeVerticesPerStrandConstant = 1u;
 const uint kShapeCollidesConstant = 2u;
@@ -168,7 +168,7 @@ const uint kSkinnedRootsConstant = 11u;
 // Constant of simulation/segments.comp.
 const uint kSegmentVerticesConstant = 0u;
 
-// Constants of the solver `rod`: simulation/rod/joint.glsl and simulation/rod.glsl.
+// Constants of the solver `rod`: simulation/rod/joint.glsl and simulation/rod.comp.
 const uint kEllipticSectionConstant = 6u;
 const uint kWarmStartConstant = 7u;
 const uint kRodAlphaConstant = 8u;

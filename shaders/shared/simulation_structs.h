@@ -204,7 +204,7 @@ struct ConditionPush {
     RigidFrame frame;  // of the head now
 };
 
-// Parameters of simulation/shape.glsl.
+// Parameters of simulation/shape.comp.
 struct ShapeParameters {
     Address rest_positions;  // target positions of the global constraint, m
     Address rest_edges;  // hair/simulation/solver_shape.h

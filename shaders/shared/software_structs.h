@@ -7,11 +7,13 @@
 const uint kSoftwareStrandGroup = 32u;
 
 // Pieces with more estimated samples than kLargePieceSamples are rasterised by whole work groups.
-// kMostLargePieces is the capacity for them. Mesa's lavapipe silently ends an invocation's loops
-// after 65,535 iterations in total, so no single invocation may rasterise a large piece.
+// kMostLargePieces is the capacity of their list. Mesa's lavapipe silently ends an invocation's
+// loops after 65,535 iterations in total, so no single invocation may rasterise a large piece, and
+// a picture of more than kLargeGroupSamples samples has as many times kLargeGroups groups.
 const uint kLargePieceSamples = 128u;
 const uint kMostLargePieces = 65536u;
 const uint kLargeGroups = 256u;
+const uint kLargeGroupSamples = 1u << 22;
 
 // One strand, or block of strands, in every kFirstStrands is rasterised first. Pieces of the
 // others are culled by a depth pyramid of these: if they are farther than everything in a square of

@@ -10,9 +10,17 @@
 
 layout(push_constant, scalar) uniform Push { StrandPush push; };
 
-layout(location = 0) in vec4 position_and_across;
-layout(location = 1) in vec4 tangent_and_along;
-layout(location = 2) in float half_width;  // m, if quads pass it; for lines, their coverage
+// With several samples per pixel, a pixel's centre may lie outside the quad that covers some of its
+// samples. `across` would be beyond -1 or 1 there, and shading too dark. HAIRBENCH_CENTROID takes a
+// place inside the quad. Analytic coverage needs the centre.
+#ifdef HAIRBENCH_CENTROID
+#define PLACE centroid
+#else
+#define PLACE
+#endif
+layout(location = 0) PLACE in vec4 position_and_across;
+layout(location = 1) PLACE in vec4 tangent_and_along;
+layout(location = 2) PLACE in float half_width;  // m, if quads pass it; for lines, their coverage
 layout(location = 3) flat in uint merged_hairs;  // set if kTellsHairs
 
 // 1: strands are lines one pixel wide

@@ -1,10 +1,16 @@
 #version 460
-// The first stage of the tessellation back end: passes on the patch's number.
+// The first stage of the tessellation back end: passes on the patch's number. HAIRBENCH_WATCHED is
+// for a watched stage (strands/watch.glsl).
 #extension GL_GOOGLE_include_directive : require
 #include "strands/patch_number.glsl"
-
-layout(push_constant, scalar) uniform Push { StrandPush push; };
+#include "strands/watch.glsl"
 
 layout(location = 0) out uint patch_index;
 
-void main() { patch_index = patchNumber(PictureReference(push.picture).parameters); }
+void main() {
+    patch_index = patchNumber(PictureReference(push.picture).parameters);
+#ifdef HAIRBENCH_WATCHED
+    gl_PointSize = 1.0;  // if it is the last stage, vertices are points
+    countInvocation(patch_index);
+#endif
+}

@@ -1,8 +1,11 @@
-// For shaders of watched stages: see hair/rendering/backends.h.
+// The push constants of a stage that may be watched and, with HAIRBENCH_WATCHED, the functions that
+// count its invocations: see hair/rendering/backends.h.
 #ifndef HAIRBENCH_WATCH_GLSL
 #define HAIRBENCH_WATCH_GLSL
 
 #include "common/picture.glsl"
+
+#ifdef HAIRBENCH_WATCHED
 #include "shared/watch_structs.h"
 
 layout(push_constant, scalar) uniform Push { WatchedPush push; };
@@ -23,5 +26,8 @@ void countInvocation(uint outputs) {
     atomicAdd(reference.watch.sum, outputs);
     atomicAdd(reference.watch.count, 1u);
 }
+#else
+layout(push_constant, scalar) uniform Push { StrandPush push; };
+#endif
 
 #endif

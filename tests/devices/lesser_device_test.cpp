@@ -474,17 +474,18 @@ TEST(ShaderCapabilities, AreThoseThatFeaturesStandFor) {
                 if (capability == kShader || capability == kSampledBuffer ||
                     capability == kImageQuery || capability == kPhysicalAddresses)
                     return;
-                const bool is_packed = path.find("_packed.") != std::string_view::npos;
+                const std::string_view file = engine::shaderFile(path);
+                const bool is_packed = path.ends_with("+packed");
                 if (is_packed && (path.starts_with("simulation/volume_splat") ||
                                   path.starts_with("strands/software/raster")))
                     EXPECT_THAT(capability, testing::AnyOf(kLongIntegers, kLongAtomics)) << path;
                 else if (is_packed)
                     EXPECT_EQ(capability, kLongIntegers) << path;
-                else if (path.ends_with(".geom"))
+                else if (file.ends_with(".geom"))
                     EXPECT_EQ(capability, kGeometry) << path;
-                else if (path.ends_with(".task") || path.ends_with(".mesh"))
+                else if (file.ends_with(".task") || file.ends_with(".mesh"))
                     EXPECT_EQ(capability, kMeshShading) << path;
-                else if (path.ends_with(".tesc") || path.ends_with(".tese"))
+                else if (file.ends_with(".tesc") || file.ends_with(".tese"))
                     EXPECT_EQ(capability, kTessellation) << path;
                 else
                     ADD_FAILURE() << path << " has capability " << capability;

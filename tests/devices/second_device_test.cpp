@@ -92,7 +92,12 @@ TEST_F(SwiftShader, DrawsStrandsAsTheOtherDeviceDoes) {
                 EXPECT_EQ(outcome.status, 0) << outcome.output;
                 return picture;
             };
-            EXPECT_LE(flipErrors({{draw("there", false), draw("here", true)}})[0], 0.0085)
+            // Where in a quad a pixel with several samples is shaded is a rasteriser's own choice
+            // (Vulkan specification, "Centroid"). `software` shades every sample.
+            const bool is_chosen = samples != "1" && backend != "software";
+            EXPECT_LE(
+                flipErrors({{draw("there", false), draw("here", true)}})[0],
+                is_chosen ? 0.0125 : 0.0085)
                 << backend << " " << samples;
         }
     }

@@ -98,6 +98,23 @@ TEST(ShaderCompiler, AllowsFilesThatIncludeEachOtherBehindGuards) {
     EXPECT_THAT(compiled.code, Not(IsEmpty()));
 }
 
+// The macros of the words, and no others.
+TEST(ShaderCompiler, DefinesTheWordsOfAVariant) {
+    const std::string text = kHead + "#if defined(HAIRBENCH_TWO) || !defined(HAIRBENCH_ONE)\n"
+                                     "#error other\n"
+                                     "#endif\nvoid main() {}\n";
+    const auto named = [&](const std::string& path) { return compile(path, {{"a.comp", text}}); };
+    const CompiledShader compiled = named("a.comp+one+three");
+    EXPECT_FALSE(compiled.error);
+    EXPECT_THAT(compiled.files, ElementsAre("a.comp"));
+    for (const char* const path : {"a.comp", "a.comp+three", "a.comp+one+two"}) {
+        const CompiledShader other = named(path);
+        ASSERT_TRUE(other.error) << path;
+        EXPECT_EQ(other.error->file, "a.comp");
+        EXPECT_EQ(other.error->line, 4);
+    }
+}
+
 TEST(ShaderCompiler, RefusesAFileOfNoStage) {
     EXPECT_THROW(compile("common/picture.glsl", {}), Error);
 }

@@ -42,7 +42,7 @@ TEST(ShaderSources, AreTheFilesThatTheProgramWasBuiltFrom) {
     const ReadShader read = projectShaders();
     for (const std::string_view path : shaderPaths()) {
         const ShaderSources sources = shaderSources(shaderCode(path));
-        EXPECT_TRUE(sources.contains(path)) << path;
+        EXPECT_TRUE(sources.contains(shaderFile(path))) << path;
         for (const auto& [file, text] : sources) EXPECT_EQ(text, read(file)) << path << ' ' << file;
     }
     EXPECT_TRUE(

@@ -190,7 +190,7 @@ bool hasInvariantPosition(std::span<const std::uint32_t> code) {
 TEST(StrandShaders, PlaceStrandsWithoutSumsThatCompilersMayFuse) {
     for (const std::string_view path :
          {"strands/tessellation.tesc", "strands/tessellation.tese",
-          "strands/watched/tessellation.tese", "strands/pulling_geometry.vert",
+          "strands/tessellation.tese+watched", "strands/pulling_geometry.vert",
           "strands/evaluate.comp"})
         EXPECT_EQ(fusibleSums(engine::shaderCode(path)), 0u) << path;
     // The test can tell the difference: sums of colours may be fused.
@@ -199,8 +199,8 @@ TEST(StrandShaders, PlaceStrandsWithoutSumsThatCompilersMayFuse) {
 
 TEST(StrandShaders, ProjectAllVerticesAlike) {
     for (const std::string_view path :
-         {"strands/strand.geom", "strands/watched/strand.geom", "strands/pulling.vert",
-          "shadows/hair.geom", "shadows/pulling.vert", "scene/mesh.vert"})
+         {"strands/strand.geom", "strands/strand.geom+watched", "strands/pulling.vert",
+          "strands/strand.geom+shadow", "strands/pulling.vert+shadow", "scene/mesh.vert"})
         EXPECT_TRUE(hasInvariantPosition(engine::shaderCode(path))) << path;
     EXPECT_FALSE(hasInvariantPosition(engine::shaderCode("composite/screen.vert")));
 }

@@ -1,4 +1,4 @@
-// Linear light to display colours: tests post/develop.glsl by the pictures of targets with given
+// Linear light to display colours: tests post/develop.comp by the pictures of targets with given
 // pixels.
 #include <array>
 #include <cmath>

@@ -4,8 +4,6 @@
 #extension GL_GOOGLE_include_directive : require
 
 #include "probes.glsl"
-#include "strands/software/depth_test.glsl"
-
 #include "strands/software/raster.glsl"
 
 layout(local_size_x = 1) in;

@@ -1,9 +1,9 @@
 // Contact inside the solve of a rod. A vertex that bodies moved in the last substep is held on
 // their surface by a stiff spring and by the previous contact force, so that the rod bears the
 // pressure of the surface. Friction holds it along the surface in the same way, up to Coulomb's
-// cone; beyond that it slides under the force at the rim of the cone. (A vertex that is only pushed
-// out after the solve sinks in again by N h^2 / m under a force N.) Include common/vectors.glsl or
-// common/packed_vectors.glsl first, and define kScratchRows.
+// cone; beyond that it slides under the force at the rim of the cone. (A vertex that is only
+// pushed out after the solve sinks in again by N h^2 / m under a force N.) Define kScratchRows
+// first.
 #ifndef HAIRBENCH_SIMULATION_ROD_CONTACT_GLSL
 #define HAIRBENCH_SIMULATION_ROD_CONTACT_GLSL
 

@@ -1,7 +1,6 @@
 // Rods with segments that stretch and shear, so that vertices and orientations move independently.
-// Until finish(), the residuals of the strand are whole edges at the start of the substep. Include
-// common/vectors.glsl or common/packed_vectors.glsl first, and define kScratchRows and kMoved, the
-// row of a vertex's displacement in the substep.
+// Until finish(), the residuals of the strand are whole edges at the start of the substep. Define
+// kScratchRows and kMoved, the row of a vertex's displacement in the substep, first.
 #ifndef HAIRBENCH_SIMULATION_ROD_EDGES_GLSL
 #define HAIRBENCH_SIMULATION_ROD_EDGES_GLSL
 

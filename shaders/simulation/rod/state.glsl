@@ -1,9 +1,9 @@
-// The `rod` solver's memory, and rotations of segments. Include common/vectors.glsl or
-// common/packed_vectors.glsl first.
+// The `rod` solver's memory, and rotations of segments.
 #ifndef HAIRBENCH_SIMULATION_ROD_STATE_GLSL
 #define HAIRBENCH_SIMULATION_ROD_STATE_GLSL
 
 #include "common/quaternion.glsl"
+#include "common/vectors.glsl"
 #include "shared/rod_structs.h"
 #include "simulation/guides.glsl"
 

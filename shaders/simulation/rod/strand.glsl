@@ -1,5 +1,5 @@
-// The strand that an invocation of a rod solver moves. Include common/vectors.glsl or
-// common/packed_vectors.glsl first, and define kScratchRows, the solver's rows of scratch memory.
+// The strand that an invocation of a rod solver moves. Define kScratchRows, the solver's rows of
+// scratch memory, first.
 #ifndef HAIRBENCH_SIMULATION_ROD_STRAND_GLSL
 #define HAIRBENCH_SIMULATION_ROD_STRAND_GLSL
 

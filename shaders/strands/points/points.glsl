@@ -1,8 +1,8 @@
 // A point of a strand in 16 bytes: its position, and a word with the strand's direction and width.
-// Include common/vectors.glsl or common/packed_vectors.glsl first.
 #ifndef HAIRBENCH_POINTS_GLSL
 #define HAIRBENCH_POINTS_GLSL
 
+#include "common/vectors.glsl"
 #include "strands/points/layout.glsl"
 
 struct PackedPoint {

@@ -1,6 +1,9 @@
 // Rasterises pieces of strands. Each sample keeps the nearest piece; of equally near pieces, it
 // keeps the first. Pieces are drawn in spans across their major axis, so each row or column of
-// samples meets a thin piece in few samples. Define testDepth() first.
+// samples meets a thin piece in few samples.
+#ifdef HAIRBENCH_PACKED
+#extension GL_EXT_shader_atomic_int64 : require
+#endif
 #ifdef kVisibilityTexels
 #include "strands/software/visibility.glsl"
 #endif
@@ -9,6 +12,26 @@
 #include "strands/merged_hairs.glsl"
 #include "strands/software/piece_coordinates.glsl"
 #include "strands/software/samples.glsl"
+
+#ifdef HAIRBENCH_PACKED
+// Tests a piece's depth at a sample with a 64-bit minimum: the nearness in the high half, the piece
+// in the low half.
+void testDepth(uint index, uint near, uint piece) {
+    atomicMin(PackedPairs(push.visibility).at[index], packUint2x32(uvec2(piece, near)));
+}
+#else
+// Tests a piece's depth at a sample by 32-bit atomic minima: first its nearness and, once all
+// samples have the least one, the piece's number.
+void testDepth(uint index, uint near, uint piece) {
+    uvec2 now = loadPair(push.visibility, index);
+    PlainPairs samples = PlainPairs(push.visibility);
+    if (push.choice == 0u) {
+        if (near < now.y) atomicMin(samples.at[index].y, near);
+    } else if (near == now.y && piece < now.x) {
+        atomicMin(samples.at[index].x, piece);
+    }
+}
+#endif
 
 // A piece's samples row by row, or column by column if it is nearer to horizontal.
 struct RasterQuad {
@@ -102,6 +125,12 @@ bool isGap(PictureParameters picture, uint piece, vec2 place) {
     PieceCoordinates at = pieceCoordinates(covered, place);
     PlaceOnStrand on_strand = placeOnStrand(picture, piece, at.t);
     return isMergedGap(on_strand.merged, perspectiveAcross(covered, at), on_strand.along);
+}
+
+// Whether a whole work group rasterises the piece.
+bool isLarge(RasterQuad raster) {
+    float samples = float(raster.end - raster.begin) * (1.0 + raster.row_length);
+    return samples > float(kLargePieceSamples);
 }
 
 // Tests the samples of every `step`-th row from `row` on. The search for the next sample does not

@@ -4,6 +4,7 @@
 #define HAIRBENCH_SOFTWARE_GLSL
 
 #include "common/picture.glsl"
+#include "common/vectors.glsl"
 #include "shared/software_structs.h"
 #include "strands/pixel_samples.glsl"
 #include "strands/points/layout.glsl"

@@ -1,6 +1,0 @@
-#version 460
-// Rasterises large pieces, on devices with 64-bit atomics.
-#extension GL_GOOGLE_include_directive : require
-#include "strands/software/depth_test_packed.glsl"
-
-#include "strands/software/raster_large.glsl"
