@@ -204,7 +204,14 @@ PipelineStore::get(const std::string& key, const std::function<PipelineObjects()
     else
         lru_.emplace_front(key, std::make_shared<const PipelineObjects>(make()));
     if (lru_.size() > kMost) lru_.pop_back();
-    return lru_.front().second;
+    const Objects& objects = lru_.front().second;
+    programs_.insert(programs_.end(), objects->programs.begin(), objects->programs.end());
+    return objects;
+}
+
+std::vector<ShaderProgram> PipelineStore::takePrograms() {
+    const std::lock_guard lock(mutex_);
+    return std::exchange(programs_, {});
 }
 
 // ---- The logical device -------------------------------------------------------------------------
@@ -238,6 +245,8 @@ Device::Device(const DeviceOptions& options)
     shaders_ = std::make_unique<ShaderLibrary>();
     cache_ = std::make_unique<PipelineCache>(get(), info_);
     pipelines_ = std::make_unique<PipelineStore>();
+    if (options.shader_figures) require(Feature::shader_figures, info_.name);
+    shader_figures_ = options.shader_figures;
 
     const VkCommandPoolCreateInfo pool{
         .sType = VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO,

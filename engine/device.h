@@ -96,11 +96,26 @@ private:
     VkPipelineCache cache_{};
 };
 
+// Code that a driver's compiler made of stages of a pipeline, and its figures. A driver may make
+// one program of several stages, or several of one.
+struct ShaderProgram {
+    struct Figure {
+        std::string name;  // the driver's: "VGPRs", "Instruction count"
+        double value = 0.0;
+    };
+
+    std::string name;  // the driver's
+    std::vector<std::string> shaders;  // paths of its stages; empty if the driver does not tell
+    std::uint32_t subgroup_size = 0;  // invocations
+    std::vector<Figure> figures;
+};
+
 struct PipelineObjects {
     Handle<VkDescriptorSetLayout, &vkDestroyDescriptorSetLayout> images;
     Handle<VkPipelineLayout, &vkDestroyPipelineLayout> layout;
     Handle<VkPipeline, &vkDestroyPipeline> pipeline;
     VkShaderStageFlags push_stages = 0;  // stages that have the push constants
+    std::vector<ShaderProgram> programs{};  // if DeviceOptions::shader_figures
 };
 
 // LRU cache of the device's pipelines. Its key consists of all parts of a pipeline: stage code,
@@ -112,8 +127,13 @@ public:
 
     Objects get(const std::string& key, const std::function<PipelineObjects()>& make);
 
+    // Returns the programs of all pipelines that get() returned since the last call.
+    std::vector<ShaderProgram> takePrograms();
+
 private:
     static constexpr std::size_t kMost = 256;
+
+    std::vector<ShaderProgram> programs_;
 
     std::mutex mutex_;
     std::list<std::pair<std::string, Objects>> lru_;
@@ -130,6 +150,9 @@ struct DeviceOptions {
     // Longest wait for one submission. Absent: ten minutes, or an hour for a software device, which
     // may need many minutes for a large frame.
     std::optional<std::chrono::duration<double>> patience{};
+    // Asks the driver's compiler for figures of each pipeline. Throws Unsupported without
+    // Feature::shader_figures.
+    bool shader_figures = false;
 };
 
 // One logical device with its queues, its memory allocator and pipeline cache. Everything else
@@ -189,6 +212,8 @@ public:
     ShaderLibrary& shaders() const { return *shaders_; }
     // The pipelines made from that code.
     PipelineStore& pipelines() const { return *pipelines_; }
+    // Whether pipelines come with figures: DeviceOptions::shader_figures.
+    bool tellsShaderFigures() const { return shader_figures_; }
     // Returns a ledger line, which the allocation's owner keeps for the allocation's lifetime.
     MemoryLedger::Line memoryLine(VmaAllocation_T* allocation, const std::string& name) const;
 
@@ -225,6 +250,7 @@ private:
     DeviceInfo info_;
     std::unique_ptr<VkDevice_T, DestroyDevice> device_;
     std::chrono::duration<double> patience_;
+    bool shader_figures_ = false;
     VkQueue queue_{};
     VkQueue compute_queue_{};
     std::unique_ptr<VmaAllocator_T, DestroyAllocator> allocator_;

@@ -162,6 +162,9 @@ constexpr std::array kFeatures{
         VK_KHR_PUSH_DESCRIPTOR_EXTENSION_NAME},
     FeatureRow{Feature::second_queue, "second queue that computes", nullptr, nullptr},
     FeatureRow{
+        Feature::shader_figures, "figures of compiled shaders", nullptr,
+        VK_KHR_PIPELINE_EXECUTABLE_PROPERTIES_EXTENSION_NAME},
+    FeatureRow{
         Feature::memory_budget, "memory budget", nullptr, VK_EXT_MEMORY_BUDGET_EXTENSION_NAME},
     FeatureRow{
         Feature::present_fences, "fences of presents", nullptr,
@@ -196,10 +199,13 @@ struct FeatureChain {
     VkPhysicalDeviceVulkan13Features vulkan13{};
     VkPhysicalDeviceSwapchainMaintenance1FeaturesEXT presents{};
     VkPhysicalDeviceMeshShaderFeaturesEXT meshes{};
+    VkPhysicalDevicePipelineExecutablePropertiesFeaturesKHR executables{};
     VkPhysicalDevicePortabilitySubsetFeaturesKHR portability{};
 
     // Adds an extension's struct only if the device has the extension.
-    FeatureChain(bool is_portability, bool has_present_fences, bool has_mesh_shaders) {
+    FeatureChain(
+        bool is_portability, bool has_present_fences, bool has_mesh_shaders,
+        bool has_shader_figures) {
         core.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2;
         core.pNext = &vulkan12;
         vulkan12.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_2_FEATURES;
@@ -207,6 +213,8 @@ struct FeatureChain {
         vulkan13.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_3_FEATURES;
         presents.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_SWAPCHAIN_MAINTENANCE_1_FEATURES_EXT;
         meshes.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_MESH_SHADER_FEATURES_EXT;
+        executables.sType =
+            VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PIPELINE_EXECUTABLE_PROPERTIES_FEATURES_KHR;
         portability.sType = kPortabilityFeaturesType;
         void** next = &vulkan13.pNext;
         if (has_present_fences) {
@@ -216,6 +224,10 @@ struct FeatureChain {
         if (has_mesh_shaders) {
             *next = &meshes;
             next = &meshes.pNext;
+        }
+        if (has_shader_figures) {
+            *next = &executables;
+            next = &executables.pNext;
         }
         if (is_portability) *next = &portability;
     }
@@ -248,7 +260,8 @@ void findFeatures(DeviceInfo& info) {
     info.is_portability = extensions.contains(VK_KHR_PORTABILITY_SUBSET_EXTENSION_NAME);
     FeatureChain available(
         info.is_portability, extensions.contains(VK_EXT_SWAPCHAIN_MAINTENANCE_1_EXTENSION_NAME),
-        extensions.contains(VK_EXT_MESH_SHADER_EXTENSION_NAME));
+        extensions.contains(VK_EXT_MESH_SHADER_EXTENSION_NAME),
+        extensions.contains(VK_KHR_PIPELINE_EXECUTABLE_PROPERTIES_EXTENSION_NAME));
     vkGetPhysicalDeviceFeatures2(info.handle, &available.core);
     appendMissing(available.vulkan12, kVulkan12Features, info.missing);
     appendMissing(available.vulkan13, kVulkan13Features, info.missing);
@@ -574,7 +587,10 @@ std::vector<Feature> allFeatures() {
 VkDevice createDevice(const DeviceInfo& info, std::vector<const char*> extensions) {
     const bool has_present_fences = info.features.contains(Feature::present_fences);
     const bool has_mesh_shaders = info.features.contains(Feature::mesh_shader);
-    FeatureChain features(info.is_portability, has_present_fences, has_mesh_shaders);
+    const bool has_shader_figures = info.features.contains(Feature::shader_figures);
+    FeatureChain features(
+        info.is_portability, has_present_fences, has_mesh_shaders, has_shader_figures);
+    features.executables.pipelineExecutableInfo = has_shader_figures ? VK_TRUE : VK_FALSE;
     features.presents.swapchainMaintenance1 = has_present_fences ? VK_TRUE : VK_FALSE;
     features.meshes.taskShader = features.meshes.meshShader = has_mesh_shaders ? VK_TRUE : VK_FALSE;
     features.meshes.meshShaderQueries =

@@ -161,6 +161,7 @@ enum class Feature {
     calibrated_timestamps,  // device and host clocks read at the same moment
     push_descriptors,  // without them Commands uses descriptor sets
     second_queue,  // for compute beside the first queue
+    shader_figures,  // the driver's compiler tells figures of the code that it made
     memory_budget,  // reports free memory; without it, estimated from the heap size
     // Fences that signal when a present is done. Only for devices made with window extensions.
     // Without them Swapchain relies on images that come back.

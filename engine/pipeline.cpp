@@ -191,6 +191,63 @@ VkPipelineColorBlendAttachmentState blendState(Blend blend) {
     return state;
 }
 
+// ---- Figures of compiled shaders ----------------------------------------------------------------
+
+VkPipelineCreateFlags createFlags(const Device& device) {
+    return device.tellsShaderFigures() ? VK_PIPELINE_CREATE_CAPTURE_STATISTICS_BIT_KHR : 0;
+}
+
+double valueOf(const VkPipelineExecutableStatisticKHR& statistic) {
+    switch (statistic.format) {
+    case VK_PIPELINE_EXECUTABLE_STATISTIC_FORMAT_BOOL32_KHR:
+        return statistic.value.b32 == VK_TRUE ? 1.0 : 0.0;
+    case VK_PIPELINE_EXECUTABLE_STATISTIC_FORMAT_INT64_KHR:
+        return static_cast<double>(statistic.value.i64);
+    case VK_PIPELINE_EXECUTABLE_STATISTIC_FORMAT_UINT64_KHR:
+        return static_cast<double>(statistic.value.u64);
+    default:
+        return statistic.value.f64;
+    }
+}
+
+// Returns what the driver tells of a pipeline of these shaders; nothing if it is not asked.
+std::vector<ShaderProgram>
+programsOf(const Device& device, VkPipeline pipeline, std::span<const std::string> shaders) {
+    if (!device.tellsShaderFigures()) return {};
+    const VkPipelineInfoKHR info{
+        .sType = VK_STRUCTURE_TYPE_PIPELINE_INFO_KHR, .pNext = nullptr, .pipeline = pipeline};
+    constexpr const char* kContext = "read a pipeline's figures";
+    std::uint32_t count = 0;
+    check(vkGetPipelineExecutablePropertiesKHR(device.get(), &info, &count, nullptr), kContext);
+    std::vector<VkPipelineExecutablePropertiesKHR> found(
+        count, {.sType = VK_STRUCTURE_TYPE_PIPELINE_EXECUTABLE_PROPERTIES_KHR});
+    check(
+        vkGetPipelineExecutablePropertiesKHR(device.get(), &info, &count, found.data()), kContext);
+    std::vector<ShaderProgram> programs;
+    for (std::uint32_t i = 0; i < count; ++i) {
+        ShaderProgram& program = programs.emplace_back(ShaderProgram{
+            .name = found[i].name, .shaders = {}, .subgroup_size = found[i].subgroupSize});
+        for (const std::string& path : shaders)
+            if (found[i].stages & stageOf(path)) program.shaders.push_back(path);
+        const VkPipelineExecutableInfoKHR one{
+            .sType = VK_STRUCTURE_TYPE_PIPELINE_EXECUTABLE_INFO_KHR,
+            .pNext = nullptr,
+            .pipeline = pipeline,
+            .executableIndex = i};
+        std::uint32_t figures = 0;
+        check(
+            vkGetPipelineExecutableStatisticsKHR(device.get(), &one, &figures, nullptr), kContext);
+        std::vector<VkPipelineExecutableStatisticKHR> statistics(
+            figures, {.sType = VK_STRUCTURE_TYPE_PIPELINE_EXECUTABLE_STATISTIC_KHR});
+        check(
+            vkGetPipelineExecutableStatisticsKHR(device.get(), &one, &figures, statistics.data()),
+            kContext);
+        for (const VkPipelineExecutableStatisticKHR& each : statistics)
+            program.figures.push_back({each.name, valueOf(each)});
+    }
+    return programs;
+}
+
 PipelineObjects makePipeline(const Device& device, const ComputeDescription& description) {
     assert(
         description.combined_images == 0 ||
@@ -212,6 +269,7 @@ PipelineObjects makePipeline(const Device& device, const ComputeDescription& des
     const Specialization specialization(description.constants);
     VkComputePipelineCreateInfo create{};
     create.sType = VK_STRUCTURE_TYPE_COMPUTE_PIPELINE_CREATE_INFO;
+    create.flags = createFlags(device);
     create.stage = stageInfo(VK_SHADER_STAGE_COMPUTE_BIT, module, specialization);
     create.layout = objects.layout.get();
     VkPipeline pipeline{};
@@ -220,6 +278,7 @@ PipelineObjects makePipeline(const Device& device, const ComputeDescription& des
             device.get(), device.pipelineCache(), 1, &create, nullptr, &pipeline),
         description.shader.c_str());
     objects.pipeline = {device.get(), pipeline};
+    objects.programs = programsOf(device, pipeline, std::span(&description.shader, 1));
     device.setName(
         VK_OBJECT_TYPE_PIPELINE, reinterpret_cast<std::uint64_t>(pipeline), description.shader);
     return objects;
@@ -296,6 +355,7 @@ PipelineObjects makePipeline(const Device& device, const GraphicsDescription& de
     VkGraphicsPipelineCreateInfo create{};
     create.sType = VK_STRUCTURE_TYPE_GRAPHICS_PIPELINE_CREATE_INFO;
     create.pNext = &rendering;
+    create.flags = createFlags(device);
     create.stageCount = static_cast<std::uint32_t>(stages.size());
     create.pStages = stages.data();
     create.pVertexInputState = &vertex_input;
@@ -314,6 +374,7 @@ PipelineObjects makePipeline(const Device& device, const GraphicsDescription& de
             device.get(), device.pipelineCache(), 1, &create, nullptr, &pipeline),
         description.shaders.front().c_str());
     objects.pipeline = {device.get(), pipeline};
+    objects.programs = programsOf(device, pipeline, description.shaders);
     device.setName(
         VK_OBJECT_TYPE_PIPELINE, reinterpret_cast<std::uint64_t>(pipeline),
         description.shaders.front());

@@ -1,5 +1,6 @@
 #include "benchmarks/commands/command_line_options.h"
 #include "benchmarks/commands/commands.h"
+#include "benchmarks/commands/help_files.h"
 #include "benchmarks/measure/memory_need.h"
 #include "benchmarks/report/exporters.h"
 #include "engine/error.h"
@@ -100,6 +101,22 @@ void addRunOptions(CLI::App& command, run::RunOptions& options) {
         ->check(CLI::IsMember({"doubtful", "untrusted", "inconclusive"}));
 }
 
+constexpr const char* kShadersNotes =
+    R"(Registers, spills, scratch memory, occupancy, instructions, code size and latency of every stage, as the
+device's driver tells them (VK_KHR_pipeline_executable_properties): the worst of all cases in the table, each
+case in the report. Nothing is timed, so the figures have no noise: 'compare' and 'gate --shaders' judge them.
+Drivers of GPUs compile without their GPU, too: docs/devices.md, "Drivers without their GPU".)";
+
+void addShadersOptions(CLI::App& command, ShadersOptions& options) {
+    addSceneOptions(command, options.scene);
+    command.add_option("--filter", options.filter, "compile the cases whose name matches")
+        ->type_name("REGEX");
+    command
+        .add_option(
+            "-o,--out", options.out, "report file (default results/local/shaders-<scene>.json)")
+        ->type_name("FILE");
+}
+
 void addGateOptions(CLI::App& command, gate::GateOptions& options) {
     command.add_option("--a", options.a, "build to compare with")
         ->required()
@@ -126,6 +143,10 @@ void addGateOptions(CLI::App& command, gate::GateOptions& options) {
         "index or part of the name of the device (see 'hairbench devices')");
     command.add_option("--filter", options.filter, "run the cases whose name matches")
         ->type_name("REGEX");
+    command.add_flag(
+        "--shaders", options.shaders,
+        "compare what the driver's compiler made of the shaders ('hairbench shaders') instead of "
+        "times: one process each, no noise");
     command.add_option("--pairs", options.pairs, "pairs before the first verdict (default 12)")
         ->check(CLI::IsMember({12, 24, 48}));
     command
@@ -223,6 +244,15 @@ void addMeasuringCommands(const CommandLine& line) {
               "/strands/density=32"},
          .notes = kGateNotes},
         gateBuilds, addGateOptions);
+    addCommand<ShadersOptions>(
+        line, line.app,
+        {.name = "shaders",
+         .description = "tells what the driver's compiler made of a scene's shaders",
+         .examples =
+             {"hairbench shaders backends",
+              "hairbench shaders thesis --filter 'msaa:1' -o shaders.json"},
+         .notes = kShadersNotes},
+        compileShaders, addShadersOptions);
     addCommand<AblateOptions>(
         line, line.app,
         {.name = "ablate",
@@ -400,6 +430,43 @@ void addCheckCommands(const CommandLine& line) {
          .description = "lists the Vulkan devices and the features that they lack",
          .examples = {"hairbench devices"}},
         printDevices);
+}
+
+// ---- scenes, completion, man --------------------------------------------------------------------
+
+void addProgramCommands(const CommandLine& line) {
+    addCommand<ScenesOptions>(
+        line, line.app,
+        {.name = "scenes",
+         .description = "lists the scenes that come with the program and their purposes",
+         .examples = {"hairbench scenes"}},
+        printScenes, [](CLI::App& command, ScenesOptions& options) {
+            command.add_flag("--names", options.names, "print only their names");
+        });
+    addCommand<CompletionOptions>(
+        line, line.app,
+        {.name = "completion",
+         .description = "prints the completion script of a shell",
+         .examples = {"hairbench completion bash >> ~/.bash_completion"}},
+        printCompletion, [](CLI::App& command, CompletionOptions& options) {
+            command.add_option("shell", options.shell, "name of the shell")
+                ->required()
+                ->type_name("SHELL")
+                ->check(CLI::IsMember(shellNames()));
+        });
+    addCommand<ManualOptions>(
+        line, line.app,
+        {.name = "man",
+         .description = "prints the manual page of the program or of a command",
+         .examples = {"hairbench man run | man -l -", "hairbench man --out man1"}},
+        printManual, [](CLI::App& command, ManualOptions& options) {
+            command.add_option("command", options.words, "the command's words: groom info")
+                ->type_name("COMMAND...");
+            command
+                .add_option(
+                    "-o,--out", options.out, "folder for this page and those of its subcommands")
+                ->type_name("FOLDER");
+        });
 }
 
 }  // namespace benchmarks::commands

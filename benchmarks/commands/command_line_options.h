@@ -94,7 +94,7 @@ void addFailOnInconclusive(CLI::App& command, report::VerdictOptions& options);
 
 // ---- Commands by topic --------------------------------------------------------------------------
 
-void addMeasuringCommands(const CommandLine& line);  // run, gate, ablate, doctor
+void addMeasuringCommands(const CommandLine& line);  // run, gate, shaders, ablate, doctor
 void addReportCommands(const CommandLine& line);  // compare, report, convert, merge
 void addPictureCommands(const CommandLine& line);  // view, render, simulate, export, reference ...
 void addGroomCommands(const CommandLine& line);

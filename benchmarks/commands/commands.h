@@ -47,6 +47,14 @@ int compareReports(const report::CompareOptions& options);
 
 int gateBuilds(const gate::GateOptions& options);
 
+struct ShadersOptions {
+    scene::SceneOptions scene;
+    std::string filter;
+    std::filesystem::path out;  // empty: results/local/shaders-<scene>.json
+    std::vector<std::string> command;
+};
+int compileShaders(const ShadersOptions& options);
+
 struct AblateOptions {
     scene::SceneOptions scene;
     std::string filter;

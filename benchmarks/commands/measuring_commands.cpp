@@ -11,8 +11,10 @@
 #include "benchmarks/commands/commands.h"
 #include "benchmarks/gate/session.h"
 #include "benchmarks/lod/walk.h"
+#include "benchmarks/measure/case.h"
 #include "benchmarks/measure/hair_cache.h"
 #include "benchmarks/measure/progress.h"
+#include "benchmarks/measure/metrics.h"
 #include "benchmarks/physics/checks.h"
 #include "benchmarks/reference/picture_errors.h"
 #include "benchmarks/report/change.h"
@@ -158,11 +160,35 @@ void printEnd(const gate::GateRun& run) {
         std::cout << "verdict: " << report::verdictName(gate::overallVerdict(run)) << '\n';
 }
 
+// Figures of compiled shaders have no noise: one process of each build decides.
+int gateShaders(const gate::GateOptions& options, const std::filesystem::path& out) {
+    gate::BlockRunner runner(options.scene.scene);
+    const std::filesystem::path stem = out.parent_path() / out.stem();
+    std::filesystem::path reports[2];
+    for (const char name : {'A', 'B'}) {
+        std::filesystem::path& report = reports[name - 'A'];
+        report = stem.string() + (name == 'A' ? ".a.json" : ".b.json");
+        try {
+            runner.play(gate::parseSide(name, options), 1, report);
+        } catch (const gate::BlockFailed& failed) {
+            printFailure(failed.what());
+            return failed.exitStatus();
+        }
+    }
+    return compareReports(
+        {.a = reports[0],
+         .b = reports[1],
+         .baseline = {},
+         .verdict = options.verdict,
+         .all = options.all});
+}
+
 }  // namespace
 
 int gateBuilds(const gate::GateOptions& options) {
     const std::filesystem::path out = reportFile(options);
     engine::checkWritable(out);
+    if (options.shaders) return gateShaders(options, out);
     const gate::GateRun run = gate::runGate(options);
     // Texts from drivers and the command line need not be UTF-8.
     engine::writeFileAtomically(
@@ -172,6 +198,75 @@ int gateBuilds(const gate::GateOptions& options) {
     std::cout << gate::gateText(run) << "report: " << out.string() << '\n';
     printEnd(run);
     return gate::exitStatus(run, options.verdict);
+}
+
+// ---- hairbench shaders --------------------------------------------------------------------------
+
+namespace {
+
+report::CaseResult compileCase(
+    const engine::Device& device, const run::PlannedCase& planned, measure::HairCache& cache) {
+    report::CaseResult result{
+        .name = planned.spec.name, .index = planned.index, .axes = planned.spec.axes};
+    device.pipelines().takePrograms();
+    try {
+        const measure::Case compiled(device, planned.spec.settings, planned.directory, &cache);
+        measure::addShaderCosts(device.pipelines().takePrograms(), result);
+    } catch (const engine::Unsupported& error) {
+        result.status = report::Status::skipped;
+        result.reason = error.what();
+    } catch (const engine::Error& error) {
+        result.status = report::Status::failed;
+        result.reason = error.what();
+    }
+    return result;
+}
+
+}  // namespace
+
+int compileShaders(const ShadersOptions& options) {
+    measure::HairCache cache = measure::userHairCache(options.scene.cache);
+    const run::RunPlan plan = run::planRun(options.scene, options.filter, "", &cache.assets());
+    if (plan.cases.empty()) {
+        std::cerr << "hairbench: no case's name matches '" << options.filter << "'\n";
+        return report::kNothingRan;
+    }
+    const std::filesystem::path out = options.out.empty() ? std::filesystem::path("results/local") /
+                                                                ("shaders-" + plan.name + ".json")
+                                                          : options.out;
+    engine::checkWritable(out);
+
+    engine::DeviceOptions wanted = options.scene.device;
+    wanted.shader_figures = true;
+    const engine::Device device(wanted);
+    std::cerr << report::versionOnDevice(device) << '\n';
+    report::Report report{
+        {.environment = report::describeEnvironment(
+             device, options.command, plan.seed, options.scene.device.validation),
+         .scene = plan.scene,
+         .case_count = plan.case_count}};
+    measure::Progress progress(plan.cases.size());
+    const auto finish = [&] {
+        progress.clear();
+        report::writeReport(report::reportJson(report), out);
+        for (const report::CaseResult& each : report.cases)
+            if (each.status != report::Status::ok)
+                std::cout << engine::shownText(each.name) << ": " << report::statusName(each.status)
+                          << ": " << engine::shownText(each.reason) << '\n';
+        std::cout << measure::shaderTable(report.cases) << "report: " << out.string() << '\n';
+    };
+    const engine::InterruptMessage last_words([&] {
+        report.interrupted = true;
+        finish();
+    });
+    for (const run::PlannedCase& each : plan.cases) {
+        progress.begin(each.spec.name);
+        report.cases.push_back(compileCase(device, each, cache));
+    }
+    finish();
+    const bool any_ran = std::ranges::any_of(
+        report.cases, [](const auto& each) { return each.status == report::Status::ok; });
+    return any_ran ? report::kOk : report::kNothingRan;
 }
 
 // ---- hairbench ablate ---------------------------------------------------------------------------

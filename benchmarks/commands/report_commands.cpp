@@ -68,7 +68,11 @@ void print(
     std::cout << report::verdictCounts(comparison.changes);
     if (!comparison.too_short.empty())
         std::cout << "; " << comparison.too_short.size() << " shorter than 0.05 ms, not judged";
-    std::cout << '\n' << report::kOneProcessCaveat << '\n';
+    std::cout << '\n';
+    const bool has_times = std::ranges::any_of(comparison.changes, [](const report::Change& each) {
+        return each.metric.of != report::MetricOf::shader;
+    });
+    if (has_times) std::cout << report::kOneProcessCaveat << '\n';
 }
 
 }  // namespace

@@ -333,7 +333,8 @@ Side parseSide(char name, const GateOptions& options) {
         side.pattern = side.text;
         return side;
     }
-    if (!options.scene.max_time)
+    side.shaders = options.shaders;
+    if (!options.scene.max_time && !options.shaders)
         addRepeated(side.options, "--max-time", {scene::decimalText(kBlockSeconds)});
     std::error_code ignored;
     if (fs::is_directory(side.text, ignored))
@@ -356,8 +357,9 @@ blockCommand(const Side& side, const fs::path& scene, const fs::path& out, std::
     }
     std::vector<std::string> command = side.program;
     command.insert(
-        command.end(), {"run", scene.string(), "--out", out.string(), "--no-pictures",
-                        "--order-seed", std::to_string(seed)});
+        command.end(), {side.shaders ? "shaders" : "run", scene.string(), "--out", out.string()});
+    if (!side.shaders)
+        command.insert(command.end(), {"--no-pictures", "--order-seed", std::to_string(seed)});
     command.insert(command.end(), side.options.begin(), side.options.end());
     return command;
 }
@@ -409,27 +411,35 @@ failureText(const Side& side, const engine::ProgramEnd& end, const std::filesyst
 
 }  // namespace
 
-BlockReport BlockRunner::run(const Side& side, std::uint32_t seed) {
-    namespace fs = std::filesystem;
+void BlockRunner::play(const Side& side, std::uint32_t seed, const fs::path& report) {
     const fs::path folder = scratch_.path() / "block";
     std::error_code ignored;
     fs::remove_all(folder, ignored);
     // It is in the block's folder, so that the leftovers of a killed run are removed with it.
     const fs::path temporary = folder / "temporary";
     fs::create_directories(temporary);
-    const fs::path report = folder / "report.json";
     const fs::path log = folder / "output.txt";
     const engine::ProgramEnd end =
         engine::runProgram(blockCommand(side, scene_, report, seed), log, temporary);
     if (!wroteReport(end))
         throw BlockFailed(failureText(side, end, log), exitStatusFor(end.status));
+    if (fs::is_regular_file(report)) return;
+    std::string text = std::string{side.name} + " (" + side.text + ") left no report";
+    if (const std::string said = lastLines(log); !said.empty()) text += ":\n" + said;
+    throw BlockFailed(text, end.status == report::kOk ? report::kUsageError : end.status);
+}
+
+BlockReport BlockRunner::run(const Side& side, std::uint32_t seed) {
+    const fs::path report = scratch_.path() / "report.json";
+    std::error_code ignored;
+    fs::remove(report, ignored);
+    play(side, seed, report);
     try {
         return readBlock(report);
     } catch (const engine::Error& error) {
         std::string text = std::string{side.name} + " (" + side.text + ") left no report: ";
         text += error.what();
-        if (const std::string said = lastLines(log); !said.empty()) text += '\n' + said;
-        throw BlockFailed(text, end.status == report::kOk ? report::kUsageError : end.status);
+        throw BlockFailed(text, report::kUsageError);
     }
 }
 

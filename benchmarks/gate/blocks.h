@@ -130,6 +130,7 @@ struct GateOptions {
     std::uint32_t pairs = 12;
     std::uint32_t calibration = 0;  // A/A pairs before the gate; 0: none
     report::VerdictOptions verdict;
+    bool shaders = false;  // compare figures of compiled shaders instead of times
     bool all = false;  // continue after a regression until nothing is inconclusive
     double max_minutes = 0.0;  // after which no new block begins; 0: no limit
     std::filesystem::path out;  // report of the gate; empty: results/local/gate-<scene>.json
@@ -143,6 +144,7 @@ struct Side {
     // A shell command with {scene}, {out} and optionally {seed}; empty: `program` is used.
     std::string pattern;
     std::vector<std::string> program;  // "run SCENE --out OUT ..." is appended to it
+    bool shaders = false;  // "shaders SCENE --out OUT ..." is
     std::vector<std::string> options;  // for this side's runs, appended last
 };
 
@@ -183,6 +185,9 @@ public:
     // Runs one process to its end and returns the content of its report. Throws BlockFailed with
     // the end of the process's output, and Interrupted.
     BlockReport run(const Side& side, std::uint32_t seed);
+
+    // The same, but leaves the report in a file.
+    void play(const Side& side, std::uint32_t seed, const std::filesystem::path& report);
 
 private:
     engine::ScratchFolder scratch_;

@@ -1,6 +1,7 @@
 #include "benchmarks/measure/metrics.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <iterator>
@@ -489,6 +490,122 @@ std::vector<report::Metric> memoryMetrics(const engine::MemoryLedger& ledger) {
     for (const auto& [purpose, size] : purposes)
         metrics.push_back(bytes(report::Measured::purpose, std::string(purpose), size));
     return metrics;
+}
+
+// ---- Shaders ------------------------------------------------------------------------------------
+
+namespace {
+
+using report::Measured;
+
+// Figures that drivers share, under the names of RADV, NVK and ANV of Mesa 25.
+struct KnownFigure {
+    std::string_view name;
+    Measured what;
+};
+constexpr KnownFigure kKnown[] = {
+    {"VGPRs", Measured::registers},
+    {"SGPRs", Measured::scalar_registers},
+    {"Spilled VGPRs", Measured::spills},
+    {"Spilled SGPRs", Measured::scalar_spills},
+    {"Scratch size", Measured::scratch},
+    {"Subgroups per SIMD", Measured::waves},
+    {"Instructions", Measured::instructions},
+    {"Code size", Measured::code_size},
+    {"LDS size", Measured::shared_memory},
+    {"Latency", Measured::latency},
+    {"Inverse Throughput", Measured::inverse_throughput},
+    {"Number of GPRs", Measured::registers},
+    {"Spills to memory", Measured::spills},
+    {"SLM Size", Measured::scratch},
+    {"Max warps/SM", Measured::waves},
+    {"Instruction count", Measured::instructions},
+    {"Code Size", Measured::code_size},
+    {"Static cycle count", Measured::latency},
+    {"Instruction Count", Measured::instructions},
+    {"Spill Count", Measured::spills},
+    {"Scratch Memory Size", Measured::scratch},
+    {"Workgroup Memory Size", Measured::shared_memory},
+    {"Cycle Count", Measured::latency},
+    {"Max live registers", Measured::registers},
+};
+
+// A metric's part may have no dots.
+std::string stagesOf(const engine::ShaderProgram& program) {
+    std::string text;
+    for (const std::string& path : program.shaders) text += (text.empty() ? "" : "&") + path;
+    if (text.empty()) text = program.name;
+    std::ranges::replace(text, '.', ':');
+    return text;
+}
+
+bool isWorse(report::Better better, double value, double than) {
+    return better == report::Better::higher ? value < than : value > than;
+}
+
+// Keeps the worst value of a metric.
+void addWorst(std::vector<report::Metric>& metrics, report::Metric metric) {
+    const auto found = std::ranges::find(metrics, metric.id, &report::Metric::id);
+    if (found == metrics.end())
+        metrics.push_back(std::move(metric));
+    else if (isWorse(metric.better, metric.samples.front(), found->samples.front()))
+        found->samples = metric.samples;
+}
+
+struct Shown {
+    Measured what;
+    const char* title;
+};
+constexpr std::array kShown{
+    Shown{Measured::registers, "registers"}, Shown{Measured::spills, "spills"},
+    Shown{Measured::scratch, "scratch B"},   Shown{Measured::shared_memory, "shared B"},
+    Shown{Measured::waves, "waves"},         Shown{Measured::instructions, "instructions"},
+    Shown{Measured::code_size, "code B"},    Shown{Measured::latency, "latency"},
+};
+
+}  // namespace
+
+void addShaderCosts(std::span<const engine::ShaderProgram> programs, report::CaseResult& result) {
+    for (const engine::ShaderProgram& program : programs) {
+        report::ShaderRecord record{
+            .name = program.name,
+            .shaders = program.shaders,
+            .subgroup_size = program.subgroup_size,
+            .figures = {}};
+        for (const engine::ShaderProgram::Figure& figure : program.figures) {
+            record.figures.emplace_back(figure.name, figure.value);
+            const auto known = std::ranges::find(kKnown, figure.name, &KnownFigure::name);
+            if (known == std::end(kKnown)) continue;
+            addWorst(
+                result.metrics, {report::ofShader(stagesOf(program), known->what), {figure.value}});
+        }
+        result.shaders.push_back(std::move(record));
+    }
+}
+
+std::string shaderTable(std::span<const report::CaseResult> cases) {
+    std::vector<report::Metric> worst;
+    for (const report::CaseResult& each : cases)
+        for (const report::Metric& metric : each.metrics)
+            if (metric.id.of == report::MetricOf::shader) addWorst(worst, metric);
+    std::map<std::string, std::array<std::optional<double>, kShown.size()>> rows;
+    for (const report::Metric& metric : worst)
+        for (std::size_t i = 0; i < kShown.size(); ++i)
+            if (metric.id.what == kShown[i].what) rows[metric.id.part][i] = metric.samples.front();
+    std::vector<report::Column> columns{{"shader", false}};
+    for (const Shown& shown : kShown) columns.push_back({shown.title});
+    for (const auto& [stages, figures] : rows) {
+        columns.front().cells.push_back(stages);
+        for (std::size_t i = 0; i < kShown.size(); ++i)
+            columns[i + 1].cells.push_back(
+                figures[i] ? std::to_string(std::llround(*figures[i])) : "-");
+    }
+    // No driver tells all of these.
+    std::erase_if(columns, [](const report::Column& column) {
+        return std::ranges::all_of(
+            column.cells, [](const std::string& cell) { return cell == "-"; });
+    });
+    return rows.empty() ? std::string() : report::columnsText(columns);
 }
 
 }  // namespace benchmarks::measure

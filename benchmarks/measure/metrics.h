@@ -129,4 +129,19 @@ std::string_view memoryPurpose(std::string_view name);
 // "memory.purpose.<purpose>" for each purpose in use. Both sum to all allocated memory.
 std::vector<report::Metric> memoryMetrics(const engine::MemoryLedger& ledger);
 
+// ---- Shaders ------------------------------------------------------------------------------------
+
+// Costs of shaders as the driver's compiler tells them (VK_KHR_pipeline_executable_properties).
+// They have no noise, and a driver tells them on a machine without its GPU, too.
+
+// Adds what a driver tells of a case's programs to the case's result: every figure under the
+// driver's name, and as metrics shader.STAGES.* those that drivers share. STAGES are the paths of
+// the program's shaders, with ':' for '.' and joined by '&'. If several programs have the same
+// stages, as for other constants or widths, the metric is the worst of them.
+void addShaderCosts(std::span<const engine::ShaderProgram> programs, report::CaseResult& result);
+
+// Returns a table of the metrics shader.*, with one row per program. Each figure is the worst of
+// all cases.
+std::string shaderTable(std::span<const report::CaseResult> cases);
+
 }  // namespace benchmarks::measure

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <limits>
 #include <map>
 #include <string_view>
 #include <utility>
@@ -91,7 +92,10 @@ MetricChoice metricsNamed(const std::string& regex) {
 }
 
 MetricChoice timesBy(Clock clock) {
-    return clock == Clock::processor ? isOfProcessor : isFrameOrPassTime;
+    return [clock](const MetricId& id) {
+        if (id.of == MetricOf::shader) return true;
+        return clock == Clock::processor ? isOfProcessor(id) : isFrameOrPassTime(id);
+    };
 }
 
 Judgement judgementOf(
@@ -176,11 +180,15 @@ std::vector<double> costs(const MetricReading& metric) {
     return values;
 }
 
-// Byte counts are exact, whatever the number of samples.
-bool isExact(const MetricReading& reading) { return reading.unit == "B"; }
+// Counts of bytes and figures of compiled code are the same in each run of a build.
+bool isExact(const MetricReading& reading) {
+    return reading.unit == "B" || reading.id.of == MetricOf::shader;
+}
 
+// Compares costs without noise. Any cost is infinitely more than none.
 Comparison exactComparison(double a, double b, double decisive_change) {
-    const double change = a > 0.0 ? b / a - 1.0 : 0.0;
+    constexpr double kInfinite = std::numeric_limits<double>::infinity();
+    const double change = a > 0.0 ? b / a - 1.0 : b > 0.0 ? kInfinite : 0.0;
     const bool outside = std::abs(std::log1p(change)) > std::log1p(decisive_change);
     return {
         .verdict = Verdict::inconclusive,
@@ -269,9 +277,10 @@ private:
                 modeName(a.mode) + " and " + modeName(b.mode));
             return;
         }
-        change.comparison = isExact(a)
-                                ? exactComparison(a.median, b.median, options_.threshold)
-                                : compareMedians(costs(a), costs(b), options_.threshold, kLevel);
+        change.comparison =
+            isExact(a)
+                ? exactComparison(costOf(a, a.median), costOf(b, b.median), options_.threshold)
+                : compareMedians(costs(a), costs(b), options_.threshold, kLevel);
         found_.changes.push_back(std::move(change));
     }
 

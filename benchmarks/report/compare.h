@@ -52,7 +52,8 @@ using MetricChoice = std::function<bool(const MetricId&)>;
 // an empty regex. Throws engine::Error "--metrics: ..." for a malformed one.
 MetricChoice metricsNamed(const std::string& regex);
 
-// Chooses the wall-clock times of frames and passes, or their CPU times and instructions.
+// Chooses the wall-clock times of frames and passes, or their CPU times and instructions. Chooses
+// figures of compiled shaders in either case.
 MetricChoice timesBy(Clock clock);
 
 // Decides whether to judge a metric that both reports have. Metrics without a better direction are

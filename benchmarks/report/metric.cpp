@@ -70,6 +70,17 @@ constexpr MetricKind kKinds[] = {
     {Of::strands, What::limit_share, "strands.limit_share", "1", higher},
     {Of::device, What::copy_bandwidth, "device.copy_bandwidth", "GB/s", neither},
     {Of::device, What::arithmetic, "device.*.arithmetic", "GFLOP/s", neither},
+    {Of::shader, What::registers, "shader.*.registers", "1", lower},
+    {Of::shader, What::scalar_registers, "shader.*.scalar_registers", "1", lower},
+    {Of::shader, What::spills, "shader.*.spills", "1", lower},
+    {Of::shader, What::scalar_spills, "shader.*.scalar_spills", "1", lower},
+    {Of::shader, What::scratch, "shader.*.scratch", "B", lower},
+    {Of::shader, What::waves, "shader.*.waves", "1", higher},
+    {Of::shader, What::instructions, "shader.*.instructions", "1", lower},
+    {Of::shader, What::code_size, "shader.*.code_size", "B", lower},
+    {Of::shader, What::shared_memory, "shader.*.shared_memory", "B", lower},
+    {Of::shader, What::latency, "shader.*.latency", "cycles", lower},
+    {Of::shader, What::inverse_throughput, "shader.*.inverse_throughput", "cycles", lower},
 };
 
 // Returns null for MetricOf::other.

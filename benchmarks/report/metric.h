@@ -22,6 +22,7 @@ enum class MetricOf {
     memory,  // the device's memory
     strands,  // the passes points and strands together
     device,  // the device's speed, from a separate measurement
+    shader,  // the code that the driver's compiler made of a shader
     other,  // unknown here: from another program's report
 };
 
@@ -71,6 +72,16 @@ enum class Measured {
     time_per_sample,
     copy_bandwidth,
     arithmetic,
+    registers,  // per invocation, and the next five
+    scalar_registers,
+    spills,  // registers kept in memory
+    scalar_spills,
+    scratch,
+    waves,  // subgroups that a processor keeps at the same time
+    code_size,
+    shared_memory,
+    latency,
+    inverse_throughput,
     other,
 };
 
@@ -126,6 +137,9 @@ inline MetricId ofStrands(Measured what, std::string stage = {}) {
 }
 inline MetricId ofDevice(Measured what, std::string stage = {}) {
     return {MetricOf::device, what, std::move(stage)};
+}
+inline MetricId ofShader(std::string stages, Measured what) {
+    return {MetricOf::shader, what, std::move(stages)};
 }
 inline MetricId ofMemory(Measured what, std::string part = {}) {
     return {MetricOf::memory, what, std::move(part)};

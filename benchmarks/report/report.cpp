@@ -212,6 +212,13 @@ void putMeasured(scene::Json& object, const CaseResult& result) {
     scene::Json& statistics = object["statistics"] = scene::Json::object();
     for (const Statistic& statistic : result.statistics)
         statistics[statistic.name] = toJson(statistic);
+    for (const ShaderRecord& shader : result.shaders) {
+        scene::Json& record = object["shaders"].emplace_back(
+            scene::Json{{"name", shader.name}, {"shaders", shader.shaders}});
+        if (shader.subgroup_size > 0) record["subgroup_size"] = shader.subgroup_size;
+        scene::Json& figures = record["figures"] = scene::Json::object();
+        for (const auto& [name, value] : shader.figures) put(figures, name.c_str(), value);
+    }
     scene::Json& counts = object["counts"] = scene::Json::object();
     for (const auto& [name, count] : result.counts) counts[name] = count;
     scene::Json& sampling = object["sampling"] = scene::Json::array();

@@ -19,7 +19,7 @@
 // optionals and numbers that are not finite are left out.
 namespace benchmarks::report {
 
-inline constexpr const char* kReportSchema = "hairbench-report/1.8.0";
+inline constexpr const char* kReportSchema = "hairbench-report/1.9.0";
 
 struct DeviceRecord {
     std::string name;
@@ -180,6 +180,14 @@ struct ExtensionRecord {
     std::string sha256;
 };
 
+// A program that the driver's compiler made of shaders: `hairbench shaders`.
+struct ShaderRecord {
+    std::string name;  // the driver's
+    std::vector<std::string> shaders;  // paths
+    std::uint32_t subgroup_size = 0;
+    std::vector<std::pair<std::string, double>> figures;  // under the driver's names
+};
+
 struct CaseResult {
     std::string name;
     std::optional<std::size_t> index;  // in the whole sweep, from 0
@@ -195,6 +203,7 @@ struct CaseResult {
     // are then left out.
     std::vector<Metric> metrics;
     std::vector<Statistic> statistics;
+    std::vector<ShaderRecord> shaders;
     std::vector<std::pair<std::string, std::uint64_t>>
         counts;  // "guides", "strands", "segments", ...
     std::vector<Sampling> sampling;

@@ -316,6 +316,12 @@ std::vector<std::string> entryPointsOf(const engine::ShaderExtension& extension)
             paths.emplace_back(path);
         }
     }
+    // The stages with the best known inputs first: they tell that these are not permitted, and
+    // others only that they do not know them.
+    std::ranges::stable_partition(paths, [](const std::string& path) {
+        const std::string_view file = engine::shaderFile(path);
+        return file.ends_with(".vert") || file.ends_with(".frag");
+    });
     return paths;
 }
 

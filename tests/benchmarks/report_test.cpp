@@ -70,7 +70,7 @@ TEST(Report, CorrectsNothingOfTheNewest) {
 
 TEST(Report, KeepsTheContractsNames) {
     const scene::Json report = written();
-    EXPECT_EQ(report["schema"], "hairbench-report/1.8.0");
+    EXPECT_EQ(report["schema"], "hairbench-report/1.9.0");
     EXPECT_EQ(
         report["environment"]["device"].dump(),
         R"({"name":"Soft","type":"cpu","driver":"llvmpipe","driver_version":"22.3.6",)"

@@ -195,5 +195,29 @@ TEST(ReportComparison, NamesWhatAReportLacks) {
         HasSubstr("the reports can't be compared"));
 }
 
+// They have no noise, and some spills are infinitely more than none.
+TEST(ReportComparison, JudgesFiguresOfShadersWithoutNoise) {
+    const auto reportOf = [](double spills, double waves, double instructions) {
+        scene::Json report = madeReport();
+        const auto figure = [](const char* name, double value, const char* hint) {
+            return MadeMetric{std::string("shader.a:comp.") + name, {value}, "1", hint, ""};
+        };
+        report["cases"].push_back(madeCase(
+            "made", {figure("spills", spills, "lower"), figure("waves", waves, "higher"),
+                     figure("instructions", instructions, "lower")}));
+        return report;
+    };
+    const ReportComparison worse = compareReports(reportOf(0, 8, 100), reportOf(3, 4, 101), {});
+    ASSERT_EQ(worse.changes.size(), 3u);
+    for (const Change& each : worse.changes) {
+        const bool same = each.metric.what == Measured::instructions;  // 1 %: below the threshold
+        EXPECT_EQ(each.comparison.verdict, same ? Verdict::same : Verdict::regressed)
+            << each.metric.name();
+    }
+    EXPECT_EQ(overallVerdict(worse), Verdict::regressed);
+    const ReportComparison better = compareReports(reportOf(3, 4, 100), reportOf(0, 8, 100), {});
+    EXPECT_EQ(overallVerdict(better), Verdict::improved);
+}
+
 }  // namespace
 }  // namespace benchmarks::report

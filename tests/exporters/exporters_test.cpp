@@ -64,7 +64,7 @@ TEST(Exporters, RefuseWhatIsNoReport) {
     report["schema"] = "hairbench-report/2.0.0";
     EXPECT_EQ(
         errorText([&] { exportReport(report, "csv"); }),
-        "/schema: hairbench-report/2.0.0 is not hairbench-report/1.8.0");
+        "/schema: hairbench-report/2.0.0 is not hairbench-report/1.9.0");
     EXPECT_THAT(
         errorText([] { exportReport(scene::Json::array(), "csv"); }),
         testing::StartsWith("the report can't be converted: "));

@@ -1,0 +1,124 @@
+// Tests drivers of GPUs that the machine lacks: scripts/null-gpu. They compile and validate, and
+// execute nothing.
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+#include <string>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "tests/cli/run_hairbench.h"
+#include "tests/required.h"
+#include "tests/temporary_folder.h"
+
+namespace {
+
+namespace fs = std::filesystem;
+using testing::HasSubstr;
+using testing::Not;
+
+class NullGpu : public testing::TestWithParam<const char*> {
+protected:
+    void SetUp() override {
+        const Outcome outcome = run("devices");
+        if (outcome.status != 0) return skipWithout(Need::null_gpus, outcome.output);
+        ASSERT_THAT(outcome.output, HasSubstr("runs hairbench"));
+    }
+
+    static Outcome run(const std::string& arguments) {
+        return hairbench(
+            arguments,
+            "'" HAIRBENCH_SOURCE_DIR "/scripts/null-gpu' " + std::string(GetParam()) + ' ');
+    }
+
+    fs::path file(const std::string& name) const { return folder_.path() / name; }
+
+    TemporaryFolder folder_;
+};
+
+INSTANTIATE_TEST_SUITE_P(Amd, NullGpu, testing::Values("polaris10", "navi21", "navi31"));
+
+// The lines of a table, without those about the run.
+std::string tableIn(const std::string& output) {
+    std::istringstream lines(output);
+    std::string table;
+    for (std::string line; std::getline(lines, line);)
+        if (line.starts_with("shader ") || (!table.empty() && !line.starts_with("report: ")))
+            table += line + '\n';
+    return table;
+}
+
+// results/shaders-GPU.txt holds the tables, after a line that names the driver. A changed table is
+// a changed cost: look at the difference, and commit it with its reason. Another release of a
+// driver has another compiler.
+TEST_P(NullGpu, CompilesShadersToTheCostsOfTheCommittedTable) {
+    std::string tables, output;
+    for (const std::string scene :
+         {"backends --filter guides:86/density:4/",
+          "solvers_scale --filter 'guides:10000/.*repulsion'"}) {
+        const Outcome outcome =
+            run("shaders " + scene + " --out '" + file("shaders.json").string() + "'");
+        ASSERT_EQ(outcome.status, 0) << outcome.output;
+        output = outcome.output;
+        tables += tableIn(outcome.output);
+        for (const auto& each : nlohmann::json::parse(std::ifstream(file("shaders.json")))["cases"])
+            for (const auto& [name, metric] : each.value("metrics", nlohmann::json()).items())
+                if (name.ends_with(".spills")) {
+                    EXPECT_EQ(metric["median"], 0) << name;
+                }
+    }
+    const fs::path committed = fs::path(HAIRBENCH_SOURCE_DIR) / "results" /
+                               ("shaders-" + std::string(GetParam()) + ".txt");
+    std::ifstream text(committed);
+    std::string driver;
+    std::getline(text, driver);
+    if (!driver.empty() && output.find(driver) == std::string::npos)
+        GTEST_SKIP() << committed << " is by " << driver;
+    std::ostringstream expected;
+    expected << text.rdbuf();
+    EXPECT_EQ(tables, expected.str()) << committed;
+}
+
+// Two queues, as a GPU has them.
+TEST_P(NullGpu, RecordsFramesThatValidationAccepts) {
+    const Outcome outcome =
+        run("run " + shippedScene("smoke.json") +
+            "--set /run/async_compute=true --frames 2 --max-time 0 --validate --out '" +
+            file("run.json").string() + "'");
+    EXPECT_THAT(outcome.output, HasSubstr("the device did not write a timestamp"));
+    EXPECT_THAT(outcome.output, Not(HasSubstr("validation: ")));
+    EXPECT_THAT(outcome.output, Not(HasSubstr("VUID")));
+}
+
+// A shading model that keeps more numbers than there are registers.
+TEST_P(NullGpu, GateCallsAPlantedSpillARegression) {
+    std::ofstream(file("plain.glsl"))
+        << "vec3 shadeHair(HairPoint point) { return point.color; }\n";
+    std::ofstream(file("spilling.glsl"))
+        << "vec3 shadeHair(HairPoint point) {\n"
+           "    vec4 kept[96];\n"
+           "    for (int i = 0; i < 96; ++i)\n"
+           "        kept[i] = sin(vec4(point.position, point.across) * float(i + 1));\n"
+           "    vec4 sum = vec4(0.0);\n"
+           "    for (int i = 0; i < 96; ++i)\n"
+           "        sum += kept[i] * kept[int(abs(kept[i].x) * 95.0)];\n"
+           "    return point.color * sum.rgb;\n"
+           "}\n";
+    std::ofstream(file("mine.json")) << R"({"base": ")" HAIRBENCH_SCENES_DIR
+                                        R"(/rest.json", "shading": {"model": "plain.glsl"}})";
+    const std::string program = "'" HAIRBENCH_PROGRAM "'";
+    const std::string gate = "gate --shaders --allow-outside --a " + program + " --b " + program +
+                             " --scene '" + file("mine.json").string() + "' --out '" +
+                             file("gate.json").string() + "'";
+    const Outcome same = run(gate);
+    EXPECT_EQ(same.status, 0) << same.output;
+    EXPECT_THAT(same.output, HasSubstr("0 regressed"));
+    const Outcome worse = run(gate + " --set-b /shading/model=spilling.glsl");
+    EXPECT_EQ(worse.status, 10) << worse.output;
+    EXPECT_THAT(worse.output, testing::ContainsRegex("frag.scratch +0 B +[1-9]"));
+}
+
+}  // namespace
