@@ -296,8 +296,22 @@ std::vector<Doubt> judgeEnvironment(const Json& environment) {
     return doubts;
 }
 
+namespace {
+
+// Figures of compiled shaders are no times.
+bool hasOnlyShaders(const Json& result) {
+    const auto metrics = result.find("metrics");
+    if (metrics == result.end() || metrics->empty()) return false;
+    for (const auto& [name, metric] : metrics->items())
+        if (metricNamed(name).of != MetricOf::shader) return false;
+    return true;
+}
+
+}  // namespace
+
 std::optional<CaseVerdict> judgeCase(const Json& environment, const Json& result) {
     if (scene::textAt(result, "/status") != statusName(Status::ok)) return std::nullopt;
+    if (hasOnlyShaders(result)) return std::nullopt;
     CaseVerdict verdict{.doubts = judgeEnvironment(environment)};
     judgePasses(environment, result, verdict.doubts);
     judgeRepetition(result, verdict.doubts);

@@ -158,5 +158,30 @@ TEST_F(PageInBrowser, HasNoSectionOfBackendsWithoutThem) {
     EXPECT_EQ(said.at("link"), nullptr);
 }
 
+// The worst of all cases, which for waves is the least.
+TEST_F(PageInBrowser, ListsShadersWithTheWorstOfCases) {
+    Report compiled = oneCaseReport("a", {});
+    compiled.cases.front().metrics = {
+        {ofShader("b:comp", Measured::registers), {24.0}},
+        {ofShader("b:comp", Measured::waves), {8.0}},
+        {ofShader("a:frag", Measured::registers), {12.0}}};
+    compiled.cases.push_back(compiled.cases.front());
+    compiled.cases.back().name = "b";
+    compiled.cases.back().metrics = {
+        {ofShader("b:comp", Measured::registers), {64.0}},
+        {ofShader("b:comp", Measured::waves), {4.0}}};
+    const Json said = open(
+        {folder_.write("shaders.json", reportJson(compiled).dump())}, R"(
+        say("titles", [...document.querySelectorAll("#shaders-table thead button")].map(
+            (each) => each.textContent.trim()));
+        say("rows", [0, 1, 2].map((place) => column("shaders-table", place)));
+        say("doubts", document.getElementById("summary").textContent.match(/doubtful|untrusted/));
+    )",
+        1280);
+    EXPECT_EQ(said.at("titles"), (Json{"shader", "registers", "waves"}));
+    EXPECT_EQ(said.at("rows"), Json::parse(R"([["a:frag","b:comp"],["12","64"],["","4"]])"));
+    EXPECT_EQ(said.at("doubts"), nullptr);  // nothing was timed
+}
+
 }  // namespace
 }  // namespace benchmarks::report

@@ -142,7 +142,7 @@ function backendColumns() {
 
 function buildBackends() {
     const section = byId("backends");
-    if (!page.reports.some((report) => report.backends)) {
+    if (!page.reports.some((report) => report.backends?.lines?.length)) {
         section.remove();
         return;
     }
@@ -171,4 +171,54 @@ function buildBackends() {
     onThemeChange(drawBackends);
     byId("backends-plot").on("plotly_click", (event) => event.points[0].customdata &&
         showSamplesOf(event.points[0].customdata, "strands.time"));
+}
+
+// ---- Shaders ------------------------------------------------------------------------------------
+// What the driver's compiler made of each shader: the worst of the filtered cases.
+
+const kShaderMetric = /^shader\.([^.]+)\.(\w+)$/;
+const kShaderFigures = [
+    ["registers", "registers"], ["spills", "spills"], ["scratch", "scratch B"],
+    ["shared_memory", "shared B"], ["waves", "waves"], ["instructions", "instructions"],
+    ["code_size", "code B"], ["latency", "latency cycles"],
+];
+
+function shaderRows() {
+    const found = new Map();
+    for (const row of filteredOk())
+        for (const [name, metric] of Object.entries(row.metrics)) {
+            const [, stages, figure] = kShaderMetric.exec(name) ?? [];
+            if (!stages) continue;
+            const key = `${row.reportIndex} ${stages}`;
+            if (!found.has(key)) found.set(key, {stages, report: row.report, figures: {}});
+            const {figures} = found.get(key);
+            const worst = metric.hint === "higher" ? Math.min : Math.max;
+            figures[figure] = worst(figures[figure] ?? metric.median, metric.median);
+        }
+    return [...found.values()].sort((a, b) => a.stages.localeCompare(b.stages));
+}
+
+function buildShaders() {
+    const section = byId("shaders");
+    const isTold = ([figure]) => metricNames.some(
+        (name) => kShaderMetric.exec(name)?.[2] === figure);
+    const told = kShaderFigures.filter(isTold);
+    if (!told.length) {
+        section.remove();
+        return;
+    }
+    const columns = [
+        {title: "shader", text: (row) => row.stages},
+        ...(severalReports ? [{title: "report", text: (row) => row.report.label}] : []),
+        ...told.map(([figure, title]) => ({title, numeric: true, hint: `shader.*.${figure}`,
+            value: (row) => row.figures[figure], text: (row) => `${row.figures[figure] ?? ""}`})),
+    ];
+    showOnly(section, heading("Shaders"),
+        element("p", {class: "note"}, "What the driver's compiler made of each shader: " +
+            "the worst of the cases above. These figures have no noise, and tell no time."),
+        element("div", {class: "scroll tall", tabindex: "0", role: "region",
+            "aria-label": "Table of shaders"}, element("table", {id: "shaders-table"})));
+    const update = () => fillTable(byId("shaders-table"), columns, shaderRows());
+    update();
+    onFilterChange(update);
 }

@@ -487,6 +487,7 @@ buildPasses();
 buildSamples();
 buildQuality();
 buildBackends();
+buildShaders();
 buildComparison();
 buildPictures();
 buildCases();
