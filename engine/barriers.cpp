@@ -153,38 +153,52 @@ Scope scopeOf(Access access) {
 
 // ---- Resources ----------------------------------------------------------------------------------
 
-TrackedResources::Id TrackedResources::newId() {
+TrackedResources::Entry TrackedResources::add(Resource resource) {
+    auto id = static_cast<Id>(uses_.size());
+    const std::uint64_t address = resource.address;
     if (free_.empty()) {
         uses_.emplace_back();
-        addresses_.push_back(0);
-        return static_cast<Id>(uses_.size() - 1);
+        resources_.push_back(std::move(resource));
+    } else {
+        id = free_.back();
+        free_.pop_back();
+        uses_[id] = {};
+        resources_[id] = std::move(resource);
     }
-    const Id id = free_.back();
-    free_.pop_back();
-    uses_[id] = {};
-    addresses_[id] = 0;
-    return id;
-}
-
-TrackedResources::Entry TrackedResources::addBuffer(std::uint64_t address, std::size_t size) {
-    const Id id = newId();
-    addresses_[id] = address;
-    buffers_[address] = {id, size};
+    if (address != 0) buffers_[address] = id;
     return {*this, id};
 }
 
 void TrackedResources::remove(Id id) {
-    const auto place = buffers_.find(addresses_[id]);
-    if (place != buffers_.end() && place->second.id == id) buffers_.erase(place);
-    free_.push_back(id);
+    const auto place = buffers_.find(resources_[id].address);
+    if (place != buffers_.end() && place->second == id) buffers_.erase(place);
+    resources_[id].exists = false;
+    if (removed_)
+        removed_(id);
+    else
+        free_.push_back(id);
 }
 
 std::optional<TrackedResources::Id> TrackedResources::bufferAt(std::uint64_t address) const {
     auto after = buffers_.upper_bound(address);
     if (after == buffers_.begin()) return std::nullopt;
-    const auto& [first, place] = *--after;
-    if (address - first >= place.size) return std::nullopt;
-    return place.id;
+    const auto& [first, id] = *--after;
+    if (address - first >= resources_[id].bytes) return std::nullopt;
+    return id;
+}
+
+MemoryLedger TrackedResources::memory() const {
+    MemoryLedger ledger;
+    for (const Resource& each : resources_)
+        if (each.exists) ledger[each.memory] += each.allocated;
+    return ledger;
+}
+
+std::map<std::string, std::uint64_t> TrackedResources::bytes() const {
+    std::map<std::string, std::uint64_t> bytes;
+    for (const Resource& each : resources_)
+        if (each.exists) bytes[each.memory.name] += each.bytes;
+    return bytes;
 }
 
 // ---- The plan -----------------------------------------------------------------------------------

@@ -3,8 +3,12 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <map>
 #include <optional>
+#include <span>
+#include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -57,10 +61,46 @@ enum class QueueKind {
     compute,  // no graphics: barriers omit graphics stages, which semaphores order
 };
 
-// Buffers and images of a device by number, for BarrierPlan. Numbers are reused.
+// The use of memory in one word, by which reports add it up: "simulation". There is no default, so
+// nothing can be allocated without one.
+class Purpose {
+public:
+    consteval Purpose(const char* name) : name_(name) {}
+
+    std::string_view name() const { return name_; }
+
+    auto operator<=>(const Purpose&) const = default;
+
+private:
+    std::string_view name_;
+};
+
+struct MemoryEntry {
+    std::uint32_t heap = 0;  // of VkPhysicalDeviceMemoryProperties
+    bool device_local = false;
+    std::string name;  // of the buffer or image
+    Purpose purpose;
+
+    auto operator<=>(const MemoryEntry&) const = default;
+};
+
+// Bytes of device memory in live allocations.
+using MemoryLedger = std::map<MemoryEntry, std::uint64_t>;
+
+// All buffers and images of a device by number: for its memory, BarrierPlan and the hazard checker.
+// Numbers are reused, except if a hazard checker watches.
 class TrackedResources {
 public:
     using Id = std::uint32_t;
+
+    struct Resource {
+        MemoryEntry memory;
+        std::uint64_t allocated = 0;  // B
+        std::uint64_t bytes = 0;  // B, without the driver's padding
+        std::uint64_t address = 0;  // 0: an image
+        std::span<const std::byte> mapped{};  // the host's view of a buffer, if it is mapped
+        bool exists = true;
+    };
 
     TrackedResources() = default;
     TrackedResources(const TrackedResources&) = delete;
@@ -92,11 +132,18 @@ public:
         Id id_ = 0;
     };
 
-    Entry addBuffer(std::uint64_t address, std::size_t size);
-    Entry addImage() { return {*this, newId()}; }
+    Entry add(Resource resource);
 
     // Returns the buffer that contains the address; absent if it is not one of ours.
     std::optional<Id> bufferAt(std::uint64_t address) const;
+    // Returns a resource. If a checker watches, also one that no longer exists.
+    const Resource& at(Id id) const { return resources_.at(id); }
+    MemoryLedger memory() const;
+    // Returns the bytes of all that exist without padding, added up by name.
+    std::map<std::string, std::uint64_t> bytes() const;
+
+    // Calls `removed` when a resource ends.
+    void watch(std::function<void(Id)> removed) { removed_ = std::move(removed); }
 
 private:
     friend class BarrierPlan;
@@ -113,17 +160,13 @@ private:
         std::array<std::uint64_t, kClasses> read{};  // times of the reads since, by class
     };
 
-    Id newId();
     void remove(Id id);
 
-    struct Place {
-        Id id;
-        std::size_t size;  // B
-    };
-    std::map<std::uint64_t, Place> buffers_;  // by their start address
+    std::map<std::uint64_t, Id> buffers_;  // by their start address
     std::vector<std::array<Uses, kQueues>> uses_;
-    std::vector<std::uint64_t> addresses_;  // 0: an image
-    std::vector<Id> free_;
+    std::vector<Resource> resources_;
+    std::vector<Id> free_;  // numbers without a resource
+    std::function<void(Id)> removed_;
 };
 
 // Makes what is before visible to what is after; nothing without stages before.

@@ -1,5 +1,6 @@
 #include "engine/buffer_image.h"
 
+#include <stdexcept>
 #include <utility>
 
 #include "engine/memory.h"
@@ -58,17 +59,18 @@ Buffer::Buffer(const Device& device, const BufferDescription& description) : Buf
             "buffer '" + description.name + "' of " + std::to_string(description.size) + " B",
             resultName(result));
     }
-    line_ = device.memoryLine(allocation_, description.name);
     mapped_ = allocated.pMappedData;
     const VkBufferDeviceAddressInfo info{
         .sType = VK_STRUCTURE_TYPE_BUFFER_DEVICE_ADDRESS_INFO, .pNext = nullptr, .buffer = buffer_};
     address_ = vkGetBufferDeviceAddress(device.get(), &info);
     device.setName(
         VK_OBJECT_TYPE_BUFFER, reinterpret_cast<std::uint64_t>(buffer_), description.name);
-    tracked_ = device.resources().addBuffer(address_, size_);
-    if (HazardLog* const hazards = device.hazards())
-        known_ = hazards->addBuffer(
-            address_, size_, mapped_ ? mapped() : std::span<std::byte>{}, description.name);
+    tracked_ = device.track(
+        allocation_, {.memory = {.name = description.name, .purpose = description.purpose},
+                      .bytes = size_,
+                      .address = address_,
+                      .mapped = mapped_ ? mapped() : std::span<std::byte>{}});
+    hazards_ = device.hazards();
 }
 
 Buffer::~Buffer() {
@@ -82,9 +84,8 @@ void Buffer::swap(Buffer& other) noexcept {
     std::swap(address_, other.address_);
     std::swap(size_, other.size_);
     std::swap(mapped_, other.mapped_);
-    std::swap(line_, other.line_);
     std::swap(tracked_, other.tracked_);
-    std::swap(known_, other.known_);
+    std::swap(hazards_, other.hazards_);
 }
 
 TexelView::TexelView(const Device& device, const Buffer& buffer, VkFormat format) {
@@ -101,7 +102,7 @@ TexelView::TexelView(const Device& device, const Buffer& buffer, VkFormat format
     view_ = {device.get(), view};
 }
 
-// ---- Images -------------------------------------------------------------------------------------
+// ---- Rows ---------------------------------------------------------------------------------------
 
 namespace {
 
@@ -127,6 +128,26 @@ std::uint64_t imageBytes(const ImageDescription& description) {
                   std::max(description.height >> level, 1u);
     return texels * description.samples * texelBytes(description.format);
 }
+
+const MemoryRows::Row& MemoryRows::at(std::string_view name) const {
+    const auto row = std::ranges::find(
+        rows_, name, [](const Row& each) -> std::string_view { return each.of.name; });
+    if (row == rows_.end()) throw std::out_of_range("no row is named '" + std::string(name) + "'");
+    return *row;
+}
+
+BufferDescription MemoryRows::operator[](std::string_view name) const {
+    const auto& [row, purpose] = at(name);
+    return {.size = row.size, .usage = row.usage, .name = row.name, .purpose = purpose};
+}
+
+std::uint64_t MemoryRows::bytes() const {
+    std::uint64_t sum = 0;
+    for (const auto& [row, purpose] : rows_) sum += std::uint64_t{row.copies} * row.size;
+    return sum;
+}
+
+// ---- Images -------------------------------------------------------------------------------------
 
 // Sets the members that need no Vulkan call.
 Image::Image(VmaAllocator_T* allocator, const ImageDescription& description)
@@ -162,8 +183,6 @@ Image::Image(const Device& device, const ImageDescription& description)
             resultName(result));
     }
 
-    line_ = device.memoryLine(allocation_, description.name);
-
     VkImageViewCreateInfo view{};
     view.sType = VK_STRUCTURE_TYPE_IMAGE_VIEW_CREATE_INFO;
     view.image = image_;
@@ -174,17 +193,16 @@ Image::Image(const Device& device, const ImageDescription& description)
     check(vkCreateImageView(device.get(), &view, nullptr, &handle), "create an image view");
     view_ = {device.get(), handle};
     device.setName(VK_OBJECT_TYPE_IMAGE, reinterpret_cast<std::uint64_t>(image_), description.name);
-    tracked_ = device.resources().addImage();
-    if (HazardLog* const hazards = device.hazards())
-        known_ = hazards->addImage(image_, description.name);
+    tracked_ = device.track(
+        allocation_, {.memory = {.name = description.name, .purpose = description.purpose},
+                      .bytes = imageBytes(description)});
 }
 
 Image::Image(Image&& other) noexcept
     : allocator_(other.allocator_), allocation_(std::exchange(other.allocation_, nullptr)),
       format_(other.format_), extent_(other.extent_), aspect_(other.aspect_),
       image_(std::exchange(other.image_, VkImage{})), view_(std::move(other.view_)),
-      line_(std::move(other.line_)), tracked_(std::move(other.tracked_)),
-      known_(std::move(other.known_)) {}
+      tracked_(std::move(other.tracked_)) {}
 
 Image::~Image() {
     view_ = {};

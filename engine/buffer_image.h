@@ -2,9 +2,12 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <cstdint>
 #include <cstring>
+#include <initializer_list>
 #include <span>
 #include <string>
+#include <string_view>
 #include <type_traits>
 #include <vector>
 
@@ -26,6 +29,7 @@ struct BufferDescription {
     std::size_t size = 0;  // B
     Usage usage = Usage::storage;
     std::string name;
+    Purpose purpose;
 };
 
 // A buffer with its memory. Its contents start undefined.
@@ -54,7 +58,7 @@ public:
         write(std::as_bytes(std::span(&value, 1)));
     }
     void write(std::span<const std::byte> bytes) const {
-        known_.hostWrites();
+        if (hazards_) hazards_->hostWrites(tracked_.id());
         std::memcpy(mapped_, bytes.data(), bytes.size());
     }
 
@@ -67,9 +71,8 @@ private:
     VkDeviceAddress address_ = 0;
     std::size_t size_ = 0;
     void* mapped_ = nullptr;
-    MemoryLedger::Line line_;
     TrackedResources::Entry tracked_;
-    HazardLog::Entry known_;
+    HazardLog* hazards_ = nullptr;
 };
 
 // A uniform texel buffer view. The buffer must outlive it.
@@ -94,10 +97,60 @@ struct ImageDescription {
     std::uint32_t levels = 1;  // each half as large as the one before
     VkImageUsageFlags usage = 0;
     std::string name;
+    Purpose purpose;
 };
 
 // Returns the bytes of an image's texels, over all samples and levels, without driver overhead.
 std::uint64_t imageBytes(const ImageDescription& description);
+
+// Returns the bytes of `count` values, or of one if there are none, because a buffer has a size.
+template <class Value>
+constexpr std::size_t bytesOf(std::uint64_t count) {
+    return static_cast<std::size_t>(std::max<std::uint64_t>(count, 1)) * sizeof(Value);
+}
+
+// A buffer of a part of a case, before it is made.
+struct BufferRow {
+    std::string name;
+    std::size_t size = 0;  // B
+    std::uint32_t copies = 1;  // equal buffers
+    Usage usage = Usage::storage;
+    bool at_most = false;  // the contents decide, which are not known before
+};
+
+// All buffers and images of a part of a case. They are made from these rows, and the memory that a
+// case needs is the sum of the same rows.
+class MemoryRows {
+public:
+    MemoryRows() = default;
+    MemoryRows(Purpose purpose, std::initializer_list<BufferRow> rows) { add(purpose, rows); }
+
+    void add(Purpose purpose, std::initializer_list<BufferRow> rows) {
+        for (const BufferRow& row : rows) rows_.push_back({row, purpose});
+    }
+    void add(const ImageDescription& image) {
+        rows_.push_back({{image.name, static_cast<std::size_t>(imageBytes(image))}, image.purpose});
+    }
+    void add(const MemoryRows& part) {
+        rows_.insert(rows_.end(), part.rows_.begin(), part.rows_.end());
+    }
+
+    struct Row {
+        BufferRow of;
+        Purpose purpose;
+    };
+    const std::vector<Row>& all() const { return rows_; }
+    // Returns the row of this name, and the buffer that it describes. These throw std::out_of_range
+    // if there is none.
+    const Row& at(std::string_view name) const;
+    BufferDescription operator[](std::string_view name) const;
+
+    // Returns the sum of all rows.
+    std::uint64_t bytes() const;
+
+private:
+    std::vector<Row> rows_;
+};
 
 // A 2D image with its memory and a view of the whole image.
 class Image {
@@ -124,9 +177,7 @@ private:
     VkImageAspectFlags aspect_;
     VkImage image_{};
     Handle<VkImageView, &vkDestroyImageView> view_;
-    MemoryLedger::Line line_;
     TrackedResources::Entry tracked_;
-    HazardLog::Entry known_;
 };
 
 struct SamplerDescription {

@@ -163,13 +163,11 @@ void Commands::uses(std::initializer_list<Use> uses, const std::source_location&
         }
         plan_.require(*id, use.access);
         if (!hazards_) continue;
-        const ResourceId resource =
-            use.image ? hazards_->image(use.image->get()) : hazards_->bufferAt(use.address).value();
         const Scope touched = scopeOf(use);
-        declared_.push_back(resource);
-        const auto same = std::ranges::find(declared_uses_, resource, &RecordedUse::resource);
+        declared_.push_back(*id);
+        const auto same = std::ranges::find(declared_uses_, *id, &RecordedUse::resource);
         if (same == declared_uses_.end()) {
-            declared_uses_.push_back({resource, touched});
+            declared_uses_.push_back({*id, touched});
         } else {
             same->scope.stages |= touched.stages;
             same->scope.access |= touched.access;
@@ -220,7 +218,7 @@ void Commands::record(const PlannedBarrier& planned) {
             recorded.push_back(
                 {.before = barrier.layouts.before,
                  .after = barrier.layouts.after,
-                 .image = hazards_->image(change.image->get()),
+                 .image = change.image->tracked(),
                  .transitions_layout = true,
                  .place = place});
         recording_.push_back({.pass = pass_, .uses = {}, .barriers = std::move(recorded)});

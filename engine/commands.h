@@ -109,6 +109,25 @@ public:
         std::initializer_list<Use> uses,
         const std::source_location& place = std::source_location::current());
 
+    // Declares one use and returns the buffer's address for push constants, so that no address is
+    // pushed without its use.
+    std::uint64_t
+    use(const Use& used, const std::source_location& place = std::source_location::current()) {
+        uses({used}, place);
+        return used.address;
+    }
+    // Declares that the next dispatch reads the buffer, or writes it, and returns its address.
+    template <class Buffer>
+    std::uint64_t reads(
+        const Buffer& buffer, const std::source_location& place = std::source_location::current()) {
+        return use({buffer, Access::compute_read}, place);
+    }
+    template <class Buffer>
+    std::uint64_t writes(
+        const Buffer& buffer, const std::source_location& place = std::source_location::current()) {
+        return use({buffer, Access::compute_write}, place);
+    }
+
     // Declares for the next dispatch what the last one touched, because it is another part of it.
     void usesAgain();
 

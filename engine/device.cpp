@@ -141,15 +141,6 @@ VmaAllocator createAllocator(VkInstance instance, const DeviceInfo& info, VkDevi
 
 }  // namespace
 
-// ---- The ledger of device memory ----------------------------------------------------------------
-
-void MemoryLedger::leave(const Entry& entry, std::uint64_t bytes) {
-    const auto place = bytes_.find(entry);
-    if (place == bytes_.end()) return;
-    place->second -= bytes;
-    if (place->second == 0) bytes_.erase(place);
-}
-
 // ---- The pipeline cache on disk -----------------------------------------------------------------
 
 PipelineCache::PipelineCache(VkDevice device, const DeviceInfo& info) : device_(device) {
@@ -239,9 +230,8 @@ Device::Device(const DeviceOptions& options)
             get(), info_.compute_family, info_.compute_family == info_.queue_family ? 1 : 0,
             &compute_queue_);
     allocator_.reset(createAllocator(instance_.get(), info_, get()));
-    if (options.validation != Validation::off)
-        hazards_ = std::make_unique<HazardLog>(instance_.messages());
-    memory_ = std::make_unique<MemoryLedger>();
+    if (options.validation != Validation::off || options.keeps_uses)
+        hazards_ = std::make_unique<HazardLog>(instance_.messages(), *resources_);
     shaders_ = std::make_unique<ShaderLibrary>();
     cache_ = std::make_unique<PipelineCache>(get(), info_);
     pipelines_ = std::make_unique<PipelineStore>();
@@ -326,14 +316,17 @@ std::uint64_t Device::freeBytes() const {
     return free;
 }
 
-MemoryLedger::Line Device::memoryLine(VmaAllocation_T* allocation, const std::string& name) const {
+TrackedResources::Entry
+Device::track(VmaAllocation_T* allocation, TrackedResources::Resource resource) const {
     VmaAllocationInfo info{};
     vmaGetAllocationInfo(allocator(), allocation, &info);
     const VkPhysicalDeviceMemoryProperties* memory{};
     vmaGetMemoryProperties(allocator(), &memory);
     const VkMemoryType& type = memory->memoryTypes[info.memoryType];
-    const bool device_local = (type.propertyFlags & VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT) != 0;
-    return {*memory_, {type.heapIndex, device_local, name}, info.size};
+    resource.memory.heap = type.heapIndex;
+    resource.memory.device_local = (type.propertyFlags & VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT) != 0;
+    resource.allocated = info.size;
+    return resources_->add(std::move(resource));
 }
 
 void Device::setName(VkObjectType type, std::uint64_t handle, const std::string& name) const {

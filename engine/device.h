@@ -27,56 +27,6 @@ namespace engine {
 
 class ShaderLibrary;
 
-// Bytes of device memory per memory heap and per name of the buffer or image. Live allocations
-// only.
-class MemoryLedger {
-public:
-    struct Entry {
-        std::uint32_t heap = 0;  // of VkPhysicalDeviceMemoryProperties
-        bool device_local = false;
-        std::string name;  // of the buffer or image
-
-        auto operator<=>(const Entry&) const = default;
-    };
-
-    const std::map<Entry, std::uint64_t>& bytes() const { return bytes_; }
-
-    // Keeps an entry on the ledger for its lifetime; move-only.
-    class Line {
-    public:
-        Line() = default;
-        Line(MemoryLedger& ledger, Entry entry, std::uint64_t bytes)
-            : ledger_(&ledger), entry_(std::move(entry)), bytes_(bytes) {
-            ledger_->enter(entry_, bytes_);
-        }
-        Line(Line&& other) noexcept { swap(other); }
-        Line& operator=(Line&& other) noexcept {
-            swap(other);
-            return *this;
-        }
-        ~Line() {
-            if (ledger_) ledger_->leave(entry_, bytes_);
-        }
-
-    private:
-        void swap(Line& other) noexcept {
-            std::swap(ledger_, other.ledger_);
-            std::swap(entry_, other.entry_);
-            std::swap(bytes_, other.bytes_);
-        }
-
-        MemoryLedger* ledger_ = nullptr;
-        Entry entry_;
-        std::uint64_t bytes_ = 0;
-    };
-
-private:
-    void enter(const Entry& entry, std::uint64_t bytes) { bytes_[entry] += bytes; }
-    void leave(const Entry& entry, std::uint64_t bytes);
-
-    std::map<Entry, std::uint64_t> bytes_;
-};
-
 // A VkPipelineCache kept on disk between runs, in one file per device and driver build under
 // $XDG_CACHE_HOME/hairbench (or ~/.cache/hairbench). A file that is unreadable or of another driver
 // is ignored. Failure to write one is no error: the cache only saves time.
@@ -142,6 +92,7 @@ private:
 struct DeviceOptions {
     std::string wanted;  // index or part of the name; empty: the best
     Validation validation = Validation::off;
+    bool keeps_uses = false;  // makes a hazard log without validation, too
     // Window::instanceExtensions() to show pictures in a window; empty: no window.
     std::vector<std::string> window_extensions{};
     // Removes features from the device's description before the device is made. Only the remaining
@@ -183,7 +134,7 @@ public:
     BarrierPlan& barriers(QueueKind queue) const {
         return *barriers_[static_cast<std::size_t>(queue)];
     }
-    // The hazard log; null if validation is off.
+    // The hazard log; null without validation and DeviceOptions::keeps_uses.
     HazardLog* hazards() const { return hazards_.get(); }
 
     // Largest number of vertices that one instance of a tessellated draw can correctly make.
@@ -206,16 +157,17 @@ public:
     // bytes.
     std::uint64_t freeBytes() const;
 
-    // The ledger of device memory. Buffers and images add and remove themselves.
-    const MemoryLedger& memory() const { return *memory_; }
+    // The memory of all buffers and images.
+    MemoryLedger memory() const { return resources_->memory(); }
     // The shader code of pipelines made from now on.
     ShaderLibrary& shaders() const { return *shaders_; }
     // The pipelines made from that code.
     PipelineStore& pipelines() const { return *pipelines_; }
     // Whether pipelines come with figures: DeviceOptions::shader_figures.
     bool tellsShaderFigures() const { return shader_figures_; }
-    // Returns a ledger line, which the allocation's owner keeps for the allocation's lifetime.
-    MemoryLedger::Line memoryLine(VmaAllocation_T* allocation, const std::string& name) const;
+    // Registers an allocation's buffer or image, which keeps the entry. Finds its heap and size.
+    TrackedResources::Entry
+    track(VmaAllocation_T* allocation, TrackedResources::Resource resource) const;
 
     // Names an object for debuggers and validation messages.
     void setName(VkObjectType type, std::uint64_t handle, const std::string& name) const;
@@ -259,7 +211,6 @@ private:
         std::make_unique<BarrierPlan>(*resources_, QueueKind::all),
         std::make_unique<BarrierPlan>(*resources_, QueueKind::compute)};
     std::unique_ptr<HazardLog> hazards_;
-    std::unique_ptr<MemoryLedger> memory_;
     std::unique_ptr<ShaderLibrary> shaders_;
     std::unique_ptr<PipelineCache> cache_;
     std::unique_ptr<PipelineStore> pipelines_;

@@ -305,39 +305,12 @@ std::vector<std::string> redundantBarriers(std::span<const Recording> recordings
 
 // ---- Buffers and images -------------------------------------------------------------------------
 
-HazardLog::Entry HazardLog::addBuffer(
-    std::uint64_t address, std::size_t size, std::span<const std::byte> mapped,
-    const std::string& name) {
-    const ResourceId id = next_++;
-    resources_.emplace(
-        id, Resource{.name = name, .address = address, .size = size, .mapped = mapped});
-    buffers_[address] = id;
-    return {*this, id};
-}
-
-HazardLog::Entry HazardLog::addImage(VkImage image, const std::string& name) {
-    const ResourceId id = next_++;
-    resources_.emplace(id, Resource{.name = name, .image = image});
-    images_[image] = id;
-    return {*this, id};
-}
-
-void HazardLog::remove(ResourceId id) {
-    const Resource& resource = resources_.at(id);
-    if (resource.address != 0)
-        buffers_.erase(resource.address);
-    else
-        images_.erase(resource.image);
-    checker_.forget(id);
-    resources_.erase(id);
-}
-
-std::optional<ResourceId> HazardLog::bufferAt(std::uint64_t address) const {
-    auto after = buffers_.upper_bound(address);
-    if (after == buffers_.begin()) return std::nullopt;
-    const auto& [first, id] = *--after;
-    if (address - first >= resources_.at(id).size) return std::nullopt;
-    return id;
+HazardLog::HazardLog(MessageLog& messages, TrackedResources& resources)
+    : messages_(messages), resources_(resources) {
+    resources_.watch([this](ResourceId id) {
+        checker_.forget(id);
+        uses_.erase(id);
+    });
 }
 
 namespace {
@@ -359,7 +332,7 @@ void forEachAddress(std::span<const std::byte> bytes, Use&& use) {
 std::vector<ResourceId> HazardLog::hostBuffersIn(std::span<const std::byte> bytes) const {
     std::vector<ResourceId> found;
     const auto add = [&](std::uint64_t address) {
-        const std::optional<ResourceId> id = bufferAt(address);
+        const std::optional<ResourceId> id = resources_.bufferAt(address);
         if (!id || resources_.at(*id).mapped.empty()) return;
         if (std::ranges::find(found, *id) == found.end()) found.push_back(*id);
     };
@@ -372,8 +345,10 @@ std::vector<ResourceId> HazardLog::hostBuffersIn(std::span<const std::byte> byte
 std::vector<ResourceId> HazardLog::writtenBuffersIn(std::span<const std::byte> bytes) const {
     std::vector<ResourceId> found;
     forEachAddress(bytes, [&](std::uint64_t address) {
-        const std::optional<ResourceId> id = bufferAt(address);
-        if (id && resources_.at(*id).written) found.push_back(*id);
+        const std::optional<ResourceId> id = resources_.bufferAt(address);
+        if (!id) return;
+        const auto uses = uses_.find(*id);
+        if (uses != uses_.end() && uses->second.written) found.push_back(*id);
     });
     return found;
 }
@@ -384,12 +359,9 @@ void HazardLog::submit(Recording recording, QueueKind queue) {
     ++submissions_;
     for (const Recorded& each : recording)
         for (const RecordedUse& use : each.uses) {
-            const auto found = resources_.find(use.resource);
-            if (found == resources_.end()) continue;  // destroyed since it was recorded
-            Resource& resource = found->second;
-            resource.last_submission = submissions_;
-            if (!each.pass.empty() && (expanded(use.scope).access & kWrites))
-                resource.written = true;
+            Uses& uses = uses_[use.resource];
+            uses.last_submission = submissions_;
+            if (!each.pass.empty() && (expanded(use.scope).access & kWrites)) uses.written = true;
         }
     const auto passText = [](const std::string& pass) {
         return pass.empty() ? std::string("set-up") : "pass '" + pass + "'";
@@ -401,9 +373,21 @@ void HazardLog::submit(Recording recording, QueueKind queue) {
     if (keeps_recordings_) recordings_.push_back(std::move(recording));
 }
 
-std::string HazardLog::name(ResourceId id) const {
-    const auto found = resources_.find(id);
-    return found == resources_.end() ? "a resource that no longer exists" : found->second.name;
+std::vector<PassUses> HazardLog::passesOf(const Recording& recording) const {
+    std::vector<PassUses> passes;
+    for (const Recorded& each : recording) {
+        if (each.pass.empty()) continue;
+        auto pass = std::ranges::find(passes, each.pass, &PassUses::pass);
+        if (pass == passes.end()) pass = passes.insert(pass, {.pass = each.pass});
+        if (!each.barriers.empty()) ++pass->barriers;
+        for (const RecordedUse& use : each.uses) {
+            const bool writes = expanded(use.scope).access & kWrites;
+            (writes ? pass->writes : pass->reads).insert(name(use.resource));
+        }
+    }
+    for (PassUses& pass : passes)
+        std::erase_if(pass.reads, [&](const auto& name) { return pass.writes.contains(name); });
+    return passes;
 }
 
 void HazardLog::finish(std::uint64_t submission) {
@@ -412,7 +396,8 @@ void HazardLog::finish(std::uint64_t submission) {
 }
 
 void HazardLog::hostWrites(ResourceId id) {
-    if (resources_.at(id).last_submission > finished_)
+    const auto uses = uses_.find(id);
+    if (uses != uses_.end() && uses->second.last_submission > finished_)
         report(
             "write after read of '" + name(id) +
             "': the host writes data that a frame in flight may still read");

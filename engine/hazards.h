@@ -24,8 +24,7 @@ namespace engine {
 
 class MessageLog;
 
-// A buffer or image for its lifetime; numbers are not reused.
-using ResourceId = std::uint32_t;
+using ResourceId = TrackedResources::Id;
 
 // One use of a resource by a command.
 struct RecordedUse {
@@ -51,6 +50,14 @@ struct Recorded {
 
 // A command buffer in recording order.
 using Recording = std::vector<Recorded>;
+
+// The names of the buffers and images that a pass touches, and its barriers.
+struct PassUses {
+    std::string pass;
+    std::set<std::string> reads;  // without those that it writes
+    std::set<std::string> writes;
+    std::uint32_t barriers = 0;
+};
 
 // A use that is not ordered after an earlier one.
 struct Hazard {
@@ -116,52 +123,13 @@ std::vector<std::string> redundantBarriers(std::span<const Recording> recordings
 // Returns the places of all barriers except those that change layouts too.
 std::set<std::string> barrierPlaces(std::span<const Recording> recordings);
 
-// The buffers and images of a device, the submissions to its queue, and the hazards in them, as
-// messages. Exists if validation is on. For one thread.
+// The submissions to a device's queues, and the hazards in them, as messages. Exists if validation
+// is on. For one thread.
 class HazardLog {
 public:
-    explicit HazardLog(MessageLog& messages) : messages_(messages) {}
+    HazardLog(MessageLog& messages, TrackedResources& resources);
     HazardLog(const HazardLog&) = delete;
     HazardLog& operator=(const HazardLog&) = delete;
-
-    // Registers a buffer or image for its lifetime; move-only.
-    class Entry {
-    public:
-        Entry() = default;
-        Entry(HazardLog& log, ResourceId id) : log_(&log), id_(id) {}
-        Entry(Entry&& other) noexcept { swap(other); }
-        Entry& operator=(Entry&& other) noexcept {
-            swap(other);
-            return *this;
-        }
-        ~Entry() {
-            if (log_) log_->remove(id_);
-        }
-
-        // Tells the log that the host writes to the buffer now. Does nothing without a log.
-        void hostWrites() const {
-            if (log_) log_->hostWrites(id_);
-        }
-
-    private:
-        void swap(Entry& other) noexcept {
-            std::swap(log_, other.log_);
-            std::swap(id_, other.id_);
-        }
-
-        HazardLog* log_ = nullptr;
-        ResourceId id_ = 0;
-    };
-
-    // `mapped`: the host's view of the buffer; empty if it is not mapped.
-    Entry addBuffer(
-        std::uint64_t address, std::size_t size, std::span<const std::byte> mapped,
-        const std::string& name);
-    Entry addImage(VkImage image, const std::string& name);
-
-    // Returns the buffer that contains the address; absent if it is not one of ours.
-    std::optional<ResourceId> bufferAt(std::uint64_t address) const;
-    ResourceId image(VkImage image) const { return images_.at(image); }
 
     // Returns the host-written buffers that addresses in `bytes` point into, directly or through
     // one another.
@@ -181,7 +149,12 @@ public:
     // Reports a dispatch of a pass that doesn't declare its uses, or doesn't declare all buffers in
     // its push constants.
     void complain(const std::string& pass, const std::string& what);
-    std::string name(ResourceId id) const;
+    // The host writes to the buffer now.
+    void hostWrites(ResourceId id);
+    std::string name(ResourceId id) const { return resources_.at(id).memory.name; }
+
+    // Returns the passes of a recording in the order in which they begin.
+    std::vector<PassUses> passesOf(const Recording& recording) const;
 
     // For tests. The barrier or layout change with the number `index`, counted from now on, orders
     // nothing. If `index` is absent, none is dropped.
@@ -193,30 +166,21 @@ public:
     // Barriers recorded since drop() was called.
     std::uint32_t barriers() const { return barriers_; }
 
-    // For tests: the recordings submitted since the last call.
+    // The recordings submitted since the last call, once keepRecordings() was called.
     std::vector<Recording> takeRecordings() { return std::exchange(recordings_, {}); }
     void keepRecordings() { keeps_recordings_ = true; }
 
 private:
-    struct Resource {
-        std::string name;
-        std::uint64_t address = 0;  // 0: an image
-        std::size_t size = 0;
-        std::span<const std::byte> mapped;
-        VkImage image{};
+    struct Uses {
         bool written = false;  // by a pass
         std::uint64_t last_submission = 0;  // that touches the resource
     };
 
-    void remove(ResourceId id);
-    void hostWrites(ResourceId id);
     void report(const std::string& message);
 
     MessageLog& messages_;
-    std::map<ResourceId, Resource> resources_;
-    std::map<std::uint64_t, ResourceId> buffers_;  // by their start address
-    std::map<VkImage, ResourceId> images_;
-    ResourceId next_ = 0;
+    TrackedResources& resources_;
+    std::map<ResourceId, Uses> uses_;
     HazardChecker checker_;
     std::uint64_t submissions_ = 0;
     std::uint64_t finished_ = 0;

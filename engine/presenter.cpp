@@ -404,7 +404,8 @@ bool Presenter::prepare() {
                 .width = swapchain_->extent().width,
                 .height = swapchain_->extent().height,
                 .usage = VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT,
-                .name = "window"});
+                .name = "window",
+                .purpose = "window"});
     }
     return true;
 }

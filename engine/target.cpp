@@ -61,7 +61,8 @@ ImageDescription rendered(
         .height = description.height * description.ssaa,
         .samples = description.msaa,
         .usage = usage,
-        .name = name};
+        .name = name,
+        .purpose = "targets"};
 }
 
 std::optional<Image>
@@ -147,7 +148,8 @@ TargetImages imagesOf(const TargetDescription& description) {
              .width = description.width,
              .height = description.height,
              .usage = VK_IMAGE_USAGE_TRANSFER_SRC_BIT | written,
-             .name = "output"},
+             .name = "output",
+             .purpose = "targets"},
         .radiance = std::nullopt};
     if (resolveOf(description) != Resolve::none)
         images.color = rendered(description, description.color_format, kColor, "color");
@@ -157,15 +159,19 @@ TargetImages imagesOf(const TargetDescription& description) {
             .width = description.width,
             .height = description.height,
             .usage = VK_IMAGE_USAGE_STORAGE_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT,
-            .name = "radiance"};
+            .name = "radiance",
+            .purpose = "targets"};
     return images;
 }
 
-std::uint64_t targetBytes(const TargetDescription& description) {
+MemoryRows targetRows(const TargetDescription& description) {
     const TargetImages images = imagesOf(description);
-    return imageBytes(images.depth) + imageBytes(images.output) +
-           (images.color ? imageBytes(*images.color) : 0) +
-           (images.radiance ? imageBytes(*images.radiance) : 0);
+    MemoryRows rows;
+    rows.add(images.depth);
+    rows.add(images.output);
+    if (images.color) rows.add(*images.color);
+    if (images.radiance) rows.add(*images.radiance);
+    return rows;
 }
 
 Target::Target(

@@ -59,8 +59,7 @@ struct TargetImages {
 
 TargetImages imagesOf(const TargetDescription& description);
 
-// Returns the bytes of all target images (imageBytes()).
-std::uint64_t targetBytes(const TargetDescription& description);
+MemoryRows targetRows(const TargetDescription& description);
 
 // The images of an offscreen picture: the colour and depth that passes render into; the output
 // picture (8-bit RGBA, display-referred), which may be the colour image itself; and, if the colour

@@ -24,14 +24,20 @@ void runOnce(const Device& device, const std::function<void(Commands&)>& record)
 
 void upload(const Device& device, std::span<const std::byte> bytes, const Buffer& destination) {
     const Buffer staging(
-        device, {.size = bytes.size(), .usage = Usage::upload, .name = "upload staging"});
+        device, {.size = bytes.size(),
+                 .usage = Usage::upload,
+                 .name = "upload staging",
+                 .purpose = "transfers"});
     std::ranges::copy(bytes, staging.mapped().begin());
     runOnce(device, [&](Commands& commands) { commands.copy(staging, destination, bytes.size()); });
 }
 
 std::vector<std::byte> download(const Device& device, const Buffer& source) {
     const Buffer staging(
-        device, {.size = source.size(), .usage = Usage::readback, .name = "download staging"});
+        device, {.size = source.size(),
+                 .usage = Usage::readback,
+                 .name = "download staging",
+                 .purpose = "transfers"});
     runOnce(device, [&](Commands& commands) { commands.copy(source, staging, source.size()); });
     const std::span<std::byte> mapped = staging.mapped();
     return {mapped.begin(), mapped.end()};
@@ -42,7 +48,8 @@ Buffer readImage(const Device& device, const Image& image, std::size_t bytes_per
     Buffer staging(
         device, {.size = bytes_per_pixel * extent.width * extent.height,
                  .usage = Usage::readback,
-                 .name = "picture"});
+                 .name = "picture",
+                 .purpose = "transfers"});
     runOnce(device, [&](Commands& commands) { commands.copy(image, staging); });
     return staging;
 }
@@ -147,7 +154,8 @@ ImageDescription describe(
         .height = largest.height,
         .levels = static_cast<std::uint32_t>(levels.size()),
         .usage = VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT,
-        .name = name};
+        .name = name,
+        .purpose = "textures"};
 }
 
 VkFormat formatOf(Texels texels, Decoding decoding) {
@@ -176,7 +184,8 @@ Texture::Texture(
     : image_(device, describe(device, levels, format, name)) {
     std::size_t bytes = 0;
     for (const Pixels& level : levels) bytes += level.rgba.size();
-    const Buffer staging(device, {.size = bytes, .usage = Usage::upload, .name = name});
+    const Buffer staging(
+        device, {.size = bytes, .usage = Usage::upload, .name = name, .purpose = "textures"});
     runOnce(device, [&](Commands& commands) {
         commands.transition(
             image_, VK_IMAGE_LAYOUT_UNDEFINED, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL);

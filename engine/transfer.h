@@ -4,12 +4,15 @@
 #include <cstddef>
 #include <cstring>
 #include <functional>
+#include <ranges>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "engine/buffer_image.h"
 #include "engine/commands.h"
+#include "engine/error.h"
 #include "engine/pictures.h"
 
 // Work that is submitted by itself and waited for: copies of whole buffers and images between host
@@ -31,16 +34,30 @@ std::vector<std::byte> download(const Device& device, const Buffer& source);
 // all work submitted so far.
 Buffer readImage(const Device& device, const Image& image, std::size_t bytes_per_pixel);
 
-// Returns a device-local buffer that holds `values`. Allocates at least one element, so that the
-// buffer always has an address.
-template <class Value>
-Buffer makeBuffer(const Device& device, std::span<const Value> values, const std::string& name) {
+// Returns a buffer that holds the values of a vector, array or span. It has at least one element,
+// so that it always has an address.
+template <class Values>
+Buffer
+makeBuffer(const Device& device, const Values& values, const std::string& name, Purpose purpose) {
     Buffer buffer(
-        device, {.size = std::max(values.size_bytes(), sizeof(Value)),
-                 .usage = Usage::storage,
-                 .name = name});
-    if (!values.empty()) upload(device, std::as_bytes(values), buffer);
+        device, {.size = bytesOf<std::ranges::range_value_t<Values>>(values.size()),
+                 .name = name,
+                 .purpose = purpose});
+    if (!values.empty()) upload(device, std::as_bytes(std::span(values)), buffer);
     return buffer;
+}
+
+// Returns the buffer of a row with these values. Throws Error if the row has another size.
+template <class Values>
+Buffer makeBuffer(
+    const Device& device, const Values& values, const MemoryRows& rows, std::string_view name) {
+    const auto& [row, purpose] = rows.at(name);
+    const std::size_t bytes = bytesOf<std::ranges::range_value_t<Values>>(values.size());
+    if (!row.at_most && row.size != bytes)
+        throw Error(
+            "buffer '" + row.name + "'", "has a row of " + std::to_string(row.size) +
+                                             " B and contents of " + std::to_string(bytes) + " B");
+    return makeBuffer(device, values, row.name, purpose);
 }
 
 template <class Value>

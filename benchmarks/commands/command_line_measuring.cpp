@@ -50,6 +50,9 @@ void addRunOptions(CLI::App& command, run::RunOptions& options) {
         ->check(CLI::IsMember({"locked", "free", "both"}));
     command.add_flag("--list", options.list, "print the cases' names and stop");
     command.add_flag(
+        "--list-passes", options.list_passes,
+        "print what the passes of a frame of each case read and write, and their barriers");
+    command.add_flag(
         "--dry-run", options.dry_run,
         "list what would run and estimate its time and memory, within seconds");
     command
@@ -232,7 +235,8 @@ void addMeasuringCommands(const CommandLine& line) {
              {"hairbench run scenes/thesis.json -a /strands/density=16,32,64 -a /render/msaa=1,4",
               "hairbench run thesis --filter 'guides:86/.*msaa:1' --out "
               "results/mine.json",
-              "hairbench run full --resume", "hairbench run thesis --dry-run"}},
+              "hairbench run full --resume", "hairbench run thesis --dry-run",
+              "hairbench run rest --list-passes"}},
         runScene, addRunOptions);
     addCommand<gate::GateOptions>(
         line, line.app,

@@ -81,6 +81,7 @@ int runScene(const run::RunOptions& options) {
     run::RunPlan plan = run::planRun(scene, options.filter, options.shard, &cache.assets());
     plan.max_memory = options.max_memory;
     if (options.list) return run::printNames(plan);
+    if (options.list_passes) return run::printPasses(plan, options.scene.device, cache);
     if (options.dry_run) return run::estimateRun(plan, options.scene.device, cache);
     if (plan.cases.empty()) return printNothingToRun(options, plan);
     // Checks the baselines first, so that errors do not show only after hours of work.

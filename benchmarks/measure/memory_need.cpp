@@ -18,6 +18,7 @@
 #include "hair/groom/groom.h"
 #include "hair/rendering/backends.h"
 #include "hair/rendering/groom_buffers.h"
+#include "hair/rendering/points_pass.h"
 #include "hair/rendering/renderer.h"
 #include "hair/rendering/scene_meshes.h"
 #include "hair/rendering/strand_plan.h"
@@ -60,7 +61,7 @@ const std::string& grownOn(const hair::Settings& settings) {
 
 // ---- The parts of a case ------------------------------------------------------------------------
 
-// Buffers of parameters and tables, and the driver's padding of images and buffers.
+// The driver's padding of small and of large images and buffers.
 constexpr std::uint64_t kSmallBuffers = std::uint64_t{512} << 10;
 constexpr double kPadding = 1.1;
 
@@ -117,78 +118,83 @@ hair::rendering::StrandPlan planOf(
 }
 
 // Bytes of the comparison pictures of /run/compare_backends: backends.cpp.
-std::uint64_t comparedBytes(hair::Settings settings, const hair::rendering::StrandPlan& plan) {
+std::uint64_t comparedBytes(
+    const engine::Device& device, hair::Settings settings, const hair::rendering::StrandPlan& plan,
+    const hair::groom::GroomSize& size) {
+    using hair::rendering::Renderer;
     settings.strands.backend = hair::Backend::tessellation;
     settings.render.msaa = 4;
     settings.render.ssaa = 4;
-    const std::uint64_t covered = hair::rendering::rendererBytes(settings, plan);
+    const std::uint64_t covered = Renderer::rows(device, settings, plan, size).bytes();
     settings.render.msaa = 1;
     settings.render.ssaa = 8;
-    return std::max(covered, hair::rendering::rendererBytes(settings, plan));
+    return std::max(covered, Renderer::rows(device, settings, plan, size).bytes());
 }
 
-// The largest buffer that is uploaded, or picture that is downloaded, at a time.
-std::uint64_t stagingBytes(
-    const hair::Settings& settings, const hair::groom::GroomSize& size, std::uint64_t mesh) {
-    const std::uint64_t pixels = std::uint64_t{settings.render.width} * settings.render.height;
-    constexpr std::uint64_t kPixel = 4, kBoundStrand = 56, kResidual = 8, kRodSegments = 32;
-    std::uint64_t strands = 0;
-    if (settings.strands.source == hair::StrandSource::groom)
-        strands = std::max(kBoundStrand * size.bound_strands, kResidual * size.bound_points);
-    return std::max({kPixel * pixels, strands, kRodSegments * size.vertices(), mesh});
+// The largest buffer that is uploaded at a time, or picture that is downloaded.
+std::uint64_t stagingBytes(const engine::MemoryRows& rows, const hair::RenderSettings& render) {
+    std::uint64_t most = sizeof(std::uint32_t) * render.width * render.height;
+    for (const auto& [row, purpose] : rows.all())
+        if (purpose == "groom" || purpose == "simulation" || purpose == "meshes" ||
+            purpose == "textures")
+            most = std::max<std::uint64_t>(most, row.size);
+    return most;
 }
 
 }  // namespace
 
-report::MemoryNeed memoryNeed(
+CaseMemory caseMemory(
     const engine::Device& device, const hair::Settings& settings, const fs::path& directory,
     HairCache* cache) {
+    using namespace hair::rendering;
+    using namespace hair::simulation;
     const hair::groom::Groom* groom =
         cache ? cache->assets().knownGroom(settings, directory) : nullptr;
-    const std::optional<hair::groom::Mesh>* mesh =
+    const std::optional<hair::groom::Mesh>* read =
         cache ? cache->assets().knownMesh(settings, directory) : nullptr;
+    const hair::groom::Mesh* mesh = read && *read ? &**read : nullptr;
     const hair::groom::GroomSize size = groomSize(settings, directory, groom);
-    const hair::rendering::StrandPlan plan = planOf(device, settings, size);
+    const StrandPlan plan = planOf(device, settings, size);
     hair::Settings drawn = settings;
     if (settings.render.hair)
-        drawn.strands.backend = hair::rendering::chooseBackend(device, settings, plan, {}).backend;
+        drawn.strands.backend = chooseBackend(device, settings, plan, {}).backend;
 
     const std::uint64_t mesh_file = fileBytes(directory, grownOn(settings));
-    std::uint64_t head = 0;
-    if (settings.render.head) {
-        if (mesh)
-            head = *mesh ? hair::rendering::meshBytes(**mesh) : 0;
-        else
-            head = kMeshGrowth * mesh_file;
+    CaseMemory memory{.rows = Simulation::rows(device.info(), size, settings.simulation)};
+    engine::MemoryRows& rows = memory.rows;
+    if (settings.run.interpolate) rows.add(GuideInterpolation::rows(size.vertices()));
+    rows.add(GroomBuffers::rows(settings, size));
+    rows.add(Renderer::rows(device, drawn, plan, size));
+    // A vertex takes at least its position in a file.
+    if (!settings.simulation.animation.clip.empty())
+        rows.add(SkinnedHead::rows(
+            mesh ? mesh->positions.size() : mesh_file / sizeof(glm::vec3), plan.strands(),
+            settings.render));
+    if (settings.render.head && mesh) {
+        rows.add(MeshGeometry::rows(*mesh));
+        rows.add(MeshMaterials::rows(*mesh));
     }
+
+    const std::uint64_t head = settings.render.head && !read ? kMeshGrowth * mesh_file : 0;
     std::uint64_t assets = head + kPictureGrowth * fileBytes(directory, settings.strands.texture) +
                            kEnvironmentGrowth * fileBytes(directory, settings.render.environment);
     for (const hair::MeshSettings& each : settings.render.meshes)
         assets += kMeshGrowth * fileBytes(directory, each.file);
-    if (!settings.simulation.animation.clip.empty())  // positions and normals of each frame
-        assets += engine::FrameLoop::kMaxSlots *
-                  (mesh && *mesh ? (*mesh)->positions.size() * 2 * sizeof(glm::vec3) : mesh_file);
-    std::uint64_t fields = 0;
+    const std::uint64_t fields = Bodies::rows(settings.simulation).bytes();
     std::uint64_t baking = 0;  // the largest, since fields are baked one after another
     for (const hair::DistanceFieldSettings& each : settings.simulation.distance_fields) {
-        fields += hair::simulation::fieldBytes(each.resolution);
-        const bool is_known =
-            mesh && *mesh && (each.mesh.empty() || each.mesh == grownOn(settings));
+        const bool is_known = mesh && (each.mesh.empty() || each.mesh == grownOn(settings));
         baking = std::max(
-            baking, is_known ? kBakedTriangle * (*mesh)->triangles.size()
+            baking, is_known ? kBakedTriangle * mesh->triangles.size()
                              : kMeshGrowth * (each.mesh.empty() ? mesh_file
                                                                 : fileBytes(directory, each.mesh)));
     }
 
-    std::uint64_t all =
-        hair::simulation::simulationBytes(device.info(), size, settings.simulation) +
-        hair::rendering::groomBufferBytes(settings, size) +
-        hair::rendering::rendererBytes(drawn, plan) + assets;
-    if (settings.run.interpolate) all += sizeof(glm::vec4) * size.vertices();
-    if (settings.run.compare_backends) all += comparedBytes(drawn, plan);
+    std::uint64_t all = rows.bytes() + assets;
+    if (settings.run.compare_backends) all += comparedBytes(device, drawn, plan, size);
     // Fields are baked before anything else is allocated.
-    all = std::max(all + stagingBytes(settings, size, head), fields + baking);
-    report::MemoryNeed need;
+    all = std::max(all + std::max(stagingBytes(rows, settings.render), head), fields + baking);
+    report::MemoryNeed& need = memory.need;
     need.device = kSmallBuffers + static_cast<std::uint64_t>(kPadding * static_cast<double>(all));
 
     const bool balanced = settings.simulation.rest == hair::RestShape::balanced;
@@ -200,7 +206,7 @@ report::MemoryNeed memoryNeed(
                 size.bound_strands * kHostStrand + size.bound_points * kHostPoint +
                 pixel * settings.render.width * settings.render.height + 2 * fields +
                 kFileCopies * (assets + baking + fileBytes(directory, settings.groom.file));
-    return need;
+    return memory;
 }
 
 // ---- How much there is --------------------------------------------------------------------------

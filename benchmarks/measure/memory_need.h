@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "benchmarks/report/report.h"
+#include "engine/buffer_image.h"
 #include "engine/device.h"
 #include "hair/settings.h"
 
@@ -15,13 +16,19 @@ namespace benchmarks::measure {
 
 class HairCache;
 
+struct CaseMemory {
+    report::MemoryNeed need{};
+    // The buffers and images of the case, once it is made, without pictures and further meshes.
+    engine::MemoryRows rows;
+};
+
 // Upper bound of the memory of a case while it is made and measured, from its settings, the counts
 // of its groom and the sizes of its files. The counts are exact for a groom or a mesh in `cache`;
 // the content of compressed files is estimated from their sizes. If pictures and strands dominate,
 // and not some small buffers, the bound for device memory is at most three times the peak of live
 // allocations. The host's memory is that of the program with the case, without device memory.
 // Throws engine::Unsupported if the device can't draw the case.
-report::MemoryNeed memoryNeed(
+CaseMemory caseMemory(
     const engine::Device& device, const hair::Settings& settings,
     const std::filesystem::path& directory, HairCache* cache = nullptr);
 

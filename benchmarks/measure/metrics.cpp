@@ -403,86 +403,18 @@ namespace {
 
 // ---- Device memory ------------------------------------------------------------------------------
 
-struct Row {
-    std::string_view beginning;  // of the name
-    std::string_view purpose;
-};
-
-// The first matching row counts. A new buffer needs a row only if no row matches its name.
-constexpr Row kPurposes[] = {
-    {"group shades", "groom"},
-    {"guide normals", "groom"},
-    {"guide turns", "groom"},
-    {"guide widths", "groom"},
-    {"guide tangents at rest", "groom"},
-    {"guides at rest", "groom"},
-    {"root ", "groom"},
-    {"bound strands", "groom"},
-    {"strand offsets", "groom"},
-    {"strand residuals", "groom"},
-    {"guide ", "simulation"},
-    {"settled state", "simulation"},
-    {"shape ", "simulation"},
-    {"ftl ", "simulation"},
-    {"rod ", "simulation"},
-    {"volume ", "simulation"},
-    {"capsules", "simulation"},
-    {"distance field", "simulation"},
-    {"picture parameters", "shading"},
-    {"lights' pictures", "shadows"},
-    {"lights", "shading"},
-    {"hair optics", "shading"},
-    {"fiber averages", "shading"},
-    {"environment", "shading"},
-    {"shadow ", "shadows"},
-    {"depth of ", "shadows"},
-    {"opacity of hair", "shadows"},
-    {"fragment ", "transparency"},
-    {"weighted sum", "transparency"},
-    {"revealed part", "transparency"},
-    {"blend range", "transparency"},
-    {"mesh texture coordinates", "meshes"},
-    {"mesh texture", "textures"},
-    {"no texture", "textures"},
-    {"strand texture", "textures"},
-    {"mesh ", "meshes"},
-    {"body lines", "meshes"},
-    {"color", "targets"},
-    {"depth", "targets"},
-    {"output", "targets"},
-    {"radiance", "targets"},
-    {"upload staging", "transfers"},
-    {"download staging", "transfers"},
-    {"picture", "transfers"},
-    {"software ", "strands"},
-    {"strands' ", "strands"},
-    {"strand points", "measuring"},
-    {"stage watch", "measuring"},
-    {"busy work", "measuring"},
-    {"limits' ", "measuring"},
-    {"window", "window"},
-    {"shown picture", "window"},
-    {"difference ", "window"},
-};
-
 report::Metric bytes(report::Measured what, std::string part, std::uint64_t count) {
     return {report::ofMemory(what, std::move(part)), {static_cast<double>(count)}};
 }
 
 }  // namespace
 
-std::string_view memoryPurpose(std::string_view name) {
-    for (const Row& row : kPurposes)
-        if (name.starts_with(row.beginning)) return row.purpose;
-    return "other";
-}
-
 std::vector<report::Metric> memoryMetrics(const engine::MemoryLedger& ledger) {
     std::map<std::uint32_t, std::uint64_t> heaps;
     std::map<std::string_view, std::uint64_t> purposes;
-    for (const auto& [entry, size] : ledger.bytes()) {
+    for (const auto& [entry, size] : ledger) {
         heaps[entry.heap] += size;
-        purposes[memoryPurpose(entry.name)] += size;
+        purposes[entry.purpose.name()] += size;
     }
     std::vector<report::Metric> metrics;
     for (const auto& [heap, size] : heaps)

@@ -121,10 +121,6 @@ void addFrameUse(std::span<const engine::FrameRecord> isolated, report::CaseResu
 // CPU use of passes in wall-clock frames: pass.*.cpu.time, pass.*.instructions.
 void addPassUse(std::span<const engine::FrameRecord> wall_clock, report::CaseResult& result);
 
-// The purpose of a buffer or image with this name: "simulation", "groom", "targets", ...; "other"
-// if no row of the table matches.
-std::string_view memoryPurpose(std::string_view name);
-
 // Device memory, B, each with one sample: "memory.heap.<index>" for each heap in use and
 // "memory.purpose.<purpose>" for each purpose in use. Both sum to all allocated memory.
 std::vector<report::Metric> memoryMetrics(const engine::MemoryLedger& ledger);

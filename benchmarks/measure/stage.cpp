@@ -29,15 +29,12 @@ BusyWork::BusyWork(const engine::Device& device, std::uint32_t steps)
       groups_(device.info().type == "cpu" ? kProcessorGroups : kGroups),
       pipeline_(device, {.shader = "busy/busy.comp", .push_size = sizeof(gpu::BusyPush)}),
       results_(engine::makeBuffer(
-          device, std::span<const std::uint32_t>(std::vector<std::uint32_t>(1 + groups_, 0)),
-          "busy work")) {}
+          device, std::vector<std::uint32_t>(1 + groups_, 0), "busy work", "measuring")) {}
 
 void BusyWork::record(engine::Commands& commands) const {
-    using engine::Access;
     if (steps_ == 0) return;
     commands.orderAll();
-    commands.bind(pipeline_, gpu::BusyPush{.results = results_.address(), .steps = steps_});
-    commands.uses({{results_, Access::compute_write}});
+    commands.bind(pipeline_, gpu::BusyPush{.results = commands.writes(results_), .steps = steps_});
     commands.dispatch(std::min(steps_, groups_));
     commands.orderAll();
 }

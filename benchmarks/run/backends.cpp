@@ -226,8 +226,10 @@ gpu::LimitPush limitPush(std::uint64_t results) {
 }
 
 std::vector<double> copyBandwidth(const engine::Device& device) {
-    const engine::Buffer from(device, {.size = kCopied, .name = "limits' source"});
-    const engine::Buffer to(device, {.size = kCopied, .name = "limits' copy"});
+    const engine::Buffer from(
+        device, {.size = kCopied, .name = "limits' source", .purpose = "measuring"});
+    const engine::Buffer to(
+        device, {.size = kCopied, .name = "limits' copy", .purpose = "measuring"});
     // Unwritten pages may share the same physical page.
     loadTime(
         device, engine::PassKind::compute,
@@ -246,12 +248,12 @@ std::vector<double> copyBandwidth(const engine::Device& device) {
 std::vector<double> computeArithmetic(const engine::Device& device) {
     const engine::ComputePipeline pipeline(
         device, {.shader = "limits/arithmetic.comp", .push_size = sizeof(gpu::LimitPush)});
-    const engine::Buffer results(device, {.size = sizeof(float), .name = "limits' results"});
+    const engine::Buffer results(
+        device, {.size = sizeof(float), .name = "limits' results", .purpose = "measuring"});
     return ratesOf(
         device, engine::PassKind::compute, kInvocations * kInvocationOperations,
         [&](engine::Commands& commands, std::uint32_t times) {
-            commands.uses({{results, Access::compute_write}});
-            commands.bind(pipeline, limitPush(results.address()));
+            commands.bind(pipeline, limitPush(commands.writes(results)));
             commands.dispatchGroups(times * (kInvocations / gpu::kLimitGroup));
         });
 }
@@ -264,7 +266,8 @@ std::vector<double> graphicsArithmetic(const engine::Device& device, StageKind k
                  .width = kSide,
                  .height = kSide,
                  .usage = VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT,
-                 .name = "limits' picture"});
+                 .name = "limits' picture",
+                 .purpose = "measuring"});
     engine::GraphicsDescription description{
         .push_size = sizeof(gpu::LimitPush), .colors = {{.format = kFormat}}};
     description.shaders = {

@@ -5,6 +5,7 @@
 #include <chrono>
 #include <cmath>
 #include <iostream>
+#include <iterator>
 #include <numeric>
 #include <random>
 #include <set>
@@ -20,6 +21,8 @@
 #include "benchmarks/scene/pattern.h"
 #include "benchmarks/scene/scene.h"
 #include "engine/error.h"
+#include "engine/frame_loop.h"
+#include "engine/hazards.h"
 #include "engine/process.h"
 #include "hair/groom/growth/roots.h"
 #include "hair/rendering/strand_plan.h"
@@ -111,6 +114,58 @@ int printNames(const RunPlan& plan) {
     for (const PlannedCase& each : plan.cases) std::cout << each.spec.name << '\n';
     std::cout << plan.cases.size() << (plan.cases.size() == 1 ? " case\n" : " cases\n");
     return report::kOk;
+}
+
+namespace {
+
+std::string joined(const std::set<std::string>& names) {
+    std::string text;
+    for (const std::string& name : names) text += (text.empty() ? "" : ", ") + name;
+    return text;
+}
+
+// Returns the passes of a frame that has others in flight before it.
+std::vector<engine::PassUses>
+passesOf(const engine::Device& device, const PlannedCase& planned, measure::HairCache& cache) {
+    constexpr int kFrames = 3;
+    measure::Case played(device, planned.spec.settings, planned.directory, &cache);
+    engine::FrameLoop loop(device, engine::Timing::overlapped);
+    engine::HazardLog& log = *device.hazards();
+    log.keepRecordings();
+    for (int i = 0; i < kFrames; ++i) {
+        log.takeRecordings();
+        loop.frame([&](engine::Passes& passes) { played.frame(passes); });
+    }
+    std::vector<engine::PassUses> passes;
+    for (const engine::Recording& recording : log.takeRecordings())
+        std::ranges::copy(log.passesOf(recording), std::back_inserter(passes));
+    loop.finish();
+    return passes;
+}
+
+}  // namespace
+
+int printPasses(const RunPlan& plan, engine::DeviceOptions options, measure::HairCache& cache) {
+    options.keeps_uses = true;
+    const engine::Device device(options);
+    bool is_any = false;
+    for (const PlannedCase& each : plan.cases) {
+        std::cout << each.spec.name << '\n';
+        try {
+            std::uint32_t barriers = 0;
+            for (const engine::PassUses& pass : passesOf(device, each, cache)) {
+                std::cout << "  " << pass.pass << "\n    barriers " << pass.barriers << "\n"
+                          << "    reads " << joined(pass.reads) << '\n'
+                          << "    writes " << joined(pass.writes) << '\n';
+                barriers += pass.barriers;
+            }
+            std::cout << "  all barriers: " << barriers << '\n';
+            is_any = true;
+        } catch (const engine::Unsupported& error) {
+            std::cout << "  " << engine::shownText(error.what()) << '\n';
+        }
+    }
+    return is_any ? report::kOk : report::kNothingRan;
 }
 
 // ---- Estimates ----------------------------------------------------------------------------------
@@ -333,8 +388,9 @@ void Trials::findNeeds() {
     for (std::size_t place = 0; place < estimates_.size(); ++place) {
         engine::checkInterrupted();
         try {
-            const report::MemoryNeed need = measure::memoryNeed(
-                device_, settings(place), plan_.cases[place].directory, &cache_);
+            const report::MemoryNeed need =
+                measure::caseMemory(device_, settings(place), plan_.cases[place].directory, &cache_)
+                    .need;
             estimates_[place].bytes = need.device;
             estimates_[place].problem = measure::whyItDoesNotFit(need, rooms);
         } catch (const engine::Unsupported& error) {

@@ -28,6 +28,7 @@ struct RunOptions {
     std::filesystem::path out;
     bool dry_run = false;  // only print what would run
     bool list = false;  // print the cases' names
+    bool list_passes = false;  // print the passes of their frames
     std::optional<std::uint32_t> order_seed;  // absent: a random one
     bool resume = false;  // continue with the journal beside `out`
     std::string shard;  // "2/8": the second of eight parts; empty: all
@@ -76,6 +77,10 @@ std::vector<std::size_t> shuffledOrder(std::size_t count, std::uint32_t seed);
 
 // Prints the names and the number of the cases. Returns the exit status.
 int printNames(const RunPlan& plan);
+
+// Plays frames of each case and prints the passes of the last: the buffers and images that each
+// reads and writes, and its barriers. Returns the exit status.
+int printPasses(const RunPlan& plan, engine::DeviceOptions device, measure::HairCache& cache);
 
 // Estimates the cost of a run within seconds.
 

@@ -137,7 +137,7 @@ PlayedCase runCase(
     std::optional<report::MemoryNeed> need;
     try {
         const engine::TimeLimit limit(double{run.case_timeout}, "/run/case_timeout");
-        need = measure::memoryNeed(device, planned.spec.settings, planned.directory, &cache);
+        need = measure::caseMemory(device, planned.spec.settings, planned.directory, &cache).need;
         if (const std::string reason =
                 measure::whyItDoesNotFit(*need, measure::memoryRooms(device, max_memory));
             !reason.empty())

@@ -34,11 +34,15 @@ DifferencePass::DifferencePass(const engine::Device& device)
                    .push_size = sizeof(gpu::DifferencePush),
                    .sampled_images = 2,
                    .storage_images = 1}),
-      counts_(device, {.size = sizeof(gpu::DifferenceCounts), .name = "difference counts"}),
+      counts_(
+          device, {.size = sizeof(gpu::DifferenceCounts),
+                   .name = "difference counts",
+                   .purpose = "window"}),
       readback_(
           device, {.size = sizeof(gpu::DifferenceCounts),
                    .usage = engine::Usage::readback,
-                   .name = "difference counts"}) {}
+                   .name = "difference counts",
+                   .purpose = "window"}) {}
 
 void DifferencePass::record(
     engine::Commands& commands, const engine::Image& a, const engine::Image& b,
@@ -90,7 +94,8 @@ ShownPicture::renew(VkFormat format, VkExtent2D extent, VkImageUsageFlags usage)
                                  .width = extent.width,
                                  .height = extent.height,
                                  .usage = usage | VK_IMAGE_USAGE_SAMPLED_BIT,
-                                 .name = "shown picture"}));
+                                 .name = "shown picture",
+                                 .purpose = "window"}));
     return shown_->image;
 }
 
@@ -105,8 +110,10 @@ bool ShownPicture::copy(
     number_ = number;
     if (staging_.size() != rgba.size())
         staging_ = engine::Buffer(
-            device_,
-            {.size = rgba.size(), .usage = engine::Usage::upload, .name = "shown picture"});
+            device_, {.size = rgba.size(),
+                      .usage = engine::Usage::upload,
+                      .name = "shown picture",
+                      .purpose = "window"});
     staging_.write(std::as_bytes(rgba));
     commands.transition(image, VK_IMAGE_LAYOUT_UNDEFINED, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL);
     commands.copy(staging_, 0, image, 0);

@@ -118,7 +118,7 @@ std::optional<std::pair<std::uint32_t, std::uint32_t>> rangeOf(const TimingHisto
 // not cause.
 class OwnMemory {
 public:
-    explicit OwnMemory(const engine::MemoryLedger& all) : all_(all), others_(all.bytes()) {}
+    explicit OwnMemory(const engine::Device& device) : device_(device), others_(device.memory()) {}
 
     // Runs an action whose allocations belong to others.
     void others(const std::function<void()>& action);
@@ -127,14 +127,14 @@ public:
     std::vector<report::Metric> metrics() const;
 
 private:
-    const engine::MemoryLedger& all_;
-    std::map<engine::MemoryLedger::Entry, std::uint64_t> others_;
+    const engine::Device& device_;
+    engine::MemoryLedger others_;
 };
 
 void OwnMemory::others(const std::function<void()>& action) {
-    const auto before = all_.bytes();
+    const engine::MemoryLedger before = device_.memory();
     action();
-    for (const auto& [entry, bytes] : all_.bytes()) others_[entry] += bytes;
+    for (const auto& [entry, bytes] : device_.memory()) others_[entry] += bytes;
     // Subtracts the earlier memory, which is counted already. Unsigned sums wrap modulo 2^64, so
     // memory may also shrink.
     for (const auto& [entry, bytes] : before) others_[entry] -= bytes;
@@ -142,12 +142,11 @@ void OwnMemory::others(const std::function<void()>& action) {
 
 std::vector<report::Metric> OwnMemory::metrics() const {
     engine::MemoryLedger own;
-    std::vector<engine::MemoryLedger::Line> lines;
     std::uint64_t sum = 0;
-    for (const auto& [entry, bytes] : all_.bytes()) {
+    for (const auto& [entry, bytes] : device_.memory()) {
         const auto found = others_.find(entry);
         const std::uint64_t rest = bytes - (found == others_.end() ? 0 : found->second);
-        if (rest > 0) lines.emplace_back(own, entry, rest);
+        if (rest > 0) own.emplace(entry, rest);
         sum += rest;
     }
     std::vector<report::Metric> metrics{
@@ -311,7 +310,7 @@ SideMeasurement measureSide(
     SideMeasurement measured{.settings = settings, .result = {.name = name}, .picture = {}};
     report::CaseResult& result = measured.result;
     result.index = result.order = 0;
-    OwnMemory memory(device.memory());
+    OwnMemory memory(device);
     const measure::MeasureHooks own_hooks{
         .stop = hooks.stop, .progress = [&](const measure::SamplingState& state) {
             if (hooks.progress) memory.others([&] { hooks.progress(state); });

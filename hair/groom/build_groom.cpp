@@ -326,6 +326,11 @@ expectedSize(const GroomSettings& settings, std::uint64_t file_bytes, std::uint6
     }
     if (settings.cache.mode != CacheMode::none) size.cached_points = cache_bytes / kPointBytes;
     size.root_triangles = 2 * size.guides;  // at most, by Euler's formula of a disc
+    size.root_normals = size.guides;
+    if (!settings.file.empty()) {
+        size.grouped_guides = size.guides;
+        size.grouped_strands = size.bound_strands;
+    }
     return size;
 }
 

@@ -106,7 +106,10 @@ GroomSize sizeOf(const Groom& groom) {
         .root_triangles = groom.root_triangles.size(),
         .bound_strands = groom.bindings.size(),
         .bound_points = groom.bound_points.size(),
-        .cached_points = groom.cache.points.size()};
+        .cached_points = groom.cache.points.size(),
+        .root_normals = groom.root_normals.size(),
+        .grouped_guides = groom.guide_groups.size(),
+        .grouped_strands = groom.groups.size()};
 }
 
 std::optional<std::uint32_t> commonSize(const StrandSet& strands) {

@@ -15,6 +15,9 @@ struct GroomSize {
     std::uint64_t bound_strands = 0;
     std::uint64_t bound_points = 0;
     std::uint64_t cached_points = 0;  // of all samples
+    std::uint64_t root_normals = 0;
+    std::uint64_t grouped_guides = 0;  // guides with groups, all or none
+    std::uint64_t grouped_strands = 0;  // bound strands with groups, all or none
 
     std::uint64_t vertices() const { return guides * vertices_per_guide; }
 };

@@ -143,6 +143,12 @@ std::vector<std::uint32_t> quadIndices(const PieceLines& of) {
     return indices;
 }
 
+constexpr const char* kCorners = "strands' corners";
+
+engine::MemoryRows cornerRows(const PieceLines& of) {
+    return {"strands", {{kCorners, engine::bytesOf<std::uint32_t>(6ull * of.lines * of.pieces)}}};
+}
+
 // Makes the corners of quads in the vertex stage, which evaluates the points as well.
 class PullingBackend : public StrandBackend {
 public:
@@ -150,16 +156,16 @@ public:
         : lines_(lineCount(context.plan)), block_(blockOf(context.plan)),
           indices_per_line_(6 * context.plan.forced_tessellation),
           indices_(engine::makeBuffer(
-              context.device,
-              std::span<const std::uint32_t>(quadIndices(
-                  {.lines = block_,
-                   .pieces = context.plan.forced_tessellation,
-                   .ends = context.plan.forced_tessellation + 1})),
-              "strands' corners")),
+              context.device, quadIndices(linesOf(context.plan)), cornerRows(linesOf(context.plan)),
+              kCorners)),
           pipeline_(context.device, describe(context, block_)) {}
 
     static void check(const engine::Device&, const Settings&, const StrandPlan& plan) {
         lineCount(plan);
+    }
+
+    static engine::MemoryRows rows(const engine::Device&, const Settings&, const StrandPlan& plan) {
+        return cornerRows(linesOf(plan));
     }
 
     void draw(engine::Commands& commands, const StrandPicture& picture) const override {
@@ -188,11 +194,18 @@ private:
         return static_cast<std::uint32_t>(count);
     }
 
+    static PieceLines linesOf(const StrandPlan& plan) {
+        return {
+            .lines = blockOf(plan),
+            .pieces = plan.forced_tessellation,
+            .ends = plan.forced_tessellation + 1};
+    }
+
     // Isolines per instance: enough to make an instance worth its cost, few enough for a short list
     // of corners.
     static std::uint32_t blockOf(const StrandPlan& plan) {
-        constexpr std::uint32_t kCorners = 4096;
-        return std::max(kCorners / (2 * (plan.forced_tessellation + 1)), 1u);
+        constexpr std::uint32_t kMostCorners = 4096;
+        return std::max(kMostCorners / (2 * (plan.forced_tessellation + 1)), 1u);
     }
 
     static engine::GraphicsDescription
@@ -221,44 +234,50 @@ public:
         : points_(*context.points), is_listed_(context.output.quads == QuadKind::camera),
           draws_(divideUp(points_.strandCount(), gpu::kExpandedStrands)),
           indices_per_strand_(6 * context.plan.segments * context.plan.forced_tessellation),
-          indices_(engine::makeBuffer(
-              context.device, std::span<const std::uint32_t>(quadIndices(strandLines(context))),
-              "strands' corners")),
-          visible_(listBuffer(
-              context.device, sizeof(std::uint32_t) * points_.strandCount(), "strands' list")),
-          arguments_(
-              listBuffer(context.device, sizeof(gpu::IndexedCommand) * draws_, "strands' draws")),
           list_(
               context.device, {.shader = "strands/points/list.comp",
                                .constants = pointsConstants(context.strands, context.plan),
                                .push_size = sizeof(gpu::ExpandedPush)}),
-          pipeline_(context.device, describe(context)) {}
+          pipeline_(context.device, describe(context)) {
+        const engine::MemoryRows rows = rowsOf(context.strands, context.plan);
+        indices_ = engine::makeBuffer(
+            context.device, quadIndices(strandLines(context.strands, context.plan)), rows,
+            kCorners);
+        visible_ = {context.device, rows["strands' list"]};
+        arguments_ = {context.device, rows["strands' draws"]};
+    }
 
     static void check(const engine::Device&, const Settings&, const StrandPlan& plan) {
         checkPoints(plan);
     }
 
-    void prepare(engine::Commands& commands, const StrandPicture& picture) const override {
+    static engine::MemoryRows
+    rows(const engine::Device&, const Settings& settings, const StrandPlan& plan) {
+        return rowsOf(settings.strands, plan);
+    }
+
+    void prepare(engine::Commands& commands, const StrandPicture&) const override {
         if (!is_listed_) return;
-        commands.uses(
-            {{points_.pieces(), Access::compute_read},
-             {visible_, Access::compute_write},
-             {arguments_, Access::compute_write}});
-        gpu::ExpandedPush constants = push(picture);
-        constants.picture = 0;
-        constants.points = 0;
-        commands.bind(list_, constants);
+        commands.bind(
+            list_, gpu::ExpandedPush{
+                       .pieces = commands.reads(points_.pieces()),
+                       .visible = commands.writes(visible_),
+                       .arguments = commands.writes(arguments_),
+                       .strands = points_.strandCount()});
         commands.dispatchInvocations(draws_, gpu::kPointsGroup);
     }
 
     void draw(engine::Commands& commands, const StrandPicture& picture) const override {
-        gpu::ExpandedPush constants = push(picture);
-        constants.arguments = 0;
-        commands.uses(
-            {{points_.points(), Access::vertex_read},
-             {points_.pieces(), Access::vertex_read},
-             {constants.visible, Access::vertex_read}});
-        commands.bind(pipeline_, constants);
+        const auto reads = [&](const engine::Buffer& buffer) {
+            return commands.use({buffer, Access::vertex_read});
+        };
+        commands.bind(
+            pipeline_, gpu::ExpandedPush{
+                           .picture = picture.address,
+                           .points = reads(points_.points()),
+                           .pieces = reads(points_.pieces()),
+                           .visible = is_listed_ ? reads(visible_) : 0,
+                           .strands = points_.strandCount()});
         commands.images(pipeline_, picture.images);
         if (is_listed_) {
             commands.drawIndexed(indices_, arguments_, draws_);
@@ -278,20 +297,9 @@ public:
     std::optional<ExpectedCounts> expected() const override { return std::nullopt; }
 
 private:
-    gpu::ExpandedPush push(const StrandPicture& picture) const {
-        return {
-            .picture = picture.address,
-            .points = points_.points().address(),
-            .pieces = points_.pieces().address(),
-            .visible = is_listed_ ? visible_.address() : 0,
-            .arguments = is_listed_ ? arguments_.address() : 0,
-            .strands = points_.strandCount()};
-    }
-
     // If segments have end points of their own, a line is a segment; otherwise it is a strand.
-    static PieceLines strandLines(const BackendContext& context) {
-        const StrandPlan& plan = context.plan;
-        if (context.strands.taper == Taper::segment)
+    static PieceLines strandLines(const StrandSettings& strands, const StrandPlan& plan) {
+        if (strands.taper == Taper::segment)
             return {
                 .lines = gpu::kExpandedStrands * plan.segments,
                 .pieces = plan.forced_tessellation,
@@ -300,13 +308,14 @@ private:
         return {.lines = gpu::kExpandedStrands, .pieces = pieces, .ends = pieces + 1};
     }
 
-    static engine::Buffer
-    listBuffer(const engine::Device& device, std::size_t bytes, const std::string& name) {
-        return {
-            device,
-            {.size = std::max(bytes, sizeof(gpu::IndexedCommand)),
-             .usage = engine::Usage::storage,
-             .name = name}};
+    static engine::MemoryRows rowsOf(const StrandSettings& strands, const StrandPlan& plan) {
+        const std::uint64_t draws =
+            (plan.strands() + gpu::kExpandedStrands - 1) / gpu::kExpandedStrands;
+        engine::MemoryRows rows(
+            "strands", {{"strands' list", engine::bytesOf<std::uint32_t>(plan.strands())},
+                        {"strands' draws", engine::bytesOf<gpu::IndexedCommand>(draws)}});
+        rows.add(cornerRows(strandLines(strands, plan)));
+        return rows;
     }
 
     static engine::GraphicsDescription describe(const BackendContext& context) {
@@ -406,6 +415,7 @@ struct BackendRow {
     Backend backend;
     std::unique_ptr<StrandBackend> (*make)(const BackendContext&);
     void (*check)(const engine::Device&, const Settings&, const StrandPlan&);
+    engine::MemoryRows (*rows)(const engine::Device&, const Settings&, const StrandPlan&);
 };
 
 template <class Made>
@@ -415,7 +425,7 @@ constexpr BackendRow row(Backend backend) {
         [](const BackendContext& context) -> std::unique_ptr<StrandBackend> {
             return std::make_unique<Made>(context);
         },
-        Made::check};
+        Made::check, Made::rows};
 }
 
 // All back ends, one row each.
@@ -438,8 +448,7 @@ const BackendRow& rowOf(Backend backend) {
 engine::Buffer watchBuffer(const engine::Device& device) {
     device.require(engine::Feature::vertex_stores, "ablation");
     return {
-        device,
-        {.size = sizeof(gpu::StageWatch), .usage = engine::Usage::storage, .name = "stage watch"}};
+        device, {.size = sizeof(gpu::StageWatch), .name = "stage watch", .purpose = "measuring"}};
 }
 
 }  // namespace
@@ -456,6 +465,14 @@ void checkDevice(
     Backend backend, const engine::Device& device, const Settings& settings,
     const StrandPlan& plan) {
     rowOf(backend).check(device, settings, plan);
+}
+
+engine::MemoryRows backendRows(
+    const engine::Device& device, const Settings& settings, const StrandPlan& plan,
+    QuadKind quads) {
+    const Backend backend = settings.strands.backend;
+    return rowOf(quads == QuadKind::light ? mapBackend(backend) : backend)
+        .rows(device, settings, plan);
 }
 
 Backend mapBackend(Backend backend) {

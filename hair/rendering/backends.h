@@ -29,6 +29,10 @@ void checkDevice(
     Backend backend, const engine::Device& device, const Settings& settings,
     const StrandPlan& plan);
 
+// Returns the memory of the case's back end for a picture's strands, without points.
+engine::MemoryRows backendRows(
+    const engine::Device& device, const Settings& settings, const StrandPlan& plan, QuadKind quads);
+
 // Whether the case's back end draws from the points of a PointsPass.
 bool readsPoints(const Settings& settings);
 

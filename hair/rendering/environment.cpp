@@ -404,10 +404,11 @@ EnvironmentPass::EnvironmentPass(
     if (!assets.environment) return;
     const RenderSettings& render = settings.render;
     const engine::FloatPixels light = soundLight(*assets.environment, render.environment_strength);
-    texels_ = engine::makeBuffer(device, std::span(light.rgb), "environment");
+    texels_ = engine::makeBuffer(device, light.rgb, "environment", "shading");
     const gpu::EnvironmentParameters parameters =
         parametersOf(light, glm::radians(render.environment_turn), texels_.address());
-    parameters_ = engine::makeBuffer(device, std::span(&parameters, 1), "environment parameters");
+    parameters_ =
+        engine::makeBuffer(device, std::array{parameters}, rows(), "environment parameters");
     background_.emplace(
         device, engine::GraphicsDescription{
                     .shaders = {"environment/background.vert", "environment/background.frag"},

@@ -57,6 +57,11 @@ public:
     EnvironmentPass(
         const engine::Device& device, const Settings& settings, const RenderAssets& assets);
 
+    // An environment also has texels, as many as its picture.
+    static engine::MemoryRows rows() {
+        return {"shading", {{"environment parameters", sizeof(gpu::EnvironmentParameters)}}};
+    }
+
     // Address of gpu::EnvironmentParameters; 0 if there is no environment.
     std::uint64_t address() const { return parameters_.address(); }
 

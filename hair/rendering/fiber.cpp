@@ -193,10 +193,18 @@ strandsAround(const glm::dvec3& absorption, double mean_power, double variation)
 }
 
 // Returns the averages that dual scattering looks up, row by row over cos theta_i.
+namespace {
+
+std::uint32_t averageRows(const OwnPowers& powers) {
+    return powers.greatest > powers.least ? gpu::kFiberAverageRows : 1;
+}
+
+}  // namespace
+
 std::vector<gpu::FiberAverage> makeFiberAverages(const ShadingSettings& shading) {
     const Fiber fiber = makeFiber(shading);
     const OwnPowers powers = ownPowers(shading);
-    const std::uint32_t rows = powers.greatest > powers.least ? gpu::kFiberAverageRows : 1;
+    const std::uint32_t rows = averageRows(powers);
     std::vector<gpu::FiberAverage> table(std::size_t{rows} * gpu::kFiberAverages);
     for (std::uint32_t i = 0; i < gpu::kFiberAverages; ++i) {
         const double cos_theta = static_cast<double>(i) / (gpu::kFiberAverages - 1);
@@ -319,15 +327,25 @@ LocalScattering localScattering(const FiberAverages& averages) {
 static_assert(offsetof(gpu::HairOptics, averages) == 104 && sizeof(gpu::HairOptics) == 112);
 static_assert(sizeof(gpu::FiberAverage) == 52);
 
+engine::MemoryRows HairOpticsBuffers::rows(const ShadingSettings& shading) {
+    engine::MemoryRows rows("shading", {{"hair optics", sizeof(gpu::HairOptics)}});
+    if (shading.model == ShadingModel::dual_scattering)
+        rows.add(
+            "shading",
+            {{"fiber averages", engine::bytesOf<gpu::FiberAverage>(
+                                    averageRows(ownPowers(shading)) * gpu::kFiberAverages)}});
+    return rows;
+}
+
 HairOpticsBuffers::HairOpticsBuffers(const engine::Device& device, const Settings& settings) {
+    const engine::MemoryRows rows = HairOpticsBuffers::rows(settings.shading);
     gpu::HairOptics optics = makeHairOptics(settings.shading);
     if (settings.shading.model == ShadingModel::dual_scattering) {
         const std::vector<gpu::FiberAverage> table = makeFiberAverages(settings.shading);
-        averages_ = engine::makeBuffer(device, std::span(table), "fiber averages");
+        averages_ = engine::makeBuffer(device, table, rows, "fiber averages");
         optics.averages = averages_.address();
     }
-    optics_ =
-        engine::makeBuffer(device, std::span<const gpu::HairOptics>(&optics, 1), "hair optics");
+    optics_ = engine::makeBuffer(device, std::array{optics}, rows, "hair optics");
 }
 
 }  // namespace hair::rendering

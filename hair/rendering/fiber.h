@@ -18,6 +18,8 @@ class HairOpticsBuffers {
 public:
     HairOpticsBuffers(const engine::Device& device, const Settings& settings);
 
+    static engine::MemoryRows rows(const ShadingSettings& shading);
+
     std::uint64_t address() const { return optics_.address(); }  // of gpu::HairOptics
 
 private:

@@ -1,6 +1,7 @@
 #include "hair/rendering/groom_buffers.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <numbers>
@@ -128,6 +129,47 @@ constexpr float kOvershoot = 1.25f;
 
 }  // namespace
 
+engine::MemoryRows GroomBuffers::rows(const Settings& settings, const groom::GroomSize& size) {
+    constexpr engine::Purpose kGroom("groom");
+    const StrandSettings& strands = settings.strands;
+    const bool from_groom = strands.source == StrandSource::groom;
+    const std::uint64_t grouped = from_groom ? size.grouped_strands : size.grouped_guides;
+    engine::MemoryRows rows(
+        kGroom,
+        {{"root triangles", engine::bytesOf<std::array<std::uint32_t, 3>>(size.root_triangles)}});
+    if (size.root_normals > 0)
+        rows.add(kGroom, {{"root normals", engine::bytesOf<glm::vec3>(size.root_normals)}});
+    if (strands.width == WidthSource::groom)
+        rows.add(kGroom, {{"guide widths", engine::bytesOf<float>(size.vertices())}});
+    if (grouped > 0) rows.add(kGroom, {{"group shades", engine::bytesOf<float>(grouped)}});
+    if (from_groom)
+        rows.add(
+            kGroom, {{"bound strands", engine::bytesOf<gpu::BoundStrand>(size.bound_strands)}});
+    // Points at one place have one residual.
+    if (from_groom && size.bound_points > 0)
+        rows.add(
+            kGroom, {{.name = "strand residuals",
+                      .size = engine::bytesOf<glm::uvec2>(size.bound_points + 1),
+                      .at_most = true},
+                     {"guide tangents at rest", engine::bytesOf<glm::vec3>(size.vertices())}});
+    if (strands.randomness == Randomness::thesis)
+        rows.add(kGroom, {{"root pattern", engine::bytesOf<glm::vec2>(strands.density)}});
+    if (hasOffsets(strands)) {
+        const GrowSettings& grow = settings.groom.grow;
+        const double length =  // m; hair in files is rarely longer
+            settings.groom.file.empty() ? double{grow.length} * (1.0 + grow.length_variation) : 1.0;
+        rows.add(
+            kGroom, {{.name = "strand offsets",
+                      .size = static_cast<std::size_t>(offsetBytes(strands, length)),
+                      .at_most = true}});
+    }
+    if (hasFrames(strands))
+        rows.add(kGroom, {{"root frames", engine::bytesOf<gpu::RootFrame>(size.guides)}});
+    if (!settings.simulation.animation.clip.empty())
+        rows.add(kGroom, {{"guides at rest", engine::bytesOf<glm::vec4>(size.vertices())}});
+    return rows;
+}
+
 GroomBuffers::GroomBuffers(
     const engine::Device& device, const groom::Groom& groom, const Settings& settings,
     const groom::StrandSet* model, const groom::DeformingMesh* deforming)
@@ -144,10 +186,11 @@ GroomBuffers::GroomBuffers(
     view_.greatest_width = settings.strands.width == WidthSource::groom
                                ? std::ranges::max(groom.widths)
                                : std::max(settings.strands.root_width, settings.strands.tip_width);
+    const engine::MemoryRows rows = GroomBuffers::rows(settings, sizeOf(groom));
     const auto upload = [&]<class Value>(
                             engine::Buffer& buffer, const std::vector<Value>& values,
                             const char* name) {
-        buffer = engine::makeBuffer(device, std::span<const Value>(values), name);
+        buffer = engine::makeBuffer(device, values, rows, name);
         return buffer.address();
     };
     view_.root_triangles = upload(root_triangles_, groom.root_triangles, "root triangles");
@@ -212,34 +255,6 @@ GroomBuffers::GroomBuffers(
         view_.radius += reach;
         view_.offset_reach += reach;
     }
-}
-
-std::uint64_t groomBufferBytes(const Settings& settings, const groom::GroomSize& size) {
-    const StrandSettings& strands = settings.strands;
-    std::uint64_t bytes = size.root_triangles * 3 * sizeof(std::uint32_t);
-    bytes += size.guides * sizeof(glm::vec3);  // normals
-    // Groups, if the file has them.
-    if (!settings.groom.file.empty())
-        bytes += (strands.source == StrandSource::groom ? size.bound_strands : size.guides) *
-                 sizeof(float);
-    if (strands.width == WidthSource::groom) bytes += size.vertices() * sizeof(float);
-    if (strands.source == StrandSource::groom) {
-        bytes += size.bound_strands * sizeof(gpu::BoundStrand);
-        bytes += (size.bound_points + 1) * sizeof(glm::uvec2);  // residuals
-        bytes += size.vertices() * (sizeof(glm::vec3) + sizeof(glm::vec4));  // tangents, turns
-    }
-    if (strands.randomness == Randomness::thesis) bytes += strands.density * sizeof(glm::vec2);
-    if (hasOffsets(strands)) {
-        const GrowSettings& grow = settings.groom.grow;
-        const double length =  // m; hair in files is rarely longer
-            settings.groom.file.empty() ? double{grow.length} * (1.0 + grow.length_variation) : 1.0;
-        bytes += offsetBytes(strands, length);
-    }
-    if (hasFrames(strands)) {
-        bytes += size.guides * sizeof(gpu::RootFrame) + size.vertices() * sizeof(glm::vec3);
-    }
-    if (!settings.simulation.animation.clip.empty()) bytes += size.vertices() * sizeof(glm::vec4);
-    return bytes;
 }
 
 void checkStrands(const StrandSettings& settings, const groom::Groom& groom) {

@@ -22,6 +22,9 @@ public:
         const engine::Device& device, const groom::Groom& groom, const Settings& settings,
         const groom::StrandSet* model, const groom::DeformingMesh* deforming = nullptr);
 
+    // If the groom is not known, its offsets are estimated.
+    static engine::MemoryRows rows(const Settings& settings, const groom::GroomSize& size);
+
     // Lacks the guides' address and the head's motion.
     const StrandView& view() const { return view_; }
 
@@ -39,9 +42,6 @@ private:
     engine::Buffer rest_guides_;
     StrandView view_;
 };
-
-// Upper bound of the bytes that GroomBuffers of a groom and a FramesPass for it take.
-std::uint64_t groomBufferBytes(const Settings& settings, const groom::GroomSize& size);
 
 // Checks that the groom has the data that the settings need. Throws engine::Error "<JSON pointer>:
 // <reason>".

@@ -56,23 +56,33 @@ gpu::CarriedRoot carriedRoot(const groom::SurfaceBinding& binding, const glm::ve
 
 }  // namespace
 
+engine::MemoryRows
+SkinnedHead::rows(std::uint64_t vertices, std::uint64_t strands, const RenderSettings& render) {
+    constexpr std::uint32_t kSlots = engine::FrameLoop::kMaxSlots;
+    const std::size_t bytes = engine::bytesOf<glm::vec3>(vertices);
+    engine::MemoryRows rows(
+        "meshes", {{"deformed mesh positions", bytes, kSlots, engine::Usage::upload},
+                   {"deformed mesh normals", bytes, kSlots, engine::Usage::upload}});
+    rows.add("groom", {{"root corrections", engine::bytesOf<glm::vec4>(strands)}});
+    if (strands > 0 && render.hair)
+        rows.add(
+            "groom", {{"root triangles of strands", engine::bytesOf<gpu::CarriedRoot>(strands)}});
+    return rows;
+}
+
 SkinnedHead::SkinnedHead(
     const engine::Device& device, const Settings& settings, const StrandPlan& plan,
     const StrandView& view)
     : strand_count_(plan.triangles * plan.density),
       pipeline_(device, skinStage(settings.strands, plan)) {
-    const std::size_t bytes = view.deforming->restPositions().size() * sizeof(glm::vec3);
+    const engine::MemoryRows rows =
+        SkinnedHead::rows(view.deforming->restPositions().size(), strand_count_, settings.render);
     for (std::uint32_t slot = 0; slot < engine::FrameLoop::kMaxSlots; ++slot) {
-        positions_[slot] = {
-            device,
-            {.size = bytes, .usage = engine::Usage::upload, .name = "mesh positions, deformed"}};
-        normals_[slot] = {
-            device,
-            {.size = bytes, .usage = engine::Usage::upload, .name = "mesh normals, deformed"}};
+        positions_[slot] = {device, rows["deformed mesh positions"]};
+        normals_[slot] = {device, rows["deformed mesh normals"]};
         write(slot, view);
     }
-    const std::size_t strands = std::max(strand_count_, 1u);
-    corrections_ = {device, {.size = strands * sizeof(glm::vec4), .name = "root corrections"}};
+    corrections_ = {device, rows["root corrections"]};
     if (strand_count_ == 0 || !settings.render.hair) return;
 
     const StrandView rest = atRest(view);
@@ -81,7 +91,8 @@ SkinnedHead::SkinnedHead(
     const engine::Buffer parameters(
         device, {.size = sizeof(gpu::PictureParameters),
                  .usage = engine::Usage::upload,
-                 .name = "picture parameters"});
+                 .name = "picture parameters",
+                 .purpose = "shading"});
     parameters.write(pictureParameters(
         settings, plan, rest,
         {.guide_normals = frames ? frames->normals().address() : 0,
@@ -93,13 +104,10 @@ SkinnedHead::SkinnedHead(
                 {{frames->normals().address(), Access::compute_read},
                  {frames->turns().address(), Access::compute_read}});
         }
-        commands.uses({{corrections_, Access::compute_write}});
         commands.bind(
             pipeline_, gpu::SkinPush{
                            .picture = parameters.address(),
-                           .roots = 0,
-                           .mesh = 0,
-                           .found = corrections_.address(),
+                           .found = commands.writes(corrections_),
                            .count = strand_count_});
         commands.dispatchInvocations(strand_count_, gpu::kSkinGroupSize);
     });
@@ -111,8 +119,7 @@ SkinnedHead::SkinnedHead(
     roots.reserve(found.size());
     for (std::size_t i = 0; i < found.size(); ++i)
         roots.push_back(carriedRoot(bindings[i], found[i]));
-    roots_ = engine::makeBuffer(
-        device, std::span<const gpu::CarriedRoot>(roots), "root triangles of strands");
+    roots_ = engine::makeBuffer(device, roots, rows, "root triangles of strands");
 }
 
 void SkinnedHead::write(std::uint32_t slot, const StrandView& view) {
@@ -135,14 +142,13 @@ void SkinnedHead::record(
         {{parameters.guides, Access::compute_read},
          {parameters.contacts, Access::compute_read},
          {parameters.guide_normals, Access::compute_read},
-         {parameters.guide_turns, Access::compute_read},
-         {corrections_, Access::compute_write}});
+         {parameters.guide_turns, Access::compute_read}});
     commands.bind(
         pipeline_, gpu::SkinPush{
                        .picture = picture,
                        .roots = roots_.address(),
                        .mesh = positions_[slot].address(),
-                       .found = corrections_.address(),
+                       .found = commands.writes(corrections_),
                        .count = strand_count_});
     commands.dispatchInvocations(strand_count_, gpu::kSkinGroupSize);
 }
@@ -150,8 +156,6 @@ void SkinnedHead::record(
 // ---- Points of strands --------------------------------------------------------------------------
 
 namespace {
-
-using engine::Access;
 
 static_assert(sizeof(gpu::HairBounds) == 16);
 static_assert(sizeof(gpu::PointsPush) == 56 && offsetof(gpu::PointsPush, width) == 32);
@@ -175,13 +179,6 @@ std::size_t pointsPerStrand(const StrandSettings& strands, const StrandPlan& pla
 bool readsTexels(const engine::Device& device, std::size_t bytes) {
     return device.info().type == "cpu" &&
            bytes / kPointBytes <= device.info().limits.maxTexelBufferElements;
-}
-
-engine::Buffer
-pointsBuffer(const engine::Device& device, std::size_t bytes, const std::string& name) {
-    return {
-        device,
-        {.size = std::max(bytes, kPointBytes), .usage = engine::Usage::storage, .name = name}};
 }
 
 // A piece takes one iteration for its point, and some more where a segment begins.
@@ -215,17 +212,21 @@ void checkPoints(const StrandPlan& plan) {
             "/strands/backend", "up to " + std::to_string(points) + " points are too many");
 }
 
-std::uint64_t pointsBytes(const StrandSettings& strands, const StrandPlan& plan) {
-    return kPointBytes * plan.strands() * pointsPerStrand(strands, plan);
+engine::MemoryRows PointsPass::rows(const StrandSettings& strands, const StrandPlan& plan) {
+    const auto atLeastOne = [](std::uint64_t bytes) {
+        return std::max(static_cast<std::size_t>(bytes), kPointBytes);
+    };
+    return {
+        "strands",
+        {{"strands' points",
+          atLeastOne(kPointBytes * plan.strands() * pointsPerStrand(strands, plan))},
+         {"strands' pieces", atLeastOne(sizeof(std::uint32_t) * plan.strands())},
+         {"strands' bounds", sizeof(gpu::HairBounds)}}};
 }
 
 PointsPass::PointsPass(
     const engine::Device& device, const Settings& settings, const StrandPlan& plan, bool culls)
     : push_{
-          .picture = 0,
-          .points = 0,
-          .pieces = 0,
-          .bounds = 0,
           .width = settings.render.width * settings.render.ssaa,
           .height = settings.render.height * settings.render.ssaa,
           .strands = countStrands(plan),
@@ -235,15 +236,13 @@ PointsPass::PointsPass(
       blocks_(
           plan.triangles *
           divideUp(plan.forced_density, evaluatedBlock(device, settings.strands, plan))),
-      points_(pointsBuffer(device, pointsBytes(settings.strands, plan), "strands' points")),
-      pieces_(pointsBuffer(device, sizeof(std::uint32_t) * push_.strands, "strands' pieces")),
-      bounds_(pointsBuffer(device, sizeof(gpu::HairBounds), "strands' bounds")),
       evaluate_(device, evaluateStage(device, settings, plan)) {
+    const engine::MemoryRows rows = PointsPass::rows(settings.strands, plan);
+    points_ = {device, rows["strands' points"]};
+    pieces_ = {device, rows["strands' pieces"]};
+    bounds_ = {device, rows["strands' bounds"]};
     if (readsTexels(device, points_.size()))
         texels_.emplace(device, points_, VK_FORMAT_R32G32B32A32_UINT);
-    push_.points = points_.address();
-    push_.pieces = pieces_.address();
-    push_.bounds = bounds_.address();
 }
 
 void PointsPass::record(
@@ -252,15 +251,10 @@ void PointsPass::record(
     commands.fill(bounds_, 0);
     gpu::PointsPush push = push_;
     push.picture = picture;
-    commands.uses(
-        {{parameters.guides, Access::compute_read},
-         {parameters.contacts, Access::compute_read},
-         {parameters.guide_normals, Access::compute_read},
-         {parameters.guide_turns, Access::compute_read},
-         {parameters.root_corrections, Access::compute_read},
-         {points_, Access::compute_write},
-         {pieces_, Access::compute_write},
-         {bounds_, Access::compute_write}});
+    push.points = commands.writes(points_);
+    push.pieces = commands.writes(pieces_);
+    push.bounds = commands.writes(bounds_);
+    declareStrands(commands, parameters, engine::Access::compute_read);
     commands.bind(evaluate_, push);
     commands.dispatchInvocations(blocks_, gpu::kPointsGroup);
 }

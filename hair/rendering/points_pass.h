@@ -30,6 +30,10 @@ public:
         const engine::Device& device, const Settings& settings, const StrandPlan& plan,
         const StrandView& view);
 
+    // `vertices`: of the mesh.
+    static engine::MemoryRows
+    rows(std::uint64_t vertices, std::uint64_t strands, const RenderSettings& render);
+
     // Writes the mesh at the view's time. No frame in flight may read the slot.
     void write(std::uint32_t slot, const StrandView& view);
 
@@ -69,9 +73,6 @@ private:
 // Throws engine::Unsupported for more points than shaders can number.
 void checkPoints(const StrandPlan& plan);
 
-// Returns the bytes that the points of all drawn strands take.
-std::uint64_t pointsBytes(const StrandSettings& strands, const StrandPlan& plan);
-
 // Evaluates each point of all drawn strands once a frame, for the camera's picture and the shadow
 // maps. All of them use the camera's levels of detail. 16 bytes a point.
 class PointsPass {
@@ -80,6 +81,8 @@ public:
     // shadow map needs them. Throws as checkPoints() does.
     PointsPass(
         const engine::Device& device, const Settings& settings, const StrandPlan& plan, bool culls);
+
+    static engine::MemoryRows rows(const StrandSettings& strands, const StrandPlan& plan);
 
     // `picture` is the device address of `parameters`, which are the camera's.
     void record(
@@ -96,7 +99,7 @@ public:
     std::uint64_t bytes() const { return points_.size() + pieces_.size(); }
 
 private:
-    gpu::PointsPush push_;  // all except the picture's address
+    gpu::PointsPush push_;  // all except addresses
     std::uint32_t blocks_;  // blocks of strands; one per invocation
     engine::Buffer points_;
     std::optional<engine::TexelView> texels_;

@@ -183,7 +183,7 @@ OverlayPass::OverlayPass(
         description.depth_compare = VK_COMPARE_OP_ALWAYS;
         description.depth_write = false;
         bodies_.emplace(
-            engine::makeBuffer(device, std::span<const gpu::BodyLine>(wires), "body lines"),
+            engine::makeBuffer(device, wires, "body lines", "meshes"),
             static_cast<std::uint32_t>(wires.size()),
             engine::GraphicsPipeline(device, description));
     }
@@ -217,12 +217,15 @@ namespace {
 
 using Last = engine::Target::Last;
 
-engine::Buffer parameterBuffer(const engine::Device& device) {
+engine::MemoryRows pictureRows() {
     return {
-        device,
-        {.size = sizeof(gpu::PictureParameters),
-         .usage = engine::Usage::upload,
-         .name = "picture parameters"}};
+        "shading",
+        {{"picture parameters", sizeof(gpu::PictureParameters), engine::FrameLoop::kMaxSlots,
+          engine::Usage::upload}}};
+}
+
+engine::Buffer parameterBuffer(const engine::Device& device) {
+    return {device, pictureRows()["picture parameters"]};
 }
 
 Settings withBackend(Settings settings, Backend backend) {
@@ -271,27 +274,35 @@ strandImages(const StrandTexture& texture, const ShadowPass& shadows) {
 
 }  // namespace
 
-std::uint64_t rendererBytes(const Settings& settings, const StrandPlan& plan) {
-    constexpr std::uint64_t kWholeBlock = 8;  // most strands per invocation
-    std::uint64_t bytes = targetBytes(rendered(settings)) + shadowMapBytes(settings);
-    if (!settings.render.hair) return bytes;
-    bytes += transparencyBytes(settings.render);
-    const std::uint64_t strands = plan.strands();
-    const Backend backend = settings.strands.backend;
-    if (readsPoints(settings))
-        bytes += pointsBytes(settings.strands, plan) + sizeof(std::uint32_t) * strands;
-    if (backend == Backend::software)
-        bytes += softwareSizes(
-                     rendered(settings), (strands + kWholeBlock) * plan.segments *
-                                             std::uint64_t{plan.forced_tessellation})
-                     .sum();
-    // Lists of strands: one for the camera's picture, and two for depth and opacity in shadow maps.
-    const std::uint64_t lists = (backend == Backend::expanded ? 1 : 0) +
-                                (hasHairMaps(settings) && readsPoints(settings) ? 2 : 0);
-    bytes += lists * sizeof(std::uint32_t) * strands;
-    if (!settings.simulation.animation.clip.empty())
-        bytes += strands * (sizeof(glm::vec4) + sizeof(gpu::CarriedRoot));
-    return bytes;
+engine::MemoryRows Renderer::rows(
+    const engine::Device& device, const Settings& settings, const StrandPlan& plan,
+    const groom::GroomSize& size) {
+    Settings lit = settings;
+    // The environment adds lights for hair. Each of them also has a map of the meshes.
+    if (!settings.render.environment.empty())
+        lit.shading.lights.resize(
+            settings.shading.lights.size() + settings.shading.environment_lights,
+            LightSettings{.type = LightType::directional});
+    engine::MemoryRows rows = pictureRows();
+    rows.add("shading", {{"lights", engine::bytesOf<gpu::Light>(lit.shading.lights.size())}});
+    rows.add(targetRows(rendered(settings)));
+    rows.add(HairOpticsBuffers::rows(settings.shading));
+    rows.add(ShadowPass::rows(lit, plan));
+    if (!settings.render.environment.empty()) rows.add(EnvironmentPass::rows());
+    if (settings.strands.texture.empty())
+        rows.add("textures", {{"strand texture", sizeof(std::uint32_t)}});
+    rows.add("textures", {{"no texture", sizeof(std::uint32_t)}});
+    if (!settings.render.hair) return rows;
+    const bool has_residuals =
+        settings.strands.source == StrandSource::groom && size.bound_points > 0;
+    rows.add(FramesPass::rows(size.vertices(), hasFrames(settings.strands), has_residuals));
+    if (readsPoints(settings)) rows.add(PointsPass::rows(settings.strands, plan));
+    rows.add(transparencyRows(settings.render));
+    rows.add(backendRows(device, settings, plan, QuadKind::camera));
+    if (hasHairMaps(lit) && plan.strands() > 0)
+        for (int i = 0; i < 2; ++i)  // depth and opacity
+            rows.add(backendRows(device, settings, plan, QuadKind::light));
+    return rows;
 }
 
 Renderer::Renderer(
@@ -301,8 +312,7 @@ Renderer::Renderer(
       backend_(chooseBackend(device, settings, plan_, stages)),
       settings_(litByEnvironment(withBackend(settings, backend_.backend), assets)),
       target_(device, rendered(settings_)),
-      lights_(
-          engine::makeBuffer(device, std::span<const gpu::Light>(makeLights(settings_)), "lights")),
+      lights_(engine::makeBuffer(device, makeLights(settings_), "lights", "shading")),
       optics_(device, settings_), points_(makePoints(device, settings_, plan_)),
       shadows_(device, settings_, plan_, assets, pointerTo(points_)),
       environment_(device, settings_, assets),
@@ -464,12 +474,10 @@ StrandPoints evaluateStrandPoints(
                  .constants = strandConstants(settings.strands, result.plan),
                  .extensions = strandExtensions(settings.strands),
                  .push_size = sizeof(gpu::StrandPointsPush)});
-    const engine::Buffer parameters(
-        device, {.size = sizeof(gpu::PictureParameters),
-                 .usage = engine::Usage::upload,
-                 .name = "picture parameters"});
+    const engine::Buffer parameters = parameterBuffer(device);
     const std::uint32_t size = std::min(count, most_at_once);
-    const engine::Buffer records(device, {.size = size * sizeof(Record), .name = "strand points"});
+    const engine::Buffer records(
+        device, {.size = size * sizeof(Record), .name = "strand points", .purpose = "measuring"});
     std::optional<FramesPass> frames;
     if (FramesPass::isNeeded(view)) frames.emplace(device, view);
     std::optional<SkinnedHead> skin;
@@ -490,17 +498,11 @@ StrandPoints evaluateStrandPoints(
             if (skin && first == 0) {
                 skin->record(commands, parameters.address(), picture, 0);
             }
-            commands.uses(
-                {{view.guides, engine::Access::compute_read},
-                 {view.contacts, engine::Access::compute_read},
-                 {frames ? frames->normals().address() : 0, engine::Access::compute_read},
-                 {frames ? frames->turns().address() : 0, engine::Access::compute_read},
-                 {picture.root_corrections, engine::Access::compute_read},
-                 {records, engine::Access::compute_write}});
+            declareStrands(commands, picture, engine::Access::compute_read);
             commands.bind(
                 pipeline, gpu::StrandPointsPush{
                               .picture = parameters.address(),
-                              .records = records.address(),
+                              .records = commands.writes(records),
                               .count = part,
                               .first = first});
             commands.dispatchInvocations(part, gpu::kStrandPointsGroupSize);

@@ -12,6 +12,7 @@
 #include "engine/pipeline.h"
 #include "engine/target.h"
 #include "hair/gpu_structs.h"
+#include "hair/groom/groom_size.h"
 #include "hair/groom/mesh/mesh.h"
 #include "hair/rendering/backends.h"
 #include "hair/rendering/environment.h"
@@ -84,10 +85,6 @@ private:
     std::optional<BodyWires> bodies_;
 };
 
-// Bytes of device memory that a Renderer's images and strands take, without its assets. The
-// settings must name the back end that draws them.
-std::uint64_t rendererBytes(const Settings& settings, const StrandPlan& plan);
-
 // Draws pictures of a head of hair, in these passes: frames (if strands have offsets or residuals),
 // skin (if the mesh under the hair deforms), points (if a back end draws from them), mesh_shadow
 // and hair_shadow (if asked for), scene, strands, composite (if fragments are blended at the end),
@@ -100,6 +97,13 @@ public:
     Renderer(
         const engine::Device& device, const Settings& settings, const StrandView& view,
         const RenderAssets& assets, const StrandStages& stages = {});
+    // The memory of pictures of a groom of this size, without files of meshes, textures and light.
+    // The settings must name the back end that draws them. A light that stands for a part of the
+    // environment may be missing.
+    static engine::MemoryRows rows(
+        const engine::Device& device, const Settings& settings, const StrandPlan& plan,
+        const groom::GroomSize& size);
+
     Renderer(const Renderer&) = delete;  // its parts point at one another
     Renderer& operator=(const Renderer&) = delete;
 

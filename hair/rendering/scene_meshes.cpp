@@ -114,13 +114,25 @@ groom::Mesh placed(groom::Mesh mesh, const MeshSettings& settings) {
     return mesh;
 }
 
-MeshGeometry::MeshGeometry(const engine::Device& device, const groom::Mesh& mesh)
-    : positions(engine::makeBuffer(device, std::span(mesh.positions), "mesh positions")),
-      normals(engine::makeBuffer(device, std::span(mesh.normals), "mesh normals")),
-      texture_coordinates(engine::makeBuffer(
-          device, std::span(mesh.texture_coordinates), "mesh texture coordinates")),
-      indices(engine::makeBuffer(
-          device, std::span<const std::uint32_t>(sortedIndices(mesh)), "mesh indices")) {
+engine::MemoryRows MeshGeometry::rows(const groom::Mesh& mesh) {
+    const std::size_t positions = engine::bytesOf<glm::vec3>(mesh.positions.size());
+    return {
+        "meshes",
+        {{"mesh positions", positions},
+         {"mesh normals", positions},
+         {"mesh texture coordinates", engine::bytesOf<glm::vec2>(mesh.texture_coordinates.size())},
+         {"mesh indices", engine::bytesOf<std::uint32_t>(3 * mesh.triangles.size())}}};
+}
+
+MeshGeometry::MeshGeometry(const engine::Device& device, const groom::Mesh& mesh) {
+    const engine::MemoryRows rows = MeshGeometry::rows(mesh);
+    const auto upload = [&]<class Value>(const std::vector<Value>& values, const char* name) {
+        return engine::makeBuffer(device, values, rows, name);
+    };
+    positions = upload(mesh.positions, "mesh positions");
+    normals = upload(mesh.normals, "mesh normals");
+    texture_coordinates = upload(mesh.texture_coordinates, "mesh texture coordinates");
+    indices = upload(sortedIndices(mesh), "mesh indices");
     std::uint32_t first = 0;
     for (std::uint32_t material = 0; material < mesh.materials.size(); ++material) {
         const auto triangles =
@@ -130,16 +142,17 @@ MeshGeometry::MeshGeometry(const engine::Device& device, const groom::Mesh& mesh
     }
 }
 
-std::uint64_t meshBytes(const groom::Mesh& mesh) {
-    std::uint64_t bytes = mesh.positions.size() * 2 * sizeof(glm::vec3) +  // normals, too
-                          mesh.texture_coordinates.size() * sizeof(glm::vec2) +
-                          mesh.triangles.size() * sizeof(mesh.triangles[0]);
-    for (const engine::Pixels& picture : mesh.pictures)
-        bytes += picture.rgba.size() + picture.rgba.size() / 3;  // mip levels
-    return bytes;
-}
-
 // ---- Materials ----------------------------------------------------------------------------------
+
+engine::MemoryRows MeshMaterials::rows(const groom::Mesh& mesh) {
+    engine::MemoryRows rows;
+    for (const engine::Pixels& picture : mesh.pictures)
+        rows.add(
+            "textures", {{.name = "mesh texture",
+                          .size = picture.rgba.size() + picture.rgba.size() / 3,  // mip levels
+                          .at_most = true}});
+    return rows;
+}
 
 MeshMaterials::MeshMaterials(
     const engine::Device& device, const RenderSettings& settings, const groom::Mesh& mesh,

@@ -36,15 +36,14 @@ struct MeshGeometry {
 
     MeshGeometry(const engine::Device& device, const groom::Mesh& mesh);
 
+    static engine::MemoryRows rows(const groom::Mesh& mesh);
+
     engine::Buffer positions;  // vec3
     engine::Buffer normals;  // vec3
     engine::Buffer texture_coordinates;  // vec2; empty if the mesh has none
     engine::Buffer indices;
     std::vector<Part> parts;
 };
-
-// Bytes of a mesh's triangles and pictures on the device.
-std::uint64_t meshBytes(const groom::Mesh& mesh);
 
 // Number of a material's images that mesh shaders sample, at the first bindings: base colour,
 // metallic and roughness, normals.
@@ -81,6 +80,9 @@ public:
     MeshMaterials(
         const engine::Device& device, const RenderSettings& settings, const groom::Mesh& mesh,
         const engine::SampledImage& blank);
+
+    // At most: pictures that no material uses are left out.
+    static engine::MemoryRows rows(const groom::Mesh& mesh);
 
     // The materials in the mesh's order.
     std::span<const MeshMaterial> materials() const { return materials_; }

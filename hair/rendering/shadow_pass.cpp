@@ -190,11 +190,6 @@ checkedAtlas(const engine::Device& device, std::uint32_t parts, std::uint32_t re
     return atlas;
 }
 
-engine::Buffer
-uploadBuffer(const engine::Device& device, std::size_t size, const std::string& name) {
-    return {device, {.size = size, .usage = engine::Usage::upload, .name = name}};
-}
-
 engine::ImageDescription atlasImage(
     const ShadowAtlas* atlas, VkFormat format, VkImageUsageFlags usage, const std::string& name) {
     const VkExtent2D extent = atlas ? atlas->extent() : VkExtent2D{1, 1};
@@ -203,7 +198,8 @@ engine::ImageDescription atlasImage(
         .width = extent.width,
         .height = extent.height,
         .usage = usage | VK_IMAGE_USAGE_SAMPLED_BIT,
-        .name = name};
+        .name = name,
+        .purpose = "shadows"};
 }
 
 // `atlas` is null if there are no such maps.
@@ -341,25 +337,6 @@ bool hasHairMaps(const Settings& settings) {
            !mapsOfLights(settings).empty();
 }
 
-std::uint64_t shadowMapBytes(const Settings& settings) {
-    Settings lit = settings;
-    // The environment adds lights for hair. Each of them also has a map of the meshes.
-    if (!settings.render.environment.empty())
-        lit.shading.lights.resize(
-            settings.shading.lights.size() + settings.shading.environment_lights,
-            LightSettings{.type = LightType::directional});
-    const std::vector<MapOfLight> maps = mapsOfLights(lit);
-    if (maps.empty()) return 0;
-    const ShadowAtlas atlas{
-        static_cast<std::uint32_t>(maps.size()), settings.shading.shadows.resolution};
-    std::uint64_t bytes = 0;
-    if (settings.shading.shadows.meshes) bytes += engine::imageBytes(depthOfMeshes(&atlas));
-    if (hasHairMaps(lit))
-        bytes +=
-            engine::imageBytes(depthOfHair(&atlas)) + engine::imageBytes(opacityOfHair(&atlas));
-    return bytes;
-}
-
 void checkAtlas(const engine::Device& device, const ShadowAtlas& atlas) {
     const VkPhysicalDeviceLimits& limits = device.info().limits;
     const std::uint32_t most = std::min(
@@ -376,6 +353,23 @@ void checkAtlas(const engine::Device& device, const ShadowAtlas& atlas) {
 
 // ---- The pass -----------------------------------------------------------------------------------
 
+engine::MemoryRows ShadowPass::rows(const Settings& settings, const StrandPlan& plan) {
+    constexpr std::uint32_t kSlots = engine::FrameLoop::kMaxSlots;
+    constexpr engine::Usage kUpload = engine::Usage::upload;
+    const std::size_t maps = mapsOfLights(settings).size();
+    const ShadowAtlas atlas{static_cast<std::uint32_t>(maps), settings.shading.shadows.resolution};
+    const bool has_meshes = settings.shading.shadows.meshes && maps > 0;
+    const bool has_hair = hasHairMaps(settings) && plan.strands() > 0;
+    engine::MemoryRows rows(
+        "shadows",
+        {{"shadow parameters", sizeof(gpu::ShadowParameters), kSlots, kUpload},
+         {"lights' pictures", std::max<std::size_t>(maps, 1) * kPictureStride, kSlots, kUpload}});
+    rows.add(depthOfMeshes(has_meshes ? &atlas : nullptr));
+    rows.add(depthOfHair(has_hair ? &atlas : nullptr));
+    rows.add(opacityOfHair(has_hair ? &atlas : nullptr));
+    return rows;
+}
+
 ShadowPass::ShadowPass(
     const engine::Device& device, const Settings& settings, const StrandPlan& plan,
     const RenderAssets& assets, const PointsPass* points)
@@ -390,13 +384,12 @@ ShadowPass::ShadowPass(
       sampler_(device, {.filter = VK_FILTER_NEAREST}),
       images_{{&mesh_depths_, &sampler_}, {&hair_depths_, &sampler_}, {&hair_layers_, &sampler_}},
       mesh_color_(meanColor(settings, assets)), written_(maps_.size() * kPictureStride) {
+    const engine::MemoryRows rows = ShadowPass::rows(settings, plan);
     light_pictures_.reserve(maps_.size());
     for (std::uint32_t slot = 0; slot < engine::FrameLoop::kMaxSlots; ++slot) {
-        parameters_[slot] =
-            uploadBuffer(device, sizeof(gpu::ShadowParameters), "shadow parameters");
+        parameters_[slot] = {device, rows["shadow parameters"]};
         parameters_[slot].write(gpu::ShadowParameters{});
-        pictures_[slot] = uploadBuffer(
-            device, std::max<std::size_t>(maps_.size(), 1) * kPictureStride, "lights' pictures");
+        pictures_[slot] = {device, rows["lights' pictures"]};
     }
     runOnce(device, [&](engine::Commands& commands) {
         for (const engine::SampledImage& sampled : images_)

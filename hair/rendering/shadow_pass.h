@@ -80,9 +80,6 @@ lightSample(const LightSettings& light, const glm::vec3& receiver, std::uint32_t
 // Whether there are shadow maps of hair.
 bool hasHairMaps(const Settings& settings);
 
-// Returns the bytes of all shadow maps, including those of an environment's lights.
-std::uint64_t shadowMapBytes(const Settings& settings);
-
 // Throws engine::Unsupported if the device has no images of this size.
 void checkAtlas(const engine::Device& device, const ShadowAtlas& atlas);
 
@@ -98,6 +95,9 @@ public:
     ShadowPass(
         const engine::Device& device, const Settings& settings, const StrandPlan& plan,
         const RenderAssets& assets, const PointsPass* points = nullptr);
+
+    // Without those of the back ends that draw hair. `settings` have the lights of an environment.
+    static engine::MemoryRows rows(const Settings& settings, const StrandPlan& plan);
 
     // Records the passes "mesh_shadow" and "hair_shadow", if asked for. `picture` is the camera's:
     // levels of detail are those of its lod_eye.

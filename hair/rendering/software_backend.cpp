@@ -7,6 +7,7 @@
 
 #include "engine/error.h"
 #include "engine/target.h"
+#include "hair/rendering/render_assets.h"
 
 namespace hair::rendering {
 namespace {
@@ -35,23 +36,15 @@ std::size_t sampleCount(const engine::TargetDescription& target) {
     return std::size_t{target.width} * target.ssaa * target.height * target.ssaa * target.msaa;
 }
 
-engine::Buffer
-softwareBuffer(const engine::Device& device, std::size_t bytes, const std::string& name) {
-    return {
-        device,
-        {.size = std::max(bytes, kSampleBytes),
-         .usage = engine::Usage::storage,
-         .name = "software " + name}};
-}
-
 // With 64-bit integers and atomics, one pass over the pieces is enough; otherwise it takes two.
 bool isPacked(const engine::Device& device) {
     return readsPairs(device) && device.has(engine::Feature::long_atomics);
 }
 
 // A piece takes an iteration to test it, and more to list it.
-std::uint32_t culledBlock(const BackendContext& context) {
-    return strandBlock(context.device, context.strands, context.plan, 3);
+std::uint32_t
+culledBlock(const engine::Device& device, const StrandSettings& strands, const StrandPlan& plan) {
+    return strandBlock(device, strands, plan, 3);
 }
 
 // Each invocation reads once what all pixels share. On a processor, a work group has as many
@@ -140,40 +133,44 @@ engine::GraphicsDescription blitStage(const BackendContext& context) {
 
 }  // namespace
 
-SoftwareSizes softwareSizes(const engine::TargetDescription& target, std::uint64_t pieces) {
+namespace {
+
+engine::MemoryRows softwareRows(
+    const engine::Device& device, const engine::TargetDescription& target,
+    const StrandSettings& strands, const StrandPlan& plan) {
     const std::size_t samples = kSampleBytes * sampleCount(target);
     const std::size_t tiles = std::size_t{divideUp(target.width * target.ssaa, gpu::kTile)} *
                               divideUp(target.height * target.ssaa, gpu::kTile);
-    return {
-        .visibility = samples,
-        .colors = target.color_format == engine::Target::kOutputFormat ? 0 : samples,
-        .list = sizeof(std::uint32_t) * pieces,
-        .large = sizeof(std::uint32_t) * gpu::kMostLargePieces,
-        .tile_depths = sizeof(std::uint32_t) * tiles,
-        .pyramid = kSampleBytes * tiles};
+    const std::uint64_t block = culledBlock(device, strands, plan);
+    const std::uint64_t whole = (plan.strands() + block - 1) / block * block;  // strands of blocks
+    engine::MemoryRows rows(
+        "strands",
+        {{"software visibility buffer", samples},
+         {"software counts", sizeof(gpu::PieceCounts)},
+         {"software list",
+          engine::bytesOf<std::uint32_t>(whole * plan.segments * plan.forced_tessellation)},
+         {"software large pieces", engine::bytesOf<std::uint32_t>(gpu::kMostLargePieces)},
+         {"software depths of tiles", engine::bytesOf<std::uint32_t>(tiles)},
+         {"software depth pyramid", kSampleBytes * tiles}});
+    if (target.color_format != engine::Target::kOutputFormat)
+        rows.add("strands", {{"software colors", samples}});
+    return rows;
+}
+
+}  // namespace
+
+engine::MemoryRows SoftwareBackend::rows(
+    const engine::Device& device, const Settings& settings, const StrandPlan& plan) {
+    return softwareRows(device, targetDescription(settings.render), settings.strands, plan);
 }
 
 SoftwareBackend::SoftwareBackend(const BackendContext& context)
-    : SoftwareBackend(
-          context,
-          softwareSizes(
-              context.target->description(),
-              std::uint64_t{divideUp(context.points->strandCount(), culledBlock(context))} *
-                  culledBlock(context) * context.plan.segments *
-                  context.plan.forced_tessellation)) {}
-
-SoftwareBackend::SoftwareBackend(const BackendContext& context, const SoftwareSizes& sizes)
     : target_(*context.target), points_(*context.points),
       samples_per_pixel_(checkedSamples(context.device, context.output.samples)),
-      block_(culledBlock(context)), blocks_(divideUp(points_.strandCount(), block_)),
+      block_(culledBlock(context.device, context.strands, context.plan)),
+      blocks_(divideUp(points_.strandCount(), block_)),
       pieces_per_strand_(context.plan.segments * context.plan.forced_tessellation),
       is_packed_(isPacked(context.device)), texels_(texelsOf(context)),
-      visibility_(softwareBuffer(context.device, sizes.visibility, "visibility buffer")),
-      counts_(softwareBuffer(context.device, sizeof(gpu::PieceCounts), "counts")),
-      list_(softwareBuffer(context.device, sizes.list, "list")),
-      large_(softwareBuffer(context.device, sizes.large, "large pieces")),
-      tile_depths_(softwareBuffer(context.device, sizes.tile_depths, "depths of tiles")),
-      pyramid_(softwareBuffer(context.device, sizes.pyramid, "depth pyramid")),
       clear_(context.device, clearStage(context)),
       reduce_tiles_(context.device, texelStage(context, "tiles.comp", 1)),
       build_pyramid_(context.device, texelStage(context, "pyramid.comp", 1)),
@@ -185,7 +182,15 @@ SoftwareBackend::SoftwareBackend(const BackendContext& context, const SoftwareSi
               ? divideUp(target_.color().extent().width, pixelGroup(context.device))
               : 1),
       shade_(context.device, shadeStage(context)), blit_(context.device, blitStage(context)) {
-    if (sizes.colors > 0) colors_ = softwareBuffer(context.device, sizes.colors, "colors");
+    const engine::MemoryRows rows =
+        softwareRows(context.device, target_.description(), context.strands, context.plan);
+    visibility_ = {context.device, rows["software visibility buffer"]};
+    if (target_.hasRadiance()) colors_ = {context.device, rows["software colors"]};
+    counts_ = {context.device, rows["software counts"]};
+    list_ = {context.device, rows["software list"]};
+    large_ = {context.device, rows["software large pieces"]};
+    tile_depths_ = {context.device, rows["software depths of tiles"]};
+    pyramid_ = {context.device, rows["software depth pyramid"]};
     if (!texels_) return;
     visibility_texels_ = {context.device, visibility_, VK_FORMAT_R32G32_UINT};
     tile_texels_ = {context.device, tile_depths_, VK_FORMAT_R32_UINT};
@@ -207,30 +212,17 @@ gpu::SoftwarePush SoftwareBackend::push(const StrandPicture& picture) const {
     const VkExtent2D extent = target_.color().extent();
     return {
         .picture = picture.address,
-        .points = 0,
-        .pieces = 0,
-        .visibility = 0,
-        .colors = 0,
-        .bounds = 0,
-        .counts = 0,
-        .list = 0,
-        .large = 0,
-        .tile_depths = 0,
-        .pyramid = 0,
         .width = extent.width,
         .height = extent.height,
         .strands = points_.strandCount(),
-        .choice = 0,
-        .part = gpu::kFirstPart,
-        .list_begin = 0};
+        .part = gpu::kFirstPart};
 }
 
 void SoftwareBackend::clear(engine::Commands& commands, const StrandPicture& picture) const {
     gpu::SoftwarePush constants = push(picture);
-    constants.visibility = visibility_.address();
-    constants.bounds = points_.bounds().address();
     target_.beginDepthRead(commands);
-    commands.uses({{visibility_, Access::compute_write}, {points_.bounds(), Access::compute_read}});
+    constants.visibility = commands.writes(visibility_);
+    constants.bounds = commands.reads(points_.bounds());
     commands.bind(clear_, constants);
     const engine::Image* const depth = &target_.depth();
     commands.images(clear_, std::span(&depth, 1), {});
@@ -249,19 +241,12 @@ void SoftwareBackend::cullPieces(engine::Commands& commands, gpu::SoftwarePush c
     const std::uint32_t first = divideUp(blocks_, gpu::kFirstStrands);
     const std::uint32_t blocks = constants.part == gpu::kFirstPart ? first : blocks_ - first;
     if (blocks == 0) return;
-    constants.points = points_.points().address();
-    constants.pieces = points_.pieces().address();
-    constants.bounds = points_.bounds().address();
-    constants.pyramid = pyramid_.address();
-    constants.counts = counts_.address();
-    constants.list = list_.address();
-    commands.uses(
-        {{points_.points(), Access::compute_read},
-         {points_.pieces(), Access::compute_read},
-         {points_.bounds(), Access::compute_read},
-         {pyramid_, Access::compute_read},
-         {counts_, Access::compute_write},
-         {list_, Access::compute_write}});
+    constants.points = commands.reads(points_.points());
+    constants.pieces = commands.reads(points_.pieces());
+    constants.bounds = commands.reads(points_.bounds());
+    constants.pyramid = commands.reads(pyramid_);
+    constants.counts = commands.writes(counts_);
+    constants.list = commands.writes(list_);
     commands.bind(cull_, constants);
     if (texels_) commands.images(cull_, {}, std::array{texels_, &pyramid_texels_});
     commands.dispatchInvocations(blocks, gpu::kSoftwareStrandGroup);
@@ -272,19 +257,12 @@ void SoftwareBackend::cullPieces(engine::Commands& commands, gpu::SoftwarePush c
 // lavapipe ends an invocation's loops.
 void SoftwareBackend::rasterizePieces(
     engine::Commands& commands, gpu::SoftwarePush constants) const {
-    constants.points = points_.points().address();
-    constants.list = list_.address();
-    constants.pieces = points_.pieces().address();
-    constants.visibility = visibility_.address();
-    constants.counts = counts_.address();
-    constants.large = large_.address();
-    commands.uses(
-        {{points_.points(), Access::compute_read},
-         {points_.pieces(), Access::compute_read},
-         {list_, Access::compute_read},
-         {visibility_, Access::compute_write},
-         {counts_, Access::compute_write},
-         {large_, Access::compute_write}});
+    constants.points = commands.reads(points_.points());
+    constants.list = commands.reads(list_);
+    constants.pieces = commands.reads(points_.pieces());
+    constants.visibility = commands.writes(visibility_);
+    constants.counts = commands.writes(counts_);
+    constants.large = commands.writes(large_);
     commands.bind(rasterize_, constants);
     if (texels_) commands.images(rasterize_, {}, std::array{texels_, &visibility_texels_});
     const std::uint32_t pieces = points_.strandCount() * pieces_per_strand_;
@@ -294,19 +272,12 @@ void SoftwareBackend::rasterizePieces(
 void SoftwareBackend::rasterizeLarge(
     engine::Commands& commands, gpu::SoftwarePush constants) const {
     constants = ofPart(constants, gpu::kOtherPart);
-    constants.points = points_.points().address();
-    constants.list = list_.address();
-    constants.pieces = points_.pieces().address();
-    constants.visibility = visibility_.address();
-    constants.counts = counts_.address();
-    constants.large = large_.address();
-    commands.uses(
-        {{points_.points(), Access::compute_read},
-         {points_.pieces(), Access::compute_read},
-         {list_, Access::compute_read},
-         {visibility_, Access::compute_write},
-         {counts_, Access::compute_read},
-         {large_, Access::compute_read}});
+    constants.points = commands.reads(points_.points());
+    constants.list = commands.reads(list_);
+    constants.pieces = commands.reads(points_.pieces());
+    constants.visibility = commands.writes(visibility_);
+    constants.counts = commands.reads(counts_);
+    constants.large = commands.reads(large_);
     commands.bind(rasterize_large_, constants);
     if (texels_) commands.images(rasterize_large_, {}, std::array{texels_, &visibility_texels_});
     constexpr std::uint32_t kMostGroups = 65535;  // of a dimension, on every device
@@ -316,26 +287,18 @@ void SoftwareBackend::rasterizeLarge(
 }
 
 void SoftwareBackend::reduceTiles(engine::Commands& commands, gpu::SoftwarePush constants) const {
-    constants.visibility = visibility_.address();
-    constants.bounds = points_.bounds().address();
-    constants.tile_depths = tile_depths_.address();
-    commands.uses(
-        {{visibility_, Access::compute_read},
-         {points_.bounds(), Access::compute_read},
-         {tile_depths_, Access::compute_write}});
+    constants.visibility = commands.reads(visibility_);
+    constants.bounds = commands.reads(points_.bounds());
+    constants.tile_depths = commands.writes(tile_depths_);
     commands.bind(reduce_tiles_, constants);
     if (texels_) commands.images(reduce_tiles_, {}, std::array{&visibility_texels_});
     commands.dispatch(divideUp(constants.height, gpu::kTile));
 }
 
 void SoftwareBackend::buildPyramid(engine::Commands& commands, gpu::SoftwarePush constants) const {
-    constants.bounds = points_.bounds().address();
-    constants.tile_depths = tile_depths_.address();
-    constants.pyramid = pyramid_.address();
-    commands.uses(
-        {{tile_depths_, Access::compute_read},
-         {points_.bounds(), Access::compute_read},
-         {pyramid_, Access::compute_write}});
+    constants.bounds = commands.reads(points_.bounds());
+    constants.tile_depths = commands.reads(tile_depths_);
+    constants.pyramid = commands.writes(pyramid_);
     commands.bind(build_pyramid_, constants);
     if (texels_) commands.images(build_pyramid_, {}, std::array{&tile_texels_});
     commands.dispatch(divideUp(constants.height, gpu::kTile));
@@ -364,17 +327,11 @@ void SoftwareBackend::rasterize(engine::Commands& commands, const StrandPicture&
 
 void SoftwareBackend::shade(engine::Commands& commands, const StrandPicture& picture) const {
     gpu::SoftwarePush constants = push(picture);
-    constants.points = points_.points().address();
-    constants.pieces = points_.pieces().address();
-    constants.visibility = visibility_.address();
-    constants.bounds = points_.bounds().address();
-    if (target_.hasRadiance()) constants.colors = colors_.address();
-    commands.uses(
-        {{points_.points(), Access::compute_read},
-         {points_.pieces(), Access::compute_read},
-         {visibility_, Access::compute_write},
-         {points_.bounds(), Access::compute_read},
-         {constants.colors, Access::compute_write}});
+    constants.points = commands.reads(points_.points());
+    constants.pieces = commands.reads(points_.pieces());
+    constants.visibility = commands.writes(visibility_);
+    constants.bounds = commands.reads(points_.bounds());
+    if (target_.hasRadiance()) constants.colors = commands.writes(colors_);
     commands.bind(shade_, constants);
     if (texels_)
         commands.images(shade_, picture.images, std::array{texels_, &visibility_texels_});
@@ -392,13 +349,9 @@ void SoftwareBackend::prepare(engine::Commands& commands, const StrandPicture& p
 
 void SoftwareBackend::draw(engine::Commands& commands, const StrandPicture& picture) const {
     gpu::SoftwarePush constants = push(picture);
-    constants.visibility = visibility_.address();
-    constants.bounds = points_.bounds().address();
-    if (target_.hasRadiance()) constants.colors = colors_.address();
-    commands.uses(
-        {{visibility_, Access::fragment_read},
-         {constants.colors, Access::fragment_read},
-         {points_.bounds(), Access::vertex_read}});
+    constants.visibility = commands.use({visibility_, Access::fragment_read});
+    constants.bounds = commands.use({points_.bounds(), Access::vertex_read});
+    if (target_.hasRadiance()) constants.colors = commands.use({colors_, Access::fragment_read});
     // One draw per sample, because sample-rate shading is a feature that not every device has.
     for (constants.choice = 0; constants.choice < samples_per_pixel_; ++constants.choice) {
         commands.bind(blit_, constants);

@@ -16,21 +16,6 @@
 
 namespace hair::rendering {
 
-// Bytes of the buffers that the back end `software` keeps for samples, tiles and pieces of strands.
-struct SoftwareSizes {
-    std::size_t visibility = 0;
-    std::size_t colors = 0;  // 0 without linear light
-    std::size_t list = 0;
-    std::size_t large = 0;
-    std::size_t tile_depths = 0;
-    std::size_t pyramid = 0;
-
-    std::size_t sum() const { return visibility + colors + list + large + tile_depths + pyramid; }
-};
-
-// `pieces` counts the pieces of all strands of a dispatch, rounded up to whole blocks of strands.
-SoftwareSizes softwareSizes(const engine::TargetDescription& target, std::uint64_t pieces);
-
 // Rasterises opaque strands in compute, from their points. Pieces of strands write their number and
 // depth to the samples that they cover, by atomic minima. Each sample that shows a strand is shaded
 // once, and two triangles bring colour and depth into the target. Clearing, shading and drawing are
@@ -50,6 +35,9 @@ public:
     static void
     check(const engine::Device& device, const Settings& settings, const StrandPlan& plan);
 
+    static engine::MemoryRows
+    rows(const engine::Device& device, const Settings& settings, const StrandPlan& plan);
+
     void prepare(engine::Commands& commands, const StrandPicture& picture) const override;
     void draw(engine::Commands& commands, const StrandPicture& picture) const override;
 
@@ -57,10 +45,7 @@ public:
     std::optional<ExpectedCounts> expected() const override { return std::nullopt; }
 
 private:
-    SoftwareBackend(const BackendContext& context, const SoftwareSizes& sizes);
-
-    // The push constants that all stages share. Each stage adds the addresses that it uses, and no
-    // others.
+    // The push constants that all stages share. Each stage adds the addresses of what it uses.
     gpu::SoftwarePush push(const StrandPicture& picture) const;
     void clear(engine::Commands& commands, const StrandPicture& picture) const;
     void rasterize(engine::Commands& commands, const StrandPicture& picture) const;

@@ -13,8 +13,6 @@
 namespace hair::rendering {
 namespace {
 
-using engine::Access;
-
 constexpr std::uint32_t pushSize(const StrandStages& stages) {
     return stages.watched ? std::uint32_t{sizeof(gpu::WatchedPush)}
                           : std::uint32_t{sizeof(gpu::StrandPush)};
@@ -123,13 +121,14 @@ engine::GraphicsDescription strandPipeline(const BackendContext& context) {
         .sampled_images = output.sampled_images};
 }
 
-void declareStrands(engine::Commands& commands, const gpu::PictureParameters& picture) {
+void declareStrands(
+    engine::Commands& commands, const gpu::PictureParameters& picture, engine::Access access) {
     commands.uses(
-        {{picture.guides, Access::vertex_read},
-         {picture.contacts, Access::vertex_read},
-         {picture.guide_normals, Access::vertex_read},
-         {picture.guide_turns, Access::vertex_read},
-         {picture.root_corrections, Access::vertex_read}});
+        {{picture.guides, access},
+         {picture.contacts, access},
+         {picture.guide_normals, access},
+         {picture.guide_turns, access},
+         {picture.root_corrections, access}});
 }
 
 engine::Constants strandConstants(const StrandSettings& strands, const StrandPlan& plan) {

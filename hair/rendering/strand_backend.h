@@ -56,6 +56,11 @@ class StrandBackend {
 public:
     virtual ~StrandBackend() = default;
 
+    // Memory of its own; back ends that have some hide this.
+    static engine::MemoryRows rows(const engine::Device&, const Settings&, const StrandPlan&) {
+        return {};
+    }
+
     // The kind of the pass that draw() belongs to.
     virtual engine::PassKind passKind() const { return engine::PassKind::graphics; }
 
@@ -124,8 +129,10 @@ gpu::PictureParameters pictureParameters(
 // The pipeline state of all back ends that rasterise quads in hardware; without shaders.
 engine::GraphicsDescription strandPipeline(const BackendContext& context);
 
-// Declares that the next draw evaluates the picture's strands (Commands::uses).
-void declareStrands(engine::Commands& commands, const gpu::PictureParameters& picture);
+// Declares that the next draw or dispatch evaluates the picture's strands (Commands::uses).
+void declareStrands(
+    engine::Commands& commands, const gpu::PictureParameters& picture,
+    engine::Access access = engine::Access::vertex_read);
 
 // The specialization constants of every shader that includes strands/strand.glsl.
 engine::Constants strandConstants(const StrandSettings& strands, const StrandPlan& plan);

@@ -221,46 +221,51 @@ bool FramesPass::isNeeded(const StrandView& view) {
     return view.root_frames != 0 || view.rest_tangents != 0;
 }
 
+engine::MemoryRows FramesPass::rows(std::uint64_t vertices, bool has_normals, bool has_turns) {
+    engine::MemoryRows rows;
+    if (has_normals) rows.add("groom", {{"guide normals", engine::bytesOf<glm::vec3>(vertices)}});
+    if (has_turns) rows.add("groom", {{"guide turns", engine::bytesOf<glm::vec4>(vertices)}});
+    return rows;
+}
+
 FramesPass::FramesPass(const engine::Device& device, const StrandView& view) {
-    const std::size_t vertices =
-        std::max<std::size_t>(std::size_t{view.guide_count} * view.vertices_per_guide, 1);
+    const engine::MemoryRows rows = FramesPass::rows(
+        std::uint64_t{view.guide_count} * view.vertices_per_guide, view.root_frames != 0,
+        view.rest_tangents != 0);
     if (view.root_frames != 0) {
         frame_.emplace(
             device, engine::ComputeDescription{
                         .shader = "strands/frames.comp", .push_size = sizeof(gpu::FramesPush)});
-        normals_ = {device, {.size = vertices * sizeof(glm::vec3), .name = "guide normals"}};
+        normals_ = {device, rows["guide normals"]};
     }
     if (view.rest_tangents != 0) {
         turn_.emplace(
             device, engine::ComputeDescription{
                         .shader = "strands/turns.comp", .push_size = sizeof(gpu::TurnsPush)});
-        turns_ = {device, {.size = vertices * sizeof(glm::vec4), .name = "guide turns"}};
+        turns_ = {device, rows["guide turns"]};
     }
 }
 
 void FramesPass::record(engine::Commands& commands, const StrandView& view) const {
-    using engine::Access;
     if (frame_) {
-        commands.uses({{view.guides, Access::compute_read}, {normals_, Access::compute_write}});
         commands.bind(
             *frame_, gpu::FramesPush{
                          .head = view.head,
-                         .guides = view.guides,
+                         .guides = commands.reads(view.guides),
                          .root_frames = view.root_frames,
-                         .normals = normals_.address(),
+                         .normals = commands.writes(normals_),
                          .guide_count = view.guide_count,
                          .vertices_per_guide = view.vertices_per_guide});
         commands.dispatchInvocations(view.guide_count, gpu::kFramesGroupSize);
     }
     if (turn_) {
-        commands.uses({{view.guides, Access::compute_read}, {turns_, Access::compute_write}});
         const glm::quat head = glm::normalize(glm::quat_cast(glm::dmat3(glm::mat3(view.head))));
         commands.bind(
             *turn_, gpu::TurnsPush{
                         .head_turn = {head.x, head.y, head.z, head.w},
-                        .guides = view.guides,
+                        .guides = commands.reads(view.guides),
                         .rest_tangents = view.rest_tangents,
-                        .turns = turns_.address(),
+                        .turns = commands.writes(turns_),
                         .guide_count = view.guide_count,
                         .vertices_per_guide = view.vertices_per_guide});
         commands.dispatchInvocations(view.guide_count, gpu::kFramesGroupSize);

@@ -32,6 +32,9 @@ public:
     // `view` gives the counts, and says which of the two are needed.
     FramesPass(const engine::Device& device, const StrandView& view);
 
+    // Without offsets there are no normals, and without residuals no turns.
+    static engine::MemoryRows rows(std::uint64_t vertices, bool has_normals, bool has_turns);
+
     // Belongs after the pass that moves the guides, which must be visible to compute, and before
     // the draws. The frames are then visible to the stages before the rasteriser.
     void record(engine::Commands& commands, const StrandView& view) const;

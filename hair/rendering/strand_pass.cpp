@@ -141,11 +141,7 @@ std::uint64_t pixelCount(const RenderSettings& render) {
     return std::uint64_t{render.width} * render.ssaa * render.height * render.ssaa;
 }
 
-// Bytes of the list heads, one for each pixel, and the number of fragments that the lists have room
-// for.
-std::uint64_t headBytes(const RenderSettings& render) {
-    return sizeof(std::uint32_t) * pixelCount(render);
-}
+// Returns the number of fragments that the lists have room for.
 std::uint64_t nodeCount(const RenderSettings& render) {
     return render.list_length * pixelCount(render);
 }
@@ -160,8 +156,13 @@ std::uint32_t capacity(const BlendContext& context) {
     return static_cast<std::uint32_t>(nodes);
 }
 
-engine::Buffer storage(const engine::Device& device, std::uint64_t bytes, const char* name) {
-    return {device, {.size = bytes, .usage = engine::Usage::storage, .name = name}};
+engine::MemoryRows listRows(const RenderSettings& render) {
+    return {
+        "transparency",
+        {{"fragment heads", engine::bytesOf<std::uint32_t>(pixelCount(render))},
+         {"fragment nodes", engine::bytesOf<gpu::FragmentNode>(nodeCount(render))},
+         {"fragment counter", sizeof(std::uint32_t)},
+         {"fragment lists", sizeof(gpu::FragmentLists)}}};
 }
 
 class ListBlend : public StrandBlend {
@@ -169,20 +170,22 @@ public:
     explicit ListBlend(const BlendContext& context)
         : device_(context.device), samples_(context.settings.render.msaa),
           capacity_(capacity(context)),
-          heads_(storage(device_, headBytes(context.settings.render), "fragment heads")),
-          nodes_(storage(device_, sizeof(gpu::FragmentNode) * capacity_, "fragment nodes")),
-          counter_(storage(device_, sizeof(std::uint32_t), "fragment counter")),
-          lists_(engine::makeBuffer(
-              device_,
-              std::span<const gpu::FragmentLists>(std::array{gpu::FragmentLists{
-                  .heads = heads_.address(),
-                  .nodes = nodes_.address(),
-                  .counters = counter_.address(),
-                  .capacity = capacity_,
-                  .width = context.target.color().extent().width,
-                  .height = context.target.color().extent().height}}),
-              "fragment lists")),
-          composite_(device_, compositePipeline(context.settings.render, "composite/list.frag")) {}
+          composite_(device_, compositePipeline(context.settings.render, "composite/list.frag")) {
+        const engine::MemoryRows rows = listRows(context.settings.render);
+        heads_ = {device_, rows["fragment heads"]};
+        nodes_ = {device_, rows["fragment nodes"]};
+        counter_ = {device_, rows["fragment counter"]};
+        lists_ = engine::makeBuffer(
+            device_,
+            std::array{gpu::FragmentLists{
+                .heads = heads_.address(),
+                .nodes = nodes_.address(),
+                .counters = counter_.address(),
+                .capacity = capacity_,
+                .width = context.target.color().extent().width,
+                .height = context.target.color().extent().height}},
+            rows, "fragment lists");
+    }
 
     StrandOutput output() const override {
         return {.fragment = "strands/list.frag", .depth_write = false, .samples = samples_};
@@ -252,22 +255,29 @@ std::unique_ptr<StrandBlend> makeListBlend(const BlendContext& context) {
 // Formats that every device can blend.
 constexpr VkFormat kSumFormat = VK_FORMAT_R16G16B16A16_SFLOAT;
 constexpr VkFormat kRevealedFormat = VK_FORMAT_R16_SFLOAT;
-constexpr std::uint64_t kBytesPerSample = 8 + 2;
 
-std::uint64_t weightedBytes(const RenderSettings& render) {
-    return kBytesPerSample * render.msaa * pixelCount(render);
+engine::ImageDescription sumImage(const RenderSettings& render, VkFormat format, const char* name) {
+    return {
+        .format = format,
+        .width = render.width * render.ssaa,
+        .height = render.height * render.ssaa,
+        .samples = render.msaa,
+        .usage = VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | VK_IMAGE_USAGE_SAMPLED_BIT,
+        .name = name,
+        .purpose = "transparency"};
+}
+engine::ImageDescription sumOf(const RenderSettings& render) {
+    return sumImage(render, kSumFormat, "weighted sum");
+}
+engine::ImageDescription revealedPartOf(const RenderSettings& render) {
+    return sumImage(render, kRevealedFormat, "revealed part");
 }
 
-engine::Image sumImage(const BlendContext& context, VkFormat format, const char* name) {
-    const VkExtent2D extent = context.target.color().extent();
-    return {
-        context.device,
-        {.format = format,
-         .width = extent.width,
-         .height = extent.height,
-         .samples = context.settings.render.msaa,
-         .usage = VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | VK_IMAGE_USAGE_SAMPLED_BIT,
-         .name = name}};
+engine::MemoryRows weightedRows(const RenderSettings& render) {
+    engine::MemoryRows rows("transparency", {{"blend range", sizeof(gpu::BlendRange)}});
+    rows.add(sumOf(render));
+    rows.add(revealedPartOf(render));
+    return rows;
 }
 
 engine::GraphicsDescription composite(const RenderSettings& render) {
@@ -286,14 +296,16 @@ const engine::Device& checked(const engine::Device& device) {
 class WeightedBlend : public StrandBlend {
 public:
     explicit WeightedBlend(const BlendContext& context)
-        : samples_(context.settings.render.msaa), bytes_(weightedBytes(context.settings.render)),
+        : samples_(context.settings.render.msaa),
+          bytes_(
+              engine::imageBytes(sumOf(context.settings.render)) +
+              engine::imageBytes(revealedPartOf(context.settings.render))),
           range_(engine::makeBuffer(
               checked(context.device),
-              std::span<const gpu::BlendRange>(
-                  std::array{gpu::BlendRange{context.view.centre, context.view.radius}}),
-              "blend range")),
-          sum_(sumImage(context, kSumFormat, "weighted sum")),
-          revealed_(sumImage(context, kRevealedFormat, "revealed part")),
+              std::array{gpu::BlendRange{context.view.centre, context.view.radius}},
+              weightedRows(context.settings.render), "blend range")),
+          sum_(context.device, sumOf(context.settings.render)),
+          revealed_(context.device, revealedPartOf(context.settings.render)),
           sampler_(context.device, {.filter = VK_FILTER_NEAREST}),
           composite_(context.device, composite(context.settings.render)) {}
 
@@ -377,23 +389,29 @@ std::unique_ptr<StrandBlend> makeWeightedBlend(const BlendContext& context) {
 struct BlendRow {
     Transparency transparency;
     std::unique_ptr<StrandBlend> (*make)(const BlendContext&);
+    engine::MemoryRows (*rows)(const RenderSettings&);
 };
+
+engine::MemoryRows noRows(const RenderSettings&) { return {}; }
 
 // All kinds of transparency, one row each.
 constexpr std::array kBlends{
-    BlendRow{Transparency::none, makeOpaqueBlend},
-    BlendRow{Transparency::alpha_to_coverage, makeSampleBlend},
-    BlendRow{Transparency::weighted_blended, makeWeightedBlend},
-    BlendRow{Transparency::fragment_list, makeListBlend},
+    BlendRow{Transparency::none, makeOpaqueBlend, noRows},
+    BlendRow{Transparency::alpha_to_coverage, makeSampleBlend, noRows},
+    BlendRow{Transparency::weighted_blended, makeWeightedBlend, weightedRows},
+    BlendRow{Transparency::fragment_list, makeListBlend, listRows},
 };
+
+const BlendRow& rowOf(Transparency transparency) {
+    const auto row = std::ranges::find(kBlends, transparency, &BlendRow::transparency);
+    assert(row != kBlends.end());
+    return *row;
+}
 
 // Throws engine::Unsupported for features that the device lacks.
 std::unique_ptr<StrandBlend> makeBlend(const BlendContext& context) {
     if (context.settings.render.show != Show::shading) return makeShownBlend(context);
-    const auto row =
-        std::ranges::find(kBlends, context.settings.render.transparency, &BlendRow::transparency);
-    assert(row != kBlends.end());
-    return row->make(context);
+    return rowOf(context.settings.render.transparency).make(context);
 }
 
 // ---- The pass -----------------------------------------------------------------------------------
@@ -429,15 +447,9 @@ std::uint32_t environmentCode(const Settings& settings) {
 
 }  // namespace
 
-std::uint64_t transparencyBytes(const RenderSettings& render) {
-    switch (render.transparency) {
-    case Transparency::fragment_list:
-        return headBytes(render) + sizeof(gpu::FragmentNode) * nodeCount(render);
-    case Transparency::weighted_blended:
-        return weightedBytes(render);
-    default:
-        return 0;
-    }
+engine::MemoryRows transparencyRows(const RenderSettings& render) {
+    if (!render.hair || render.show != Show::shading) return {};
+    return rowOf(render.transparency).rows(render);
 }
 
 engine::Constants shadingConstants(const Settings& settings) {

@@ -62,8 +62,7 @@ public:
     virtual std::optional<ListedFragments> listed() const { return std::nullopt; }
 };
 
-// Bytes that transparency takes beside a picture's target.
-std::uint64_t transparencyBytes(const RenderSettings& render);
+engine::MemoryRows transparencyRows(const RenderSettings& render);
 
 // The specialization constants of shaders/shading/options.glsl.
 engine::Constants shadingConstants(const Settings& settings);

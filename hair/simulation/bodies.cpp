@@ -28,6 +28,8 @@ namespace {
 
 using groom::WindingNumber;
 
+constexpr engine::Purpose kBodiesPurpose("simulation");
+
 // ---- Winding numbers ----------------------------------------------------------------------------
 
 static_assert(sizeof(gpu::WindingNode) == 96 && offsetof(gpu::WindingNode, octupole) == 56);
@@ -67,14 +69,15 @@ std::vector<float> windingsAt(
     for (const auto& triangle : winding.corners())
         std::ranges::copy(triangle, corners.emplace_back().corners);
     const auto nodes = nodesOf(winding);
-    const engine::Buffer node_buffer = engine::makeBuffer(
-        device, std::span<const gpu::WindingNode>(nodes), "distance field dipoles");
-    const engine::Buffer triangles = engine::makeBuffer(
-        device, std::span<const gpu::WindingTriangle>(corners), "distance field triangles");
+    const engine::Buffer node_buffer =
+        engine::makeBuffer(device, nodes, "distance field dipoles", kBodiesPurpose);
+    const engine::Buffer triangles =
+        engine::makeBuffer(device, corners, "distance field triangles", kBodiesPurpose);
     const glm::uvec3 points = grid.points;
     const std::size_t bytes = std::size_t{points.x} * points.y * points.z * sizeof(float);
     const engine::Buffer windings(
-        device, {.size = bytes, .name = "distance field winding numbers"});
+        device,
+        {.size = bytes, .name = "distance field winding numbers", .purpose = kBodiesPurpose});
     const engine::ComputePipeline pipeline(
         device,
         {.shader = "simulation/bake_winding.comp", .push_size = sizeof(gpu::BakeWindingPush)});
@@ -346,7 +349,7 @@ makeBuffer(const engine::Device& device, const std::vector<Value>& values, const
     const double bytes = static_cast<double>(values.size() * sizeof(Value));
     if (bytes > largestBuffer(device))
         throwTooLarge("the mesh's triangles", bytes, largestBuffer(device));
-    return engine::makeBuffer(device, std::span<const Value>(values), name);
+    return engine::makeBuffer(device, values, name, kBodiesPurpose);
 }
 
 // If a corner of a cell is not exact, the whole cell is farther from the mesh than `padding`: a
@@ -369,7 +372,7 @@ struct BakeSurface {
 
     BakeSurface(const engine::Device& device, const OpenBody& body)
         : BakeSurface(device, body.positions, body.triangles, {}) {
-        sides = makeBuffer(device, body.sides, "sides of a distance field's points");
+        sides = makeBuffer(device, body.sides, "distance field sides");
     }
 
 private:
@@ -471,12 +474,6 @@ fieldsOf(const SimulationSettings& settings, const std::vector<DistanceField>& f
 
 }  // namespace
 
-std::uint64_t fieldBytes(std::uint32_t resolution) {
-    // Points, plus one cell of padding on either side.
-    const std::uint64_t side = std::uint64_t{resolution} + 3;
-    return side * side * side * sizeof(float);
-}
-
 DistanceField::DistanceField(
     const engine::Device& device, const groom::BodyMesh& mesh, std::uint32_t resolution,
     float padding)
@@ -487,7 +484,7 @@ DistanceField::DistanceField(
     parameters_ = gridRound(device, positions, resolution, padding);
     const glm::uvec3 points = parameters_.points;
     const std::size_t bytes = std::size_t{points.x} * points.y * points.z * sizeof(float);
-    distances_ = {device, {.size = bytes, .name = "distance field"}};
+    distances_ = {device, {.size = bytes, .name = "distance field", .purpose = kBodiesPurpose}};
     parameters_.distances = distances_.address();
 
     const auto* const open = std::get_if<groom::OpenMesh>(&mesh);
@@ -499,8 +496,9 @@ DistanceField::DistanceField(
     const glm::uvec3 blocks = (points + gpu::kBakeBlock - 1u) / gpu::kBakeBlock;
     const std::uint32_t count = blocks.x * blocks.y * blocks.z;
     const engine::Buffer middles(
-        device,
-        {.size = count * sizeof(gpu::BlockMiddle), .name = "middles of a distance field's blocks"});
+        device, {.size = count * sizeof(gpu::BlockMiddle),
+                 .name = "distance field block middles",
+                 .purpose = kBodiesPurpose});
     gpu::BakeDistancePush push{
         .field = parameters_,
         .nodes = surface.nodes.address(),
@@ -532,8 +530,7 @@ DistanceField::DistanceField(
 
 DistanceField::DistanceField(const engine::Device& device, const BakedField& baked)
     : parameters_(baked.grid),
-      distances_(
-          engine::makeBuffer(device, std::span<const float>(baked.distances), "distance field")),
+      distances_(engine::makeBuffer(device, baked.distances, "distance field", kBodiesPurpose)),
       warning_(baked.warning) {
     parameters_.distances = distances_.address();
 }
@@ -545,13 +542,28 @@ BakedField DistanceField::read(const engine::Device& device) const {
     return baked;
 }
 
+engine::MemoryRows Bodies::rows(const SimulationSettings& settings) {
+    engine::MemoryRows rows(
+        kBodiesPurpose,
+        {{"capsules", engine::bytesOf<gpu::Capsule>(settings.colliders.size())},
+         {"distance fields", engine::bytesOf<gpu::BodyField>(settings.distance_fields.size())}});
+    for (const DistanceFieldSettings& field : settings.distance_fields) {
+        // Points, plus one cell of padding on either side.
+        const std::uint64_t side = std::uint64_t{field.resolution} + 3;
+        rows.add(
+            kBodiesPurpose, {{.name = "distance field",
+                              .size = engine::bytesOf<float>(side * side * side),
+                              .at_most = true}});
+    }
+    return rows;
+}
+
 Bodies::Bodies(
     const engine::Device& device, const SimulationSettings& settings,
     std::span<const groom::Mesh> meshes, std::span<const BakedField* const> baked)
     : distances_(bake(device, settings, meshes, baked)), capsules_(makeCapsules(device, settings)),
       fields_(engine::makeBuffer(
-          device, std::span<const gpu::BodyField>(fieldsOf(settings, distances_)),
-          "distance fields")),
+          device, fieldsOf(settings, distances_), rows(settings), "distance fields")),
       margin_(settings.collision.margin), friction_(settings.collision.friction) {}
 
 std::vector<std::string> Bodies::warnings() const {
@@ -575,8 +587,7 @@ gpu::Bodies Bodies::parametersWith(const Capsules& capsules) const {
 Bodies::Capsules
 Bodies::makeCapsules(const engine::Device& device, const SimulationSettings& settings) {
     return {
-        .buffer = engine::makeBuffer(
-            device, std::span<const gpu::Capsule>(capsulesOf(settings)), "capsules"),
+        .buffer = engine::makeBuffer(device, capsulesOf(settings), rows(settings), "capsules"),
         .count = static_cast<std::uint32_t>(settings.colliders.size())};
 }
 
@@ -594,9 +605,7 @@ SegmentPass::SegmentPass(
     const engine::Device& device, std::uint32_t strand_count, std::uint32_t vertices_per_strand,
     const SimulationSettings& settings)
     : strand_count_(strand_count), keeps_rest_(settings.rest == RestShape::balanced ? 1 : 0),
-      starts_(
-          device,
-          {.size = sizeof(glm::vec4) * strand_count * vertices_per_strand, .name = "guide starts"}),
+      starts_(device, rows(std::uint64_t{strand_count} * vertices_per_strand)["guide starts"]),
       pipeline_(
           device, {.shader = "simulation/segments.comp",
                    .constants = {{gpu::kSegmentVerticesConstant, vertices_per_strand}},
@@ -610,13 +619,11 @@ void SegmentPass::record(
     engine::Commands& commands, const GuideAddresses& guides, const gpu::RigidFrame& frame,
     const gpu::RigidFrame& frame_before) const {
     commands.uses(
-        {{guides.positions, Access::compute_write},
-         {guides.previous, Access::compute_write},
-         {starts_, Access::compute_read}});
+        {{guides.positions, Access::compute_write}, {guides.previous, Access::compute_write}});
     commands.bind(
         pipeline_, gpu::SegmentPush{
                        .guides = guides.parameters,
-                       .starts = starts_.address(),
+                       .starts = commands.reads(starts_),
                        .frame = frame,
                        .frame_before = frame_before,
                        .keeps_rest = keeps_rest_});

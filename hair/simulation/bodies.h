@@ -89,10 +89,6 @@ private:
     std::string warning_;
 };
 
-// Returns the largest size (B) of a DistanceField: that of a mesh as wide and as deep as it is
-// high.
-std::uint64_t fieldBytes(std::uint32_t resolution);
-
 // Bodies on the device: capsules and distance fields.
 class Bodies {
 public:
@@ -107,6 +103,9 @@ public:
     Bodies(
         const engine::Device& device, const SimulationSettings& settings,
         std::span<const groom::Mesh> meshes, std::span<const BakedField* const> baked = {});
+
+    // A field takes at most the size of that of a mesh as wide and as deep as it is high.
+    static engine::MemoryRows rows(const SimulationSettings& settings);
 
     // Fields of settings.distance_fields.
     const std::vector<DistanceField>& fields() const { return distances_; }
@@ -137,6 +136,10 @@ private:
 // lengths. Borrows nothing.
 class SegmentPass {
 public:
+    static engine::MemoryRows rows(std::uint64_t vertices) {
+        return {"simulation", {{"guide starts", engine::bytesOf<glm::vec4>(vertices)}}};
+    }
+
     SegmentPass(
         const engine::Device& device, std::uint32_t strand_count, std::uint32_t vertices_per_strand,
         const SimulationSettings& settings);

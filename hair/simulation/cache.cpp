@@ -46,15 +46,22 @@ CacheInterval intervalAt(const std::vector<double>& times, double time) {
     return {after - 1, after, (time - times[after - 1]) / (times[after] - times[after - 1])};
 }
 
+engine::MemoryRows CachePass::rows(const groom::GroomSize& size, bool has_goals) {
+    return {
+        "simulation",
+        {{"guide cache", engine::bytesOf<glm::vec4>(size.cached_points)},
+         {"guide goal offsets", engine::bytesOf<glm::vec4>(has_goals ? size.vertices() : 0)}}};
+}
+
 CachePass::CachePass(
     const engine::Device& device, const groom::Groom& groom, const engine::Buffer& rest_positions,
     const engine::Buffer* goals)
     : times_(groom.cache.times), vertex_count_(groom.strand_count * groom.vertices_per_strand),
       stiffness_(groom.cache.strength.value_or(0.0f)), rest_positions_(&rest_positions),
       goals_(goals), samples_(engine::makeBuffer(
-                         device, std::span<const glm::vec4>(samplesOf(groom)), "guide cache")),
+                         device, samplesOf(groom), rows(sizeOf(groom), goals), "guide cache")),
       goal_offsets_(engine::makeBuffer(
-          device, std::span<const glm::vec4>(goalOffsets(device, groom, goals)),
+          device, goalOffsets(device, groom, goals), rows(sizeOf(groom), goals),
           "guide goal offsets")),
       rest_(
           device,
@@ -79,16 +86,12 @@ gpu::CachePlace CachePass::placeAt(double time) const {
 void CachePass::recordRest(engine::Commands& commands, double time) const {
     commands.bind(
         rest_, gpu::CacheRestPush{
-                   .rest_positions = rest_positions_->address(),
-                   .goals = goals_ ? goals_->address() : 0,
-                   .goal_offsets = goal_offsets_.address(),
+                   .rest_positions = commands.writes(*rest_positions_),
+                   .goals = goals_ ? commands.writes(*goals_) : 0,
+                   .goal_offsets = commands.reads(goal_offsets_),
                    .place = placeAt(time),
                    .vertex_count = vertex_count_});
-    commands.uses(
-        {{samples_, Access::compute_read},
-         {goal_offsets_, Access::compute_read},
-         {*rest_positions_, Access::compute_write}});
-    if (goals_) commands.uses({{*goals_, Access::compute_write}});
+    commands.uses({{samples_, Access::compute_read}});
     commands.dispatchInvocations(vertex_count_, gpu::kGuideGroupSize);
 }
 
@@ -98,7 +101,7 @@ void CachePass::recordFollow(
     commands.bind(
         follow_, gpu::CacheFollowPush{
                      .guides = guides.parameters,
-                     .accelerations = guides.accelerations,
+                     .accelerations = commands.writes(guides.accelerations),
                      .place = placeAt(to),
                      .frame_before = toGpu(head_before),
                      .frame = toGpu(head_after),
@@ -107,8 +110,7 @@ void CachePass::recordFollow(
         {{samples_, Access::compute_read},
          {*rest_positions_, Access::compute_read},
          {guides.positions, Access::compute_read},
-         {guides.previous, Access::compute_read},
-         {guides.accelerations, Access::compute_write}});
+         {guides.previous, Access::compute_read}});
     commands.dispatchInvocations(vertex_count_, gpu::kGuideGroupSize);
 }
 

@@ -8,6 +8,7 @@
 #include "engine/pipeline.h"
 #include "hair/gpu_structs.h"
 #include "hair/groom/groom.h"
+#include "hair/groom/groom_size.h"
 #include "hair/simulation/guide_solver.h"
 #include "hair/simulation/head_motion.h"
 
@@ -38,6 +39,9 @@ public:
     CachePass(
         const engine::Device& device, const groom::Groom& groom,
         const engine::Buffer& rest_positions, const engine::Buffer* goals);
+
+    // `size` is the groom's. Goals are GuideSolver::goals().
+    static engine::MemoryRows rows(const groom::GroomSize& size, bool has_goals);
 
     bool follows() const { return stiffness_ > 0.0; }
 

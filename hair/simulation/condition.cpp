@@ -77,14 +77,16 @@ std::vector<gpu::VertexCondition> inspectVertices(
     const engine::Device& device, gpu::Address guides, const gpu::RigidFrame& frame,
     std::uint32_t count) {
     const engine::Buffer conditions(
-        device, {.size = count * sizeof(gpu::VertexCondition), .name = "guide conditions"});
+        device, {.size = count * sizeof(gpu::VertexCondition),
+                 .name = "guide conditions",
+                 .purpose = "simulation"});
     const engine::ComputePipeline pipeline(
         device, {.shader = "simulation/condition.comp", .push_size = sizeof(gpu::ConditionPush)});
     runOnce(device, [&](engine::Commands& commands) {
         commands.bind(
-            pipeline, gpu::ConditionPush{
-                          .guides = guides, .conditions = conditions.address(), .frame = frame});
-        commands.uses({{conditions, engine::Access::compute_write}});
+            pipeline,
+            gpu::ConditionPush{
+                .guides = guides, .conditions = commands.writes(conditions), .frame = frame});
         commands.dispatchInvocations(count, gpu::kGuideGroupSize);
     });
     return engine::downloadAs<gpu::VertexCondition>(device, conditions);

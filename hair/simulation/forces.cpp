@@ -87,6 +87,11 @@ void checkWind(const WindSettings& settings) {
     if (strengthOf(settings) > 0.0f) windDirection(settings);
 }
 
+engine::MemoryRows WindPass::rows(std::uint64_t vertices, WindMode mode) {
+    if (mode != WindMode::drag) return {};
+    return {"simulation", {{"guide air", engine::bytesOf<glm::vec4>(vertices)}}};
+}
+
 WindPass::WindPass(
     const engine::Device& device, std::uint32_t vertex_count, const SimulationSettings& settings)
     : settings_(settings.wind), material_(settings.material), vertex_count_(vertex_count),
@@ -94,7 +99,8 @@ WindPass::WindPass(
     checkWind(settings_);
     if (settings_.mode == WindMode::drag)
         air_.emplace(engine::makeBuffer(
-            device, std::span<const glm::vec4>(std::vector<glm::vec4>(vertex_count)), "guide air"));
+            device, std::vector<glm::vec4>(vertex_count), rows(vertex_count, settings_.mode),
+            "guide air"));
 }
 
 AirAtGuides WindPass::air() const {
@@ -125,7 +131,7 @@ void WindPass::recordThesis(
     engine::Commands& commands, const GuideAddresses& guides, double magnitude) const {
     gpu::WindPush push{
         .guides = guides.parameters,
-        .accelerations = guides.accelerations,
+        .accelerations = commands.writes(guides.accelerations),
         .directions = {},
         .magnitude = static_cast<float>(magnitude)};
     if (settings_.strength > 0.0f) {
@@ -134,8 +140,7 @@ void WindPass::recordThesis(
             push.directions[i] = glm::vec3(double{settings_.strength} * cone[i]);
     }
     commands.bind(pipeline_, push);
-    commands.uses(
-        {{guides.positions, Access::compute_read}, {guides.accelerations, Access::compute_write}});
+    commands.uses({{guides.positions, Access::compute_read}});
     commands.dispatchInvocations(vertex_count_, gpu::kGuideGroupSize);
 }
 
@@ -150,18 +155,15 @@ void WindPass::recordAir(
     commands.bind(
         pipeline_, gpu::AirPush{
                        .guides = guides.parameters,
-                       .accelerations = guides.accelerations,
-                       .air = air_->address(),
+                       .accelerations = commands.writes(guides.accelerations),
+                       .air = commands.writes(*air_),
                        .mean_wind = wind,
                        .fluctuation = static_cast<float>(double{settings_.turbulence} * speed),
                        .cell = cellOf(whole),
                        .fraction = origin - whole,
                        .cells_per_metre = static_cast<float>(1.0 / cell),
                        .octaves = settings_.turbulence_octaves});
-    commands.uses(
-        {{guides.positions, Access::compute_read},
-         {*air_, Access::compute_write},
-         {guides.accelerations, Access::compute_write}});
+    commands.uses({{guides.positions, Access::compute_read}});
     commands.dispatchInvocations(vertex_count_, gpu::kGuideGroupSize);
 }
 
@@ -193,12 +195,10 @@ void ForcePass::record(
     commands.bind(
         pipeline_, gpu::ForcePush{
                        .guides = guides.parameters,
-                       .accelerations = guides.accelerations,
+                       .accelerations = commands.writes(guides.accelerations),
                        .time = static_cast<float>(time)});
     commands.uses(
-        {{guides.positions, Access::compute_read},
-         {guides.previous, Access::compute_read},
-         {guides.accelerations, Access::compute_write}});
+        {{guides.positions, Access::compute_read}, {guides.previous, Access::compute_read}});
     commands.dispatchInvocations(vertex_count_, gpu::kGuideGroupSize);
 }
 
@@ -267,8 +267,7 @@ PullPass::PullPass(
     const engine::Device& device, std::uint32_t strand_count, std::uint32_t vertices_per_strand,
     const gpu::Step& step, std::vector<PullSettings> pulls)
     : vertex_count_(strand_count * vertices_per_strand), vertices_per_strand_(vertices_per_strand),
-      step_(step), pulls_(std::move(pulls)),
-      held_(device, {.size = sizeof(glm::vec4), .name = "guide pull"}),
+      step_(step), pulls_(std::move(pulls)), held_(device, rows()["guide pull"]),
       hold_(pullPipeline(device, "simulation/pull_hold.comp")),
       spread_(pullPipeline(device, "simulation/pull.comp")) {}
 

@@ -56,6 +56,8 @@ public:
         const engine::Device& device, std::uint32_t vertex_count,
         const SimulationSettings& settings);
 
+    static engine::MemoryRows rows(std::uint64_t vertices, WindMode mode);
+
     // `settings` must have the same mode and have passed checkWind.
     void setWind(const WindSettings& settings) noexcept { settings_ = settings; }
 
@@ -140,6 +142,8 @@ public:
     PullPass(
         const engine::Device& device, std::uint32_t strand_count, std::uint32_t vertices_per_strand,
         const gpu::Step& step, std::vector<PullSettings> pulls);
+
+    static engine::MemoryRows rows() { return {"simulation", {{"guide pull", sizeof(glm::vec4)}}}; }
 
     // `pulls` must have passed checkPulls.
     void setPulls(std::vector<PullSettings> pulls) noexcept { pulls_ = std::move(pulls); }

@@ -10,6 +10,7 @@
 #include "engine/buffer_image.h"
 #include "engine/commands.h"
 #include "hair/gpu_structs.h"
+#include "hair/groom/groom_size.h"
 #include "hair/settings.h"
 
 namespace hair::simulation {
@@ -57,6 +58,12 @@ class GuideSolver {
 public:
     virtual ~GuideSolver() = default;
 
+    // A solver with memory of its own hides this.
+    static engine::MemoryRows
+    rows(const engine::DeviceInfo&, const groom::GroomSize&, const SimulationSettings&) {
+        return {};
+    }
+
     // Records one substep: integrate, constrain the strands, push them out of bodies. The caller
     // fills in the push constants except `solver` and `first_strand`, and declares the uses of the
     // guides (Commands::uses) for the first dispatch. The solver declares the uses of its own
@@ -82,7 +89,7 @@ public:
     // guides' motion moves; null: there are none.
     virtual const engine::Buffer* goals() const { return nullptr; }
 
-    // The solver's own state, to save and restore.
+    // The solver's own state, to save and restore. Its rows have a "settled state" for each.
     virtual std::vector<const engine::Buffer*> state() const { return {}; }
 };
 
@@ -90,11 +97,5 @@ public:
 inline bool hasSkinnedRoots(const SimulationSettings& settings) {
     return !settings.animation.clip.empty();
 }
-
-// Device memory of a solver for the guides, B.
-struct SolverSizes {
-    std::uint64_t all = 0;
-    std::uint64_t state = 0;  // part of `all` in state()
-};
 
 }  // namespace hair::simulation

@@ -100,10 +100,6 @@ parametersOf(const groom::Groom& groom, const SimulationSettings& settings, cons
     const double repulsion =
         std::min(double{contact.repulsion}, kGreatestRepulsion * fastest * fastest);
     return {
-        .shares = 0,
-        .samples = 0,
-        .sums = 0,
-        .blocks = 0,
         .origin = grid.origin,
         .cell = static_cast<float>(grid.cell),
         .resolution = grid.resolution,
@@ -112,19 +108,13 @@ parametersOf(const groom::Groom& groom, const SimulationSettings& settings, cons
         .predicted = static_cast<float>(friction.predicted),
         .per_step = static_cast<float>(1.0 / whole),
         .repulsion = static_cast<float>(repulsion / grid.cell),
-        .greatest_repulsion = static_cast<float>(kGreatestPush * fastest / whole),
-        .borrows = 0,
-        .kept = 0};
+        .greatest_repulsion = static_cast<float>(kGreatestPush * fastest / whole)};
 }
 
 std::size_t cellCount(std::size_t side) { return gpu::kVolumeGrids * side * side * side; }
 
 std::size_t cellCount(const SimulationSettings& settings) {
     return cellCount(settings.hair_hair.resolution);
-}
-
-std::size_t sumBytes(const SimulationSettings& settings) {
-    return cellCount(settings) * 4 * sizeof(std::int32_t);
 }
 
 std::size_t blockCount(const SimulationSettings& settings) {
@@ -194,30 +184,35 @@ double meanRestDensity(const groom::Groom& groom, const VolumeGrid& grid) {
     return sum / gpu::kVolumeGrids;
 }
 
-std::uint64_t hairHairBytes(const groom::GroomSize& size, const SimulationSettings& settings) {
-    return size.vertices() * (sizeof(float) + sizeof(gpu::VolumeSample) + sizeof(glm::vec4)) +
-           sumBytes(settings) + blockCount(settings) * sizeof(gpu::VolumeBlock);
+engine::MemoryRows
+HairHair::rows(const groom::GroomSize& size, const SimulationSettings& settings) {
+    const std::uint64_t vertices = size.vertices();
+    return {
+        "simulation",
+        {{"volume shares", engine::bytesOf<float>(vertices)},
+         {"volume samples", engine::bytesOf<gpu::VolumeSample>(vertices)},
+         {"volume sums", engine::bytesOf<glm::ivec4>(cellCount(settings))},
+         {"volume blocks", engine::bytesOf<gpu::VolumeBlock>(blockCount(settings))},
+         {"volume parameters", sizeof(gpu::VolumeParameters)},
+         {"volume kept", engine::bytesOf<glm::vec4>(vertices)},
+         {"settled state", engine::bytesOf<glm::vec4>(vertices)}}};
 }
 
 HairHair::HairHair(
     const engine::Device& device, const groom::Groom& groom, const SimulationSettings& settings,
     const gpu::Step& step)
     : vertex_count_(static_cast<std::uint32_t>(groom.points.size())),
-      shares_(engine::makeBuffer(
-          device, std::span<const float>(toFloat(lengthShares(groom))), "volume shares")),
-      samples_(
-          device, {.size = vertex_count_ * sizeof(gpu::VolumeSample), .name = "volume samples"}),
-      sums_(device, {.size = sumBytes(settings), .name = "volume sums"}),
-      blocks_(
-          device,
-          {.size = blockCount(settings) * sizeof(gpu::VolumeBlock), .name = "volume blocks"}),
-      parameters_(device, {.size = sizeof(gpu::VolumeParameters), .name = "volume parameters"}),
-      kept_(device, {.size = vertex_count_ * sizeof(glm::vec4), .name = "volume kept"}),
       sample_(pipeline(device, "simulation/volume_sample.comp")),
       splat_(pipeline(
           device, isPacked(device) ? "simulation/volume_splat.comp+packed"
                                    : "simulation/volume_splat.comp")),
       force_(pipeline(device, "simulation/volume_force.comp")) {
+    const engine::MemoryRows rows = HairHair::rows(sizeOf(groom), settings);
+    shares_ = engine::makeBuffer(device, toFloat(lengthShares(groom)), rows, "volume shares");
+    samples_ = {device, rows["volume samples"]};
+    sums_ = {device, rows["volume sums"]};
+    blocks_ = {device, rows["volume blocks"]};
+    kept_ = {device, rows["volume kept"]};
     gpu::VolumeParameters parameters = parametersOf(groom, settings, step);
     parameters.shares = shares_.address();
     parameters.samples = samples_.address();
@@ -225,7 +220,7 @@ HairHair::HairHair(
     parameters.blocks = blocks_.address();
     parameters.borrows = isPacked(device) ? 1 : 0;
     parameters.kept = kept_.address();
-    engine::upload(device, std::as_bytes(std::span(&parameters, 1)), parameters_);
+    parameters_ = engine::makeBuffer(device, std::array{parameters}, rows, "volume parameters");
     forget(device);
 }
 
@@ -236,10 +231,7 @@ void HairHair::forget(const engine::Device& device) {
 void HairHair::record(
     engine::Commands& commands, const GuideAddresses& guides, const RigidMotion& later) const {
     gpu::VolumePush push{
-        .guides = guides.parameters,
-        .volume = parameters_.address(),
-        .accelerations = 0,
-        .frame = toGpu(later)};
+        .guides = guides.parameters, .volume = parameters_.address(), .frame = toGpu(later)};
     commands.fill(sums_, 0);
     commands.fill(blocks_, 0);
 
@@ -258,14 +250,13 @@ void HairHair::record(
          {sums_, Access::compute_write}});
     commands.dispatchInvocations(vertex_count_, gpu::kGuideGroupSize);
 
-    push.accelerations = guides.accelerations;
+    push.accelerations = commands.writes(guides.accelerations);
     commands.bind(force_, push);
     commands.uses(
         {{samples_, Access::compute_read},
          {blocks_, Access::compute_read},
          {sums_, Access::compute_read},
-         {kept_, Access::compute_write},
-         {guides.accelerations, Access::compute_write}});
+         {kept_, Access::compute_write}});
     commands.dispatchInvocations(vertex_count_, gpu::kGuideGroupSize);
 }
 

@@ -35,9 +35,6 @@ std::vector<double> lengthShares(const groom::Groom& groom);
 // Returns the density at rest in shares per cell: the mean over the groom's length and both grids.
 double meanRestDensity(const groom::Groom& groom, const VolumeGrid& grid);
 
-// Returns the device memory of HairHair, B.
-std::uint64_t hairHairBytes(const groom::GroomSize& size, const SimulationSettings& settings);
-
 // Contact of hair with hair as in a fluid, on grids that move with the head (Petrovic, Henne and
 // Anderson 2005, Volumetric methods for simulation and rendering of hair).
 //
@@ -95,6 +92,9 @@ public:
     HairHair(
         const engine::Device& device, const groom::Groom& groom, const SimulationSettings& settings,
         const gpu::Step& step);
+
+    static engine::MemoryRows
+    rows(const groom::GroomSize& size, const SimulationSettings& settings);
 
     // Adds the accelerations of the next step. `later` is the head's motion at its end.
     void record(

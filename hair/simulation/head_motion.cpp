@@ -152,10 +152,7 @@ SkinnedRoots::SkinnedRoots(
     for (std::uint32_t i = 0; i < groom.strand_count; ++i)
         roots_.push_back(groom.strand(i).front());
     bindings_ = mesh.bind(roots_);
-    frames_ = {
-        device,
-        {.size = (std::size_t{substeps} + 1) * roots_.size() * sizeof(gpu::RigidFrame),
-         .name = "guide root frames"}};
+    frames_ = {device, rows(roots_.size(), substeps)["guide root frames"]};
 }
 
 std::vector<RigidMotion> SkinnedRoots::at(double time) const {

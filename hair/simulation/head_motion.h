@@ -73,6 +73,13 @@ public:
         const engine::Device& device, const groom::Groom& groom, const groom::DeformingMesh& mesh,
         std::uint32_t substeps);
 
+    static engine::MemoryRows rows(std::uint64_t guides, std::uint32_t substeps) {
+        return {
+            "simulation",
+            {{"guide root frames",
+              engine::bytesOf<gpu::RigidFrame>(guides * (std::uint64_t{substeps} + 1))}}};
+    }
+
     // Returns how the mesh alone has moved the roots since rest, at a simulated time, s: [guide].
     std::vector<RigidMotion> at(double time) const;
     // Returns the mean of these motions, for code that needs one motion of the head.
@@ -89,7 +96,6 @@ public:
     // Address of gpu::RigidFrame [guide] at the start of a substep, or at the end of the one
     // before.
     std::uint64_t address(std::uint32_t substep) const;
-    const engine::Buffer& frames() const { return frames_; }
 
 private:
     // Valid until the next call.

@@ -30,10 +30,6 @@ static_assert(offsetof(gpu::SubstepPush, drag) == 116);
 
 constexpr std::uint32_t kSettleBatch = 64;  // substeps per submission
 
-engine::BufferDescription stateOf(const engine::Buffer& like, const char* name) {
-    return {.size = like.size(), .name = name};
-}
-
 std::vector<glm::vec4> withMargin(std::span<const glm::vec3> points, float margin) {
     std::vector<glm::vec4> result;
     result.reserve(points.size());
@@ -86,24 +82,28 @@ double FixedStep::remainder() const { return static_cast<double>(parts_) / doubl
 
 // ---- Guides on the device -----------------------------------------------------------------------
 
-std::uint64_t simulationBytes(
+engine::MemoryRows Simulation::rows(
     const engine::DeviceInfo& device, const groom::GroomSize& size,
     const SimulationSettings& settings) {
-    // Rest positions, two copies of positions and of previous positions, accelerations.
-    constexpr std::uint64_t kGuideVectors = 6;
-    constexpr std::uint64_t kSettledVectors = 2;  // positions and previous positions
-    const std::uint64_t vectors = sizeof(glm::vec4) * size.vertices();
-    const SolverSizes solver = solverSizes(device, size, settings);
-    std::uint64_t bytes = (kGuideVectors + kSettledVectors) * vectors + solver.all + solver.state;
-    if (settings.wind.mode == WindMode::drag) bytes += vectors;  // the air
-    if (settings.collision.parts != CollisionParts::vertices) bytes += vectors;  // starts
-    if (hairActsOnHair(settings)) bytes += hairHairBytes(size, settings) + vectors;  // and settled
+    const std::size_t vectors = engine::bytesOf<glm::vec4>(size.vertices());
+    engine::MemoryRows rows(
+        "simulation", {{"guide rest positions", vectors},
+                       {"guide positions", vectors, 2},
+                       {"guide previous positions", vectors, 2},
+                       {"guide accelerations", vectors},
+                       {"guide parameters", 2 * sizeof(gpu::GuideParameters)},
+                       {"settled state", vectors, 2}});
+    rows.add(Bodies::rows(settings));
+    rows.add(WindPass::rows(size.vertices(), settings.wind.mode));
+    rows.add(solverRows(device, size, settings));
+    if (!settings.pulls.empty()) rows.add(PullPass::rows());
+    const bool moves_vertices = settings.solver == Solver::shape || settings.solver == Solver::ftl;
+    if (moves_vertices && hasSegmentPass(settings)) rows.add(SegmentPass::rows(size.vertices()));
+    if (hairActsOnHair(settings)) rows.add(HairHair::rows(size, settings));
     if (hasSkinnedRoots(settings))
-        bytes += (stepOf(settings).count + 1) * size.guides * sizeof(gpu::RigidFrame);
-    for (const DistanceFieldSettings& field : settings.distance_fields)
-        bytes += fieldBytes(field.resolution);
-    if (size.cached_points > 0) bytes += sizeof(glm::vec4) * size.cached_points + vectors;
-    return bytes;
+        rows.add(SkinnedRoots::rows(size.guides, stepOf(settings).count));
+    if (size.cached_points > 0) rows.add(CachePass::rows(size, settings.solver == Solver::shape));
+    return rows;
 }
 
 Simulation::Simulation(
@@ -114,24 +114,21 @@ Simulation::Simulation(
       strand_count_(groom.strand_count), vertices_per_strand_(groom.vertices_per_strand),
       seed_(seed), pinned_(groom.points.size()), motion_(settings.motion),
       bodies_(device, settings, field_meshes, made.fields),
-      rest_positions_(engine::makeBuffer(
-          device, std::span<const glm::vec4>(withMargin(groom.points, settings.collision.margin)),
-          "guide rest positions")),
-      positions_{
-          engine::Buffer(device, stateOf(rest_positions_, "guide positions")),
-          engine::Buffer(device, stateOf(rest_positions_, "guide positions"))},
-      previous_{
-          engine::Buffer(device, stateOf(rest_positions_, "guide previous positions")),
-          engine::Buffer(device, stateOf(rest_positions_, "guide previous positions"))},
-      accelerations_(device, stateOf(rest_positions_, "guide accelerations")),
-      parameters_(engine::makeBuffer(
-          device, std::span<const gpu::GuideParameters>(parametersWith(bodies_.parameters())),
-          "guide parameters")),
       wind_(device, strand_count_ * vertices_per_strand_, settings),
       solver_(makeSolver(device, groom, settings_, step_)) {
     assert(strand_count_ > 0 && vertices_per_strand_ > 1);
     assert(groom.points.size() == std::size_t{strand_count_} * vertices_per_strand_);
     checkPulls(settings.pulls, strand_count_, vertices_per_strand_);
+    const engine::MemoryRows rows = Simulation::rows(device.info(), sizeOf(groom), settings);
+    rest_positions_ = engine::makeBuffer(
+        device, withMargin(groom.points, settings.collision.margin), rows, "guide rest positions");
+    for (std::size_t copy = 0; copy < 2; ++copy) {
+        positions_[copy] = {device, rows["guide positions"]};
+        previous_[copy] = {device, rows["guide previous positions"]};
+    }
+    accelerations_ = {device, rows["guide accelerations"]};
+    parameters_ =
+        engine::makeBuffer(device, parametersWith(bodies_.parameters()), rows, "guide parameters");
     if (deforming) roots_.emplace(device, groom, *deforming, step_.count);
     if (!settings.animation.clip.empty() && !roots_)
         throw engine::Error("/simulation/animation/clip", "is set, but hair grows on no mesh");
@@ -149,8 +146,11 @@ Simulation::Simulation(
     setState(start, start);
     if (balance()) balanceRest(start);
     if (!groom.cache.times.empty()) startCache(groom);
-    for (const engine::Buffer* buffer : state())
-        settled_.emplace_back(device, stateOf(*buffer, "settled state"));
+    for (const engine::Buffer* buffer : state()) {
+        engine::BufferDescription settled = rows["settled state"];
+        settled.size = buffer->size();
+        settled_.emplace_back(device, settled);
+    }
     const auto fits = [](const std::vector<std::byte>& bytes, const engine::Buffer& buffer) {
         return bytes.size() == buffer.size();
     };
@@ -363,13 +363,12 @@ void Simulation::setState(
         commands.uses(
             {{positions_[current_], engine::Access::compute_read},
              {previous_[current_], engine::Access::compute_read}});
-        if (roots_) commands.uses({{roots_->frames(), engine::Access::compute_read}});
         solver_->recordAdopt(
             commands, {.guides = addresses().parameters,
                        .frame = frame,
                        .frame_before = frame,
-                       .roots = roots_ ? roots_->address(0) : 0,
-                       .roots_before = roots_ ? roots_->address(0) : 0});
+                       .roots = roots_ ? commands.reads(roots_->address(0)) : 0,
+                       .roots_before = roots_ ? commands.reads(roots_->address(0)) : 0});
     });
 }
 
@@ -445,21 +444,18 @@ void Simulation::recordSubsteps(
         commands.uses(
             {{before.positions, Access::compute_read},
              {before.previous, Access::compute_read},
-             {guides.accelerations, Access::compute_read},
              {guides.positions, Access::compute_write},
              {guides.previous, Access::compute_write}});
-        if (air.velocities) commands.uses({{*air.velocities, Access::compute_read}});
-        if (roots_) commands.uses({{roots_->frames(), Access::compute_read}});
         if (cache_) commands.uses({{rest_positions_, Access::compute_read}});
         solver_->record(
             commands, {.guides = guides.parameters,
                        .from = before.parameters,
-                       .accelerations = guides.accelerations,
-                       .air = air.velocities ? air.velocities->address() : 0,
+                       .accelerations = commands.reads(guides.accelerations),
+                       .air = air.velocities ? commands.reads(*air.velocities) : 0,
                        .frame = frameAfter(i + 1),
                        .frame_before = frameAfter(i),
-                       .roots = roots_ ? roots_->address(i + 1) : 0,
-                       .roots_before = roots_ ? roots_->address(i) : 0,
+                       .roots = roots_ ? commands.reads(roots_->address(i + 1)) : 0,
+                       .roots_before = roots_ ? commands.reads(roots_->address(i)) : 0,
                        .first_strand = 0,
                        .drag = air.drag});
         if (segments) segments_->record(commands, guides, frameAfter(i + 1), frameAfter(i));
@@ -532,9 +528,7 @@ std::vector<const engine::Buffer*> Simulation::state() const {
 static_assert(sizeof(gpu::InterpolatePush) == 32 && offsetof(gpu::InterpolatePush, share) == 24);
 
 GuideInterpolation::GuideInterpolation(const engine::Device& device, std::uint32_t vertex_count)
-    : vertex_count_(vertex_count),
-      positions_(
-          device, {.size = sizeof(glm::vec4) * vertex_count, .name = "guide drawn positions"}),
+    : vertex_count_(vertex_count), positions_(device, rows(vertex_count)["guide drawn positions"]),
       pipeline_(
           device,
           {.shader = "simulation/interpolate.comp", .push_size = sizeof(gpu::InterpolatePush)}) {}
@@ -543,15 +537,11 @@ void GuideInterpolation::record(
     engine::Commands& commands, std::uint64_t from, std::uint64_t to, double share) const {
     commands.bind(
         pipeline_, gpu::InterpolatePush{
-                       .from = from,
-                       .to = to,
-                       .drawn = positions_.address(),
+                       .from = commands.reads(from),
+                       .to = commands.reads(to),
+                       .drawn = commands.writes(positions_),
                        .share = static_cast<float>(share),
                        .vertex_count = vertex_count_});
-    commands.uses(
-        {{from, Access::compute_read},
-         {to, Access::compute_read},
-         {positions_, Access::compute_write}});
     commands.dispatchInvocations(vertex_count_, gpu::kGuideGroupSize);
 }
 

@@ -66,11 +66,6 @@ struct MadeBefore {
     const SettledState* settled = nullptr;  // null: missing
 };
 
-// Returns the device memory of a Simulation, B, with distance fields as in fieldBytes().
-std::uint64_t simulationBytes(
-    const engine::DeviceInfo& device, const groom::GroomSize& size,
-    const SimulationSettings& settings);
-
 // Guides between two steps, for drawing. If steps do not divide frames, frames advance by unequal
 // numbers of steps, and guides that are drawn where the last step left them jump. Between the last
 // two steps they move evenly. They are then drawn one time step late. A position is linear between
@@ -78,6 +73,10 @@ std::uint64_t simulationBytes(
 class GuideInterpolation {
 public:
     GuideInterpolation(const engine::Device& device, std::uint32_t vertex_count);
+
+    static engine::MemoryRows rows(std::uint64_t vertices) {
+        return {"simulation", {{"guide drawn positions", engine::bytesOf<glm::vec4>(vertices)}}};
+    }
 
     // Writes the positions at a share, 0 to 1, of the way from those at address `from` to those at
     // `to`, both vec4 [vertex], m.
@@ -108,6 +107,11 @@ public:
         const engine::Device& device, const groom::Groom& groom, const SimulationSettings& settings,
         std::uint32_t seed, std::span<const groom::Mesh> field_meshes = {},
         const MadeBefore& made = {}, const groom::DeformingMesh* deforming = nullptr);
+
+    // Without those of interpolate().
+    static engine::MemoryRows rows(
+        const engine::DeviceInfo& device, const groom::GroomSize& size,
+        const SimulationSettings& settings);
 
     // Bodies::warnings().
     std::vector<std::string> bodyWarnings() const { return bodies_.warnings(); }

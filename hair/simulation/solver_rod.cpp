@@ -176,20 +176,6 @@ std::uint32_t strandsInDispatch(
     return static_cast<std::uint32_t>(std::min(most, size.guides));
 }
 
-std::uint64_t motionBytes(const groom::GroomSize& size) {
-    return sizeof(glm::vec4) * gpu::kRodMotionRows * size.vertices();
-}
-std::uint64_t accelerationBytes(const groom::GroomSize& size) {
-    return sizeof(glm::vec4) * gpu::kRodAccelerationRows * size.vertices();
-}
-
-std::optional<engine::Buffer>
-accelerationsOf(const engine::Device& device, const groom::Groom& groom, RodIntegrator integrator) {
-    if (integrator == RodIntegrator::implicit_euler) return {};
-    return engine::Buffer(
-        device, {.size = accelerationBytes(sizeOf(groom)), .name = "rod accelerations"});
-}
-
 // Returns the way in which `rod` keeps segments out of bodies.
 std::uint32_t segmentsOf(const SimulationSettings& settings) {
     if (settings.collision.parts == CollisionParts::vertices) return gpu::kRodNoSegments;
@@ -198,15 +184,24 @@ std::uint32_t segmentsOf(const SimulationSettings& settings) {
 
 }  // namespace
 
-SolverSizes
-rodSizes(const engine::DeviceInfo& device, const groom::GroomSize& size, const RodMethod& method) {
-    SolverSizes sizes{.all = 0, .state = motionBytes(size)};
-    if (method.integrator != RodIntegrator::implicit_euler) sizes.state += accelerationBytes(size);
-    sizes.all = sizes.state + sizeof(glm::vec4) * gpu::kRodSegmentRows * size.vertices() +
-                sizeof(float) * size.guides +
-                scratchOfStrand(size, method.scratch_rows) *
-                    strandsInDispatch(device, size, method.scratch_rows);
-    return sizes;
+engine::MemoryRows RodSolver::rows(
+    const engine::DeviceInfo& device, const groom::GroomSize& size, const RodMethod& method) {
+    const auto vectors = [&](std::uint64_t rows) {
+        return engine::bytesOf<glm::vec4>(rows * size.vertices());
+    };
+    engine::MemoryRows rows(
+        "simulation", {{"rod segments", vectors(gpu::kRodSegmentRows)},
+                       {"rod units", engine::bytesOf<float>(size.guides)},
+                       {"rod motion", vectors(gpu::kRodMotionRows)},
+                       {"settled state", vectors(gpu::kRodMotionRows)},
+                       {"rod scratch", scratchOfStrand(size, method.scratch_rows) *
+                                           strandsInDispatch(device, size, method.scratch_rows)},
+                       {"rod parameters", sizeof(gpu::RodParameters)}});
+    if (method.integrator != RodIntegrator::implicit_euler)
+        rows.add(
+            "simulation", {{"rod accelerations", vectors(gpu::kRodAccelerationRows)},
+                           {"settled state", vectors(gpu::kRodAccelerationRows)}});
+    return rows;
 }
 
 RodMethod rodMethod(const SimulationSettings& settings) {
@@ -258,46 +253,47 @@ RodSolver::RodSolver(
     const gpu::Step& step, const RodMethod& method, const RodRest& rest)
     : balance_(rest.balance), strand_count_(groom.strand_count),
       most_strands_(strandsInDispatch(device.info(), sizeOf(groom), method.scratch_rows)),
-      segments_(
-          engine::makeBuffer(device, std::span<const glm::vec4>(rest.segments), "rod segments")),
-      units_(engine::makeBuffer(device, std::span<const float>(rest.units), "rod units")),
-      motion_(device, {.size = motionBytes(sizeOf(groom)), .name = "rod motion"}),
-      accelerations_(accelerationsOf(device, groom, method.integrator)),
-      scratch_(
-          device, {.size = scratchOfStrand(sizeOf(groom), method.scratch_rows) * most_strands_,
-                   .name = "rod scratch"}),
-      parameters_(engine::makeBuffer(
-          device,
-          std::span<const gpu::RodParameters>(std::array{gpu::RodParameters{
-              .segments = segments_.address(),
-              .units = units_.address(),
-              .motion = motion_.address(),
-              .scratch = scratch_.address(),
-              .accelerations = accelerations_ ? accelerations_->address() : 0,
-              .most_strands = most_strands_,
-              .iterations = method.iterations,
-              .stretching = static_cast<float>(method.stretching * step.sub * step.sub),
-              .ellipticity = settings.material.ellipticity,
-              .integrity = static_cast<float>(method.integrity * step.sub * step.sub),
-              .angular = static_cast<float>(method.angular * step.sub * step.sub),
-              .damping = static_cast<float>(method.damping / step.sub)}}),
-          "rod parameters")),
       step_(
-          device, {.shader = std::string(method.shader) +
-                             (device.has(engine::Feature::long_integers) ? "+packed" : ""),
-                   .constants =
-                       {{gpu::kContinuousCollisionConstant, settings.collision.continuous},
-                        {gpu::kEllipticSectionConstant, settings.material.ellipticity != 1.0f},
-                        {gpu::kWarmStartConstant, settings.collision.warm_start},
-                        {gpu::kRodSegmentsConstant, segmentsOf(settings)},
-                        {gpu::kRodAlphaConstant, accelerations_.has_value()},
-                        {gpu::kRodDampedConstant, method.damping > 0.0},
-                        {gpu::kSkinnedRootsConstant, hasSkinnedRoots(settings)}},
-                   .push_size = sizeof(gpu::SubstepPush)}),
+          device,
+          {.shader = std::string(method.shader) +
+                     (device.has(engine::Feature::long_integers) ? "+packed" : ""),
+           .constants =
+               {{gpu::kContinuousCollisionConstant, settings.collision.continuous},
+                {gpu::kEllipticSectionConstant, settings.material.ellipticity != 1.0f},
+                {gpu::kWarmStartConstant, settings.collision.warm_start},
+                {gpu::kRodSegmentsConstant, segmentsOf(settings)},
+                {gpu::kRodAlphaConstant, method.integrator != RodIntegrator::implicit_euler},
+                {gpu::kRodDampedConstant, method.damping > 0.0},
+                {gpu::kSkinnedRootsConstant, hasSkinnedRoots(settings)}},
+           .push_size = sizeof(gpu::SubstepPush)}),
       adopt_(
           device, {.shader = "simulation/rod_adopt.comp",
                    .constants = {{gpu::kSkinnedRootsConstant, hasSkinnedRoots(settings)}},
-                   .push_size = sizeof(gpu::SubstepPush)}) {}
+                   .push_size = sizeof(gpu::SubstepPush)}) {
+    const engine::MemoryRows rows = RodSolver::rows(device.info(), sizeOf(groom), method);
+    segments_ = engine::makeBuffer(device, rest.segments, rows, "rod segments");
+    units_ = engine::makeBuffer(device, rest.units, rows, "rod units");
+    motion_ = {device, rows["rod motion"]};
+    if (method.integrator != RodIntegrator::implicit_euler)
+        accelerations_.emplace(device, rows["rod accelerations"]);
+    scratch_ = {device, rows["rod scratch"]};
+    parameters_ = engine::makeBuffer(
+        device,
+        std::array{gpu::RodParameters{
+            .segments = segments_.address(),
+            .units = units_.address(),
+            .motion = motion_.address(),
+            .scratch = scratch_.address(),
+            .accelerations = accelerations_ ? accelerations_->address() : 0,
+            .most_strands = most_strands_,
+            .iterations = method.iterations,
+            .stretching = static_cast<float>(method.stretching * step.sub * step.sub),
+            .ellipticity = settings.material.ellipticity,
+            .integrity = static_cast<float>(method.integrity * step.sub * step.sub),
+            .angular = static_cast<float>(method.angular * step.sub * step.sub),
+            .damping = static_cast<float>(method.damping / step.sub)}},
+        rows, "rod parameters");
+}
 
 void RodSolver::record(engine::Commands& commands, gpu::SubstepPush push) const {
     push.solver = parameters_.address();

@@ -37,10 +37,6 @@ RodMethod positionBasedMethod(const SimulationSettings& settings);
 // edges.
 RodMethod augmentedMassSpringMethod(const SimulationSettings& settings);
 
-// Returns the device memory of RodSolver for the guides, B.
-SolverSizes
-rodSizes(const engine::DeviceInfo& device, const groom::GroomSize& size, const RodMethod& method);
-
 // Elastic rods of /simulation/material by one of these methods. Positions are output only; the
 // state is in orientations, velocities and edges. Each strand has its own unit of length, and
 // positions are sums of edges, so that 32 bits are enough. The first segment leaves the follicle at
@@ -50,6 +46,9 @@ public:
     RodSolver(
         const engine::Device& device, const groom::Groom& groom, const SimulationSettings& settings,
         const gpu::Step& step, const RodMethod& method);
+
+    static engine::MemoryRows
+    rows(const engine::DeviceInfo& device, const groom::GroomSize& size, const RodMethod& method);
 
     void record(engine::Commands& commands, gpu::SubstepPush push) const override;
     void recordAdopt(engine::Commands& commands, gpu::SubstepPush push) const override;

@@ -279,9 +279,14 @@ engine::ComputePipeline pipelineOf(const engine::Device& device, const ShapePlan
 
 }  // namespace
 
-// Counts goals, edges and stiffness.
-std::uint64_t shapeBytes(const groom::GroomSize& size) {
-    return size.vertices() * (2 * sizeof(glm::vec4) + sizeof(float));
+engine::MemoryRows ShapeSolver::rows(
+    const engine::DeviceInfo&, const groom::GroomSize& size, const SimulationSettings&) {
+    return {
+        "simulation",
+        {{"guide goals", engine::bytesOf<glm::vec4>(size.vertices())},
+         {"guide rest edges", engine::bytesOf<glm::vec4>(size.vertices())},
+         {"guide local stiffness", engine::bytesOf<float>(size.guides)},
+         {"shape parameters", sizeof(gpu::ShapeParameters)}}};
 }
 
 ShapeSolver::ShapeSolver(
@@ -294,24 +299,25 @@ ShapeSolver::ShapeSolver(
     const gpu::Step& step, std::unique_ptr<ShapeRest> rest)
     : balancing_(std::move(rest)), balance_(balancing_->balance), strand_count_(groom.strand_count),
       plan_(planShape(device.info(), settings, groom.strand_count, groom.vertices_per_strand)),
-      rest_positions_(engine::makeBuffer(
-          device, std::span<const glm::vec4>(balancing_->positions), "guide goals")),
-      rest_edges_(engine::makeBuffer(
-          device, std::span<const glm::vec4>(balancing_->edges), "guide rest edges")),
-      local_stiffness_(engine::makeBuffer(
-          device, std::span<const float>(balancing_->stiffness), "guide local stiffness")),
-      parameters_(engine::makeBuffer(
-          device,
-          std::span<const gpu::ShapeParameters>(std::array{gpu::ShapeParameters{
-              .rest_positions = rest_positions_.address(),
-              .rest_edges = rest_edges_.address(),
-              .local_stiffness = local_stiffness_.address(),
-              .global_stiffness = static_cast<float>(globalStiffness(settings, step)),
-              .local_iterations = settings.local.iterations,
-              .length_iterations = settings.length.iterations,
-              .local_damping = static_cast<float>(bendDamping(step))}}),
-          "shape parameters")),
-      pipeline_(pipelineOf(device, plan_)) {}
+      pipeline_(pipelineOf(device, plan_)) {
+    const engine::MemoryRows rows = ShapeSolver::rows(device.info(), sizeOf(groom), settings);
+    const auto make = [&](const auto& values, const char* name) {
+        return engine::makeBuffer(device, values, rows, name);
+    };
+    rest_positions_ = make(balancing_->positions, "guide goals");
+    rest_edges_ = make(balancing_->edges, "guide rest edges");
+    local_stiffness_ = make(balancing_->stiffness, "guide local stiffness");
+    parameters_ = make(
+        std::array{gpu::ShapeParameters{
+            .rest_positions = rest_positions_.address(),
+            .rest_edges = rest_edges_.address(),
+            .local_stiffness = local_stiffness_.address(),
+            .global_stiffness = static_cast<float>(globalStiffness(settings, step)),
+            .local_iterations = settings.local.iterations,
+            .length_iterations = settings.length.iterations,
+            .local_damping = static_cast<float>(bendDamping(step))}},
+        "shape parameters");
+}
 
 ShapeSolver::~ShapeSolver() = default;
 

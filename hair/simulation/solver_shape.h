@@ -25,9 +25,6 @@ struct ShapePlan {
     std::uint32_t strands_per_group = 0;
 };
 
-// Returns the device memory of ShapeSolver for the guides, B.
-std::uint64_t shapeBytes(const groom::GroomSize& size);
-
 // The thesis's solver: Verlet, then global, local (Han and Harada 2012) and length constraints
 // (thesis section 3). Lengths use direct solves, unless the settings ask for the thesis's
 // iterations.
@@ -40,6 +37,9 @@ public:
         const gpu::Step& step);
 
     ~ShapeSolver() override;
+
+    static engine::MemoryRows
+    rows(const engine::DeviceInfo&, const groom::GroomSize& size, const SimulationSettings&);
 
     void record(engine::Commands& commands, gpu::SubstepPush push) const override;
     void expectBodies(const engine::Device& device) override;

@@ -25,10 +25,10 @@ FtlSolver::FtlSolver(
     : strand_count_(groom.strand_count),
       parameters_(engine::makeBuffer(
           device,
-          std::span<const gpu::FtlParameters>(std::array{gpu::FtlParameters{
+          std::array{gpu::FtlParameters{
               .global_stiffness = static_cast<float>(globalStiffness(settings, step)),
-              .velocity_correction = settings.ftl.velocity_correction}}),
-          "ftl parameters")),
+              .velocity_correction = settings.ftl.velocity_correction}},
+          rows(device.info(), sizeOf(groom), settings), "ftl parameters")),
       pipeline_(
           device, {.shader = "simulation/ftl.comp",
                    .constants =
@@ -76,24 +76,15 @@ struct Row {
     double longest_substep;  // by the solver's own choice, s
     std::unique_ptr<GuideSolver> (*make)(
         const engine::Device&, const groom::Groom&, const SimulationSettings&, const gpu::Step&);
-    SolverSizes (*sizes)(
+    engine::MemoryRows (*rows)(
         const engine::DeviceInfo&, const groom::GroomSize&, const SimulationSettings&);
 };
 
-SolverSizes noSizes(const engine::DeviceInfo&, const groom::GroomSize&, const SimulationSettings&) {
-    return {};
-}
-
-SolverSizes
-sizesOfShapes(const engine::DeviceInfo&, const groom::GroomSize& size, const SimulationSettings&) {
-    return {.all = shapeBytes(size), .state = 0};
-}
-
 template <RodMethod (*kMethod)(const SimulationSettings&)>
-SolverSizes sizesOfRods(
+engine::MemoryRows rodRows(
     const engine::DeviceInfo& device, const groom::GroomSize& size,
     const SimulationSettings& settings) {
-    return rodSizes(device, size, kMethod(settings));
+    return RodSolver::rows(device, size, kMethod(settings));
 }
 
 template <class Made>
@@ -122,16 +113,16 @@ std::unique_ptr<GuideSolver> makeRods(
 constexpr double kWholeStep = std::numeric_limits<double>::infinity();  // of any length
 
 constexpr Row kSolvers[] = {
-    {Solver::none, kWholeStep, makeNone, noSizes},
-    {Solver::shape, kWholeStep, make<ShapeSolver>, sizesOfShapes},
-    {Solver::ftl, kWholeStep, make<FtlSolver>, noSizes},
-    {Solver::rod, 1.0 / 480.0, makeRods<rodMethod>, sizesOfRods<rodMethod>},
+    {Solver::none, kWholeStep, makeNone, GuideSolver::rows},
+    {Solver::shape, kWholeStep, make<ShapeSolver>, ShapeSolver::rows},
+    {Solver::ftl, kWholeStep, make<FtlSolver>, FtlSolver::rows},
+    {Solver::rod, 1.0 / 480.0, makeRods<rodMethod>, rodRows<rodMethod>},
     {Solver::stable_cosserat, 1.0 / 960.0, makeRods<stableCosseratMethod>,
-     sizesOfRods<stableCosseratMethod>},
+     rodRows<stableCosseratMethod>},
     {Solver::position_based_rod, 1.0 / 1920.0, makeRods<positionBasedMethod>,
-     sizesOfRods<positionBasedMethod>},
+     rodRows<positionBasedMethod>},
     {Solver::augmented_mass_spring, 1.0 / 480.0, makeRods<augmentedMassSpringMethod>,
-     sizesOfRods<augmentedMassSpringMethod>},
+     rodRows<augmentedMassSpringMethod>},
 };
 
 const Row& rowOf(Solver solver) {
@@ -155,10 +146,10 @@ std::unique_ptr<GuideSolver> makeSolver(
     return rowOf(settings.solver).make(device, groom, settings, step);
 }
 
-SolverSizes solverSizes(
+engine::MemoryRows solverRows(
     const engine::DeviceInfo& device, const groom::GroomSize& size,
     const SimulationSettings& settings) {
-    return rowOf(settings.solver).sizes(device, size, settings);
+    return rowOf(settings.solver).rows(device, size, settings);
 }
 
 gpu::Step stepOf(const SimulationSettings& settings) {

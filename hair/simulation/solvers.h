@@ -24,6 +24,11 @@ public:
         const engine::Device& device, const groom::Groom& groom, const SimulationSettings& settings,
         const gpu::Step& step);
 
+    static engine::MemoryRows
+    rows(const engine::DeviceInfo&, const groom::GroomSize&, const SimulationSettings&) {
+        return {"simulation", {{"ftl parameters", sizeof(gpu::FtlParameters)}}};
+    }
+
     void record(engine::Commands& commands, gpu::SubstepPush push) const override;
 
 private:
@@ -34,8 +39,8 @@ private:
 
 // The list of solvers, for code that chooses one.
 
-// Returns the solver's memory.
-SolverSizes solverSizes(
+// Returns the memory of the settings' solver.
+engine::MemoryRows solverRows(
     const engine::DeviceInfo& device, const groom::GroomSize& size,
     const SimulationSettings& settings);
 

@@ -285,7 +285,7 @@ TEST_F(LesserDevice, ShapeMovesStrandsTheSameInLittleSharedMemory) {
 // Returns the bytes of the buffers of this name.
 std::uint64_t bytesOf(const engine::Device& device, const std::string& name) {
     std::uint64_t bytes = 0;
-    for (const auto& [entry, size] : device.memory().bytes())
+    for (const auto& [entry, size] : device.memory())
         if (entry.name == name) bytes += size;
     return bytes;
 }

@@ -89,7 +89,10 @@ TEST_F(DeviceTest, TreatsALimitOnTheSizeOfFilesAsOneOnMemoryInFiles) {
         // Exceeds the limit: refused, or allowed if the driver's memory is in no file.
         error = errorText([&] {
             const Buffer large(
-                small, {.size = 300u << 20, .usage = Usage::readback, .name = "large"});
+                small, {.size = 300u << 20,
+                        .usage = Usage::readback,
+                        .name = "large",
+                        .purpose = "tests"});
             std::ranges::fill(large.mapped(), std::byte{1});
         });
     });
@@ -117,7 +120,7 @@ TEST_F(DeviceTest, ChecksAddressesInShadersWhereThatIsAskedFor) {
     const ComputePipeline frames(
         checked, {.shader = "strands/frames.comp", .push_size = sizeof(Push)});
     const std::vector<float> zeros(64, 0.0f);
-    const Buffer memory = makeBuffer(checked, std::span(zeros), "frames");
+    const Buffer memory = makeBuffer(checked, zeros, "frames", "tests");
     const auto messagesOf = [&](VkDeviceAddress at) {
         runOnce(checked, [&](Commands& commands) {
             commands.bind(frames, Push{.addresses = {at, at, at}});

@@ -17,8 +17,10 @@ protected:
     void SetUp() override {
         GpuTest::SetUp();
         if (isOver()) return;
-        big_.emplace(device(), BufferDescription{.size = 64 << 20, .name = "big"});
-        small_.emplace(device(), BufferDescription{.size = 1 << 10, .name = "small"});
+        big_.emplace(
+            device(), BufferDescription{.size = 64 << 20, .name = "big", .purpose = "tests"});
+        small_.emplace(
+            device(), BufferDescription{.size = 1 << 10, .name = "small", .purpose = "tests"});
     }
 
     void TearDown() override {

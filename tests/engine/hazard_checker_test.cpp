@@ -278,7 +278,9 @@ protected:
         return text;
     }
 
-    static Buffer storage(const char* name) { return {device(), {.size = 64, .name = name}}; }
+    static Buffer storage(const char* name) {
+        return {device(), {.size = 64, .name = name, .purpose = "tests"}};
+    }
 
     static Image picture() {
         return {
@@ -286,7 +288,8 @@ protected:
             {.width = 8,
              .height = 8,
              .usage = VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT,
-             .name = "planted picture"}};
+             .name = "planted picture",
+             .purpose = "tests"}};
     }
 };
 
@@ -309,7 +312,8 @@ TEST_F(HazardLogTest, FindsAMissingBarrierBetweenBuffers) {
 // change shows that synchronization validation is active.
 TEST_F(HazardLogTest, ThePlantedHazardOnAnImageIsSeenByTheValidationLayer) {
     const Image image = picture();
-    const Buffer pixels(device(), {.size = 256, .usage = Usage::readback, .name = "pixels"});
+    const Buffer pixels(
+        device(), {.size = 256, .usage = Usage::readback, .name = "pixels", .purpose = "tests"});
     const auto record = [&](Commands& commands) {
         commands.transition(image, VK_IMAGE_LAYOUT_UNDEFINED, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL);
         commands.copy(image, pixels);
@@ -324,7 +328,8 @@ TEST_F(HazardLogTest, ThePlantedHazardOnAnImageIsSeenByTheValidationLayer) {
 }
 
 TEST_F(HazardLogTest, FindsTheHostWritingWhatAFrameStillReads) {
-    const Buffer numbers(device(), {.size = 64, .usage = Usage::upload, .name = "numbers"});
+    const Buffer numbers(
+        device(), {.size = 64, .usage = Usage::upload, .name = "numbers", .purpose = "tests"});
     const Buffer copy = storage("copy");
     FrameLoop loop(device(), Timing::overlapped);
     const auto play = [&] {

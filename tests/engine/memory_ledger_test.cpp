@@ -11,52 +11,54 @@
 namespace engine {
 namespace {
 
-const MemoryLedger::Entry kPositions{.heap = 0, .device_local = true, .name = "positions"};
-const MemoryLedger::Entry kStaging{.heap = 1, .device_local = false, .name = "staging"};
+const MemoryEntry kPositions{
+    .heap = 0, .device_local = true, .name = "positions", .purpose = "tests"};
+const MemoryEntry kStaging{.heap = 1, .device_local = false, .name = "staging", .purpose = "tests"};
 
-std::uint64_t bytesOf(const MemoryLedger& ledger, const MemoryLedger::Entry& entry) {
-    const auto found = ledger.bytes().find(entry);
-    return found == ledger.bytes().end() ? 0 : found->second;
+std::uint64_t bytesOf(const TrackedResources& resources, const MemoryEntry& entry) {
+    const MemoryLedger ledger = resources.memory();
+    const auto found = ledger.find(entry);
+    return found == ledger.end() ? 0 : found->second;
 }
 
 std::uint64_t bytesNamed(const MemoryLedger& ledger, const std::string& name) {
     std::uint64_t sum = 0;
-    for (const auto& [entry, bytes] : ledger.bytes())
+    for (const auto& [entry, bytes] : ledger)
         if (entry.name == name) sum += bytes;
     return sum;
 }
 
-TEST(MemoryLedger, HoldsALineWhileItsOwnerLives) {
-    MemoryLedger ledger;
+TEST(MemoryLedger, HoldsAResourceWhileItsOwnerLives) {
+    TrackedResources resources;
     {
-        const MemoryLedger::Line line(ledger, kPositions, 100);
-        EXPECT_EQ(bytesOf(ledger, kPositions), 100u);
+        const auto entry = resources.add({.memory = kPositions, .allocated = 100});
+        EXPECT_EQ(bytesOf(resources, kPositions), 100u);
     }
-    EXPECT_TRUE(ledger.bytes().empty());
+    EXPECT_TRUE(resources.memory().empty());
 }
 
-TEST(MemoryLedger, AddsUpLinesOfOneNameAndKeepsOthersApart) {
-    MemoryLedger ledger;
-    std::optional<MemoryLedger::Line> first(std::in_place, ledger, kPositions, 100);
-    const MemoryLedger::Line second(ledger, kPositions, 20);
-    const MemoryLedger::Line third(ledger, kStaging, 3);
-    EXPECT_EQ(bytesOf(ledger, kPositions), 120u);
-    EXPECT_EQ(bytesOf(ledger, kStaging), 3u);
+TEST(MemoryLedger, AddsUpResourcesOfOneNameAndKeepsOthersApart) {
+    TrackedResources resources;
+    std::optional first = resources.add({.memory = kPositions, .allocated = 100});
+    const auto second = resources.add({.memory = kPositions, .allocated = 20});
+    const auto third = resources.add({.memory = kStaging, .allocated = 3});
+    EXPECT_EQ(bytesOf(resources, kPositions), 120u);
+    EXPECT_EQ(bytesOf(resources, kStaging), 3u);
     first.reset();
-    EXPECT_EQ(bytesOf(ledger, kPositions), 20u);
+    EXPECT_EQ(bytesOf(resources, kPositions), 20u);
 }
 
-TEST(MemoryLedger, CountsALineOnceHoweverItMoves) {
-    MemoryLedger ledger;
-    MemoryLedger::Line line(ledger, kPositions, 100);
-    MemoryLedger::Line moved(std::move(line));
-    EXPECT_EQ(bytesOf(ledger, kPositions), 100u);
+TEST(MemoryLedger, CountsAResourceOnceHoweverItMoves) {
+    TrackedResources resources;
+    auto entry = resources.add({.memory = kPositions, .allocated = 100});
+    auto moved(std::move(entry));
+    EXPECT_EQ(bytesOf(resources, kPositions), 100u);
     {
-        MemoryLedger::Line other(ledger, kStaging, 3);
+        auto other = resources.add({.memory = kStaging, .allocated = 3});
         other = std::move(moved);
-        EXPECT_EQ(bytesOf(ledger, kPositions), 100u);
+        EXPECT_EQ(bytesOf(resources, kPositions), 100u);
     }
-    EXPECT_EQ(bytesOf(ledger, kPositions), 0u);
+    EXPECT_EQ(bytesOf(resources, kPositions), 0u);
 }
 
 using DeviceMemoryTest = GpuTest;
@@ -64,12 +66,14 @@ using DeviceMemoryTest = GpuTest;
 TEST_F(DeviceMemoryTest, OfABufferEntersAndLeavesTheLedger) {
     const std::uint64_t before = device().allocatedBytes();
     {
-        Buffer buffer(device(), {.size = 5000, .name = "ledger test"});
+        Buffer buffer(device(), {.size = 5000, .name = "ledger test", .purpose = "tests"});
         EXPECT_GE(bytesNamed(device().memory(), "ledger test"), 5000u);
         EXPECT_EQ(bytesNamed(device().memory(), "ledger test"), device().allocatedBytes() - before);
         const Buffer moved(std::move(buffer));
         EXPECT_EQ(bytesNamed(device().memory(), "ledger test"), device().allocatedBytes() - before);
-        const Buffer host(device(), {.size = 64, .usage = Usage::upload, .name = "ledger test"});
+        const Buffer host(
+            device(),
+            {.size = 64, .usage = Usage::upload, .name = "ledger test", .purpose = "tests"});
         EXPECT_EQ(bytesNamed(device().memory(), "ledger test"), device().allocatedBytes() - before);
     }
     EXPECT_EQ(bytesNamed(device().memory(), "ledger test"), 0u);
@@ -84,7 +88,8 @@ TEST_F(DeviceMemoryTest, OfAnImageEntersAndLeavesTheLedger) {
                        .width = 64,
                        .height = 32,
                        .usage = VK_IMAGE_USAGE_SAMPLED_BIT,
-                       .name = "ledger test"});
+                       .name = "ledger test",
+                       .purpose = "tests"});
         EXPECT_GE(bytesNamed(device().memory(), "ledger test"), 64u * 32u * 4u);
         EXPECT_EQ(bytesNamed(device().memory(), "ledger test"), device().allocatedBytes() - before);
     }

@@ -1,8 +1,12 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <fstream>
 #include <map>
 #include <set>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -73,6 +77,35 @@ fs::path writeCurls(const TemporaryFolder& folder) {
     return file;
 }
 
+// The resources that passes touch, by the names of the passes.
+using Touched = std::map<std::string, engine::PassUses>;
+
+std::string joined(const std::set<std::string>& names) {
+    std::string text;
+    for (const std::string& name : names) text += (text.empty() ? "`" : ", `") + name + '`';
+    return text;
+}
+
+std::vector<std::string> rowsOf(const Touched& touched) {
+    std::vector<std::string> rows;
+    for (const auto& [pass, uses] : touched)
+        rows.push_back(
+            "| `" + pass + "` | " + joined(uses.reads) + " | " + joined(uses.writes) + " |");
+    return rows;
+}
+
+std::vector<std::string> publishedRows() {
+    std::ifstream page(HAIRBENCH_SCENES_DIR "/../docs/design.md");
+    std::vector<std::string> rows;
+    bool is_table = false;
+    for (std::string line; std::getline(page, line);) {
+        if (is_table && line.empty()) break;
+        if (is_table && line.starts_with("| `")) rows.push_back(line);
+        is_table = is_table || line == "| pass | reads | writes |";
+    }
+    return rows;
+}
+
 class FramesHazards : public GpuTest {
 protected:
     void SetUp() override {
@@ -98,7 +131,7 @@ protected:
     // `needed`.
     static void play(
         const hair::Settings& settings, std::set<std::string>& places,
-        std::set<std::string>& needed) {
+        std::set<std::string>& needed, Touched& touched) {
         Case played(device(), settings, HAIRBENCH_SCENES_DIR);
         engine::FrameLoop loop(device(), engine::Timing::overlapped, kOverlap);
         log().keepRecordings();
@@ -108,6 +141,11 @@ protected:
         loop.finish();
         const std::vector<engine::Recording> recordings = log().takeRecordings();
         ASSERT_EQ(recordings.size(), kFrames);
+        for (const engine::Recording& recording : recordings)
+            for (engine::PassUses& uses : log().passesOf(recording)) {
+                touched[uses.pass].reads.merge(uses.reads);
+                touched[uses.pass].writes.merge(uses.writes);
+            }
         const std::set<std::string> all = engine::barrierPlaces(recordings);
         places.insert(all.begin(), all.end());
         const std::vector<std::string> redundant = engine::redundantBarriers(recordings);
@@ -119,9 +157,10 @@ protected:
 TEST_F(FramesHazards, AreNoneInAnySceneOrFeatureAndNoBarrierIsSuperfluous) {
     std::set<std::string> places;
     std::set<std::string> needed;
+    Touched touched;
     const auto silent = [&](const std::string& name, const hair::Settings& settings) {
         SCOPED_TRACE(name);
-        play(settings, places, needed);
+        play(settings, places, needed, touched);
         for (const std::string& message : device().messages().take())
             ADD_FAILURE() << name << ": " << message;
     };
@@ -205,6 +244,10 @@ TEST_F(FramesHazards, AreNoneInAnySceneOrFeatureAndNoBarrierIsSuperfluous) {
     std::set<std::string> redundant;
     std::ranges::set_difference(places, needed, std::inserter(redundant, redundant.end()));
     EXPECT_THAT(redundant, testing::IsEmpty());
+    for (auto& [pass, uses] : touched)
+        std::erase_if(uses.reads, [&](const auto& name) { return uses.writes.contains(name); });
+    EXPECT_THAT(publishedRows(), testing::UnorderedElementsAreArray(rowsOf(touched)))
+        << "docs/design.md";
 }
 
 // Returns the resources that messages on hazards name: "... of 'depth': pass ...".

@@ -63,7 +63,10 @@ class BusyPassesTest : public GpuTest {
 protected:
     void SetUp() override {
         GpuTest::SetUp();
-        if (!isOver()) buffer_.emplace(device(), engine::BufferDescription{.size = 64});
+        if (!isOver())
+            buffer_.emplace(
+                device(),
+                engine::BufferDescription{.size = 64, .name = "busy", .purpose = "tests"});
     }
     void TearDown() override {
         buffer_.reset();

@@ -135,7 +135,7 @@ TEST_F(HairCacheTest, CasesOwnWhatTheyOwnWithoutIt) {
     const hair::Settings settings = settledCase(hair::Solver::rod);
     const auto memory = [&](HairCache* cache) {
         const Case made(device(), settings, kScenes, cache);
-        return std::pair(device().allocatedBytes(), device().memory().bytes());
+        return std::pair(device().allocatedBytes(), device().memory());
     };
     const auto expected = memory(nullptr);
     HairCache cache = onDisk();

@@ -1,10 +1,14 @@
 #include "benchmarks/measure/memory_need.h"
 
+#include <algorithm>
 #include <cstdint>
 #include <filesystem>
+#include <map>
 #include <new>
 #include <optional>
+#include <set>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include <gmock/gmock.h>
@@ -44,9 +48,9 @@ protected:
         HairCache cache;
         const std::uint64_t before = device().allocatedBytes();
         try {
-            const MemoryNeed unread = memoryNeed(device(), settings, directory);
+            const MemoryNeed unread = caseMemory(device(), settings, directory).need;
             cache.assets().groom(settings, directory);
-            const MemoryNeed need = memoryNeed(device(), settings, directory, &cache);
+            const MemoryNeed need = caseMemory(device(), settings, directory, &cache).need;
             const Case test_case(device(), settings, directory, &cache);
             const std::uint64_t held = device().allocatedBytes() - before;
             EXPECT_GE(need.device, held);
@@ -121,15 +125,120 @@ TEST_F(MemoryNeedTest, IsNoLessThanWhatShippedScenesAllocate) {
     EXPECT_GT(checked_, 10u);
 }
 
+// ---- Rows against what is allocated -------------------------------------------------------------
+
+// Allocations with sizes that depend on the contents of files other than the groom.
+bool isOfFile(const std::string& name) {
+    constexpr std::string_view kNames[] = {"body lines", "environment", "mesh ", "strand texture"};
+    return std::ranges::any_of(kNames, [&](std::string_view each) {
+        return each.ends_with(' ') ? name.starts_with(each) : name == each;
+    });
+}
+
+class MemoryRowsTest : public GpuTest {
+protected:
+    // Every buffer and image of a case has a row of its name, of its size or, if its contents
+    // decide, of at most that.
+    void check(const std::string& name, const hair::Settings& settings) {
+        SCOPED_TRACE(name);
+        HairCache cache;
+        const auto before = device().resources().bytes();
+        try {
+            cache.assets().groom(settings, kSceneFolder);
+            const engine::MemoryRows rows =
+                caseMemory(device(), settings, kSceneFolder, &cache).rows;
+            const Case test_case(device(), settings, kSceneFolder, &cache);
+            std::map<std::string, std::uint64_t> expected;
+            std::set<std::string> at_most;
+            for (const auto& [row, purpose] : rows.all()) {
+                expected[row.name] += std::uint64_t{row.copies} * row.size;
+                if (row.at_most) at_most.insert(row.name);
+            }
+            // An environment may have fewer lights than the settings ask for.
+            const bool has_fewer = settings.shading.environment_lights > 0;
+            std::set<std::string> found;
+            for (auto [name_of, bytes] : device().resources().bytes()) {
+                if (const auto old = before.find(name_of); old != before.end())
+                    bytes -= old->second;
+                if (bytes == 0) continue;
+                found.insert(name_of);
+                if (isOfFile(name_of)) continue;
+                if (has_fewer || at_most.contains(name_of))
+                    EXPECT_LE(bytes, expected[name_of]) << name_of;
+                else
+                    EXPECT_EQ(bytes, expected[name_of]) << name_of;
+            }
+            for (const auto& [name_of, bytes] : expected)
+                EXPECT_TRUE(found.contains(name_of) || isOfFile(name_of)) << name_of;
+            ++checked_;
+        } catch (const engine::Unsupported&) {
+        }
+    }
+
+    std::size_t checked_ = 0;
+};
+
+TEST_F(MemoryRowsTest, AreWhatShippedScenesAllocate) {
+    for (const auto& entry : fs::directory_iterator(kSceneFolder)) {
+        const fs::path path = entry.path();
+        if (path.extension() != ".json" || path.stem().extension() == ".schema" ||
+            scene::isSuite(path))
+            continue;
+        check(
+            path.filename().string(),
+            run::smaller(scene::expand(scene::loadScene(path)).front().settings));
+    }
+    EXPECT_GT(checked_, 10u);
+}
+
+TEST_F(MemoryRowsTest, AreWhatFeaturesAllocate) {
+    for (const hair::Feature& feature : hair::features()) {
+        hair::Settings settings = hair::plainSettings();
+        feature.show(settings);
+        check(feature.name, settings);
+    }
+    EXPECT_GT(checked_, hair::features().size() / 2);
+}
+
+TEST_F(MemoryRowsTest, AreWhatBackEndsAllocate) {
+    using hair::Backend;
+    for (const Backend backend :
+         {Backend::tessellation, Backend::pulling_geometry, Backend::lines, Backend::pulling,
+          Backend::expanded, Backend::mesh, Backend::software}) {
+        hair::Settings settings = hair::plainSettings();
+        settings.strands.backend = backend;
+        hair::lit(settings);
+        check(std::to_string(int(backend)), settings);
+    }
+    EXPECT_GT(checked_, 4u);
+}
+
+TEST_F(MemoryRowsTest, AreWhatSolversAllocate) {
+    using hair::Solver;
+    for (const Solver solver :
+         {Solver::none, Solver::shape, Solver::ftl, Solver::rod, Solver::stable_cosserat,
+          Solver::position_based_rod, Solver::augmented_mass_spring}) {
+        hair::Settings settings = hair::plainSettings();
+        settings.simulation.solver = solver;
+        settings.simulation.rod.integrator = hair::RodIntegrator::generalized_alpha;
+        settings.simulation.hair_hair.friction = 0.5f;
+        settings.simulation.wind.mode = hair::WindMode::drag;
+        settings.simulation.colliders = {{.radius = 0.05f}};
+        settings.simulation.pulls = {{.path = {{.time = 0.0f}, {.time = 1.0f}}}};
+        check(std::to_string(int(solver)), settings);
+    }
+    EXPECT_GT(checked_, 6u);
+}
+
 // A picture's own images, computed by hand: 8-bit colour and 32-bit depth of each sample, and the
 // output.
 TEST_F(MemoryNeedTest, GrowsWithThePictureAsItsImagesDo) {
     hair::Settings settings = hair::plainSettings();
     settings.render.msaa = 4;
     settings.render.width = settings.render.height = 1000;
-    const std::uint64_t small = memoryNeed(device(), settings, kSceneFolder).device;
+    const std::uint64_t small = caseMemory(device(), settings, kSceneFolder).need.device;
     settings.render.width = settings.render.height = 2000;
-    const std::uint64_t large = memoryNeed(device(), settings, kSceneFolder).device;
+    const std::uint64_t large = caseMemory(device(), settings, kSceneFolder).need.device;
     const double images = 3e6 * (4 * (4 + 4) + 4);  // of three million additional pixels
     EXPECT_GE(static_cast<double>(large - small), images);
     EXPECT_LE(static_cast<double>(large - small), 1.5 * images);

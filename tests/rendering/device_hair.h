@@ -50,13 +50,10 @@ public:
         const engine::Device& device, const groom::Groom& groom, const Settings& settings = {},
         const groom::StrandSet* offsets = nullptr)
         : buffers_(device, groom, settings, offsets),
-          guides_(engine::makeBuffer(
-              device, std::span<const glm::vec4>(withoutW(groom.points)), "guides")),
-          contacts_(engine::makeBuffer(
-              device, std::span<const glm::vec4>(onlyW(madeUpContacts(groom))), "contacts")),
-          capsule_(engine::makeBuffer(device, std::span(&kMadeUpBody, 1), "capsule")),
-          bodies_(engine::makeBuffer(
-              device, std::span<const gpu::Bodies>(std::vector{bodies()}), "bodies")) {}
+          guides_(engine::makeBuffer(device, withoutW(groom.points), "guides", "tests")),
+          contacts_(engine::makeBuffer(device, onlyW(madeUpContacts(groom)), "contacts", "tests")),
+          capsule_(engine::makeBuffer(device, std::array{kMadeUpBody}, "capsule", "tests")),
+          bodies_(engine::makeBuffer(device, std::vector{bodies()}, "bodies", "tests")) {}
 
     StrandView view() const {
         StrandView view = buffers_.view();

@@ -51,9 +51,9 @@ protected:
             {.shader = "probe_environment.comp",
              .constants = {{gpu::kLinearLightConstant, settings.render.tone_map != ToneMap::none}},
              .push_size = sizeof(gpu::EnvironmentProbePush)});
-        const engine::Buffer directions = engine::makeBuffer(device(), std::span(at), "directions");
-        const engine::Buffer radiance = engine::makeBuffer(device(), std::span(at), "radiance");
-        const engine::Buffer light = engine::makeBuffer(device(), std::span(at), "light");
+        const engine::Buffer directions = engine::makeBuffer(device(), at, "directions", "tests");
+        const engine::Buffer radiance = engine::makeBuffer(device(), at, "radiance", "tests");
+        const engine::Buffer light = engine::makeBuffer(device(), at, "light", "tests");
         runOnce(device(), [&](engine::Commands& commands) {
             commands.bind(
                 pipeline, gpu::EnvironmentProbePush{

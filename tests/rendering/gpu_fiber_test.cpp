@@ -30,7 +30,7 @@ protected:
         Settings settings;
         settings.shading = shading;
         const HairOpticsBuffers optics(device(), settings);
-        const engine::Buffer buffer = engine::makeBuffer(device(), probes, "fiber probes");
+        const engine::Buffer buffer = engine::makeBuffer(device(), probes, "fiber probes", "tests");
         probe_shaders::addTo(device());
         const engine::ComputePipeline pipeline(
             device(), {.shader = "probe_fiber.comp", .push_size = sizeof(gpu::ProbeFiberPush)});

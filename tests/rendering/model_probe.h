@@ -26,9 +26,8 @@ inline std::vector<gpu::ModelProbe> probeModels(
     const engine::ComputePipeline pipeline(
         device, {.shader = "probe_models.comp", .push_size = sizeof(gpu::ProbeModelsPush)});
     const engine::Buffer light_buffer =
-        engine::makeBuffer(device, std::span<const gpu::Light>(makeLights(settings)), "lights");
-    const engine::Buffer buffer =
-        engine::makeBuffer(device, std::span<const gpu::ModelProbe>(probes), "probes");
+        engine::makeBuffer(device, makeLights(settings), "lights", "tests");
+    const engine::Buffer buffer = engine::makeBuffer(device, probes, "probes", "tests");
     const auto count = static_cast<std::uint32_t>(probes.size());
     runOnce(device, [&](engine::Commands& commands) {
         commands.bind(

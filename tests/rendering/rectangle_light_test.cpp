@@ -189,7 +189,7 @@ class GlossyRectangle : public GpuTest {
 protected:
     static std::vector<gpu::RectangleProbe> asked(const std::vector<gpu::RectangleProbe>& probes) {
         const engine::Buffer buffer =
-            engine::makeBuffer(device(), std::span(probes), "rectangle probes");
+            engine::makeBuffer(device(), probes, "rectangle probes", "tests");
         probe_shaders::addTo(device());
         const engine::ComputePipeline pipeline(
             device(),

@@ -49,21 +49,28 @@ inline std::vector<FoundPath> findPaths(
             device, {.format = kFormat,
                      .width = static_cast<std::uint32_t>(probes.size()),
                      .usage = VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT,
-                     .name = "light paths"});
+                     .name = "light paths",
+                     .purpose = "tests"});
     };
     const std::array found{makeImage(), makeImage()};
-    const engine::Buffer probe_buffer = engine::makeBuffer(device, probes, "shadow probes");
+    const engine::Buffer probe_buffer =
+        engine::makeBuffer(device, probes, "shadow probes", "tests");
     const auto makeRead = [&] {
         return engine::Buffer(
             device, {.size = probes.size() * sizeof(FoundPath) / 2,
                      .usage = engine::Usage::readback,
-                     .name = "light paths"});
+                     .name = "light paths",
+                     .purpose = "tests"});
     };
     const std::array read{makeRead(), makeRead()};
     std::array<engine::Buffer, engine::FrameLoop::kMaxSlots> pictures;
     for (engine::Buffer& picture : pictures)
         picture = {
-            device, {.size = sizeof(gpu::PictureParameters), .usage = engine::Usage::upload}};
+            device,
+            {.size = sizeof(gpu::PictureParameters),
+             .usage = engine::Usage::upload,
+             .name = "picture",
+             .purpose = "tests"}};
     const StrandPlan plan =
         planStrands(view, settings, device.info().limits.maxTessellationGenerationLevel);
     const SceneMeshes meshes(device, settings, assets);

@@ -51,7 +51,7 @@ protected:
         const auto count = static_cast<std::uint32_t>(quads.size());
         quads.resize(quads.size() + 1);  // a buffer has at least one
         const auto buffer = [&]<class Value>(const std::vector<Value>& values) {
-            return engine::makeBuffer(device(), std::span<const Value>(values), "software probe");
+            return engine::makeBuffer(device(), values, "software probe", "tests");
         };
         const engine::Buffer places = buffer(std::vector<gpu::SamplePlaces>(1));
         const engine::Buffer list = buffer(quads);

@@ -132,8 +132,7 @@ TEST_F(StrandCollisionTest, FieldsPushAndTurnTangents) {
                    .distances = {-kHalf, -kHalf, kHalf, kHalf, -kHalf, -kHalf, kHalf, kHalf}});
     const std::vector body{
         gpu::BodyField{.field = field.parameters(), .follows = gpu::kFollowsWorld}};
-    const engine::Buffer fields =
-        engine::makeBuffer(device(), std::span<const gpu::BodyField>(body), "fields");
+    const engine::Buffer fields = engine::makeBuffer(device(), body, "fields", "tests");
     constexpr float kMargin = 0.05f;
     const std::vector bodies{gpu::Bodies{
         .capsules = 0,
@@ -142,8 +141,7 @@ TEST_F(StrandCollisionTest, FieldsPushAndTurnTangents) {
         .field_count = 1,
         .margin = kMargin,
         .friction = 0.0f}};
-    const engine::Buffer buffer =
-        engine::makeBuffer(device(), std::span<const gpu::Bodies>(bodies), "bodies");
+    const engine::Buffer buffer = engine::makeBuffer(device(), bodies, "bodies", "tests");
 
     // Down into the half space, and along it.
     std::vector<glm::vec3> guide;

@@ -24,7 +24,7 @@ inline std::vector<gpu::StrandProbe> shadeStrands(
     static_assert(sizeof(gpu::StrandProbe) == 52 && sizeof(gpu::ProbeStrandPush) == 20);
     const HairOpticsBuffers optics(device, settings);
     const engine::Buffer lights =
-        engine::makeBuffer(device, std::span<const gpu::Light>(makeLights(settings)), "lights");
+        engine::makeBuffer(device, makeLights(settings), "lights", "tests");
     gpu::PictureParameters picture{};
     picture.hair_color = settings.shading.color;
     picture.ambient = settings.shading.ambient;
@@ -36,9 +36,8 @@ inline std::vector<gpu::StrandProbe> shadeStrands(
     picture.optics = optics.address();
     picture.pixel_near = pixel;
     const engine::Buffer parameters =
-        engine::makeBuffer(device, std::span<const gpu::PictureParameters>(&picture, 1), "picture");
-    const engine::Buffer buffer =
-        engine::makeBuffer(device, std::span<const gpu::StrandProbe>(probes), "strand probes");
+        engine::makeBuffer(device, std::array{picture}, "picture", "tests");
+    const engine::Buffer buffer = engine::makeBuffer(device, probes, "strand probes", "tests");
     probe_shaders::addTo(device);
     const engine::ComputePipeline pipeline(
         device, {.shader = "probe_strand.comp",

@@ -48,7 +48,7 @@ class SurfaceBrdfTest : public GpuTest {
 protected:
     static std::vector<SurfaceProbe> asked(const std::vector<SurfaceProbe>& probes) {
         const engine::Buffer buffer =
-            engine::makeBuffer(device(), std::span(probes), "surface probes");
+            engine::makeBuffer(device(), probes, "surface probes", "tests");
         probe_shaders::addTo(device());
         const engine::ComputePipeline pipeline(
             device(), {.shader = "probe_surface.comp", .push_size = sizeof(gpu::SurfaceProbePush)});

@@ -234,8 +234,7 @@ TEST_F(FailingDevice, WaitsAfterAFenceWasNotReset) {
     }
     const std::vector<std::uint32_t> values{3, 1, 4, 1, 5};
     const auto there_and_back = [&] {
-        const engine::Buffer buffer =
-            engine::makeBuffer(*device, std::span<const std::uint32_t>(values), "values");
+        const engine::Buffer buffer = engine::makeBuffer(*device, values, "values", "tests");
         return engine::downloadAs<std::uint32_t>(*device, buffer);
     };
     EXPECT_EQ(there_and_back(), values);

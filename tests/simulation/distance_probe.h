@@ -25,7 +25,7 @@ inline std::vector<gpu::DistanceProbe> probe(
     std::span<const gpu::DistanceProbe> probes, const Contact& contact = {}) {
     static_assert(sizeof(gpu::DistanceProbe) == 52 && offsetof(gpu::DistanceProbe, pushed) == 40);
     static_assert(offsetof(gpu::ProbeDistancePush, friction) == 56);
-    const engine::Buffer buffer = engine::makeBuffer(device, probes, "distance probes");
+    const engine::Buffer buffer = engine::makeBuffer(device, probes, "distance probes", "tests");
     probe_shaders::addTo(device);
     const engine::ComputePipeline pipeline(
         device, {.shader = "probe_distance.comp", .push_size = sizeof(gpu::ProbeDistancePush)});

@@ -39,7 +39,7 @@ protected:
         const auto buffer = [](const std::vector<glm::vec3>& points, const char* name) {
             std::vector<glm::vec4> padded;
             for (const glm::vec3& point : points) padded.emplace_back(point, 0.0f);
-            return engine::makeBuffer(device(), std::span<const glm::vec4>(padded), name);
+            return engine::makeBuffer(device(), padded, name, "tests");
         };
         const engine::Buffer now = buffer(positions, "positions");
         const engine::Buffer accelerations = buffer(positions, "accelerations");
@@ -50,8 +50,8 @@ protected:
             .strand_count = groom.strand_count,
             .vertices_per_strand = groom.vertices_per_strand,
             .seed = kSeed}};
-        const engine::Buffer parameters = engine::makeBuffer(
-            device(), std::span<const gpu::GuideParameters>(guides), "parameters");
+        const engine::Buffer parameters =
+            engine::makeBuffer(device(), guides, "parameters", "tests");
         const WindPass pass(device(), groom.strand_count * groom.vertices_per_strand, settings);
         runOnce(device(), [&](engine::Commands& commands) {
             pass.record(

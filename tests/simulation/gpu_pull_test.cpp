@@ -27,7 +27,7 @@ protected:
     static engine::Buffer bufferOf(const std::vector<glm::vec3>& vectors, const char* name) {
         std::vector<glm::vec4> padded;
         for (const glm::vec3& vector : vectors) padded.emplace_back(vector, 0.0f);
-        return engine::makeBuffer(device(), std::span<const glm::vec4>(padded), name);
+        return engine::makeBuffer(device(), padded, name, "tests");
     }
 
     // Returns the accelerations `before` after the pass alone, m/s^2.
@@ -47,8 +47,8 @@ protected:
             .step = step,
             .strand_count = groom.strand_count,
             .vertices_per_strand = groom.vertices_per_strand}};
-        const engine::Buffer parameters = engine::makeBuffer(
-            device(), std::span<const gpu::GuideParameters>(guides), "parameters");
+        const engine::Buffer parameters =
+            engine::makeBuffer(device(), guides, "parameters", "tests");
         const PullPass pass(
             device(), groom.strand_count, groom.vertices_per_strand, step, settings.pulls);
         runOnce(device(), [&](engine::Commands& commands) {

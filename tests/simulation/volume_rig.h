@@ -34,7 +34,7 @@ public:
           accelerations_(device, vectors("accelerations")),
           parameters_(engine::makeBuffer(
               device,
-              std::span<const gpu::GuideParameters>(std::array{gpu::GuideParameters{
+              std::array{gpu::GuideParameters{
                   .positions = positions_.address(),
                   .previous = previous_.address(),
                   .rest_positions = 0,
@@ -44,8 +44,8 @@ public:
                   .velocity_kept = 1.0f,
                   .strand_count = groom.strand_count,
                   .vertices_per_strand = groom.vertices_per_strand,
-                  .seed = 0}}),
-              "guide parameters")),
+                  .seed = 0}},
+              "guide parameters", "tests")),
           hair_hair_(device, groom, settings, stepOf(settings)) {}
 
     // Returns accelerations, m/s^2, with no step before. `previous` is one substep earlier. Each
@@ -127,7 +127,7 @@ public:
 
 private:
     engine::BufferDescription vectors(const char* name) const {
-        return {.size = groom_.points.size() * sizeof(glm::vec4), .name = name};
+        return {.size = groom_.points.size() * sizeof(glm::vec4), .name = name, .purpose = "tests"};
     }
 
     void upload(std::span<const glm::vec3> points, const engine::Buffer& buffer) const {

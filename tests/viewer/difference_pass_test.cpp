@@ -53,14 +53,21 @@ protected:
     static engine::Image image(Size size, VkImageUsageFlags usage) {
         return {
             device(),
-            {.width = size.width, .height = size.height, .usage = usage, .name = "picture"}};
+            {.width = size.width,
+             .height = size.height,
+             .usage = usage,
+             .name = "picture",
+             .purpose = "tests"}};
     }
 
     static engine::Image picture(const Bytes& bytes, Size size) {
         engine::Image made =
             image(size, VK_IMAGE_USAGE_TRANSFER_DST_BIT | VK_IMAGE_USAGE_SAMPLED_BIT);
         const engine::Buffer staging(
-            device(), {.size = bytes.size(), .usage = engine::Usage::upload, .name = "staging"});
+            device(), {.size = bytes.size(),
+                       .usage = engine::Usage::upload,
+                       .name = "staging",
+                       .purpose = "tests"});
         std::ranges::copy(std::as_bytes(std::span(bytes)), staging.mapped().begin());
         runOnce(device(), [&](engine::Commands& commands) {
             commands.transition(

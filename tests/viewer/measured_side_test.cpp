@@ -73,12 +73,13 @@ TEST_F(MeasuredSide, HasTheMetricsOfARun) {
     Player player(device(), tinySettings(), HAIRBENCH_SCENES_DIR);
     std::optional<engine::Buffer> window;
     std::vector<std::string> modes;
-    const SideMeasurement side =
-        measured({.stop = goOn, .progress = [&](const measure::SamplingState& state) {
-                      modes.push_back(state.mode);
-                      window.emplace(
-                          device(), engine::BufferDescription{.size = 1u << 20, .name = "window"});
-                  }});
+    const SideMeasurement side = measured(
+        {.stop = goOn, .progress = [&](const measure::SamplingState& state) {
+             modes.push_back(state.mode);
+             window.emplace(
+                 device(),
+                 engine::BufferDescription{.size = 1u << 20, .name = "window", .purpose = "tests"});
+         }});
     EXPECT_THAT(modes, testing::IsSupersetOf({"overlapped", "isolated"}));
     EXPECT_EQ(memoryOf(side.result), memoryOf(run));
     EXPECT_EQ(side.result.counts, run.counts);
