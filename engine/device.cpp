@@ -211,7 +211,7 @@ Device::Device(const DeviceOptions& options)
     : instance_(options.validation, options.window_extensions),
       info_(chooseDevice(instance_, options.wanted)),
       patience_(options.patience.value_or(
-          info_.type == "cpu" ? std::chrono::hours(1) : std::chrono::minutes(10))) {
+          info_.type == DeviceType::cpu ? std::chrono::hours(1) : std::chrono::minutes(10))) {
     if (!instance_.allowsPresentFences()) info_.features.erase(Feature::present_fences);
     if (options.mask) options.mask(info_);
     if (!has(Feature::mesh_shader)) info_.features.erase(Feature::mesh_statistics);

@@ -163,132 +163,6 @@ void submit(
     check(vkQueueSubmit2(queue, 1, &info, VK_NULL_HANDLE), "submit a frame");
 }
 
-// Overlapped, isolated and statistics frames: all passes share one command buffer, except those for
-// the second queue.
-template <class Slot>
-class OneBufferPasses : public Passes {
-public:
-    // `async`: records for the second queue; null: everything goes to the first.
-    OneBufferPasses(
-        const Device& device, Timing timing, TimestampPlacement placement, Slot& slot,
-        std::uint32_t index, Commands& commands, Commands* async)
-        : device_(device), timing_(timing), placement_(placement), slot_data_(slot),
-          commands_(&commands), async_(async) {
-        slot_ = index;
-        if (timing_ == Timing::overlapped && slot_data_.timestamps)
-            slot_data_.timestamps->write(*commands_);
-    }
-
-    void pass(const char* name, PassKind kind, FunctionRef<void(Commands&)> record) override {
-        commands_->beginLabel(name);
-        switch (timing_) {
-        case Timing::overlapped: {
-            record(*commands_);
-            if (!slot_data_.timestamps || placement_ == TimestampPlacement::frame) break;
-            const std::uint32_t timestamp = slot_data_.timestamps->write(*commands_);
-            slot_data_.spans.push_back({name, timestamp - 1, timestamp});
-            break;
-        }
-        case Timing::isolated: {
-            auto& stamps = slot_data_.timestamps;
-            const std::uint32_t first = stamps ? stamps->write(*commands_) : 0;
-            commands_->orderAll();
-            record(*commands_);
-            commands_->orderAll();
-            if (stamps) slot_data_.spans.push_back({name, first, stamps->write(*commands_)});
-            break;
-        }
-        case Timing::statistics:
-            if (kind != PassKind::compute && device_.hasPipelineStatistics()) {
-                const DrawnFrom drawn_from =
-                    kind == PassKind::meshes ? DrawnFrom::meshes : DrawnFrom::vertices;
-                auto& query =
-                    slot_data_.queries.emplace_back(name, PipelineStatistics(device_, drawn_from));
-                query.statistics.begin(*commands_);
-                record(*commands_);
-                query.statistics.end(*commands_);
-                break;
-            }
-            [[fallthrough]];
-        case Timing::wall_clock:
-            record(*commands_);
-            break;
-        }
-        commands_->endLabel();
-        if (commands_ != async_) drawing_ = true;
-    }
-
-    bool joins() const override {
-        return timing_ == Timing::overlapped && placement_ == TimestampPlacement::frame;
-    }
-
-    void asyncCompute(std::uint32_t frames, FunctionRef<void()> record) override {
-        if (!async_) return record();
-        assert(!drawing_);
-        least_ = std::min(least_.value_or(frames), frames);
-        Commands* const others = std::exchange(commands_, async_);
-        record();
-        commands_ = others;
-    }
-
-    // Frames that all passes recorded by asyncCompute() may overlap; absent: there are none.
-    std::optional<std::uint32_t> asyncFrames() const { return least_; }
-
-    void end() {
-        if (timing_ == Timing::overlapped && placement_ == TimestampPlacement::frame &&
-            slot_data_.timestamps)
-            slot_data_.timestamps->write(*commands_);
-    }
-
-private:
-    const Device& device_;
-    Timing timing_;
-    TimestampPlacement placement_;
-    Slot& slot_data_;
-    Commands* commands_;
-    Commands* async_;
-    bool drawing_ = false;
-    std::optional<std::uint32_t> least_;
-};
-
-// Wall-clock frames: one submission per pass.
-template <class Slot>
-class SubmittedPasses : public Passes {
-public:
-    SubmittedPasses(
-        const Device& device, Slot& slot, VkSemaphore timeline, std::uint64_t& submitted,
-        FrameRecord& record)
-        : device_(device), slot_data_(slot), timeline_(timeline), submitted_(submitted),
-          record_(record) {}
-
-    void pass(const char* name, PassKind, FunctionRef<void(Commands&)> record) override {
-        Commands commands(slot_data_.buffer, slot_data_.sets, device_.hazards());
-        commands.begin();
-        commands.beginLabel(name);
-        commands.orderAll();
-        record(commands);
-        commands.orderAll();
-        commands.endLabel();
-        commands.end();
-        const ProcessUse used = processUse();
-        const Clock::time_point start = Clock::now();
-        submit(device_.queue(), slot_data_.buffer, {timeline_, submitted_ + 1});
-        ++submitted_;
-        waitFor(device_, timeline_, submitted_);
-        if (device_.hazards()) device_.hazards()->finish(device_.hazards()->submissions());
-        const double time = millisecondsBetween(start, Clock::now());
-        record_.wall += time;
-        addTime(record_.passes, {name, time, processUse() - used});
-    }
-
-private:
-    const Device& device_;
-    Slot& slot_data_;
-    VkSemaphore timeline_;
-    std::uint64_t& submitted_;
-    FrameRecord& record_;
-};
-
 }  // namespace
 
 void Passes::asyncCompute(std::uint32_t, FunctionRef<void()> record) { record(); }
@@ -372,6 +246,121 @@ struct FrameLoop::Slot : OwnBuffer {
     std::optional<std::size_t> record;  // index of the record still to be read
 };
 
+// Overlapped, isolated and statistics frames: all passes share one command buffer, except those for
+// the second queue.
+class FrameLoop::OneBufferPasses : public Passes {
+public:
+    // `async`: records for the second queue; null: everything goes to the first.
+    OneBufferPasses(
+        const Device& device, Timing timing, TimestampPlacement placement, Slot& slot,
+        std::uint32_t index, Commands& commands, Commands* async)
+        : device_(device), timing_(timing), placement_(placement), slot_data_(slot),
+          commands_(&commands), async_(async) {
+        slot_ = index;
+        if (timing_ == Timing::overlapped && slot_data_.timestamps)
+            slot_data_.timestamps->write(*commands_);
+    }
+
+    void pass(const char* name, PassKind kind, FunctionRef<void(Commands&)> record) override {
+        commands_->beginLabel(name);
+        if (timing_ == Timing::overlapped) {
+            record(*commands_);
+            if (slot_data_.timestamps && placement_ != TimestampPlacement::frame) {
+                const std::uint32_t timestamp = slot_data_.timestamps->write(*commands_);
+                slot_data_.spans.push_back({name, timestamp - 1, timestamp});
+            }
+        } else if (timing_ == Timing::isolated) {
+            auto& stamps = slot_data_.timestamps;
+            const std::uint32_t first = stamps ? stamps->write(*commands_) : 0;
+            commands_->orderAll();
+            record(*commands_);
+            commands_->orderAll();
+            if (stamps) slot_data_.spans.push_back({name, first, stamps->write(*commands_)});
+        } else if (kind != PassKind::compute && device_.hasPipelineStatistics()) {
+            const DrawnFrom drawn_from =
+                kind == PassKind::meshes ? DrawnFrom::meshes : DrawnFrom::vertices;
+            auto& query =
+                slot_data_.queries.emplace_back(name, PipelineStatistics(device_, drawn_from));
+            query.statistics.begin(*commands_);
+            record(*commands_);
+            query.statistics.end(*commands_);
+        } else {
+            record(*commands_);
+        }
+        commands_->endLabel();
+        if (commands_ != async_) drawing_ = true;
+    }
+
+    bool joins() const override {
+        return timing_ == Timing::overlapped && placement_ == TimestampPlacement::frame;
+    }
+
+    void asyncCompute(std::uint32_t frames, FunctionRef<void()> record) override {
+        if (!async_) return record();
+        assert(!drawing_);
+        least_ = std::min(least_.value_or(frames), frames);
+        Commands* const others = std::exchange(commands_, async_);
+        record();
+        commands_ = others;
+    }
+
+    // Frames that all passes recorded by asyncCompute() may overlap; absent: there are none.
+    std::optional<std::uint32_t> asyncFrames() const { return least_; }
+
+    void end() {
+        if (timing_ == Timing::overlapped && placement_ == TimestampPlacement::frame &&
+            slot_data_.timestamps)
+            slot_data_.timestamps->write(*commands_);
+    }
+
+private:
+    const Device& device_;
+    Timing timing_;
+    TimestampPlacement placement_;
+    Slot& slot_data_;
+    Commands* commands_;
+    Commands* async_;
+    bool drawing_ = false;
+    std::optional<std::uint32_t> least_;
+};
+
+// Wall-clock frames: one submission per pass.
+class FrameLoop::SubmittedPasses : public Passes {
+public:
+    SubmittedPasses(
+        const Device& device, Slot& slot, VkSemaphore timeline, std::uint64_t& submitted,
+        FrameRecord& record)
+        : device_(device), slot_data_(slot), timeline_(timeline), submitted_(submitted),
+          record_(record) {}
+
+    void pass(const char* name, PassKind, FunctionRef<void(Commands&)> record) override {
+        Commands commands(slot_data_.buffer, slot_data_.sets, device_.hazards());
+        commands.begin();
+        commands.beginLabel(name);
+        commands.orderAll();
+        record(commands);
+        commands.orderAll();
+        commands.endLabel();
+        commands.end();
+        const ProcessUse used = processUse();
+        const Clock::time_point start = Clock::now();
+        submit(device_.queue(), slot_data_.buffer, {timeline_, submitted_ + 1});
+        ++submitted_;
+        waitFor(device_, timeline_, submitted_);
+        if (device_.hazards()) device_.hazards()->finish(device_.hazards()->submissions());
+        const double time = millisecondsBetween(start, Clock::now());
+        record_.wall += time;
+        addTime(record_.passes, {name, time, processUse() - used});
+    }
+
+private:
+    const Device& device_;
+    Slot& slot_data_;
+    VkSemaphore timeline_;
+    std::uint64_t& submitted_;
+    FrameRecord& record_;
+};
+
 FrameLoop::FrameLoop(const Device& device, Timing timing, const Overlap& overlap)
     : device_(device), timing_(timing), placement_(overlap.timestamps),
       timeline_(makeTimeline(device.get())) {
@@ -413,7 +402,7 @@ void FrameLoop::frame(FunctionRef<void(Passes&)> record) {
     ends_.emplace_back();
 
     if (timing_ == Timing::wall_clock) {
-        SubmittedPasses<Slot> passes(device_, slot, timeline_.get(), submitted_, result);
+        SubmittedPasses passes(device_, slot, timeline_.get(), submitted_, result);
         record(passes);
         result.use = processUse() - used;
         return;
@@ -430,7 +419,7 @@ void FrameLoop::frame(FunctionRef<void(Passes&)> record) {
             QueueKind::compute);
     commands.begin();
     if (async) async->begin();
-    OneBufferPasses<Slot> passes(
+    OneBufferPasses passes(
         device_, timing_, placement_, slot, index, commands, async ? &*async : nullptr);
     record(passes);
     passes.end();

@@ -206,6 +206,8 @@ public:
 private:
     struct OwnBuffer;
     struct Slot;
+    class OneBufferPasses;
+    class SubmittedPasses;
     void collect(Slot& slot);
     void setGaps(std::span<FrameRecord> records);
     void endAsync(Commands& async, std::uint64_t drawn);

@@ -295,18 +295,18 @@ VkPhysicalDeviceMeshShaderPropertiesEXT meshLimits(VkPhysicalDevice device) {
 
 // ---- Devices ------------------------------------------------------------------------------------
 
-std::string typeName(VkPhysicalDeviceType type) {
+DeviceType typeOf(VkPhysicalDeviceType type) {
     switch (type) {
     case VK_PHYSICAL_DEVICE_TYPE_DISCRETE_GPU:
-        return "discrete";
+        return DeviceType::discrete;
     case VK_PHYSICAL_DEVICE_TYPE_INTEGRATED_GPU:
-        return "integrated";
+        return DeviceType::integrated;
     case VK_PHYSICAL_DEVICE_TYPE_VIRTUAL_GPU:
-        return "virtual";
+        return DeviceType::virtual_gpu;
     case VK_PHYSICAL_DEVICE_TYPE_CPU:
-        return "cpu";
+        return DeviceType::cpu;
     default:
-        return "other";
+        return DeviceType::other;
     }
 }
 
@@ -369,7 +369,7 @@ DeviceInfo inspect(VkPhysicalDevice device) {
     DeviceInfo info;
     info.handle = device;
     info.name = core.deviceName;
-    info.type = typeName(core.deviceType);
+    info.type = typeOf(core.deviceType);
     info.driver = driver.driverName;
     info.driver_version = driver.driverInfo;
     info.driver_id = driver.driverID;
@@ -645,6 +645,11 @@ VkDevice createDevice(const DeviceInfo& info, std::vector<const char*> extension
     return device;
 }
 
+const char* deviceTypeName(DeviceType type) {
+    constexpr std::array kNames{"discrete", "integrated", "virtual", "cpu", "other"};
+    return kNames[static_cast<std::size_t>(type)];
+}
+
 std::vector<DeviceInfo> listDevices(const Instance& instance) {
     std::vector<DeviceInfo> devices;
     for (VkPhysicalDevice device : instance.physicalDevices()) devices.push_back(inspect(device));
@@ -665,11 +670,10 @@ DeviceInfo chooseDevice(const Instance& instance, const std::string& wanted) {
         }
         throw NoDevice("no device is named '" + wanted + "'" + all);
     }
-    for (const char* type : {"discrete", "integrated", "virtual", "cpu", "other"}) {
-        for (const DeviceInfo& device : devices) {
-            if (device.type == type && device.missing.empty()) return device;
-        }
-    }
+    const DeviceInfo* best = nullptr;
+    for (const DeviceInfo& device : devices)
+        if (device.missing.empty() && (!best || device.type < best->type)) best = &device;
+    if (best) return *best;
     throw NoDevice("no Vulkan device can run hairbench" + all);
 }
 

@@ -174,11 +174,17 @@ std::string_view featureName(Feature feature);
 // Returns all features in the order above.
 std::vector<Feature> allFeatures();
 
+// The best type for measurements comes first.
+enum class DeviceType { discrete, integrated, virtual_gpu, cpu, other };
+
+// "discrete", "integrated", "virtual", "cpu" or "other".
+const char* deviceTypeName(DeviceType type);
+
 // A Vulkan device, and whether it can run hairbench.
 struct DeviceInfo {
     VkPhysicalDevice handle{};
     std::string name;
-    std::string type;  // "discrete", "integrated", "virtual", "cpu" or "other"
+    DeviceType type = DeviceType::other;
     std::string driver;  // e.g. "llvmpipe"
     std::string driver_version;  // as the driver writes it, e.g. "Mesa 22.3.6 (LLVM 15.0.6)"
     std::string api_version;  // e.g. "1.3.230"

@@ -131,10 +131,10 @@ int printDevices() {
     const std::vector<engine::DeviceInfo> devices = engine::listDevices(instance);
     for (std::size_t i = 0; i < devices.size(); ++i) {
         const engine::DeviceInfo& device = devices[i];
-        std::cout << i << ": " << device.name << "\n   " << device.type << ", Vulkan "
-                  << device.api_version << ", " << device.driver << ' ' << device.driver_version
-                  << "\n   timestamps: " << device.timestamp_valid_bits << " bits of "
-                  << device.limits.timestampPeriod << " ns\n";
+        std::cout << i << ": " << device.name << "\n   " << engine::deviceTypeName(device.type)
+                  << ", Vulkan " << device.api_version << ", " << device.driver << ' '
+                  << device.driver_version << "\n   timestamps: " << device.timestamp_valid_bits
+                  << " bits of " << device.limits.timestampPeriod << " ns\n";
         if (device.missing.empty()) {
             std::cout << "   runs hairbench\n";
             printLacking(device);

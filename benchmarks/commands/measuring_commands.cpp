@@ -277,7 +277,7 @@ namespace {
 std::vector<std::string> notesFor(const report::DeviceRecord& device) {
     std::vector<std::string> notes{"a marginal cost is the time that a stage adds to the pass, not "
                                    "the time that the stage works: stages overlap"};
-    if (device.type == "cpu")
+    if (device.type == engine::DeviceType::cpu)
         notes.push_back("on a software device one thread makes the primitives while other threads "
                         "work on fragments");
     return notes;

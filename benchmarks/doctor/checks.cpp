@@ -6,6 +6,7 @@
 #include "benchmarks/report/change.h"
 #include "benchmarks/report/statistics.h"
 #include "benchmarks/report/text.h"
+#include "engine/instance.h"
 
 namespace benchmarks::doctor {
 namespace {
@@ -26,7 +27,7 @@ std::string joined(const std::vector<std::string>& parts, std::string_view betwe
 
 // ---- The machine --------------------------------------------------------------------------------
 
-bool isSoftware(const Facts& facts) { return facts.device.type == "cpu"; }
+bool isSoftware(const Facts& facts) { return facts.device.type == engine::DeviceType::cpu; }
 
 // "1.2 % more", "0.3 % less" for shares of 0.012 and -0.003.
 std::string changeText(double share) {
@@ -136,8 +137,10 @@ bool contains(const std::string& text, const char* part) {
 bool isHarmless(const std::string& layer) { return contains(layer, "MESA_device_select"); }
 
 Judgement judgeDevice(const Facts& facts) {
-    std::string seen = facts.device.name + " (" + facts.device.type + ")";
-    if (facts.device.type != "cpu") return {Health::ok, seen};
+    const std::string seen = facts.device.name + " (" +
+                             (facts.device.type ? engine::deviceTypeName(*facts.device.type) : "") +
+                             ")";
+    if (!isSoftware(facts)) return {Health::ok, seen};
     return {Health::ok, seen + ": times are those of the processors; judge by CPU time too"};
 }
 

@@ -151,7 +151,7 @@ std::string deviceText(const engine::Device& device, const std::string& processo
     const VkPhysicalDeviceLimits& limits = info.limits;
     Key key("device");
     key.add("name", info.name)
-        .add("type", info.type)
+        .add("type", engine::deviceTypeName(info.type))
         .add("driver", info.driver + ' ' + info.driver_version + ' ' + info.api_version)
         .add("build", report::hashBytes(std::as_bytes(std::span(properties.pipelineCacheUUID))))
         .add("features", features)
@@ -160,7 +160,7 @@ std::string deviceText(const engine::Device& device, const std::string& processo
         .add("shared memory", std::to_string(limits.maxComputeSharedMemorySize))
         .add("storage", std::to_string(limits.maxStorageBufferRange))
         .add("memory", std::to_string(info.local_bytes));
-    if (info.type == "cpu") key.add("processor", processor);
+    if (info.type == engine::DeviceType::cpu) key.add("processor", processor);
     return key.text();
 }
 

@@ -233,7 +233,7 @@ std::string boardHash(std::span<const std::uint8_t> uuid) {
 }
 
 void addBoard(const engine::DeviceInfo& device, report::DeviceRecord& record) {
-    if (device.type == "cpu") return;
+    if (device.type == engine::DeviceType::cpu) return;
     VkPhysicalDeviceIDProperties identity{};
     identity.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_ID_PROPERTIES;
     VkPhysicalDeviceProperties2 properties{};
@@ -255,7 +255,7 @@ ClockHold::ClockHold(
     if (clocks == hair::Clocks::as_found) return;
     const std::string context =
         std::string("/run/clocks ") + (clocks == hair::Clocks::locked ? "locked" : "free");
-    if (device.type == "cpu")
+    if (device.type == engine::DeviceType::cpu)
         throw engine::Unsupported(
             context, "a software device has the processors' clocks, which an administrator sets: "
                      "cpupower frequency-set --governor performance");
@@ -296,7 +296,7 @@ struct MachineWatch::Sources {
 };
 
 MachineWatch::MachineWatch(const engine::Device& device) : sources_(std::make_unique<Sources>()) {
-    sources_->is_processor = device.info().type == "cpu";
+    sources_->is_processor = device.info().type == engine::DeviceType::cpu;
     if (auto source = openClockSource(device.info())) sources_->clocks.emplace(std::move(source));
 }
 

@@ -201,7 +201,7 @@ CaseMemory caseMemory(
     const std::uint64_t pixel = settings.run.compare_backends || !settings.run.reference.empty()
                                     ? kHostComparedPixel
                                     : kHostPixel;
-    need.host = kProgram + (device.info().type == "cpu" ? kSoftwareDevice : 0) +
+    need.host = kProgram + (device.info().type == engine::DeviceType::cpu ? kSoftwareDevice : 0) +
                 size.vertices() * (balanced ? kHostBalancedVertex : kHostVertex) +
                 size.bound_strands * kHostStrand + size.bound_points * kHostPoint +
                 pixel * settings.render.width * settings.render.height + 2 * fields +
@@ -301,7 +301,7 @@ std::vector<MemoryRoom>
 memoryRooms(const engine::Device& device, std::optional<std::uint64_t> most) {
     using Of = MemoryRoom::Of;
     std::vector<MemoryRoom> rooms;
-    const bool is_host = device.info().type == "cpu";
+    const bool is_host = device.info().type == engine::DeviceType::cpu;
     if (most) {
         if (is_host) {
             rooms.push_back({Of::both, *most, "--max-memory"});

@@ -119,7 +119,8 @@ std::optional<std::string> missedCount(
     std::string_view statistic, std::uint64_t measured, std::optional<std::uint64_t> expected,
     const engine::DeviceInfo& device) {
     if (!expected) return std::nullopt;
-    const bool may_repeat = makesVertices(statistic) && device.type != "cpu" && *expected > 0;
+    const bool may_repeat =
+        makesVertices(statistic) && device.type != engine::DeviceType::cpu && *expected > 0;
     if (may_repeat ? measured >= *expected : measured == *expected) return std::nullopt;
     return (may_repeat ? "expected at least " : "expected ") + std::to_string(*expected);
 }

@@ -26,7 +26,7 @@ constexpr std::uint32_t kProcessorGroups = 64;
 
 BusyWork::BusyWork(const engine::Device& device, std::uint32_t steps)
     : device_(device), steps_(steps),
-      groups_(device.info().type == "cpu" ? kProcessorGroups : kGroups),
+      groups_(device.info().type == engine::DeviceType::cpu ? kProcessorGroups : kGroups),
       pipeline_(device, {.shader = "busy/busy.comp", .push_size = sizeof(gpu::BusyPush)}),
       results_(engine::makeBuffer(
           device, std::vector<std::uint32_t>(1 + groups_, 0), "busy work", "measuring")) {}

@@ -214,7 +214,7 @@ public:
     std::unique_ptr<Player> player(engine::Timing timing) override;
     std::unique_ptr<Player> player(engine::Timing timing, const PlantedWork& planted) override;
     std::unique_ptr<Player> emptyPlayer(engine::Timing timing, std::uint32_t steps) override;
-    bool isProcessor() const override { return device_.info().type == "cpu"; }
+    bool isProcessor() const override { return device_.info().type == engine::DeviceType::cpu; }
     double seconds() override;
     void pause(double seconds) override;
     std::optional<double> timestampRate() override;

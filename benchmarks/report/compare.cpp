@@ -11,6 +11,7 @@
 #include <nlohmann/json.hpp>
 
 #include "benchmarks/report/report.h"
+#include "benchmarks/report/verdict.h"
 #include "benchmarks/scene/pattern.h"
 #include "engine/error.h"
 #include "engine/files.h"
@@ -70,11 +71,6 @@ std::vector<std::string> environmentDifferences(const scene::Json& a, const scen
 }
 
 // ---- Metrics that are judged --------------------------------------------------------------------
-
-bool isSoftwareDevice(const scene::Json& environment) {
-    const auto device = environment.find("device");
-    return device != environment.end() && device->value("type", "") == "cpu";
-}
 
 Clock judgedClock(bool software_device, std::span<const MetricId> metrics) {
     return software_device && std::ranges::any_of(metrics, isOfProcessor) ? Clock::processor

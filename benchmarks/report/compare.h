@@ -20,9 +20,6 @@ namespace benchmarks::report {
 // count as a difference.
 std::vector<std::string> environmentDifferences(const scene::Json& a, const scene::Json& b);
 
-// Whether the device is the processor itself, so that CPU time measures the cost of passes.
-bool isSoftwareDevice(const scene::Json& environment);
-
 // Times below this in both builds are not judged. 2 % of it is 1 us: one step of coarse timestamps,
 // and less than a thread takes to wake.
 inline constexpr double kShortestTime = 0.05;  // ms

@@ -22,6 +22,7 @@
 #include "benchmarks/scene/json.h"
 #include "engine/error.h"
 #include "engine/files.h"
+#include "engine/instance.h"
 
 namespace benchmarks::report {
 namespace {
@@ -52,7 +53,7 @@ void put(scene::Json& object, const char* key, const std::optional<Number>& numb
 scene::Json toJson(const DeviceRecord& device) {
     scene::Json object = scene::Json::object();
     put(object, "name", device.name);
-    put(object, "type", device.type);
+    if (device.type) object["type"] = engine::deviceTypeName(*device.type);
     put(object, "driver", device.driver);
     put(object, "driver_version", device.driver_version);
     put(object, "api_version", device.api_version);

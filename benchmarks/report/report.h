@@ -14,6 +14,10 @@
 #include "benchmarks/scene/axis.h"
 #include "benchmarks/scene/json.h"
 
+namespace engine {
+enum class DeviceType;
+}  // namespace engine
+
 // Results of a run as plain values, and their JSON, which results/report.schema.json describes for
 // everyone who reads reports. Unknown values are absent there, never 0 or "": empty strings, empty
 // optionals and numbers that are not finite are left out.
@@ -23,7 +27,7 @@ inline constexpr const char* kReportSchema = "hairbench-report/1.9.0";
 
 struct DeviceRecord {
     std::string name;
-    std::string type;    // "discrete", "integrated", "virtual", "cpu"
+    std::optional<engine::DeviceType> type;
     std::string driver;  // VkPhysicalDeviceDriverProperties::driverName
     std::string driver_version;
     std::string api_version;

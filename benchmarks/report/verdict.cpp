@@ -10,6 +10,7 @@
 #include <nlohmann/json.hpp>
 
 #include "benchmarks/report/text.h"
+#include "engine/instance.h"
 
 namespace benchmarks::report {
 
@@ -36,8 +37,25 @@ Trusted disturbance(double share, double little, double much, bool of_frames) {
 
 }  // namespace
 
-bool sharesProcessors(std::string_view device_type) {
-    return device_type == "cpu" || device_type == "integrated";
+namespace {
+
+// Returns nothing if the environment does not have a type, or has an unknown one.
+std::optional<engine::DeviceType> deviceTypeIn(const scene::Json& environment) {
+    using enum engine::DeviceType;
+    const std::string name = scene::textAt(environment, "/device/type");
+    for (const engine::DeviceType type : {discrete, integrated, virtual_gpu, cpu, other})
+        if (name == engine::deviceTypeName(type)) return type;
+    return std::nullopt;
+}
+
+}  // namespace
+
+bool isSoftwareDevice(const scene::Json& environment) {
+    return deviceTypeIn(environment) == engine::DeviceType::cpu;
+}
+
+bool sharesProcessors(std::optional<engine::DeviceType> device_type) {
+    return device_type == engine::DeviceType::cpu || device_type == engine::DeviceType::integrated;
 }
 
 Trusted judgeOtherLoad(double share, bool shares_processors) {
@@ -122,10 +140,6 @@ const Json& arrayIn(const Json& object, const char* pointer) {
     return object.contains(place) && object.at(place).is_array() ? object.at(place) : none;
 }
 
-bool isSoftware(const Json& environment) {
-    return scene::textAt(environment, "/device/type") == "cpu";
-}
-
 // "73 %": a whole number, except below 10.
 std::string briefShare(double share) {
     const double percent = share * 100.0;
@@ -138,7 +152,7 @@ void add(std::vector<Doubt>& doubts, Doubt doubt) {
 }
 
 void judgeLoad(const Json& environment, const Json& result, std::vector<Doubt>& doubts) {
-    const bool shares = sharesProcessors(scene::textAt(environment, "/device/type"));
+    const bool shares = sharesProcessors(deviceTypeIn(environment));
     if (const auto share = numberIn(result, "/conditions/other_load"))
         add(doubts, {.check = "other load",
                      .level = judgeOtherLoad(*share, shares),
@@ -147,7 +161,7 @@ void judgeLoad(const Json& environment, const Json& result, std::vector<Doubt>& 
                      .size = *share});
     if (const auto share = numberIn(result, "/conditions/steal"))
         add(doubts, {.check = "steal",
-                     .level = judgeSteal(*share, isSoftware(environment)),
+                     .level = judgeSteal(*share, isSoftwareDevice(environment)),
                      .brief = "steal " + briefShare(*share),
                      .text = shareText(*share) +
                              " of all processors' time was given to others by the hypervisor",
@@ -194,7 +208,7 @@ void judgePassSums(const Json& environment, const Json& result, std::vector<Doub
              .size = std::abs(*sum - 1.0)});
         return true;
     };
-    if (isSoftware(environment)) {
+    if (isSoftwareDevice(environment)) {
         judge("/trust/pass_sum_over_wall", "the wall clock", false);
         return;
     }

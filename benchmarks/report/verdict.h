@@ -39,9 +39,13 @@ inline constexpr double kMuchSteal = 0.1;
 // A median with a wider 95 % interval, half of it over the median, is doubtful.
 inline constexpr double kWideInterval = 0.05;
 
-// Whether other programs' work on the processors slows a device of this type (DeviceRecord::type).
-// A software device is made of them, and an integrated GPU shares their power limit and memory.
-bool sharesProcessors(std::string_view device_type);
+// Whether the device in a report's environment is the processor itself, so that CPU time measures
+// the cost of passes.
+bool isSoftwareDevice(const scene::Json& environment);
+
+// Whether other programs' work on the processors slows a device of this type. A software device is
+// made of them, and an integrated GPU shares their power limit and memory.
+bool sharesProcessors(std::optional<engine::DeviceType> device_type);
 
 // `share` of all processors' time that other programs used. On a device that shares the processors
 // this disturbs the frames. On others it disturbs only their recording, and times are never worse

@@ -350,7 +350,7 @@ class Trials {
 public:
     Trials(const RunPlan& plan, const engine::Device& device, measure::HairCache& cache)
         : plan_(plan), device_(device), cache_(cache),
-          speed_(device.info().type == "cpu" ? 1.0 : kDeviceSpeed), estimates_(plan.cases.size()) {
+          speed_(device.info().type == engine::DeviceType::cpu ? 1.0 : kDeviceSpeed), estimates_(plan.cases.size()) {
         findNeeds();
     }
 

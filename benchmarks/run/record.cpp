@@ -26,6 +26,7 @@
 #include "benchmarks/scene/json.h"
 #include "engine/error.h"
 #include "engine/files.h"
+#include "engine/instance.h"
 
 namespace benchmarks::run {
 namespace {
@@ -65,7 +66,8 @@ std::optional<std::string> identityDifference(const scene::Json& a, const scene:
     };
     for (const Member& member : kMembers)
         if (auto found = difference(member)) return found;
-    if (scene::textAt(a, "/environment/device/type") == "cpu") return difference(kProcessor);
+    const std::string type = scene::textAt(a, "/environment/device/type");
+    if (type == engine::deviceTypeName(engine::DeviceType::cpu)) return difference(kProcessor);
     return std::nullopt;
 }
 

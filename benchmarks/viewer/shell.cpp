@@ -44,7 +44,7 @@ engine::DeviceOptions windowed(engine::DeviceOptions options) {
 
 bool computesOnProcessors(const engine::DeviceOptions& options) {
     const engine::Instance instance(engine::Validation::off);
-    return engine::chooseDevice(instance, options.wanted).type == "cpu";
+    return engine::chooseDevice(instance, options.wanted).type == engine::DeviceType::cpu;
 }
 
 // A software device inherits the priority of the thread that creates it, so a new thread creates

@@ -44,13 +44,13 @@ void addOverlapped(const TimedFrames& frames, report::CaseResult& result) {
 }
 
 void addIsolated(
-    const TimedFrames& frames, std::string_view device_type, report::CaseResult& result) {
+    const TimedFrames& frames, engine::DeviceType device_type, report::CaseResult& result) {
     if (frames.size() == 0) return;
     measure::addIsolatedMetrics(frames.records, result);
     measure::addPassTimes(frames.records, report::Mode::isolated, result);
     // The cost on a software device is CPU time; for other devices it says little.
-    if (device_type == "cpu") measure::addFrameUse(frames.records, result);
-    measure::addPassSum(frames.records, {}, device_type == "cpu", result);
+    if (device_type == engine::DeviceType::cpu) measure::addFrameUse(frames.records, result);
+    measure::addPassSum(frames.records, {}, device_type == engine::DeviceType::cpu, result);
 }
 
 // Share of the slowest frames, for "1 % low" and "1 % high".
@@ -159,7 +159,7 @@ std::vector<report::Metric> OwnMemory::metrics() const {
 
 // ---- Metrics of frames --------------------------------------------------------------------------
 
-report::CaseResult frameMetrics(const TimingHistory& history, std::string_view device_type) {
+report::CaseResult frameMetrics(const TimingHistory& history, engine::DeviceType device_type) {
     report::CaseResult result;
     addOverlapped(history.overlapped(), result);
     addIsolated(history.isolated(), device_type, result);
@@ -226,7 +226,7 @@ std::optional<PassRows> passRows(const TimedFrames& isolated) {
 
 // ---- Shown values of a side ---------------------------------------------------------------------
 
-ShownSide shownTimings(const TimingHistory& history, std::string_view device_type) {
+ShownSide shownTimings(const TimingHistory& history, engine::DeviceType device_type) {
     ShownSide shown;
     shown.metrics = frameMetrics(history, device_type);
     shown.rate = frameRate(shown.metrics);
@@ -238,7 +238,7 @@ ShownSide shownTimings(const TimingHistory& history, std::string_view device_typ
     return shown;
 }
 
-ShownSide shownSide(const Side& side, std::string_view device_type) {
+ShownSide shownSide(const Side& side, engine::DeviceType device_type) {
     ShownSide shown = shownTimings(side.timings(), device_type);
     shown.metrics.counts = side.shown().counts;
     shown.metrics.backend = side.shown().backend;

@@ -25,8 +25,8 @@ namespace benchmarks::viewer {
 // Returns a report's metrics of frames that the viewer drew: the runner's metrics by its own
 // functions, and the sum of the passes over the frame. The viewer draws one frame at a time, so
 // metrics that need two frames in flight are absent: fps, fps.low_*, frame.time, cpu.wait.time,
-// gpu.wait.time. `device_type` is as in DeviceRecord.
-report::CaseResult frameMetrics(const TimingHistory& history, std::string_view device_type);
+// gpu.wait.time.
+report::CaseResult frameMetrics(const TimingHistory& history, engine::DeviceType device_type);
 
 // Returns a metric with samples, or null.
 const report::Metric* metricOf(const report::CaseResult& result, const report::MetricId& id);
@@ -94,9 +94,9 @@ struct ShownSide {
     std::optional<std::pair<std::uint32_t, std::uint32_t>> range;
 };
 
-ShownSide shownTimings(const TimingHistory& history, std::string_view device_type);
+ShownSide shownTimings(const TimingHistory& history, engine::DeviceType device_type);
 // shownTimings() with the side's counts and its back end.
-ShownSide shownSide(const Side& side, std::string_view device_type);
+ShownSide shownSide(const Side& side, engine::DeviceType device_type);
 
 // "12.3 ms": the median time of the isolated frames, from submission to completion; empty without
 // frames.

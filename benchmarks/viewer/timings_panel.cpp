@@ -498,7 +498,7 @@ void TimingsPanel::show(
     Side& side, Side* compared, const ReportOrigin& origin, const WindowFigures& window) {
     if (!frozen_) remember(ui_, window.device);
     controls(side, compared, origin);
-    const std::string& type = device_.info().type;
+    const engine::DeviceType type = device_.info().type;
     const ShownSide a = frozen_ ? frozen_->shown : shownSide(side, type);
     std::optional<ShownSide> b = frozen_compared_;
     if (!frozen_ && compared) b = shownSide(*compared, type);
@@ -543,7 +543,7 @@ void TimingsPanel::controls(Side& side, Side* compared, const ReportOrigin& orig
     if (ImGui::Checkbox("Freeze", &freeze)) {
         frozen_.reset();
         frozen_compared_.reset();
-        const std::string& type = device_.info().type;
+        const engine::DeviceType type = device_.info().type;
         if (freeze) {
             frozen_ = frozenSide(side, shownSide(side, type));
             warnOfChangedShaders(replaced_, frozen_->shown.metrics.trust);

@@ -569,7 +569,7 @@ void checkBackend(Backend backend, const Settings& settings) {
 }
 
 std::span<const Backend> backendOrder(const engine::DeviceInfo& device) {
-    if (device.type == "cpu") return kOnProcessors;
+    if (device.type == engine::DeviceType::cpu) return kOnProcessors;
     return kOnGraphicsProcessors;
 }
 

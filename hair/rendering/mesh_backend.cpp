@@ -85,7 +85,8 @@ MeshSizes meshSizes(const engine::DeviceInfo& device) {
                                     {limits.maxTaskPayloadSize, limits.maxTaskSharedMemorySize,
                                      limits.maxTaskPayloadAndSharedMemorySize / 2}) /
                                 static_cast<std::uint32_t>(sizeof(std::uint32_t));
-    const std::uint32_t liked = device.type == "cpu" ? kProcessorGroup : kMostInvocations;
+    const std::uint32_t liked =
+        device.type == engine::DeviceType::cpu ? kProcessorGroup : kMostInvocations;
     const auto group = [&](std::initializer_list<std::uint32_t> most) {
         return std::max(std::min(std::min(most), liked), 1u);
     };

@@ -177,7 +177,7 @@ std::size_t pointsPerStrand(const StrandSettings& strands, const StrandPlan& pla
 // On a processor, a texel fetch reads whole points for all invocations at once, which is faster:
 // docs/performance.md.
 bool readsTexels(const engine::Device& device, std::size_t bytes) {
-    return device.info().type == "cpu" &&
+    return device.info().type == engine::DeviceType::cpu &&
            bytes / kPointBytes <= device.info().limits.maxTexelBufferElements;
 }
 
@@ -279,7 +279,7 @@ std::uint32_t strandBlock(
     std::uint32_t turns) {
     constexpr std::uint64_t kMostTurns = 60000;
     constexpr std::uint64_t kProcessorBlock = 8;
-    if (device.info().type != "cpu") return 1;
+    if (device.info().type != engine::DeviceType::cpu) return 1;
     if (strands.source != StrandSource::root_triangles) return 1;
     const std::uint64_t pieces = std::uint64_t{plan.segments} * plan.forced_tessellation;
     const std::uint64_t most = kMostTurns / (turns * pieces);

@@ -50,7 +50,7 @@ culledBlock(const engine::Device& device, const StrandSettings& strands, const S
 // Each invocation reads once what all pixels share. On a processor, a work group has as many
 // invocations as lavapipe runs at a time.
 std::uint32_t pixelGroup(const engine::Device& device) {
-    return device.info().type == "cpu" ? 8 : 32;
+    return device.info().type == engine::DeviceType::cpu ? 8 : 32;
 }
 
 // Whether each invocation of `shade` takes one pixel. Lavapipe ends an invocation's loops after

@@ -198,7 +198,7 @@ std::uint32_t wantedPerChunk(
     std::uint32_t vertices) {
     if (parallelism == Parallelism::strand) return kMost;
     if (parallelism == Parallelism::vertex) return kFewest;
-    if (device.type == "cpu") return kMost;
+    if (device.type == engine::DeviceType::cpu) return kMost;
     const auto invocations = std::uint64_t{strand_count} * divideUp(vertices, kOnGpu);
     return invocations >= kInvocationsToFillGpu ? kOnGpu : kFewest;
 }

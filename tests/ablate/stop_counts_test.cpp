@@ -6,6 +6,7 @@
 
 #include "benchmarks/ablate/ablation.h"
 #include "benchmarks/ablate/ladder_walk.h"
+#include "engine/instance.h"
 
 namespace benchmarks::ablate {
 namespace {
@@ -52,8 +53,8 @@ StopCounts allRan() {
         .watched_invocations = 120};
 }
 
-std::vector<std::string>
-warningsOf(Stop stop, const StopCounts& counts, const char* device_type = "cpu") {
+std::vector<std::string> warningsOf(
+    Stop stop, const StopCounts& counts, engine::DeviceType device_type = engine::DeviceType::cpu) {
     const StopPlan plan = stopOf(stop);
     engine::DeviceInfo device;
     device.type = device_type;
@@ -109,9 +110,9 @@ TEST(StopCounts, MayBeMoreOnGpusInStagesThatMakeVertices) {
         {{"vertex_invocations", 8},
          {"tessellation_control_patches", 6},
          {"tessellation_evaluation_invocations", 190}});
-    EXPECT_THAT(warningsOf(Stop::tessellation, counts, "discrete"), IsEmpty());
+    EXPECT_THAT(warningsOf(Stop::tessellation, counts, engine::DeviceType::discrete), IsEmpty());
     EXPECT_THAT(
-        warningsOf(Stop::tessellation, counts, "cpu"),
+        warningsOf(Stop::tessellation, counts, engine::DeviceType::cpu),
         ElementsAre(
             "tessellation: vertex_invocations: 8, expected 6",
             "tessellation: tessellation_evaluation_invocations: 190, expected 150",
@@ -123,7 +124,7 @@ TEST(StopCounts, MayBeMoreOnGpusInStagesThatMakeVertices) {
          {"tessellation_control_patches", 5},
          {"tessellation_evaluation_invocations", 149}});
     EXPECT_THAT(
-        warningsOf(Stop::tessellation, counts, "integrated"),
+        warningsOf(Stop::tessellation, counts, engine::DeviceType::integrated),
         ElementsAre(
             "tessellation: tessellation_control_patches: 5, expected at least 6",
             "tessellation: tessellation_evaluation_invocations: 149, expected at least 150",
@@ -133,11 +134,11 @@ TEST(StopCounts, MayBeMoreOnGpusInStagesThatMakeVertices) {
     lines.samples_passed = 0;
     lines.watched_invocations = 121;
     EXPECT_THAT(
-        warningsOf(Stop::geometry, lines, "discrete"),
+        warningsOf(Stop::geometry, lines, engine::DeviceType::discrete),
         ElementsAre("geometry: seen: 121, expected 120"));
     StopCounts empty = allRan();
     EXPECT_THAT(
-        warningsOf(Stop::empty, empty, "discrete"),
+        warningsOf(Stop::empty, empty, engine::DeviceType::discrete),
         ElementsAre(
             "empty: input_assembly_vertices: 6, expected 0",
             "empty: samples_passed: 70, expected 0"));

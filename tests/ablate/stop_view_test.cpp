@@ -67,7 +67,7 @@ protected:
 
     // Counts of a stage that makes vertices. A GPU may run it more often.
     static void expectRun(std::uint64_t count, std::uint64_t expected) {
-        if (device().info().type == "cpu")
+        if (device().info().type == engine::DeviceType::cpu)
             EXPECT_EQ(count, expected);
         else
             EXPECT_GE(count, expected);

@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "benchmarks/report/report.h"
+#include "engine/instance.h"
 #include "tests/temporary_folder.h"
 
 namespace benchmarks {
@@ -16,7 +17,7 @@ inline report::Report sampleReport() {
     report.environment = {
         .device =
             {.name = "Soft",
-             .type = "cpu",
+             .type = engine::DeviceType::cpu,
              .driver = "llvmpipe",
              .driver_version = "22.3.6",
              .api_version = "1.3.230",

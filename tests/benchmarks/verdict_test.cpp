@@ -1,5 +1,6 @@
 // Bounds are those of docs/measuring.md.
 #include "benchmarks/report/verdict.h"
+#include "engine/instance.h"
 
 #include <functional>
 #include <optional>
@@ -30,14 +31,14 @@ CaseVerdict verdictOn(const Change& change) {
 
 Trusted levelOf(const Change& change) { return verdictOn(change).level; }
 
-Change others(double share, const char* device = "cpu") {
+Change others(double share, engine::DeviceType device = engine::DeviceType::cpu) {
     return [=](Report& report) {
         report.environment.device.type = device;
         report.cases[0].conditions.other_load = share;
     };
 }
 
-Change stolen(double share, const char* device = "cpu") {
+Change stolen(double share, engine::DeviceType device = engine::DeviceType::cpu) {
     return [=](Report& report) {
         report.environment.device.type = device;
         report.cases[0].conditions.steal = share;
@@ -67,21 +68,21 @@ TEST(CaseVerdict, FallsWithOthersLoad) {
     EXPECT_EQ(levelOf(others(0.051)), Trusted::doubtful);
     EXPECT_EQ(levelOf(others(0.25)), Trusted::doubtful);
     EXPECT_EQ(levelOf(others(0.251)), Trusted::untrusted);
-    EXPECT_EQ(levelOf(others(0.9, "discrete")), Trusted::doubtful);
+    EXPECT_EQ(levelOf(others(0.9, engine::DeviceType::discrete)), Trusted::doubtful);
     // An integrated GPU shares the processors' power and memory.
-    EXPECT_EQ(levelOf(others(0.25, "integrated")), Trusted::doubtful);
-    EXPECT_EQ(levelOf(others(0.251, "integrated")), Trusted::untrusted);
-    EXPECT_EQ(levelOf(stolen(0.9, "integrated")), Trusted::doubtful);
+    EXPECT_EQ(levelOf(others(0.25, engine::DeviceType::integrated)), Trusted::doubtful);
+    EXPECT_EQ(levelOf(others(0.251, engine::DeviceType::integrated)), Trusted::untrusted);
+    EXPECT_EQ(levelOf(stolen(0.9, engine::DeviceType::integrated)), Trusted::doubtful);
     EXPECT_EQ(levelOf(stolen(0.01)), Trusted::trusted);
     EXPECT_EQ(levelOf(stolen(0.011)), Trusted::doubtful);
     EXPECT_EQ(levelOf(stolen(0.101)), Trusted::untrusted);
-    EXPECT_EQ(levelOf(stolen(0.9, "discrete")), Trusted::doubtful);
+    EXPECT_EQ(levelOf(stolen(0.9, engine::DeviceType::discrete)), Trusted::doubtful);
 }
 
 TEST(CaseVerdict, FallsWithHeatAndOtherLimitsOfTheClock) {
     const auto limited = [](std::vector<std::string> reasons, std::optional<double> clock) {
         return levelOf([&](Report& report) {
-            report.environment.device.type = "discrete";
+            report.environment.device.type = engine::DeviceType::discrete;
             report.cases[0].conditions.clock_mhz = clock;
             report.cases[0].conditions.throttle_reasons = std::move(reasons);
         });
@@ -105,7 +106,7 @@ TEST(CaseVerdict, FallsWithThePasses) {
     EXPECT_EQ(wall(1.11), Trusted::untrusted);
     const auto device = [](double sum) {
         return levelOf([=](Report& report) {
-            report.environment.device.type = "discrete";
+            report.environment.device.type = engine::DeviceType::discrete;
             // On a fast device a submission takes longer than a frame.
             report.cases[0].trust.pass_sum_over_wall = 0.4;
             report.cases[0].trust.pass_sum_over_device = sum;
@@ -115,7 +116,7 @@ TEST(CaseVerdict, FallsWithThePasses) {
     EXPECT_EQ(device(0.89), Trusted::untrusted);
     const auto work = [](double sum, const char* timestamps, const char* warning) {
         return levelOf([=](Report& report) {
-            report.environment.device.type = "discrete";
+            report.environment.device.type = engine::DeviceType::discrete;
             Trust& trust = report.cases[0].trust;
             trust = {.pass_sum_over_wall = 0.4, .pass_sum_over_device = 1.0};
             trust.pass_sum_over_work = sum;

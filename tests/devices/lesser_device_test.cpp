@@ -384,7 +384,7 @@ TEST_F(LesserDevice, CoversTheSameSamplesByAllVariants) {
         EXPECT_EQ(pictureOf(settings), there);
         make([](DeviceInfo& info) { info.limits.maxTexelBufferElements = 1; });
         EXPECT_EQ(pictureOf(settings), there);
-        make([](DeviceInfo& info) { info.type = "discrete"; });
+        make([](DeviceInfo& info) { info.type = engine::DeviceType::discrete; });
         EXPECT_EQ(pictureOf(settings), there);
         make(bare);
         EXPECT_EQ(pictureOf(settings), there);

@@ -4,13 +4,14 @@
 
 #include "benchmarks/doctor/checks.h"
 #include "benchmarks/doctor/facts.h"
+#include "engine/instance.h"
 
 namespace benchmarks::doctor {
 
 // Returns a machine without faults: a discrete device with locked clocks, on mains, idle.
 inline Facts goodFacts() {
     Facts facts;
-    facts.device = {.name = "Fast", .type = "discrete"};
+    facts.device = {.name = "Fast", .type = engine::DeviceType::discrete};
     facts.build = {
         .build =
             {.version = "0.1.0",
@@ -43,7 +44,7 @@ inline Facts goodFacts() {
 // Returns the same with a software device.
 inline Facts softwareFacts() {
     Facts facts = goodFacts();
-    facts.device = {.name = "Soft", .type = "cpu"};
+    facts.device = {.name = "Soft", .type = engine::DeviceType::cpu};
     facts.passes.sum.over_wall = 0.99;
     facts.clocks.reset();
     return facts;

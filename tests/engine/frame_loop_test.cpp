@@ -161,7 +161,7 @@ TEST_F(FrameLoopTest, TellsWhatFramesAndPassesUseOfTheCpu) {
         all += passes;
     }
     // On a software device, filling 640 MiB uses CPU time.
-    if (device().info().type == "cpu") {
+    if (device().info().type == engine::DeviceType::cpu) {
         EXPECT_GT(all, 0.0);
     }
 }

@@ -15,6 +15,7 @@
 #include "benchmarks/report/page.h"
 #include "benchmarks/report/table.h"
 #include "benchmarks/report/verdict.h"
+#include "engine/instance.h"
 #include "tests/benchmarks/judged_report.h"
 #include "tests/doctor/sample_facts.h"
 #include "tests/temporary_folder.h"
@@ -44,7 +45,7 @@ const Judged kJudged[] = {
      "untrusted (steal 12 %)"},
     {"hot",
      [](Report& r) {
-         r.environment.device.type = "discrete";
+         r.environment.device.type = engine::DeviceType::discrete;
          r.cases[0].conditions.clock_mhz = 900.0;
          r.cases[0].conditions.throttle_reasons = {"thermal slowdown"};
      },
@@ -147,7 +148,7 @@ TEST_P(VerdictOfACase, IsThatOfTheDoctorsRow) {
         return changed;
     }();
     const CaseResult& result = report.cases[0];
-    const bool software = report.environment.device.type == "cpu";
+    const bool software = report.environment.device.type == engine::DeviceType::cpu;
     doctor::Facts facts = software ? doctor::softwareFacts() : doctor::goodFacts();
     facts.build.build = report.environment.build;
     facts.layers.validation = report.environment.validation.value();

@@ -9,6 +9,7 @@
 
 #include "benchmarks/measure/clocks.h"
 #include "benchmarks/report/verdict.h"
+#include "engine/instance.h"
 #include "tests/gpu_fixture.h"
 #include "tests/temporary_folder.h"
 
@@ -161,7 +162,7 @@ TEST_F(MachineWatchTest, TellsSharesOfTheProcessorsTime) {
 }
 
 TEST_F(MachineWatchTest, KnowsNoClockOfASoftwareDevice) {
-    if (device().info().type != "cpu") GTEST_SKIP() << "this device has clocks";
+    if (device().info().type != engine::DeviceType::cpu) GTEST_SKIP() << "this device has clocks";
     EXPECT_EQ(pciAddress(device().info()), std::nullopt);
     MachineWatch watch(device());
     watch.begin();
@@ -196,7 +197,8 @@ private:
 };
 
 // Returns the reason why the clocks can't be locked or left as `asked`; empty if they can.
-std::string refusal(hair::Clocks asked, std::unique_ptr<ClockSource> source, const char* type) {
+std::string
+refusal(hair::Clocks asked, std::unique_ptr<ClockSource> source, engine::DeviceType type) {
     engine::DeviceInfo device;
     device.name = "Card 7";
     device.type = type;
@@ -211,7 +213,7 @@ std::string refusal(hair::Clocks asked, std::unique_ptr<ClockSource> source, con
 TEST(ClockHold, LocksClocksForAsLongAsItLives) {
     MadeUpClocks clocks;
     engine::DeviceInfo device;
-    device.type = "discrete";
+    device.type = engine::DeviceType::discrete;
     {
         const ClockHold hold(device, hair::Clocks::locked, std::make_unique<MadeUpSource>(clocks));
         EXPECT_TRUE(clocks.locked);
@@ -225,17 +227,19 @@ TEST(ClockHold, SaysWhatToDoWhereItCannot) {
     MadeUpClocks clocks{.may_lock = false, .held = true};
     const auto source = [&] { return std::make_unique<MadeUpSource>(clocks); };
     EXPECT_EQ(
-        refusal(hair::Clocks::locked, source(), "discrete"),
+        refusal(hair::Clocks::locked, source(), engine::DeviceType::discrete),
         "/run/clocks locked: the driver does not let this user lock clocks; as administrator, run "
         "lock 1410 and then measure without /run/clocks");
     EXPECT_EQ(
-        refusal(hair::Clocks::free, source(), "discrete"),
+        refusal(hair::Clocks::free, source(), engine::DeviceType::discrete),
         "/run/clocks free: an administrator has locked the clocks of Card 7");
     EXPECT_EQ(
-        refusal(hair::Clocks::free, nullptr, "discrete"),
+        refusal(hair::Clocks::free, nullptr, engine::DeviceType::discrete),
         "/run/clocks free: the clocks of Card 7 are not known");
-    EXPECT_THAT(refusal(hair::Clocks::locked, source(), "cpu"), testing::HasSubstr("cpupower"));
-    EXPECT_EQ(refusal(hair::Clocks::as_found, source(), "cpu"), "");
+    EXPECT_THAT(
+        refusal(hair::Clocks::locked, source(), engine::DeviceType::cpu),
+        testing::HasSubstr("cpupower"));
+    EXPECT_EQ(refusal(hair::Clocks::as_found, source(), engine::DeviceType::cpu), "");
 }
 
 }  // namespace

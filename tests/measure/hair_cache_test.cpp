@@ -211,7 +211,8 @@ TEST_F(HairCacheTest, ProgramsWithOtherShadersTakeNothing) {
 
 // The compiled code of a software device depends on the processor.
 TEST_F(HairCacheTest, OtherProcessorsTakeNothing) {
-    if (device().info().type != "cpu") GTEST_SKIP() << "the device is no processor";
+    if (device().info().type != engine::DeviceType::cpu)
+        GTEST_SKIP() << "the device is no processor";
     const hair::Settings settings = settledCase(hair::Solver::shape);
     HairCache cache = onDisk("Analytical Engine");
     EXPECT_EQ(makes(cache, settings), 2u);

@@ -277,7 +277,7 @@ TEST_F(MeasureTest, SlowsDownNoPassThatIsNotThere) {
 
 // On a software device, a frame costs what it costs the processor.
 TEST_F(MeasureTest, TellsWhatASoftwareDeviceUses) {
-    const bool software = device().info().type == "cpu";
+    const bool software = device().info().type == engine::DeviceType::cpu;
     const report::CaseResult result = measured(smallCase());
     for (const char* name : {"frame.cpu.time", "pass.wind.cpu.time", "pass.strands.cpu.time"}) {
         ASSERT_EQ(samplesOf(result, name), software ? 5u : 0u) << name;

@@ -1,4 +1,5 @@
 #include "benchmarks/measure/metrics.h"
+#include "engine/instance.h"
 
 #include <algorithm>
 
@@ -32,32 +33,33 @@ std::vector<engine::FrameRecord> framesOf(std::size_t count) {
 
 TEST(MissedCount, IsLessOnGpusAndAnyDifferenceOnProcessors) {
     const char* const evaluations = "tessellation_evaluation_invocations";
+    using enum engine::DeviceType;
     struct Row {
-        const char* type;
+        engine::DeviceType type;
         const char* statistic;
         std::uint64_t measured;
         std::optional<std::uint64_t> expected;
         std::optional<std::string> missed;
     };
     for (const Row& row : {
-             Row{"cpu", evaluations, 304640, 304640, std::nullopt},
-             {"cpu", evaluations, 304641, 304640, "expected 304640"},
-             {"cpu", evaluations, 304639, 304640, "expected 304640"},
-             {"discrete", evaluations, 304640, 304640, std::nullopt},
-             {"discrete", evaluations, 400000, 304640, std::nullopt},
-             {"discrete", evaluations, 304639, 304640, "expected at least 304640"},
-             {"integrated", "tessellation_control_patches", 953, 952, std::nullopt},
-             {"virtual", "tessellation_control_patches", 951, 952, "expected at least 952"},
-             {"discrete", "geometry_invocations", 121, 120, "expected 120"},
-             {"discrete", "geometry_primitives", 239, 240, "expected 240"},
+             Row{cpu, evaluations, 304640, 304640, std::nullopt},
+             {cpu, evaluations, 304641, 304640, "expected 304640"},
+             {cpu, evaluations, 304639, 304640, "expected 304640"},
+             {discrete, evaluations, 304640, 304640, std::nullopt},
+             {discrete, evaluations, 400000, 304640, std::nullopt},
+             {discrete, evaluations, 304639, 304640, "expected at least 304640"},
+             {integrated, "tessellation_control_patches", 953, 952, std::nullopt},
+             {virtual_gpu, "tessellation_control_patches", 951, 952, "expected at least 952"},
+             {discrete, "geometry_invocations", 121, 120, "expected 120"},
+             {discrete, "geometry_primitives", 239, 240, "expected 240"},
              // A stage that must not run at all.
-             {"discrete", evaluations, 1, 0, "expected 0"},
-             {"discrete", evaluations, 7, std::nullopt, std::nullopt},
+             {discrete, evaluations, 1, 0, "expected 0"},
+             {discrete, evaluations, 7, std::nullopt, std::nullopt},
          }) {
         engine::DeviceInfo device;
         device.type = row.type;
         EXPECT_EQ(missedCount(row.statistic, row.measured, row.expected, device), row.missed)
-            << row.type << ", " << row.statistic << ' ' << row.measured;
+            << engine::deviceTypeName(row.type) << ", " << row.statistic << ' ' << row.measured;
     }
 }
 

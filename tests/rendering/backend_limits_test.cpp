@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "engine/error.h"
+#include "engine/instance.h"
 #include "hair/rendering/backends.h"
 #include "tests/gpu_fixture.h"
 
@@ -91,7 +92,7 @@ TEST(BackendLimits, AreThoseOfTheDocumentation) {
     EXPECT_EQ(rowsBelow("| `/strands/backend` | does not draw | because |"), known);
 }
 
-std::string orderRow(const std::string& devices, const char* type) {
+std::string orderRow(const std::string& devices, engine::DeviceType type) {
     std::string row = "| " + devices + " | ";
     for (const Backend backend : backendOrder({.type = type}))
         row += (row.ends_with("| ") ? "`" : ", `") + std::string(backendName(backend)) + "`";
@@ -101,18 +102,21 @@ std::string orderRow(const std::string& devices, const char* type) {
 TEST(BackendOrder, IsThatOfTheDocumentation) {
     EXPECT_EQ(
         rowsBelow("| `/strands/backend` `automatic` on | first to last |"),
-        (std::set{orderRow("processors", "cpu"), orderRow("graphics processors", "discrete")}));
+        (std::set{
+            orderRow("processors", engine::DeviceType::cpu),
+            orderRow("graphics processors", engine::DeviceType::discrete)}));
 }
 
 // Every device's order has all back ends that draw the same strands, which are all except `lines`.
 TEST(BackendOrder, HasEveryBackEndOfTheSamePicture) {
-    for (const char* type : {"cpu", "discrete", "integrated", "virtual", "other"})
+    using enum engine::DeviceType;
+    for (const engine::DeviceType type : {discrete, integrated, virtual_gpu, cpu, other})
         EXPECT_THAT(
             backendOrder({.type = type}),
             testing::UnorderedElementsAre(
                 Backend::tessellation, Backend::pulling_geometry, Backend::pulling,
                 Backend::expanded, Backend::mesh, Backend::software))
-            << type;
+            << engine::deviceTypeName(type);
 }
 
 class BackendChoiceTest : public GpuTest {

@@ -38,7 +38,9 @@ constexpr Way kOtherWays[] = {
 class BackendPictureTest : public GpuTest {
 protected:
     static std::size_t mostDiffering(const Settings& settings) {
-        if (device().info().type == "cpu" && settings.strands.backend != Backend::pulling) return 0;
+        if (device().info().type == engine::DeviceType::cpu &&
+            settings.strands.backend != Backend::pulling)
+            return 0;
         return std::size_t{settings.render.width} * settings.render.height / 1000;
     }
 
@@ -284,7 +286,7 @@ TEST_F(BackendPictureTest, CountsAreThoseOfThePlan) {
     const std::uint64_t evaluations = count("tessellation_evaluation_invocations");
     EXPECT_GE(patches, 136u * 7 * 2);
     EXPECT_GE(evaluations, 136u * 7 * 100 * 4);
-    if (device().info().type == "cpu") {
+    if (device().info().type == engine::DeviceType::cpu) {
         EXPECT_EQ(patches, 136u * 7 * 2);
         EXPECT_EQ(evaluations, 136u * 7 * 100 * 4);
     }

@@ -11,6 +11,7 @@
 #include <gtest/gtest.h>
 
 #include "benchmarks/scene/scene.h"
+#include "engine/instance.h"
 #include "engine/pictures.h"
 #include "engine/queries.h"
 #include "tests/error_text.h"
@@ -50,8 +51,9 @@ VkPhysicalDeviceMeshShaderPropertiesEXT leastLimits() {
     return limits;
 }
 
-engine::DeviceInfo
-deviceWith(const VkPhysicalDeviceMeshShaderPropertiesEXT& limits, const char* type = "discrete") {
+engine::DeviceInfo deviceWith(
+    const VkPhysicalDeviceMeshShaderPropertiesEXT& limits,
+    engine::DeviceType type = engine::DeviceType::discrete) {
     engine::DeviceInfo info;
     info.type = type;
     info.mesh_limits = limits;
@@ -74,7 +76,7 @@ TEST(MeshBackend, HasWorkgroupsAsTheDeviceLikesThem) {
     limits.maxPreferredMeshWorkGroupInvocations = 64;
     EXPECT_EQ(meshSizes(deviceWith(limits)).task_group, 32u);
     EXPECT_EQ(meshSizes(deviceWith(limits)).mesh_group, 64u);
-    EXPECT_EQ(meshSizes(deviceWith(limits, "cpu")).mesh_group, 8u);
+    EXPECT_EQ(meshSizes(deviceWith(limits, engine::DeviceType::cpu)).mesh_group, 8u);
     limits.maxTaskPayloadSize = 40;  // of four bytes a block
     limits.maxMeshWorkGroupSize[0] = 16;
     EXPECT_EQ(meshSizes(deviceWith(limits)).task_group, 10u);
@@ -150,7 +152,7 @@ protected:
     }
 
     static std::size_t mostDiffering(const Settings& settings) {
-        if (device().info().type == "cpu") return 0;
+        if (device().info().type == engine::DeviceType::cpu) return 0;
         return std::size_t{settings.render.width} * settings.render.height / 1000;
     }
 

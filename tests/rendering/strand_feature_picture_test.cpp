@@ -218,7 +218,7 @@ TEST_F(StrandFeaturePictureTest, CountsAreThoseOfThePlan) {
         // GPUs may run these stages more than once for a patch or a vertex.
         EXPECT_GE(count("tessellation_control_patches"), patches);
         EXPECT_GE(count("tessellation_evaluation_invocations"), patches * (pieces + 1));
-        if (device().info().type == "cpu") {
+        if (device().info().type == engine::DeviceType::cpu) {
             EXPECT_EQ(count("tessellation_control_patches"), patches);
             EXPECT_EQ(count("tessellation_evaluation_invocations"), patches * (pieces + 1));
         }

@@ -1,3 +1,4 @@
+#include "engine/instance.h"
 #include "tests/report_page/sample_reports.h"
 
 #include <cmath>
@@ -54,7 +55,8 @@ CaseResult measuredCase(const Known& known, double slower) {
 
 Report emptyReport(const std::string& scene_name) {
     Report report;
-    report.environment.device = {"Sample device", "discrete", "sample", "1.0", "1.3.0", 1.0};
+    report.environment.device = {
+        "Sample device", engine::DeviceType::discrete, "sample", "1.0", "1.3.0", 1.0};
     report.environment.build.type = "Release";
     report.environment.command = {"hairbench", "run", "scenes/" + scene_name + ".json"};
     report.scene = {

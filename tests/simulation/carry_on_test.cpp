@@ -69,7 +69,7 @@ TEST_F(CarryOn, GoesOnLikeANewSimulationInItsState) {
     const auto expectAlike = [&](const std::vector<glm::vec3>& found,
                                  const std::vector<glm::vec3>& expected,
                                  const SimulationSettings& settings) {
-        if (device().info().type == "cpu")
+        if (device().info().type == engine::DeviceType::cpu)
             EXPECT_EQ(found, expected);
         else
             EXPECT_LT(

@@ -24,7 +24,7 @@ std::vector<std::string> names(const report::CaseResult& result) {
 // The viewer draws one frame at a time, so the runner's metrics of two frames in flight are
 // unknown.
 TEST(TimingsFigures, AreTheRunnersThatHoldForOneFrameAtATime) {
-    const report::CaseResult result = frameMetrics(madeUpHistory(), "discrete");
+    const report::CaseResult result = frameMetrics(madeUpHistory(), engine::DeviceType::discrete);
     EXPECT_THAT(
         names(result), ElementsAre(
                            "frame.device.time", "cpu.record.time", "cpu.submit.time",
@@ -47,7 +47,7 @@ TEST(TimingsFigures, AreTheRunnersThatHoldForOneFrameAtATime) {
 }
 
 TEST(TimingsFigures, HaveCpuTimeOfSoftwareDevices) {
-    const report::CaseResult result = frameMetrics(madeUpHistory(), "cpu");
+    const report::CaseResult result = frameMetrics(madeUpHistory(), engine::DeviceType::cpu);
     ASSERT_NE(metricOf(result, report::ofFrame(report::Measured::cpu_time)), nullptr);
     EXPECT_THAT(
         metricOf(result, report::ofFrame(report::Measured::cpu_time))->samples,
@@ -55,7 +55,7 @@ TEST(TimingsFigures, HaveCpuTimeOfSoftwareDevices) {
 }
 
 TEST(TimingsFigures, TellHowFastFramesAre) {
-    const auto rate = frameRate(frameMetrics(madeUpHistory(), "discrete"));
+    const auto rate = frameRate(frameMetrics(madeUpHistory(), engine::DeviceType::discrete));
     ASSERT_TRUE(rate);
     EXPECT_DOUBLE_EQ(rate->fps, 30.0);  // three frames in 100 ms
     EXPECT_EQ(rate->median, 25.0);
@@ -67,10 +67,10 @@ TEST(TimingsFigures, HaveLowsOfEnoughFrames) {
     TimingHistory history;
     for (std::uint32_t i = 0; i < 99; ++i)
         history.add(isolatedFrame(1.0, i % 50 == 7 ? 39.0 : 9.0), engine::Timing::isolated, i);
-    EXPECT_FALSE(frameRate(frameMetrics(history, "discrete"))->low);
+    EXPECT_FALSE(frameRate(frameMetrics(history, engine::DeviceType::discrete))->low);
     EXPECT_FALSE(passRows(history.isolated())->passes[1].high);
     history.add(isolatedFrame(1.0, 9.0), engine::Timing::isolated, 99);
-    const auto rate = frameRate(frameMetrics(history, "discrete"));
+    const auto rate = frameRate(frameMetrics(history, engine::DeviceType::discrete));
     ASSERT_TRUE(rate->low);
     EXPECT_EQ(rate->low->percentile, 25.0);
     EXPECT_EQ(rate->low->mean, 25.0);
@@ -110,7 +110,7 @@ TEST(TimingsFigures, KnowWhichFramesRanAPass) {
 }
 
 TEST(TimingsFigures, SplitAFrame) {
-    const ShownSide shown = shownTimings(madeUpHistory(), "cpu");
+    const ShownSide shown = shownTimings(madeUpHistory(), engine::DeviceType::cpu);
     ASSERT_TRUE(shown.split);
     EXPECT_EQ(shown.split->record, 2.0);
     EXPECT_EQ(shown.split->submit, 1.0);
@@ -127,19 +127,19 @@ TEST(TimingsFigures, SplitAFrame) {
 
 // 11/12, 23/25 and 62/63 have the median 23/25.
 TEST(TimingsFigures, SayHowFarPassesAreTheFrame) {
-    const report::CaseResult good = frameMetrics(madeUpHistory(), "discrete");
+    const report::CaseResult good = frameMetrics(madeUpHistory(), engine::DeviceType::discrete);
     EXPECT_THAT(good.trust.pass_sum_over_wall, Optional(0.92));
     EXPECT_THAT(good.trust.warnings, IsEmpty());
     TimingHistory history;
     history.add(isolatedFrame(1.0, 4.0, 5.0), engine::Timing::isolated, 0);
-    const report::CaseResult bad = frameMetrics(history, "discrete");
+    const report::CaseResult bad = frameMetrics(history, engine::DeviceType::discrete);
     EXPECT_THAT(
         bad.trust.warnings,
         Contains(HasSubstr("0.500 of its wall clock minus the time of a submission")));
 }
 
 TEST(TimingsFigures, OfNothingAreNone) {
-    const ShownSide shown = shownTimings(TimingHistory(), "cpu");
+    const ShownSide shown = shownTimings(TimingHistory(), engine::DeviceType::cpu);
     EXPECT_THAT(shown.metrics.metrics, IsEmpty());
     EXPECT_FALSE(shown.rate);
     EXPECT_FALSE(shown.passes);

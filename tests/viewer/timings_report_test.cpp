@@ -39,7 +39,8 @@ protected:
 
     static report::CaseResult frozen(const report::CaseResult& statistics = {}) {
         return frozenResult(
-            {.shown = shownTimings(madeUpHistory(), "cpu"), .settings = {}}, statistics);
+            {.shown = shownTimings(madeUpHistory(), engine::DeviceType::cpu), .settings = {}},
+            statistics);
     }
 
     TemporaryFolder folder_;

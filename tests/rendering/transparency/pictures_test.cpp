@@ -35,7 +35,7 @@ protected:
 // On processors the back ends agree to the bit. A GPU's compiler rounds differently in another
 // stage (backend_picture_test), which may take a sum of weights to the next step.
 TEST_F(TransparentPictureTest, BackEndsAgree) {
-    const bool is_processor = device().info().type == "cpu";
+    const bool is_processor = device().info().type == engine::DeviceType::cpu;
     for (Settings settings : allKinds()) {
         const Pixels tessellated = drawCase(device(), settings);
         settings.strands.backend = Backend::pulling_geometry;
