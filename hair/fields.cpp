@@ -30,6 +30,27 @@ bool differsIn(const List& row, SettingsView a, SettingsView b) {
     return false;
 }
 
+template <class Value>
+void assignIn(const Member<Value>& row, SettingsRef to, SettingsView from) {
+    row.in(to) = row.in(from);
+}
+
+void assignIn(const Choice& row, SettingsRef to, SettingsView from) { row.assign(to, from); }
+
+void assignIn(const ChoiceOrFile& row, SettingsRef to, SettingsView from) {
+    row.assign(to, from);
+    row.file.in(to) = row.file.in(from);
+}
+
+void assignIn(const Group& row, SettingsRef to, SettingsView from) {
+    assign(row.in(to), row.in(from));
+}
+
+void assignIn(const List& row, SettingsRef to, SettingsView from) {
+    row.resize(to, row.size(from));
+    for (std::size_t i = 0; i < row.size(from); ++i) assign(row.at(to, i), row.at(from, i));
+}
+
 }  // namespace
 
 const std::vector<Field>& SettingsView::fields() const { return table_->fields(); }
@@ -71,6 +92,14 @@ bool differ(const Field& field, SettingsView a, SettingsView b) {
 
 bool differ(SettingsView a, SettingsView b) {
     return std::ranges::any_of(a.fields(), [&](const Field& field) { return differ(field, a, b); });
+}
+
+void assign(const Field& field, SettingsRef to, SettingsView from) {
+    std::visit([&](const auto& row) { assignIn(row, to, from); }, field.kind);
+}
+
+void assign(SettingsRef to, SettingsView from) {
+    for (const Field& field : from.fields()) assign(field, to, from);
 }
 
 }  // namespace hair

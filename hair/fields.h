@@ -128,6 +128,9 @@ public:
     // Returns the index of the member's name; none for an enumerator without a name in the row.
     std::optional<std::size_t> chosen(SettingsView settings) const;
     void choose(SettingsRef settings, std::size_t index) const;
+    void assign(SettingsRef to, SettingsView from) const {
+        access_->set(address(to), access_->get(address(from)));
+    }
 
     std::vector<Named<int>> names;
 
@@ -239,5 +242,9 @@ const Field& fieldAt(SettingsView settings, const void* member);
 // Whether two structs of the same type differ in a field, or in any field.
 bool differ(const Field& field, SettingsView a, SettingsView b);
 bool differ(SettingsView a, SettingsView b);
+
+// Copies a field, or all fields, between structs of the same type.
+void assign(const Field& field, SettingsRef to, SettingsView from);
+void assign(SettingsRef to, SettingsView from);
 
 }  // namespace hair

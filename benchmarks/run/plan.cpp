@@ -20,6 +20,7 @@
 #include "benchmarks/report/text.h"
 #include "benchmarks/scene/pattern.h"
 #include "benchmarks/scene/scene.h"
+#include "benchmarks/scene/settings_json.h"
 #include "engine/error.h"
 #include "engine/frame_loop.h"
 #include "engine/hazards.h"
@@ -83,7 +84,8 @@ RunPlan planRun(
     std::vector<PlannedCase> cases;
     for (scene::Scene& scene : scenes) {
         for (scene::CaseSpec& spec : scene::selectCases(scene, options, assets)) {
-            all_documents += spec.name + '\n' + scene::caseDocument(scene, spec.axes).text() + '\n';
+            all_documents += spec.name + '\n' +
+                             scene::Document(scene::writeSettings(spec.settings)).text() + '\n';
             const std::size_t index = cases.size();
             cases.push_back(
                 {.spec = std::move(spec), .directory = scene.directory, .index = index});
@@ -350,7 +352,8 @@ class Trials {
 public:
     Trials(const RunPlan& plan, const engine::Device& device, measure::HairCache& cache)
         : plan_(plan), device_(device), cache_(cache),
-          speed_(device.info().type == engine::DeviceType::cpu ? 1.0 : kDeviceSpeed), estimates_(plan.cases.size()) {
+          speed_(device.info().type == engine::DeviceType::cpu ? 1.0 : kDeviceSpeed),
+          estimates_(plan.cases.size()) {
         findNeeds();
     }
 

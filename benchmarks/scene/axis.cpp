@@ -121,39 +121,15 @@ void requireFew(const std::string& axis, std::size_t values) {
                       std::to_string(kMostAxisValues) + " are permitted");
 }
 
-}  // namespace
-
-void requireQuick(
-    const std::string& context, std::size_t count, const char* what, const Json& document) {
-    constexpr std::size_t kMost = 20'000'000;  // copied values, which take seconds
-    constexpr std::size_t kSmall = 2'000;  // values; a scene without lists has about 500
-    const std::size_t size = valueCount(document);
-    if (size > kSmall && count > kMost / size)
-        throw engine::Error(
-            context, std::to_string(count) + ' ' + what + " of a scene with " +
-                         std::to_string(size) + " values are too many: the product is at most " +
-                         std::to_string(kMost));
-}
-
-namespace {
-
 // Like checkedAxis(), but an axis may have the same value twice, as tied axes do.
-Axis echoedAxis(const Axis& axis, const Json& resolved) {
+Axis echoedAxis(const Axis& axis, hair::Settings settings) {
     if (axis.values.empty()) throw engine::Error(axis.pointer, "an axis needs at least one value");
     requireFew(axis.pointer, axis.values.size());
     Axis echoed{.pointer = axis.pointer, .values = {}, .tied = {}};
-    // Copies only the scene's member that contains the field, because an axis can have many values
-    // and a scene can be large.
-    Json part = resolved;
-    if (const std::string member = pointerTokens(axis.pointer).front(); resolved.contains(member))
-        part = {{member, resolved[member]}};
-    requireQuick(axis.pointer, axis.values.size(), "values", part);
     for (const Document& value : axis.values) {
-        Json document = part;
-        patch(document, axis.pointer, value.json());
-        Json echo = echoedMembers(document);
+        setField(settings, axis.pointer, value.json());
         echoed.values.push_back(
-            value.json().is_object() ? value : Document(std::move(valueAt(echo, axis.pointer))));
+            value.json().is_object() ? value : Document(valueAt(settings, axis.pointer)));
     }
     return echoed;
 }
@@ -184,8 +160,8 @@ Axis parseAxis(std::string_view argument) {
     return axis;
 }
 
-Axis checkedAxis(const Axis& axis, const Json& resolved) {
-    Axis echoed = echoedAxis(axis, resolved);
+Axis checkedAxis(const Axis& axis, const hair::Settings& settings) {
+    Axis echoed = echoedAxis(axis, settings);
     std::set<std::string> texts;
     for (const Document& value : echoed.values)
         if (!texts.insert(value.text()).second)
@@ -259,10 +235,10 @@ Axis tied(std::vector<Axis> fields) {
     return axis;
 }
 
-Axis zipped(const Json& group, const Json& resolved) {
+Axis zipped(const Json& group, const hair::Settings& settings) {
     std::vector<Axis> fields;
     for (const auto& [pointer, values] : group.items()) {
-        fields.push_back(echoedAxis(writtenAxis(pointer, values), resolved));
+        fields.push_back(echoedAxis(writtenAxis(pointer, values), settings));
         if (values.size() != fields.front().values.size())
             throw engine::Error(
                 pointer, std::to_string(values.size()) + " values, but " + fields.front().pointer +
@@ -271,32 +247,31 @@ Axis zipped(const Json& group, const Json& resolved) {
     return tied(std::move(fields));
 }
 
-Axis listed(const Json& rows, const Json& resolved) {
+Axis listed(const Json& rows, const hair::Settings& settings) {
     std::vector<Axis> fields;
     requireFew("/sweep/cases", rows.size());
     readObjects("cases", rows, [&](const Json& row) {
         for (const auto& [pointer, value] : row.items()) {
-            echoedAxis({.pointer = pointer, .values = {Document(value)}, .tied = {}}, resolved);
+            echoedAxis({.pointer = pointer, .values = {Document(value)}, .tied = {}}, settings);
             if (std::ranges::find(fields, pointer, &Axis::pointer) == fields.end())
                 fields.push_back({.pointer = pointer, .values = {}, .tied = {}});
         }
     });
     if (fields.empty()) throw engine::Error("/sweep/cases", "a list needs at least one case");
-    Json own = resolved;
     for (Axis& field : fields) {
-        const Json& scene_value = valueAt(own, field.pointer);
+        const Json scene_value = valueAt(settings, field.pointer);
         for (const Json& row : rows)
             field.values.emplace_back(
                 row.contains(field.pointer) ? row[field.pointer] : scene_value);
-        field = echoedAxis(field, resolved);
+        field = echoedAxis(field, settings);
     }
     return tied(std::move(fields));
 }
 
-Exclusion exclusion(const Json& conditions, const Json& resolved) {
+Exclusion exclusion(const Json& conditions, const hair::Settings& settings) {
     Exclusion fields;
     for (const auto& [pointer, values] : conditions.items()) {
-        fields.push_back(checkedAxis(writtenAxis(pointer, values), resolved));
+        fields.push_back(checkedAxis(writtenAxis(pointer, values), settings));
         if (std::ranges::any_of(values, [](const Json& value) { return value.is_object(); }))
             throw engine::Error(pointer, "a condition must name a single field, not a group");
     }
@@ -318,7 +293,7 @@ void requireFewConditions(const Json& exclude) {
 
 }  // namespace
 
-SweepMember readSweep(const Json& sweep, const Json& resolved) {
+SweepMember readSweep(const Json& sweep, const hair::Settings& settings) {
     SweepMember read;
     if (!sweep.is_object())
         throw engine::Error("/sweep", "expected an object, found " + described(sweep));
@@ -326,17 +301,17 @@ SweepMember readSweep(const Json& sweep, const Json& resolved) {
     for (const auto& [key, value] : sweep.items()) {
         if (key == "zip")
             readObjects(key, value, [&](const Json& group) {
-                read.axes.push_back(zipped(group, resolved));
+                read.axes.push_back(zipped(group, settings));
             });
         else if (key == "cases")
-            read.axes.push_back(listed(value, resolved));
+            read.axes.push_back(listed(value, settings));
         else if (key == "exclude")
             readObjects(key, value, [&](const Json& conditions) {
-                read.exclusions.push_back(exclusion(conditions, resolved));
+                read.exclusions.push_back(exclusion(conditions, settings));
             });
         else
             within("/sweep", [&] {
-                read.axes.push_back(checkedAxis(writtenAxis(key, value), resolved));
+                read.axes.push_back(checkedAxis(writtenAxis(key, value), settings));
             });
     }
     return read;

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "benchmarks/scene/json.h"
+#include "hair/settings.h"
 
 // Axes of a sweep: the fields that it varies and their values.
 namespace benchmarks::scene {
@@ -35,17 +36,11 @@ Document parseValue(const std::string& text);
 // /groom/guides=pow2:6:12,86. Throws engine::Error.
 Axis parseAxis(std::string_view argument);
 
-// Returns the checked axis. Its pointer must name a field of `resolved` (a scene's document with
-// every field), and each value must be valid for the field and occur once. Otherwise throws
-// engine::Error "<JSON pointer>: <reason>". Returns values as reports have them: 64 for 64.0. A
-// value that is an object is merged into its group, so that one axis can vary several fields
-// together.
-Axis checkedAxis(const Axis& axis, const Json& resolved);
-
-// Throws engine::Error "<context>: 10000 cases of a scene that has 300000 values: ..." if so many
-// copies of the document would take minutes. `what` names the copies, here "cases".
-void requireQuick(
-    const std::string& context, std::size_t count, const char* what, const Json& document);
+// Returns the checked axis. Its pointer must name a field of the settings, and each value must be
+// valid for the field and occur once. Otherwise throws engine::Error "<JSON pointer>: <reason>".
+// Returns values as reports have them: 64 for 64.0. A value that is an object is merged into its
+// group, so that one axis can vary several fields together.
+Axis checkedAxis(const Axis& axis, const hair::Settings& settings);
 
 // Returns a short unique name for each pointer: its last token, with as many earlier tokens as it
 // takes to tell two apart, and at least one for an index: "density", "wind.strength", "position.2".
@@ -62,7 +57,7 @@ struct SweepMember {
     std::vector<Exclusion> exclusions;
 };
 
-// Reads a scene's "sweep" and checks it against a document with every field:
+// Reads a scene's "sweep" and checks it against the scene's settings:
 //   "/strands/density": [16, 64]       an axis
 //   "zip": [{"/groom/guides": [10, 86], "/strands/density": [64, 16]}]
 //                                      fields that change together: the first values of all, then
@@ -74,6 +69,6 @@ struct SweepMember {
 //                                      combinations to leave out: those in which every field of an
 //                                      element has one of its values
 // Throws engine::Error "<JSON pointer>: <reason>".
-SweepMember readSweep(const Json& sweep, const Json& resolved);
+SweepMember readSweep(const Json& sweep, const hair::Settings& settings);
 
 }  // namespace benchmarks::scene

@@ -113,88 +113,63 @@ namespace {
 
 // ---- Names of files -----------------------------------------------------------------------------
 
-using NameVisitor = std::function<void(const std::string& pointer, const std::string& name)>;
-
-// "groom/file" -> "groom", leaving "file" in `rest`; leaves nothing after the last token.
-std::string_view takeToken(std::string_view& rest) {
-    const std::size_t end = std::min(rest.find('/'), rest.size());
-    const std::string_view token = rest.substr(0, end);
-    rest.remove_prefix(std::min(end + 1, rest.size()));
-    return token;
-}
-
-// Visits the file names in a JSON value of the settings, or of their member at `rest`, such as
-// "groom/file". `pointer` is the pointer of the settings.
+// `pointer`: of the settings.
 void visitNames(
-    const Json& value, std::string_view rest, hair::SettingsView settings,
-    const std::string& pointer, const NameVisitor& visit);
+    hair::SettingsRef settings, const std::string& pointer, const FileNameVisitor& visit);
 
-void visitNames(
-    const hair::Place&, const Json&, std::string_view, hair::SettingsView, const std::string&,
-    const NameVisitor&) {}
-
-void visitNames(
-    const hair::FileName&, const Json& value, std::string_view, hair::SettingsView,
-    const std::string& pointer, const NameVisitor& visit) {
-    if (value.is_string()) visit(pointer, value.get_ref<const std::string&>());
+void visitNames(const hair::Place&, hair::SettingsRef, const std::string&, const FileNameVisitor&) {
 }
 
 void visitNames(
-    const hair::ChoiceOrFile&, const Json& value, std::string_view, hair::SettingsView,
-    const std::string& pointer, const NameVisitor& visit) {
-    if (value.is_string() &&
-        value.get_ref<const std::string&>().ends_with(hair::ChoiceOrFile::kExtension))
-        visit(pointer, value.get_ref<const std::string&>());
+    const hair::FileName& row, hair::SettingsRef settings, const std::string& pointer,
+    const FileNameVisitor& visit) {
+    if (std::string& name = row.in(settings); !name.empty()) visit(pointer, name);
 }
 
 void visitNames(
-    const hair::Group& row, const Json& value, std::string_view rest, hair::SettingsView settings,
-    const std::string& pointer, const NameVisitor& visit) {
-    visitNames(value, rest, row.in(settings), pointer, visit);
+    const hair::ChoiceOrFile& row, hair::SettingsRef settings, const std::string& pointer,
+    const FileNameVisitor& visit) {
+    visitNames(hair::FileName{{row.file}}, settings, pointer, visit);
 }
 
 void visitNames(
-    const hair::List& row, const Json& value, std::string_view rest, hair::SettingsView,
-    const std::string& pointer, const NameVisitor& visit) {
-    if (!rest.empty()) {
-        const std::string element = pointer + '/' + std::string(takeToken(rest));
-        return visitNames(value, rest, row.newElement(), element, visit);
-    }
-    for (std::size_t i = 0; value.is_array() && i < value.size(); ++i)
-        visitNames(value[i], "", row.newElement(), pointer + '/' + std::to_string(i), visit);
+    const hair::Group& row, hair::SettingsRef settings, const std::string& pointer,
+    const FileNameVisitor& visit) {
+    visitNames(row.in(settings), pointer, visit);
 }
 
 void visitNames(
-    const Json& value, std::string_view rest, hair::SettingsView settings,
-    const std::string& pointer, const NameVisitor& visit) {
-    const std::string_view token = takeToken(rest);
-    if (token.empty() && !value.is_object()) return;
-    for (const hair::Field& field : settings.fields()) {
-        if (token.empty() ? !value.contains(field.name) : token != field.name) continue;
-        const Json& member = token.empty() ? value.at(field.name) : value;
+    const hair::List& row, hair::SettingsRef settings, const std::string& pointer,
+    const FileNameVisitor& visit) {
+    for (std::size_t i = 0; i < row.size(settings); ++i)
+        visitNames(row.at(settings, i), pointer + '/' + std::to_string(i), visit);
+}
+
+void visitNames(
+    hair::SettingsRef settings, const std::string& pointer, const FileNameVisitor& visit) {
+    for (const hair::Field& field : settings.fields())
         std::visit(
-            [&](const auto& row) {
-                visitNames(row, member, rest, settings, pointer + '/' + field.name, visit);
-            },
+            [&](const auto& row) { visitNames(row, settings, pointer + '/' + field.name, visit); },
             field.kind);
-    }
 }
 
 }  // namespace
 
+void forEachFileName(hair::Settings& settings, const FileNameVisitor& visit) {
+    visitNames(settings, "", visit);
+}
+
 void checkNamedFiles(
-    const Json& value, const std::string& pointer, const fs::path& directory, const Reach& reach) {
-    const hair::Settings defaults;
-    visitNames(
-        value, pointer.empty() ? "" : std::string_view(pointer).substr(1), defaults, "",
-        [&](const std::string& place, const std::string& name) {
-            if (name.empty()) return;
-            try {
-                reach.check(directory / name);
-            } catch (const engine::Error& error) {
-                throw engine::Error(place, error.what());
-            }
-        });
+    hair::Settings settings, const std::string& pointer, const fs::path& directory,
+    const Reach& reach) {
+    forEachFileName(settings, [&](const std::string& place, const std::string& name) {
+        if (!(place + '/').starts_with(pointer + '/')) return;
+        try {
+            reach.check(directory / name);
+        } catch (const engine::Error& error) {
+            throw engine::Error(place, error.what());
+        }
+    });
 }
 
 // ---- Extensions ---------------------------------------------------------------------------------
@@ -326,6 +301,15 @@ std::vector<std::string> entryPointsOf(const engine::ShaderExtension& extension)
 }
 
 }  // namespace
+
+hair::ExtensionParameters& parametersOf(hair::Settings& settings, hair::ExtensionKind kind) {
+    return named(settings, kind).parameters;
+}
+
+const hair::ExtensionParameters&
+parametersOf(const hair::Settings& settings, hair::ExtensionKind kind) {
+    return named(settings, kind).parameters;
+}
 
 void loadExtensions(
     hair::Settings& settings, const std::filesystem::path& directory, const Reach& reach,

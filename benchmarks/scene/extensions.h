@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -52,11 +53,14 @@ private:
     std::vector<std::filesystem::path> folders_;  // canonical; empty: every file is allowed
 };
 
-// Checks every file named by a value of the field at `pointer`, or by a whole document if `pointer`
-// is empty, of a scene in `directory`. Throws engine::Error "<JSON pointer>: <file>: <reason>" for
-// a file out of reach.
+// Calls `visit` with the JSON pointer of each field that names a file, and the name.
+using FileNameVisitor = std::function<void(const std::string& pointer, std::string& name)>;
+void forEachFileName(hair::Settings& settings, const FileNameVisitor& visit);
+
+// Checks every file that the settings of a scene in `directory` name at `pointer` or below it;
+// empty: anywhere. Throws engine::Error "<JSON pointer>: <file>: <reason>" for a file out of reach.
 void checkNamedFiles(
-    const Json& value, const std::string& pointer, const std::filesystem::path& directory,
+    hair::Settings settings, const std::string& pointer, const std::filesystem::path& directory,
     const Reach& reach);
 
 // GLSL files that scenes name: docs/extending.md.
@@ -72,6 +76,11 @@ inline constexpr ExtensionField kExtensionFields[]{
     {hair::ExtensionKind::shading, "/shading/model", "/shading/model_parameters"},
     {hair::ExtensionKind::offset, "/strands/offset_function", "/strands/offset_parameters"},
     {hair::ExtensionKind::force, "/simulation/force", "/simulation/force_parameters"}};
+
+// Returns the parameters of such a field.
+hair::ExtensionParameters& parametersOf(hair::Settings& settings, hair::ExtensionKind kind);
+const hair::ExtensionParameters&
+parametersOf(const hair::Settings& settings, hair::ExtensionKind kind);
 
 // Treatment of parameters that the file does not declare.
 enum class UnknownParameters { refused, dropped };

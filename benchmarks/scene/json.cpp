@@ -74,18 +74,6 @@ std::string unescaped(std::string_view token, std::string_view pointer) {
     return text;
 }
 
-std::optional<std::size_t> arrayIndex(const std::string& token) {
-    std::size_t index = 0;
-    const char* const end = token.data() + token.size();
-    const auto [rest, error] = std::from_chars(token.data(), end, index);
-    if (error != std::errc{} || rest != end || (token.size() > 1 && token[0] == '0')) return {};
-    return index;
-}
-
-std::string lengthOf(const Json& array) {
-    return std::to_string(array.size()) + (array.size() == 1 ? " element" : " elements");
-}
-
 Json& member(Json& owner, const std::string& token, const std::string& here) {
     if (owner.is_object()) {
         if (const auto found = owner.find(token); found != owner.end()) return *found;
@@ -93,15 +81,23 @@ Json& member(Json& owner, const std::string& token, const std::string& here) {
         for (const auto& [key, value] : owner.items()) known.push_back(key);
         throw engine::Error(here, unknownName("unknown key", token, known));
     }
-    if (owner.is_array()) {
-        if (const auto index = arrayIndex(token); index && *index < owner.size())
-            return owner[*index];
-        throw engine::Error(here, "the array has " + lengthOf(owner));
-    }
+    if (owner.is_array()) return owner[elementNamed(token, owner.size(), here)];
     throw engine::Error(here, described(owner) + " has no members");
 }
 
 }  // namespace
+
+std::size_t elementNamed(const std::string& token, std::size_t size, const std::string& here) {
+    std::size_t index = 0;
+    const char* const end = token.data() + token.size();
+    const auto [rest, error] = std::from_chars(token.data(), end, index);
+    const bool is_index =
+        error == std::errc{} && rest == end && (token.size() == 1 || token[0] != '0');
+    if (!is_index || index >= size)
+        throw engine::Error(
+            here, "the array has " + std::to_string(size) + (size == 1 ? " element" : " elements"));
+    return index;
+}
 
 std::string escapedToken(std::string_view token) {
     std::string text;
@@ -139,14 +135,6 @@ Json& valueAt(Json& document, std::string_view pointer) {
         value = &member(*value, token, here);
     }
     return *value;
-}
-
-void patch(Json& document, std::string_view pointer, const Json& value) {
-    Json& target = valueAt(document, pointer);
-    if (target.is_object() && value.is_object())
-        target.merge_patch(value);
-    else
-        target = value;
 }
 
 std::string described(const Json& value) {

@@ -81,9 +81,9 @@ std::vector<std::string> pointerTokens(std::string_view pointer);
 // unknown token.
 Json& valueAt(Json& document, std::string_view pointer);
 
-// Sets the value at the pointer, which must exist. An object is merged (RFC 7386) into an existing
-// object, so that members it does not name stay unchanged.
-void patch(Json& document, std::string_view pointer, const Json& value);
+// Returns the index that a token of a pointer names in an array with `size` elements. Otherwise
+// throws engine::Error; `here` is the pointer up to the token.
+std::size_t elementNamed(const std::string& token, std::size_t size, const std::string& here);
 
 // Returns the type with its article, for errors: "an array of 3", "the string \"x\"", "3".
 std::string described(const Json& value);

@@ -13,7 +13,6 @@
 #include "engine/error.h"
 #include "engine/files.h"
 #include "engine/png_text.h"
-#include "hair/fields.h"
 
 namespace benchmarks::scene {
 namespace {
@@ -109,66 +108,29 @@ const std::string* stringMember(const Json& document, const char* key) {
     return &member->get_ref<const std::string&>();
 }
 
-Scene makeScene(const fs::path& path, Json document, const Reach& reach) {
+Scene makeScene(const fs::path& path, const Json& document, const Reach& reach) {
     Scene scene;
     scene.path = path;
     scene.directory = path.parent_path();
     scene.name = engine::shownText(path.stem().string());
-    scene.settings = readSettings(document);
+    scene.settings = scene.written = readSettings(document);
     loadExtensions(scene.settings, scene.directory, reach);
-    Json resolved = writeSettings(scene.settings);
     if (const auto member = document.find("sweep"); member != document.end()) {
-        SweepMember sweep = readSweep(*member, resolved);
+        SweepMember sweep = readSweep(*member, scene.settings);
         scene.axes = std::move(sweep.axes);
         scene.exclusions = std::move(sweep.exclusions);
     }
-    for (const std::string_view key : kSceneKeys) document.erase(std::string(key));
-    scene.document = Document(std::move(document));
-    scene.resolved = Document(std::move(resolved));
+    scene.resolved = Document(writeSettings(scene.settings));
     return scene;
-}
-
-void moveFileNames(Json& object, const fs::path& folder, hair::SettingsView settings);
-
-void moveFileName(Json&, const char*, const fs::path&, const hair::Place&, hair::SettingsView) {}
-
-void moveFileName(
-    Json& object, const char* name, const fs::path& folder, const hair::FileName& row,
-    hair::SettingsView settings) {
-    const fs::path file = row.in(settings);
-    if (!file.empty() && file.is_relative())
-        object[name] = (folder / file).lexically_normal().string();
-}
-
-void moveFileName(
-    Json& object, const char* name, const fs::path& folder, const hair::ChoiceOrFile& row,
-    hair::SettingsView settings) {
-    moveFileName(object, name, folder, hair::FileName{{row.file}}, settings);
-}
-
-void moveFileName(
-    Json& object, const char* name, const fs::path& folder, const hair::Group& row,
-    hair::SettingsView settings) {
-    Json member = object.contains(name) ? object[name] : Json::object();
-    moveFileNames(member, folder, row.in(settings));
-    if (!member.empty()) object[name] = std::move(member);
-}
-
-void moveFileName(
-    Json& object, const char* name, const fs::path& folder, const hair::List& row,
-    hair::SettingsView settings) {
-    if (!object.contains(name)) return;  // defaults of lists name no files
-    for (std::size_t i = 0; i < row.size(settings); ++i)
-        moveFileNames(object[name][i], folder, row.at(settings, i));
 }
 
 // File names are relative to the opened scene, so file names from a base in another folder are
 // rewritten, including its defaults.
-void moveFileNames(Json& object, const fs::path& folder, hair::SettingsView settings) {
-    for (const hair::Field& field : settings.fields())
-        std::visit(
-            [&](const auto& row) { moveFileName(object, field.name, folder, row, settings); },
-            field.kind);
+void moveFileNames(Json& document, const fs::path& folder, hair::Settings settings) {
+    forEachFileName(settings, [&](const std::string& pointer, const fs::path& file) {
+        if (file.is_relative())
+            document[Json::json_pointer(pointer)] = (folder / file).lexically_normal().string();
+    });
 }
 
 Json everyMember() {
@@ -185,8 +147,11 @@ struct Loaded {
 constexpr std::size_t kMostBases = 16;
 
 void checkValues(const Scene& scene, const Axis& axis) {
-    for (const Document& value : axis.values)
-        checkNamedFiles(value.json(), axis.pointer, scene.directory, scene.reach);
+    hair::Settings settings = scene.settings;
+    for (const Document& value : axis.values) {
+        setField(settings, axis.pointer, value.json());
+        checkNamedFiles(settings, axis.pointer, scene.directory, scene.reach);
+    }
 }
 
 // `opened` lists the files that led here.
@@ -238,7 +203,7 @@ Scene loadScene(const fs::path& path, const Reach& reach) {
     Scene scene = load(path, reach, {}).scene;
     scene.reach = reach;
     inFile(path, [&] {
-        checkNamedFiles(scene.resolved.json(), "", scene.directory, reach);
+        checkNamedFiles(scene.settings, "", scene.directory, reach);
         for (const Axis& axis : scene.axes) {
             checkValues(scene, axis);
             for (const Axis& other : axis.tied) checkValues(scene, other);
@@ -247,37 +212,28 @@ Scene loadScene(const fs::path& path, const Reach& reach) {
     return scene;
 }
 
-namespace {
-
-// Removes parameters that the settings do not have.
-void dropParameters(Json& document, const Json& settings) {
-    for (const ExtensionField& field : kExtensionFields) {
-        const Json::json_pointer pointer(field.parameters);
-        if (!document.contains(pointer)) continue;
-        const Json written = document[pointer];
-        for (const auto& [name, value] : written.items())
-            if (!settings.at(pointer).contains(name)) document[pointer].erase(name);
-    }
-}
-
-}  // namespace
-
 void setField(Scene& scene, const std::string& pointer, const Json& value) {
-    Json document = scene.document.json();
-    document[Json::json_pointer(pointer)] = value;
-    scene.settings = readSettings(document);
+    hair::Settings written = scene.written;
+    setField(written, pointer, value, Objects::replaced);
     // Files that the user names may lie anywhere. Another file need not have the parameters of the
     // previous one.
     const auto names = [&](const ExtensionField& field) {
         return (std::string(field.pointer) + '/').starts_with(pointer + '/');
     };
     const bool other = std::ranges::any_of(kExtensionFields, names);
+    hair::Settings settings = written;
     loadExtensions(
-        scene.settings, scene.directory, {},
+        settings, scene.directory, {},
         other ? UnknownParameters::dropped : UnknownParameters::refused);
-    if (other) dropParameters(document, writeSettings(scene.settings));
-    scene.document = Document(std::move(document));
-    scene.resolved = Document(writeSettings(scene.settings));
+    for (const ExtensionField& field : kExtensionFields)
+        std::erase_if(parametersOf(written, field.kind).values, [&](const auto& parameter) {
+            return std::ranges::none_of(
+                parametersOf(settings, field.kind).values,
+                [&](const auto& known) { return known.name == parameter.name; });
+        });
+    scene.resolved = Document(writeSettings(settings));
+    scene.written = std::move(written);
+    scene.settings = std::move(settings);
 }
 
 }  // namespace benchmarks::scene

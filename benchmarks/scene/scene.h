@@ -36,9 +36,9 @@ struct Scene {
     std::filesystem::path directory;  // file names in the scene are relative to this
     Reach reach;  // folders that the files it names may lie in
     std::string name;  // file name without its extension
-    Document document;  // as written, with bases merged, without the three members above
-    Document resolved;  // every field, with defaults for absent ones
-    hair::Settings settings;  // read from `resolved`, without any axis applied
+    hair::Settings written;  // parameters of GLSL files only as far as the scene sets them
+    hair::Settings settings;  // with the files' parameters, without any axis applied
+    Document resolved;  // `settings` as reports have them
     std::vector<Axis> axes;
     std::vector<Exclusion> exclusions;  // from combinations of the axes; ignored without axes
 };

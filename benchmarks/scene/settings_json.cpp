@@ -50,6 +50,10 @@ void readFields(
     const Json& object, const std::string& pointer, hair::SettingsRef settings,
     std::span<const std::string_view> passed_over = {});
 
+void read(
+    const Json& value, const std::string& pointer, const hair::Field& field,
+    hair::SettingsRef settings);
+
 template <class Value>
 void read(
     const Json& value, const std::string& pointer, const hair::Number<Value>& row,
@@ -176,6 +180,12 @@ void read(
         readFields(value[i], pointer + '/' + std::to_string(i), row.at(settings, i));
 }
 
+void read(
+    const Json& value, const std::string& pointer, const hair::Field& field,
+    hair::SettingsRef settings) {
+    std::visit([&](const auto& row) { read(value, pointer, row, settings); }, field.kind);
+}
+
 void requireKnownKeys(
     const Json& object, const std::string& pointer, const std::vector<hair::Field>& fields,
     std::span<const std::string_view> passed_over) {
@@ -194,12 +204,9 @@ void readFields(
     if (!object.is_object())
         throw mismatch(pointer.empty() ? "the document" : pointer, "an object", object);
     requireKnownKeys(object, pointer, settings.fields(), passed_over);
-    for (const hair::Field& field : settings.fields()) {
-        const auto member = object.find(field.name);
-        if (member == object.end()) continue;
-        const std::string here = pointer + '/' + field.name;
-        std::visit([&](const auto& row) { read(*member, here, row, settings); }, field.kind);
-    }
+    for (const hair::Field& field : settings.fields())
+        if (const auto member = object.find(field.name); member != object.end())
+            read(*member, pointer + '/' + field.name, field, settings);
 }
 
 }  // namespace
@@ -307,17 +314,132 @@ Json writeFields(hair::SettingsView settings) {
     return object;
 }
 
-Json echoedMembers(const Json& document) {
-    const hair::Settings settings = readSettings(document);
-    const hair::SettingsView view = settings;
-    Json object = Json::object();
-    for (const hair::Field& field : view.fields())
-        if (document.contains(field.name)) object[field.name] = fieldJson(field, view);
-    return object;
-}
-
 Json changedFields(const hair::Settings& settings) {
     return changedFields(settings, hair::Settings{});
+}
+
+namespace {
+
+// ---- Fields by pointer --------------------------------------------------------------------------
+
+// The part of settings that a JSON pointer names.
+template <class Settings>
+struct Part {
+    Settings owner;  // has the field, or is the named element of a list
+    hair::SettingsView original;  // defaults of `owner`
+    const hair::Field* field = nullptr;  // null: an element of a list
+    std::string pointer;  // of the field or the element
+    std::string rest;  // names a component or a parameter within the field; may be empty
+};
+
+const hair::Field& fieldNamed(
+    const std::string& name, const std::vector<hair::Field>& fields, const std::string& pointer) {
+    const auto found = std::ranges::find(fields, name, &hair::Field::name);
+    if (found != fields.end()) return *found;
+    std::vector<std::string> known;
+    for (const hair::Field& field : fields) known.emplace_back(field.name);
+    throw engine::Error(pointer, unknownName("unknown key", name, known));
+}
+
+// `Settings` is hair::SettingsRef or hair::SettingsView.
+template <class Settings>
+Part<Settings> partAt(Settings settings, const std::string& pointer) {
+    static const hair::Settings defaults;
+    Part<Settings> part{.owner = settings, .original = defaults};
+    for (const std::string& token : pointerTokens(pointer)) {
+        const std::string here = part.pointer + part.rest + '/' + escapedToken(token);
+        const hair::Kind* const kind = part.field ? &part.field->kind : nullptr;
+        if (const auto* const list = kind ? std::get_if<hair::List>(kind) : nullptr) {
+            const std::size_t i = elementNamed(token, list->size(part.owner), here);
+            part = {list->at(part.owner, i), list->newElement(), nullptr, here, {}};
+            continue;
+        }
+        if (const auto* const group = kind ? std::get_if<hair::Group>(kind) : nullptr) {
+            part = {group->in(part.owner), group->in(part.original), nullptr, {}, {}};
+        } else if (kind) {
+            part.rest = here.substr(part.pointer.size());
+            continue;
+        }
+        part.field = &fieldNamed(token, part.owner.fields(), here);
+        part.pointer = here;
+    }
+    return part;
+}
+
+// Returns what `part.rest` names in the field's value.
+template <class Settings>
+Json& valueIn(Json& whole, const Part<Settings>& part) {
+    try {
+        return valueAt(whole, part.rest);
+    } catch (const engine::Error& error) {
+        throw engine::Error(part.pointer + error.what());
+    }
+}
+
+void merge(
+    const Json& object, const std::string& pointer, hair::SettingsRef settings,
+    hair::SettingsView original);
+
+void merge(
+    const Json& value, const std::string& pointer, const hair::Field& field,
+    hair::SettingsRef settings, hair::SettingsView original) {
+    const auto* const group = std::get_if<hair::Group>(&field.kind);
+    const auto* const parameters = std::get_if<hair::Parameters>(&field.kind);
+    if (value.is_object() && group)
+        return merge(value, pointer, group->in(settings), group->in(original));
+    if (!value.is_object() || !parameters) return read(value, pointer, field, settings);
+    Json merged = writeField(*parameters, settings);
+    merged.merge_patch(value);
+    read(merged, pointer, *parameters, settings);
+}
+
+void merge(
+    const Json& object, const std::string& pointer, hair::SettingsRef settings,
+    hair::SettingsView original) {
+    for (const auto& [key, member] : object.items())
+        if (!member.is_null())
+            fieldNamed(key, settings.fields(), pointer + '/' + escapedToken(key));
+    for (const hair::Field& field : settings.fields()) {
+        const auto member = object.find(field.name);
+        if (member == object.end()) continue;
+        if (member->is_null())
+            hair::assign(field, settings, original);
+        else
+            merge(*member, pointer + '/' + field.name, field, settings, original);
+    }
+}
+
+}  // namespace
+
+void setField(
+    hair::Settings& settings, const std::string& pointer, const Json& value, Objects objects) {
+    const Part<hair::SettingsRef> part = partAt<hair::SettingsRef>(settings, pointer);
+    const bool merges = objects == Objects::merged;
+    if (!part.field) {
+        if (merges && value.is_object())
+            return merge(value, part.pointer, part.owner, part.original);
+        hair::assign(part.owner, part.original);
+        return readFields(value, part.pointer, part.owner);
+    }
+    const hair::Field& field = *part.field;
+    if (part.rest.empty()) {
+        if (merges) return merge(value, part.pointer, field, part.owner, part.original);
+        hair::assign(field, part.owner, part.original);
+        return read(value, part.pointer, field, part.owner);
+    }
+    Json whole = fieldJson(field, part.owner);
+    if (merges)
+        valueIn(whole, part) = value;
+    else
+        whole[Json::json_pointer(part.rest)] = value;
+    read(whole, part.pointer, field, part.owner);
+}
+
+Json valueAt(const hair::Settings& settings, const std::string& pointer) {
+    const auto part = partAt<hair::SettingsView>(settings, pointer);
+    if (!part.field) return writeFields(part.owner);
+    Json whole = fieldJson(*part.field, part.owner);
+    return part.rest.empty() ? whole : std::move(valueIn(whole, part));
 }
 
 void checkInRange(const std::string& pointer, double number, const hair::Range& range) {

@@ -29,9 +29,22 @@ hair::Settings readSettings(const Json& document);
 // decimal that reads back bit-equal.
 Json writeSettings(const hair::Settings& settings);
 
-// Returns the document's own members as reports echo them: writeSettings() of readSettings()
-// without the other members.
-Json echoedMembers(const Json& document);
+// The place of an object that a field or an element of a list is set to.
+enum class Objects {
+    merged,  // into the members that are there (RFC 7386): null gives a member its default
+    replaced,  // as in a file: absent members have their defaults, and parameters may be new
+};
+
+// Sets the field that a JSON pointer names, an element of a list, a component of a vector or a
+// parameter of a file. Throws engine::Error "<JSON pointer>: <reason>" if the pointer names
+// nothing, and like readSettings() for the value; other fields stay unchanged.
+void setField(
+    hair::Settings& settings, const std::string& pointer, const Json& value,
+    Objects objects = Objects::merged);
+
+// Returns the value that setField() would set, as writeSettings() writes it. Throws engine::Error
+// if the pointer names nothing.
+Json valueAt(const hair::Settings& settings, const std::string& pointer);
 
 // Writes a part of the settings, like writeSettings() for all of them.
 Json writeFields(hair::SettingsView settings);

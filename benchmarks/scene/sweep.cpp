@@ -94,7 +94,7 @@ std::vector<Axis> withOverrides(const Scene& scene, std::span<const Axis> overri
     for (const Axis& override_axis : overrides) {
         Axis axis;
         try {
-            axis = checkedAxis(override_axis, scene.resolved.json());
+            axis = checkedAxis(override_axis, scene.settings);
         } catch (const engine::Error& error) {
             throw engine::Error("-a", error.what());
         }
@@ -171,10 +171,9 @@ public:
 
     bool leaveOut(const hair::Settings& settings) const {
         if (exclusions_.empty()) return false;
-        Json document = writeSettings(settings);
         std::vector<std::string> texts;
         for (const std::string& pointer : pointers_)
-            texts.push_back(Document(valueAt(document, pointer)).text());
+            texts.push_back(Document(valueAt(settings, pointer)).text());
         const auto meets = [&](const Condition& condition) {
             return condition.texts.contains(texts[condition.field]);
         };
@@ -209,43 +208,44 @@ bool isSwept(std::span<const AxisValue> axes, const ExtensionField& field) {
     });
 }
 
-Json patched(const Scene& scene, std::span<const AxisValue> axes) {
-    Json document = scene.resolved.json();
-    // The scene's own file may have completed its parameters, but another file has other defaults.
-    for (const ExtensionField& field : kExtensionFields)
-        if (isSwept(axes, field)) {
-            const Json::json_pointer parameters(field.parameters);
-            document[parameters] = scene.document.json().value(parameters, Json::object());
-        }
-    for (const AxisValue& axis : axes) {
-        const auto own = std::ranges::find_if(kExtensionFields, [&](const ExtensionField& field) {
-            return isSwept(axes, field) && axis.pointer.starts_with(field.parameters);
-        });
-        if (own == std::end(kExtensionFields))
-            patch(document, axis.pointer, axis.value.json());
-        else
-            document[Json::json_pointer(axis.pointer)] = axis.value.json();
-    }
-    return document;
-}
-
 // Returns the settings of a case. If a sweep varies the file, each file takes only its own
 // parameters.
 hair::Settings settingsOf(const Scene& scene, std::span<const AxisValue> axes) {
-    hair::Settings settings = readSettings(patched(scene, axes));
-    const bool swept = std::ranges::any_of(
-        kExtensionFields, [&](const ExtensionField& field) { return isSwept(axes, field); });
+    hair::Settings settings = scene.settings;
+    bool other_files = false;
+    for (const ExtensionField& field : kExtensionFields)
+        if (isSwept(axes, field)) {
+            // The scene's own file may have completed them, but another file has other defaults.
+            parametersOf(settings, field.kind) = parametersOf(scene.written, field.kind);
+            other_files = true;
+        }
+    for (const AxisValue& axis : axes) {
+        const bool is_parameter =
+            std::ranges::any_of(kExtensionFields, [&](const ExtensionField& field) {
+                return isSwept(axes, field) && axis.pointer.starts_with(field.parameters);
+            });
+        setField(
+            settings, axis.pointer, axis.value.json(),
+            is_parameter ? Objects::replaced : Objects::merged);
+    }
     loadExtensions(
         settings, scene.directory, {},
-        swept ? UnknownParameters::dropped : UnknownParameters::refused);
+        other_files ? UnknownParameters::dropped : UnknownParameters::refused);
     return settings;
 }
 
-}  // namespace
-
-Document caseDocument(const Scene& scene, std::span<const AxisValue> axes) {
-    return Document(patched(scene, axes));
+// Throws engine::Error if so many copies of the scene's values would take minutes.
+void requireQuick(std::size_t count, const Json& document) {
+    constexpr std::size_t kMost = 20'000'000;  // copied values, which take seconds
+    constexpr std::size_t kSmall = 2'000;  // values; a scene without lists has about 500
+    const std::size_t size = valueCount(document);
+    if (size > kSmall && count > kMost / size)
+        throw engine::Error(
+            "/sweep", std::to_string(count) + " cases of a scene with " + std::to_string(size) +
+                          " values are too many: the product is at most " + std::to_string(kMost));
 }
+
+}  // namespace
 
 std::vector<CaseSpec> expand(const Scene& scene, std::span<const Axis> overrides) {
     const std::vector<Axis> axes = withOverrides(scene, overrides);
@@ -259,7 +259,7 @@ std::vector<CaseSpec> expand(const Scene& scene, std::span<const Axis> overrides
         requireIndependent(pointers);
         const std::size_t count = caseCount(axes);
         const Exclusions exclusions(scene.exclusions);
-        requireQuick("/sweep", count, "cases", scene.resolved.json());
+        requireQuick(count, scene.resolved.json());
         if (exclusions.count() > kMostExclusionTests / count)
             throw engine::Error(
                 "/sweep/exclude", std::to_string(exclusions.count()) + " conditions for " +
@@ -298,7 +298,7 @@ void setField(Scene& scene, const std::string& argument) {
         const Axis field = checkedAxis(
             {.pointer = argument.substr(0, equals),
              .values = {parseValue(argument.substr(equals + 1))}},
-            scene.resolved.json());
+            scene.settings);
         setField(scene, field.pointer, field.values.front().json());
     } catch (const engine::Error& error) {
         throw engine::Error("--set " + argument, error.what());

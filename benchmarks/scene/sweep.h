@@ -42,10 +42,6 @@ struct CaseSpec {
 // that breaks a rule between fields ("<file>: <case>: <pointer>: ...").
 std::vector<CaseSpec> expand(const Scene& scene, std::span<const Axis> overrides = {});
 
-// Returns the scene's resolved document with the values of a case, from which its settings are
-// read.
-Document caseDocument(const Scene& scene, std::span<const AxisValue> axes);
-
 // Selects the cases of a scene and the device.
 struct SceneOptions {
     std::filesystem::path scene;

@@ -68,7 +68,7 @@ bool isInside(const std::string& pointer, const std::string& outer) {
 }
 
 // Returns the sweep's axes, each with its single value in the settings.
-std::vector<Argument> axisArguments(const scene::Scene& scene, scene::Json& wanted) {
+std::vector<Argument> axisArguments(const scene::Scene& scene, const hair::Settings& settings) {
     std::vector<Argument> arguments;
     for (const scene::Axis& axis : scene.axes) {
         if (!axis.tied.empty())
@@ -76,7 +76,7 @@ std::vector<Argument> axisArguments(const scene::Scene& scene, scene::Json& want
                 "the sweep changes " + axis.pointer +
                 " together with other fields, which a command line can't express; save a scene "
                 "instead");
-        arguments.push_back({axis.pointer, scene::valueAt(wanted, axis.pointer), true});
+        arguments.push_back({axis.pointer, scene::valueAt(settings, axis.pointer), true});
     }
     return arguments;
 }
@@ -173,39 +173,6 @@ constexpr const char* kSchema = "scene.schema.json";
 // Returns a folder's path with links resolved, so that ".." stays correct.
 fs::path folderOf(const fs::path& folder) {
     return fs::weakly_canonical(fs::absolute(folder.empty() ? fs::path(".") : folder));
-}
-
-using FileNameVisitor = std::function<void(std::string& name)>;
-
-// Calls `visit` for every member that is a file name, also in lists.
-void forEachFileName(hair::SettingsRef settings, const FileNameVisitor& visit);
-
-void visitFileNames(const hair::Place&, hair::SettingsRef, const FileNameVisitor&) {}
-
-void visitFileNames(
-    const hair::FileName& row, hair::SettingsRef settings, const FileNameVisitor& visit) {
-    visit(row.in(settings));
-}
-
-void visitFileNames(
-    const hair::ChoiceOrFile& row, hair::SettingsRef settings, const FileNameVisitor& visit) {
-    visit(row.file.in(settings));
-}
-
-void visitFileNames(
-    const hair::Group& row, hair::SettingsRef settings, const FileNameVisitor& visit) {
-    forEachFileName(row.in(settings), visit);
-}
-
-void visitFileNames(
-    const hair::List& row, hair::SettingsRef settings, const FileNameVisitor& visit) {
-    for (std::size_t i = 0; i < row.size(settings); ++i)
-        forEachFileName(row.at(settings, i), visit);
-}
-
-void forEachFileName(hair::SettingsRef settings, const FileNameVisitor& visit) {
-    for (const hair::Field& field : settings.fields())
-        std::visit([&](const auto& row) { visitFileNames(row, settings, visit); }, field.kind);
 }
 
 // ---- Files dropped on the window ----------------------------------------------------------------
@@ -405,10 +372,10 @@ hair::Settings withGroom(
 // ---- Settings as arguments of the command line --------------------------------------------------
 
 std::string caseArguments(const scene::Scene& scene, const hair::Settings& settings) {
-    scene::Json wanted = scene::writeSettings(settings);
+    const scene::Json wanted = scene::writeSettings(settings);
     std::vector<Argument> arguments;
     try {
-        arguments = axisArguments(scene, wanted);
+        arguments = axisArguments(scene, settings);
     } catch (const engine::Error& error) {
         throw engine::Error(scene.path.string(), error.what());
     }
@@ -440,8 +407,8 @@ hair::Settings movedFiles(hair::Settings settings, const fs::path& from, const f
     const fs::path old_folder = folderOf(from);
     const fs::path folder = folderOf(to);
     if (old_folder == folder) return settings;
-    forEachFileName(settings, [&](std::string& name) {
-        if (name.empty() || fs::path(name).is_absolute()) return;
+    scene::forEachFileName(settings, [&](const std::string&, std::string& name) {
+        if (fs::path(name).is_absolute()) return;
         const fs::path old = old_folder / name;
         // A name that is itself a link stays a link, because its target may change.
         const fs::path file = folderOf(old.parent_path()) / old.filename();

@@ -2,11 +2,15 @@
 
 #include <cmath>
 #include <limits>
+#include <string>
+#include <vector>
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include "tests/edited_document.h"
 #include "tests/error_text.h"
+#include "tests/viewer/random_settings.h"
 
 namespace benchmarks {
 namespace {
@@ -102,6 +106,102 @@ bool holdsNull(const scene::Json& value) {
 }
 
 TEST(WriteSettings, NamesEveryDefault) { EXPECT_FALSE(holdsNull(scene::writeSettings({}))); }
+
+std::vector<std::string> pointersInto(const scene::Json& value, const std::string& pointer = "") {
+    std::vector<std::string> pointers;
+    if (!pointer.empty()) pointers.push_back(pointer);
+    if (value.is_structured())
+        for (const auto& [key, member] : value.items())
+            for (std::string& each : pointersInto(member, pointer + '/' + key))
+                pointers.push_back(std::move(each));
+    return pointers;
+}
+
+// Returns the settings after an edit of their whole document, as text, or the error.
+std::string
+afterEditOfDocument(scene::Json document, const std::string& pointer, const scene::Json& value) {
+    std::string text;
+    const std::string error = errorText([&] {
+        editDocument(document, pointer, value);
+        text = scene::writeSettings(scene::readSettings(document)).dump();
+    });
+    return text.empty() ? error : text;
+}
+
+// Returns the same after setField().
+std::string
+afterSetField(hair::Settings settings, const std::string& pointer, const scene::Json& value) {
+    std::string text;
+    const std::string error = errorText([&] {
+        scene::setField(settings, pointer, value);
+        text = scene::writeSettings(settings).dump();
+    });
+    return text.empty() ? error : text;
+}
+
+TEST(SetField, ChangesWhatAnEditOfTheDocumentChanges) {
+    RandomSettings random(5, 0.2);
+    std::size_t edits = 0;
+    for (int i = 0; i < 4; ++i) {
+        const hair::Settings from = random();
+        const scene::Json before = scene::writeSettings(from);
+        scene::Json wanted = scene::writeSettings(random());
+        for (const std::string& pointer : pointersInto(wanted)) {
+            if (!before.contains(scene::Json::json_pointer(pointer))) continue;
+            const scene::Json& value = scene::valueAt(wanted, pointer);
+            EXPECT_EQ(
+                scene::valueAt(from, pointer).dump(),
+                before.at(scene::Json::json_pointer(pointer)).dump());
+            ASSERT_EQ(
+                afterSetField(from, pointer, value), afterEditOfDocument(before, pointer, value))
+                << pointer << ' ' << value;
+            ++edits;
+        }
+    }
+    EXPECT_GT(edits, 1000u);
+}
+
+TEST(SetField, RefusesWhatAnEditOfTheDocumentRefuses) {
+    hair::Settings settings;
+    settings.simulation.colliders.resize(2);
+    const scene::Json document = scene::writeSettings(settings);
+    for (const std::string& pointer : pointersInto(document))
+        for (const char* const text :
+             {"null", "true", "-1", "0.5", "1e30", "\"x\"", "[]", "[1, 2, 3]", "[1, \"x\", 3]",
+              "[{}]", "{}", R"({"x": 1})", R"({"radius": 2, "a": null})",
+              R"({"strength": null, "gust_rate": 2})"}) {
+            const scene::Json value = scene::Json::parse(text);
+            EXPECT_EQ(
+                afterSetField(settings, pointer, value),
+                afterEditOfDocument(document, pointer, value))
+                << pointer << ' ' << text;
+        }
+}
+
+TEST(SetField, NamesTheTokenThatIsUnknown) {
+    hair::Settings settings;
+    settings.simulation.colliders.resize(2);
+    scene::Json document = scene::writeSettings(settings);
+    for (const char* const pointer :
+         {"", "seed", "/", "/strands/densty", "/strands/density/0", "/camera/position/3",
+          "/camera/position/01", "/camera/position/x", "/camera/position/0/1", "/a~2",
+          "/simulation/colliders/2", "/simulation/colliders/-", "/simulation/colliders/1/radios",
+          "/simulation/force_parameters/x", "/render/head/x", "/description/x"}) {
+        const std::string expected = errorText([&] { scene::valueAt(document, pointer); });
+        EXPECT_EQ(errorText([&] { scene::setField(settings, pointer, 1); }), expected);
+        EXPECT_EQ(errorText([&] { scene::valueAt(settings, pointer); }), expected);
+        EXPECT_NE(expected, "no error") << pointer;
+    }
+}
+
+TEST(SetField, ReplacesAGroupAsAFileDoes) {
+    hair::Settings settings;
+    settings.simulation.wind.strength = 7.0f;
+    settings.simulation.wind.gust_rate = 2.0f;
+    scene::setField(settings, "/simulation/wind", {{"strength", 3.0}}, scene::Objects::replaced);
+    EXPECT_EQ(settings.simulation.wind.strength, 3.0f);
+    EXPECT_EQ(settings.simulation.wind.gust_rate, hair::WindSettings{}.gust_rate);
+}
 
 }  // namespace
 }  // namespace benchmarks

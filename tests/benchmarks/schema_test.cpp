@@ -5,7 +5,9 @@
 #include <gmock/gmock.h>
 
 #include "benchmarks/doctor/reports.h"
+#include "benchmarks/scene/settings_json.h"
 #include "benchmarks/scene/sweep.h"
+#include "tests/edited_document.h"
 #include "tests/error_text.h"
 #include "tests/temporary_folder.h"
 
@@ -61,6 +63,24 @@ TEST(CommittedScenes, FitTheSchemaAndExpand) {
         };
         EXPECT_EQ(errorText(expand_all), "no error");
     }
+}
+
+// An axis sets its field alone; the reference reads the whole document of the case.
+TEST(CommittedScenes, HaveTheCasesOfTheirDocuments) {
+    std::size_t cases = 0;
+    for (const auto& path : committedScenes())
+        for (const scene::Scene& scene : scene::loadScenes(path))
+            for (const scene::CaseSpec& each : scene::expand(scene)) {
+                scene::Json document = scene.resolved.json();
+                for (const scene::AxisValue& axis : each.axes)
+                    editDocument(document, axis.pointer, axis.value.json());
+                ASSERT_EQ(
+                    scene::writeSettings(each.settings).dump(),
+                    scene::writeSettings(scene::readSettings(document)).dump())
+                    << path << ": " << each.name;
+                ++cases;
+            }
+    EXPECT_GT(cases, 300u);
 }
 
 TEST(CommittedScenes, SweepWhatTheThesisCaseNeeds) {

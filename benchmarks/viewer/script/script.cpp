@@ -88,9 +88,8 @@ Check readSetting(const scene::Json& value, const std::string& pointer, const Sc
     if (!value.is_object())
         throw engine::Error(pointer, "expected an object, as in {\"/strands/density\": 16}");
     return [=](const Driver&, const Side& side) {
-        scene::Json document = scene::writeSettings(side.shown().settings);
         for (const auto& [field, wanted] : value.items()) {
-            const scene::Json& is = scene::valueAt(document, field);
+            const scene::Json is = scene::valueAt(side.shown().settings, field);
             if (is != wanted) fail(field + " is " + is.dump() + ", not " + wanted.dump());
         }
     };
@@ -533,9 +532,9 @@ Act readSet(const scene::Json& value, const std::string& pointer, const ScriptFo
         fields.emplace_back(field, wanted);
     }
     return [=](Driver& driver) {
-        scene::Json document = scene::writeSettings(driver.side(side).wanted());
-        for (const auto& [field, wanted] : fields) scene::patch(document, field, wanted);
-        driver.viewer.edit(side, scene::readSettings(document));
+        hair::Settings settings = driver.side(side).wanted();
+        for (const auto& [field, wanted] : fields) scene::setField(settings, field, wanted);
+        driver.viewer.edit(side, settings);
         driver.settle();
     };
 }
