@@ -321,8 +321,8 @@ fs::path samplesFile(const fs::path& report) {
 using Key = std::pair<std::string, std::string>;  // case, metric
 
 // Calls `visit` with the case's name, the metric's name and the metric, for each metric of a case.
-template <class Visit>
-void forEachMetric(scene::Json& result, Visit visit) {
+template <class Case, class Visit>
+void forEachMetric(Case& result, Visit visit) {
     const auto metrics = result.find("metrics");
     if (metrics == result.end()) return;
     for (auto& [name, metric] : metrics->items())
@@ -365,36 +365,17 @@ bool isLarge(const scene::Json& metric) {
     return samples != metric.end() && samples->size() > kMostSamplesInReport;
 }
 
-// Writes the large samples of a case as lines of the samples file.
-void writeLargeSamples(std::ostream& file, scene::Json& result) {
+// Moves the large samples of a case into lines of the samples file, and names the file in the case.
+void moveSamplesOut(scene::Json& result, const fs::path& file, std::ostream& lines) {
     forEachMetric(
         result, [&](const std::string& name, const std::string& metric, scene::Json& value) {
             if (!isLarge(value)) return;
             const scene::Json line = {
                 {"case", name}, {"metric", metric}, {"samples", std::move(value["samples"])}};
-            file << line.dump(-1, ' ', false, scene::Json::error_handler_t::replace) << '\n';
+            lines << line.dump(-1, ' ', false, scene::Json::error_handler_t::replace) << '\n';
+            replaceMember(value, "samples", "samples_file", file.filename().string());
+            value["sample_count"] = line["samples"].size();
         });
-}
-
-// Replaces the large samples of a case by the name of the samples file.
-void nameSamplesFile(scene::Json& result, const fs::path& file) {
-    forEachMetric(result, [&](const std::string&, const std::string&, scene::Json& value) {
-        if (!isLarge(value)) return;
-        const std::size_t count = value["samples"].size();
-        replaceMember(value, "samples", "samples_file", file.filename().string());
-        value["sample_count"] = count;
-    });
-}
-
-bool hasLargeSamples(const EachCase& each_case) {
-    bool any = false;
-    each_case([&](scene::Json result) {
-        forEachMetric(
-            result, [&](const std::string&, const std::string&, const scene::Json& metric) {
-                any = any || isLarge(metric);
-            });
-    });
-    return any;
 }
 
 // Removes the samples file of an earlier report at `path`.
@@ -611,24 +592,19 @@ private:
 
 // Writes a report. `behind` returns the members after the cases, once the cases are written.
 void writeReport(
-    const scene::Json& before, const EachCase& each_case,
+    const scene::Json& before, const EachCase& each_case, LargeSamples large,
     const std::function<scene::Json()>& behind, const fs::path& path) {
     // No samples file lies beside something that is not a regular file, like /dev/stdout or a pipe.
     const bool is_file = engine::isReplaceable(path);
-    const bool moves_samples = is_file && hasLargeSamples(each_case);
+    const bool moves_samples = is_file && large == LargeSamples::some;
     const fs::path samples = moves_samples ? samplesFile(path) : fs::path();
-    // Written before the report, so that nobody sees the report without its samples.
-    if (moves_samples)
-        engine::writeFileAtomically(samples, [&](std::ostream& file) {
-            each_case([&](scene::Json result) { writeLargeSamples(file, result); });
-        });
-    engine::writeFileAtomically(path, [&](std::ostream& file) {
+    const auto write = [&](std::ostream& file, std::ostream* sample_lines) {
         ObjectText text(file);
         for (const auto& [name, value] : before.items()) text.member(name, value);
         text.key("cases");
         bool is_first = true;
         each_case([&](scene::Json result) {
-            if (moves_samples) nameSamplesFile(result, samples);
+            if (sample_lines) moveSamplesOut(result, samples, *sample_lines);
             file << (is_first ? "[\n    " : ",\n    ") << textOf(result, 2);
             is_first = false;
         });
@@ -636,11 +612,24 @@ void writeReport(
         const scene::Json last = behind();
         for (const auto& [name, value] : last.items()) text.member(name, value);
         text.end();
+    };
+    engine::writeFileAtomically(path, [&](std::ostream& file) {
+        if (!moves_samples) return write(file, nullptr);
+        // Complete before the report is, so that nobody sees the report without its samples.
+        engine::writeFileAtomically(samples, [&](std::ostream& lines) { write(file, &lines); });
     });
     if (is_file && !moves_samples) removeSamples(path);
 }
 
 }  // namespace
+
+bool hasLargeSamples(const scene::Json& result) {
+    bool any = false;
+    forEachMetric(result, [&](const std::string&, const std::string&, const scene::Json& metric) {
+        any = any || isLarge(metric);
+    });
+    return any;
+}
 
 void writeReport(const scene::Json& report, const fs::path& path) {
     scene::Json before = scene::Json::object(), behind = before;
@@ -654,19 +643,24 @@ void writeReport(const scene::Json& report, const fs::path& path) {
     const EachCase each_case = [&](const auto& visit) {
         for (const scene::Json& result : report.at("cases")) visit(result);
     };
-    writeReport(before, each_case, [&] { return behind; }, path);
+    const bool any_large = std::ranges::any_of(report.at("cases"), hasLargeSamples);
+    writeReport(
+        before, each_case, any_large ? LargeSamples::some : LargeSamples::none,
+        [&] { return behind; }, path);
 }
 
-void writeReport(const scene::Json& header, const EachCase& each_case, const fs::path& path) {
-    std::optional<Methods> methods;
+void writeReport(
+    const scene::Json& header, const EachCase& each_case, LargeSamples large,
+    const fs::path& path) {
+    Methods methods(header);
     const EachCase counted = [&](const auto& visit) {
-        methods.emplace(header);
         each_case([&](scene::Json result) {
-            methods->add(result);
+            methods.add(result);
             visit(std::move(result));
         });
     };
-    writeReport(header, counted, [&] { return scene::Json{{"methods", methods->text()}}; }, path);
+    const auto behind = [&] { return scene::Json{{"methods", methods.text()}}; };
+    writeReport(header, counted, large, behind, path);
 }
 
 }  // namespace benchmarks::report

@@ -259,13 +259,17 @@ scene::Json readReport(const std::filesystem::path& path);
 // samples into a file beside it. Creates missing folders. Throws engine::Error "<path>: <reason>".
 void writeReport(const scene::Json& report, const std::filesystem::path& path);
 
-// Calls `visit` with each case of a report, in the report's order. Can be called repeatedly.
+// Calls `visit` with each case of a report, in the report's order.
 using EachCase = std::function<void(const std::function<void(scene::Json)>& visit)>;
 
-// Writes the same file as for assembledReport() of these cases, but keeps only one case in memory.
-// `header` has a report's members up to "interrupted".
+enum class LargeSamples { none, some };
+
+// Writes the same file as for assembledReport() of these cases, but visits each case once and keeps
+// only one in memory. `header` has a report's members up to "interrupted". `large`: whether
+// hasLargeSamples() is true for some case.
 void writeReport(
-    const scene::Json& header, const EachCase& each_case, const std::filesystem::path& path);
+    const scene::Json& header, const EachCase& each_case, LargeSamples large,
+    const std::filesystem::path& path);
 
 // Samples of large metrics lie in a file beside the report, "<report without
 // extension>.samples.jsonl", with a line {"case", "metric", "samples"} for each metric. In the
@@ -273,5 +277,8 @@ void writeReport(
 // "sample_count" instead of "samples".
 
 inline constexpr std::size_t kMostSamplesInReport = 2000;
+
+// Whether a case (caseJson) has such a metric.
+bool hasLargeSamples(const scene::Json& result);
 
 }  // namespace benchmarks::report

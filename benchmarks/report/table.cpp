@@ -257,95 +257,6 @@ bool drawnByAnother(const scene::Json& result) {
     return !name.empty() && text(member(result, "axes"), kBackendAxis) != name;
 }
 
-// Collects the facts that decide the table's columns.
-class CasesSeen {
-public:
-    void add(const scene::Json& result) {
-        for (const auto& [pointer, value] : member(result, "axes").items()) {
-            if (values_[pointer].empty()) pointers_.push_back(pointer);
-            values_[pointer].insert(value.dump());
-        }
-        for (const auto& [name, metric] : member(result, "metrics").items()) {
-            const MetricId id = metricNamed(name);
-            if (isPassTime(id) && std::ranges::find(pass_times_, id) == pass_times_.end())
-                pass_times_.push_back(id);
-            has_flip_ = has_flip_ || id == ofImage(Measured::flip);
-        }
-        drawn_by_another_ = drawn_by_another_ || drawnByAnother(result);
-    }
-
-    // Returns the pointers of axes with more than one value in the report, in the sweep's order.
-    std::vector<std::string> varyingAxes() const {
-        std::vector<std::string> pointers = pointers_;
-        std::erase_if(
-            pointers, [&](const std::string& each) { return values_.at(each).size() < 2; });
-        return pointers;
-    }
-    const std::vector<MetricId>& passTimes() const { return pass_times_; }
-    bool hasFlip() const { return has_flip_; }
-    bool anyDrawnByAnother() const { return drawn_by_another_; }
-
-private:
-    std::vector<std::string> pointers_;
-    std::map<std::string, std::set<std::string>> values_;
-    std::vector<MetricId> pass_times_;
-    bool has_flip_ = false;
-    bool drawn_by_another_ = false;
-};
-
-// Returns the table's columns with all their cells.
-std::vector<Column> columns(const scene::Json& header, const EachCase& each_case) {
-    CasesSeen seen;
-    each_case([&](const scene::Json& result) { seen.add(result); });
-    std::vector<Column> all;
-    std::vector<std::function<std::string(const scene::Json& result)>> cells;
-    enum class Cells { text, numbers };
-    const auto add = [&](std::string title, Cells kind, auto&& cell) {
-        all.push_back({.title = std::move(title), .numeric = kind == Cells::numbers});
-        cells.emplace_back(std::forward<decltype(cell)>(cell));
-    };
-    std::vector<std::string> pointers;
-    // The scenes of a suite vary different things, so only names tell their cases apart.
-    if (member(member(member(header, "scene"), "document"), "suite").is_null())
-        pointers = seen.varyingAxes();
-    const std::vector<std::string> labels = scene::axisLabels(pointers);
-    for (std::size_t i = 0; i < pointers.size(); ++i)
-        add(labels[i], Cells::numbers, [pointer = pointers[i]](const scene::Json& result) {
-            const scene::Json& value = member(member(result, "axes"), pointer);
-            return value.is_null() ? std::string("-") : scene::valueLabel(value);
-        });
-    if (pointers.empty())
-        add("case", Cells::text, [](const scene::Json& result) { return text(result, "name"); });
-    if (seen.anyDrawnByAnother())
-        add("drawn by", Cells::text, [](const scene::Json& result) {
-            const std::string name = text(member(result, "backend"), "name");
-            return name.empty() ? std::string("-") : name;
-        });
-    const auto addMedian = [&](std::string title, const MetricId& metric) {
-        add(std::move(title), Cells::numbers,
-            [metric](const scene::Json& result) { return medianCell(result, metric); });
-    };
-    addMedian("fps", ofFrame(Measured::rate));
-    addMedian("frame ms", ofFrame(Measured::time));
-    add("+-", Cells::numbers, [](const scene::Json& result) {
-        const auto width = relativeHalfInterval(result);
-        return width ? shareText(*width) : std::string("-");
-    });
-    for (const MetricId& time : seen.passTimes()) addMedian(time.pass() + " ms", time);
-    if (seen.hasFlip()) addMedian("FLIP", ofImage(Measured::flip));
-    add("strands", Cells::numbers,
-        [](const scene::Json& result) { return countCell(result, "strands"); });
-    add("trust", Cells::text, [&](const scene::Json& result) {
-        const auto verdict = judgeCase(member(header, "environment"), result);
-        return verdict ? verdictText(*verdict) : std::string("-");
-    });
-    add("status", Cells::text, statusCell);
-    each_case([&](const scene::Json& result) {
-        for (std::size_t i = 0; i < all.size(); ++i) all[i].cells.push_back(cells[i](result));
-    });
-    return all;
-}
-
 // ---- Table of a report --------------------------------------------------------------------------
 
 std::string header(const scene::Json& report) {
@@ -366,14 +277,74 @@ std::string header(const scene::Json& report) {
 
 }  // namespace
 
-std::string table(const scene::Json& report) {
-    return table(report, [&](const auto& visit) {
-        for (const scene::Json& result : member(report, "cases")) visit(result);
-    });
+CaseTable::CaseTable(const scene::Json& header) : header_(header) {}
+
+// Puts the cell into the row of the case that is being added.
+void CaseTable::put(Column& column, std::string cell) const {
+    column.cells.resize(rows_, "-");
+    column.cells.push_back(std::move(cell));
 }
 
-std::string table(const scene::Json& report_header, const EachCase& each_case) {
-    return header(report_header) + columnsText(columns(report_header, each_case));
+void CaseTable::add(const scene::Json& result) {
+    for (const auto& [pointer, value] : member(result, "axes").items()) {
+        auto axis = std::ranges::find(axes_, pointer, &AxisColumn::pointer);
+        if (axis == axes_.end()) axis = axes_.insert(axis, {.column = {}, .pointer = pointer});
+        axis->values.insert(value.dump());
+        put(axis->column, value.is_null() ? "-" : scene::valueLabel(value));
+    }
+    for (const auto& [name, metric] : member(result, "metrics").items()) {
+        const MetricId id = metricNamed(name);
+        has_flip_ = has_flip_ || id == ofImage(Measured::flip);
+        if (!isPassTime(id)) continue;
+        auto pass = std::ranges::find(passes_, id, &PassColumn::time);
+        if (pass == passes_.end())
+            pass = passes_.insert(pass, {.column = {.title = id.pass() + " ms"}, .time = id});
+        put(pass->column, medianCell(result, id));
+    }
+    put(names_, report::text(result, "name"));
+    const std::string backend = report::text(member(result, "backend"), "name");
+    put(backends_, backend.empty() ? "-" : backend);
+    drawn_by_another_ = drawn_by_another_ || drawnByAnother(result);
+    put(rates_, medianCell(result, ofFrame(Measured::rate)));
+    put(frames_, medianCell(result, ofFrame(Measured::time)));
+    const auto width = relativeHalfInterval(result);
+    put(widths_, width ? shareText(*width) : "-");
+    put(flips_, medianCell(result, ofImage(Measured::flip)));
+    put(strands_, countCell(result, "strands"));
+    const auto verdict = judgeCase(member(header_, "environment"), result);
+    put(verdicts_, verdict ? verdictText(*verdict) : "-");
+    put(statuses_, statusCell(result));
+    ++rows_;
+}
+
+std::vector<Column> CaseTable::columns() const {
+    std::vector<Column> all;
+    std::vector<std::string> pointers;
+    // The scenes of a suite vary different things, so only names tell their cases apart.
+    if (member(member(member(header_, "scene"), "document"), "suite").is_null())
+        for (const AxisColumn& axis : axes_)
+            if (axis.values.size() > 1) {
+                pointers.push_back(axis.pointer);
+                all.push_back(axis.column);
+            }
+    const std::vector<std::string> labels = scene::axisLabels(pointers);
+    for (std::size_t i = 0; i < labels.size(); ++i) all[i].title = labels[i];
+    if (pointers.empty()) all.push_back(names_);
+    if (drawn_by_another_) all.push_back(backends_);
+    all.insert(all.end(), {rates_, frames_, widths_});
+    for (const PassColumn& pass : passes_) all.push_back(pass.column);
+    if (has_flip_) all.push_back(flips_);
+    all.insert(all.end(), {strands_, verdicts_, statuses_});
+    for (Column& column : all) column.cells.resize(rows_, "-");
+    return all;
+}
+
+std::string CaseTable::text() const { return header(header_) + columnsText(columns()); }
+
+std::string table(const scene::Json& report) {
+    CaseTable table(report);
+    for (const scene::Json& result : member(report, "cases")) table.add(result);
+    return table.text();
 }
 
 }  // namespace benchmarks::report

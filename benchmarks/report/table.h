@@ -2,12 +2,15 @@
 
 #include <cstddef>
 #include <optional>
+#include <set>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "benchmarks/report/metric.h"
 #include "benchmarks/report/report.h"
 #include "benchmarks/report/statistics.h"
+#include "benchmarks/report/text.h"
 #include "benchmarks/scene/json.h"
 
 // Compares the strand back ends in one report: how their cost grows with the number of strands, and
@@ -70,7 +73,45 @@ scene::Json backendsJson(const BackendFigures& figures);
 // interval, the median times of every pass, strands, verdict and status. Unknown values are "-".
 std::string table(const scene::Json& report);
 
-// Returns the same table from a report's header (headerJson) and cases that are visited one by one.
-std::string table(const scene::Json& header, const EachCase& each_case);
+// Builds the same table from a report's header (headerJson) and cases that are added one by one and
+// not kept.
+class CaseTable {
+public:
+    // `header` must outlive this.
+    explicit CaseTable(const scene::Json& header);
+
+    void add(const scene::Json& result);
+    std::string text() const;
+
+private:
+    struct AxisColumn {
+        Column column;
+        std::string pointer;
+        std::set<std::string> values;  // different ones
+    };
+    struct PassColumn {
+        Column column;
+        MetricId time;
+    };
+    void put(Column& column, std::string cell) const;
+    std::vector<Column> columns() const;
+
+    const scene::Json& header_;
+    std::size_t rows_ = 0;
+    // All that may be shown. A column that a case does not have ends early or has empty cells.
+    std::vector<AxisColumn> axes_;
+    std::vector<PassColumn> passes_;
+    Column names_{.title = "case", .numeric = false};
+    Column backends_{.title = "drawn by", .numeric = false};
+    Column rates_{.title = "fps"};
+    Column frames_{.title = "frame ms"};
+    Column widths_{.title = "+-"};
+    Column flips_{.title = "FLIP"};
+    Column strands_{.title = "strands"};
+    Column verdicts_{.title = "trust", .numeric = false};
+    Column statuses_{.title = "status", .numeric = false};
+    bool drawn_by_another_ = false;  // some case, which its axes do not show
+    bool has_flip_ = false;
+};
 
 }  // namespace benchmarks::report

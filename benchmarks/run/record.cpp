@@ -361,7 +361,7 @@ RunRecord::RunRecord(
             }
             ++cases;
             if (const auto index = left.take(line))
-                keep(*index, line.value("status", ""), place);
+                keep(*index, line, place);
             else
                 ++strays;
         });
@@ -378,6 +378,7 @@ RunRecord::RunRecord(
             left = CasesLeft(plan);
             done_.clear();
             measured_ = 0;
+            large_samples_ = report::LargeSamples::none;
             journal_->clear();
             journal_->append(head);
         }
@@ -396,16 +397,17 @@ RunRecord::RunRecord(
 
 RunRecord::~RunRecord() = default;
 
-void RunRecord::keep(std::size_t index, const std::string& status, const Journal::Place& line) {
+void RunRecord::keep(std::size_t index, const scene::Json& result, const Journal::Place& line) {
     done_.push_back({.index = index, .line = line});
-    measured_ += status == report::statusName(report::Status::ok);
+    measured_ += result.value("status", "") == report::statusName(report::Status::ok);
+    if (report::hasLargeSamples(result)) large_samples_ = report::LargeSamples::some;
 }
 
 void RunRecord::add(const report::CaseResult& result) {
     scene::Json line = report::caseJson(result);
     report::putVerdict(header_->at("environment"), line);
     try {
-        keep(result.index.value(), report::statusName(result.status), journal_->append(line));
+        keep(result.index.value(), line, journal_->append(line));
     } catch (const engine::WriteFailed& error) {
         if (!hasJournal()) throw;
         throw engine::WriteFailed(
@@ -421,11 +423,17 @@ void RunRecord::eachCase(const std::function<void(scene::Json)>& visit) const {
     for (const Done& each : cases) visit(journal_->at(each.line));
 }
 
-void RunRecord::write(RunEnd end) {
+void RunRecord::write(RunEnd end, const std::function<void(const scene::Json&)>& visit) {
     scene::Json header = *header_;
     header["interrupted"] = end == RunEnd::interrupted;
     try {
-        report::writeReport(header, [&](const auto& visit) { eachCase(visit); }, out_);
+        const report::EachCase cases = [&](const auto& take) {
+            eachCase([&](scene::Json each) {
+                if (visit) visit(each);
+                take(std::move(each));
+            });
+        };
+        report::writeReport(header, cases, large_samples_, out_);
     } catch (const engine::Error& error) {
         if (!hasJournal()) throw;
         throw engine::WriteFailed(

@@ -125,16 +125,17 @@ public:
     // changed from outside.
     void eachCase(const std::function<void(scene::Json)>& visit) const;
 
-    // Writes the report with all cases in the sweep's order. For a complete run, then removes the
-    // journal and forgets the cases. Throws WriteFailed, and then keeps the journal.
-    void write(RunEnd end);
+    // Writes the report with all cases in the sweep's order, and calls `visit` with each. For a
+    // complete run, then removes the journal and forgets the cases. Reads each case once. Throws
+    // WriteFailed, and then keeps the journal.
+    void write(RunEnd end, const std::function<void(const scene::Json& result)>& visit = {});
 
 private:
     struct Done {
         std::size_t index = 0;  // in the sweep
         Journal::Place line;
     };
-    void keep(std::size_t index, const std::string& status, const Journal::Place& line);
+    void keep(std::size_t index, const scene::Json& result, const Journal::Place& line);
 
     std::filesystem::path out_;
     std::unique_ptr<engine::ScratchFolder> scratch_;  // for a temporary journal
@@ -142,6 +143,7 @@ private:
     std::unique_ptr<scene::Json> header_;
     std::vector<Done> done_;
     std::size_t measured_ = 0;
+    report::LargeSamples large_samples_ = report::LargeSamples::none;
     std::vector<Turn> remaining_;
 };
 

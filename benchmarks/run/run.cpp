@@ -251,31 +251,32 @@ Ended playCases(
     return ended;
 }
 
-FinishedRun finishedRun(const RunRecord& record) {
-    const report::EachCase each_case = [&](const auto& visit) { record.eachCase(visit); };
+// Writes the report. Returns what to say about it, and removes pictures of earlier runs once it is
+// complete.
+FinishedRun finishRun(RunRecord& record, const Ended& ended, const fs::path& out) {
     FinishedRun finished{
-        .summary = report::table(record.header(), each_case) + '\n',
         .done = record.done(),
-        .measured = record.measured()};
-    record.eachCase([&](const scene::Json& each) {
+        .measured = record.measured(),
+        .interrupted = ended.interrupted,
+        .no_device = ended.no_device};
+    const bool is_short = ended.interrupted || !ended.no_device.empty();
+    report::CaseTable table(record.header());
+    std::string warnings;
+    std::set<std::string> pictures;  // files, relative to the report
+    record.write(is_short ? RunEnd::interrupted : RunEnd::complete, [&](const scene::Json& each) {
+        table.add(each);
         finished.verdicts.add(record.header().at("environment"), each);
         for (const scene::Json& warning :
              each.value("/trust/warnings"_json_pointer, scene::Json::array()))
-            finished.summary +=
+            warnings +=
                 engine::shownText(
                     each.at("name").get<std::string>() + ": " + warning.get<std::string>()) +
                 '\n';
-    });
-    return finished;
-}
-
-// Returns the picture files, relative to the report.
-std::set<std::string> picturesOf(const RunRecord& record) {
-    std::set<std::string> pictures;
-    record.eachCase([&](const scene::Json& each) {
         if (each.contains("picture")) pictures.insert(each.at("picture").get<std::string>());
     });
-    return pictures;
+    finished.summary = table.text() + '\n' + warnings;
+    if (!is_short && record.hasJournal()) removeOtherPictures(pictures, out);
+    return finished;
 }
 
 }  // namespace
@@ -331,23 +332,14 @@ FinishedRun playRun(
         std::cerr << "continuing after " << record.done() << " of " << plan.cases.size()
                   << " cases\n";
     const bool keeps_pictures = options.pictures && record.hasJournal();
-    const auto finish = [&](const Ended& ended) {
-        const bool is_short = ended.interrupted || !ended.no_device.empty();
-        FinishedRun finished = finishedRun(record);
-        finished.interrupted = ended.interrupted;
-        finished.no_device = ended.no_device;
-        const std::set<std::string> pictures = picturesOf(record);
-        record.write(is_short ? RunEnd::interrupted : RunEnd::complete);
-        if (!is_short && record.hasJournal()) removeOtherPictures(pictures, out);
-        return finished;
-    };
     Ended ended;
     {
-        const engine::InterruptMessage words([&] { last_words(finish({.interrupted = true})); });
+        const engine::InterruptMessage words(
+            [&] { last_words(finishRun(record, {.interrupted = true}, out)); });
         ended =
             playCases(device, plan, record, keeps_pictures ? out : std::filesystem::path(), cache);
     }
-    return finish(ended);
+    return finishRun(record, ended, out);
 }
 
 // ---- Merging of reports -------------------------------------------------------------------------

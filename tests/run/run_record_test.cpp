@@ -2,7 +2,9 @@
 
 #include <filesystem>
 #include <functional>
+#include <iostream>
 #include <memory>
+#include <sstream>
 #include <string>
 #include <vector>
 
@@ -310,6 +312,36 @@ TEST_F(Record, WritesWhatIsWrittenOfCasesInMemory) {
         scene::Json whole = scene::Json::parse(textOf(out_));
         return whole.dump(2) + '\n';
     }());
+}
+
+// Returns how many bytes this process has read so far, by any system call.
+std::uintmax_t bytesRead() {
+    std::istringstream counts(textOf("/proc/self/io"));
+    std::string name;
+    std::uintmax_t count = 0;
+    while (counts >> name >> count)
+        if (name == "rchar:") return count;
+    return 0;
+}
+
+TEST_F(Record, ReadsEachCaseOnceForTheReport) {
+    report::CaseResult result = sampleReport().cases[0];
+    result.trust.warnings = {std::string(1u << 20, 'x')};
+    RunRecord record = open(false);
+    for (const auto& [place, order] : record.remaining()) {
+        result.name = plan_.cases[place].spec.name;
+        result.index = plan_.cases[place].index;
+        record.add(result);
+    }
+    const auto size = static_cast<double>(std::filesystem::file_size(journalFile(out_)));
+    std::vector<std::string> names;
+    const std::uintmax_t before = bytesRead();
+    record.write(RunEnd::complete, [&](const scene::Json& each) { names.push_back(each["name"]); });
+    const auto read = static_cast<double>(bytesRead() - before);
+    std::cout << "the report reads " << read / size << " times the journal\n";
+    EXPECT_THAT(names, ElementsAre("s/1", "s/3", "s/5", "s/7"));
+    EXPECT_GT(before, 0u);
+    EXPECT_NEAR(read / size, 1.0, 0.05);
 }
 
 // Returns the peak memory of a process that runs `play`, kB.
