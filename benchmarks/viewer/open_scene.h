@@ -13,6 +13,7 @@
 
 #include "benchmarks/viewer/player.h"
 #include "benchmarks/viewer/scene_file.h"
+#include "benchmarks/viewer/side.h"
 #include "benchmarks/viewer/studio.h"
 #include "hair/settings.h"
 
@@ -74,6 +75,20 @@ std::vector<TimelineMark> timelineMarks(const hair::Settings& settings);
 // and at least two seconds.
 std::uint32_t
 timelineEnd(const hair::Settings& settings, std::uint32_t frame, std::uint32_t furthest);
+
+// The user's wishes about time. Simulated time always advances in the scene's fixed steps; the
+// speed only decides when a frame is played.
+struct PlayState {
+    bool playing = true;
+    bool step = false;  // plays one frame while paused
+    std::optional<std::uint32_t> seek;
+    // A frame to play to in parts, each of which is shown, because the user may choose another one
+    // meanwhile.
+    std::optional<std::uint32_t> scrub;
+    std::uint32_t furthest = 0;  // last frame that was shown so far
+    // Simulated seconds per second; absent: one frame per picture of the window.
+    std::optional<double> speed;
+};
 
 // Shows the bar across the rest of the current window, or nothing if that is narrow. Dragging it
 // pauses and sets PlayState::scrub.

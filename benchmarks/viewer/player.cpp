@@ -6,17 +6,17 @@
 #include <span>
 #include <utility>
 
-#include <nlohmann/json.hpp>
+#include <glm/geometric.hpp>
 
 #include "benchmarks/measure/metrics.h"
 #include "benchmarks/report/environment.h"
 #include "benchmarks/scene/extensions.h"
 #include "benchmarks/scene/schema.h"
-#include "benchmarks/scene/settings_json.h"
 #include "engine/device.h"
 #include "engine/process.h"
 #include "engine/target.h"
 #include "engine/transfer.h"
+#include "hair/fields.h"
 
 namespace benchmarks::viewer {
 namespace {
@@ -31,31 +31,24 @@ enum class Effect {
 };
 
 Effect effectOf(const hair::Settings& before, const hair::Settings& after) {
-    scene::Json a = scene::writeSettings(before), b = scene::writeSettings(after);
-    const auto without = [&](const char* member) {
-        a.erase(member);
-        b.erase(member);
-        return a == b;
-    };
-    if (without("description")) return Effect::none;
-    for (const char* member : {"groom", "seed", "run"})
-        if (a[member] != b[member]) return Effect::everything;
-    if (a["simulation"] != b["simulation"]) {
-        for (scene::Json* document : {&a, &b})
-            for (const char* member : {"wind", "colliders", "motion", "pulls"})
-                (*document)["simulation"].erase(member);
-        return a["simulation"] == b["simulation"] ? Effect::forces : Effect::everything;
-    }
-    return without("camera") ? Effect::camera : Effect::drawing;
-}
-
-scene::Document documentOf(const hair::Settings& settings) {
-    return scene::Document(scene::writeSettings(settings));
+    hair::Settings same = after;  // takes over what may differ
+    same.description = before.description;
+    if (!hair::differ(before, same)) return Effect::none;
+    same.camera = before.camera;
+    if (!hair::differ(before, same)) return Effect::camera;
+    if (before.seed != after.seed || hair::differ(before.groom, after.groom) ||
+        hair::differ(before.run, after.run))
+        return Effect::everything;
+    hair::SimulationSettings& simulation = same.simulation;
+    if (!hair::differ(before.simulation, simulation)) return Effect::drawing;
+    simulation.wind = before.simulation.wind;
+    simulation.colliders = before.simulation.colliders;
+    simulation.motion = before.simulation.motion;
+    simulation.pulls = before.simulation.pulls;
+    return hair::differ(before.simulation, simulation) ? Effect::everything : Effect::forces;
 }
 
 constexpr std::size_t kFewVertices = 1u << 19;  // about as many bytes as a 1080p picture
-
-constexpr double kPause = 0.5;  // s without a new frame; longer than a frame on a slow device
 
 }  // namespace
 
@@ -71,6 +64,64 @@ std::uint32_t Pacer::framesFor(double seconds, double frame_time, std::optional<
     const double whole = std::floor(due_);
     due_ -= whole;
     return static_cast<std::uint32_t>(whole);
+}
+
+namespace {
+
+constexpr float kCoarsestLod = 8.0f;  // limit of /lod/level
+
+// A level takes at most 2.5 times the work of the next coarser one.
+constexpr double kLittle = 0.4 * PreviewControl::kAim;
+constexpr double kClearlyWithin = 0.8 * PreviewControl::kAim;
+constexpr unsigned kMostPatience = 256;  // pictures
+
+// ms. A picture that is refined within this time hardly delays the user's next move.
+constexpr double kAtOnce = 250.0;
+constexpr double kShareOfWait = 0.25;  // share of a picture's time to wait before it is drawn
+constexpr double kShortestWait = 0.15;  // s
+constexpr double kLongestWait = 3.0;
+
+// Thesis 2.3.8.1, as in hair/rendering/strand_plan.cpp for every root.
+float lodAtTarget(const hair::LodSettings& lod, const hair::CameraSettings& camera) {
+    if (lod.mode == hair::LodMode::forced) return lod.level;
+    const float distance = glm::length(camera.position - camera.target);
+    if (distance <= lod.near_distance || lod.far_distance <= lod.near_distance) return 0.0f;
+    const float share =
+        std::log2(distance / lod.near_distance) / std::log2(lod.far_distance / lod.near_distance);
+    return lod.maximum_level * std::min(share, 1.0f);
+}
+
+std::uint32_t scaled(std::uint32_t pixels, float share) {
+    return std::max(
+        static_cast<std::uint32_t>(std::lround(static_cast<float>(pixels) * share)), 1u);
+}
+
+}  // namespace
+
+// ---- Levels of preview --------------------------------------------------------------------------
+
+hair::Settings previewSettings(const hair::Settings& settings, unsigned level) {
+    hair::Settings coarse = settings;
+    if (level == 0) return coarse;
+    const PreviewLevel& preview = kPreviewLevels[std::min(level, kCoarsestPreview)];
+    coarse.lod.level =
+        std::min(lodAtTarget(settings.lod, settings.camera) + preview.coarser, kCoarsestLod);
+    coarse.lod.mode = hair::LodMode::forced;
+    coarse.render.width = scaled(settings.render.width, preview.across);
+    coarse.render.height = scaled(settings.render.height, preview.across);
+    coarse.render.msaa = 1;
+    coarse.render.ssaa = 1;
+    return coarse;
+}
+
+std::string
+previewText(unsigned level, double strand_share, std::uint32_t width, std::uint32_t height) {
+    const double percent = 100.0 * strand_share;
+    const std::string share =
+        percent > 0.0 && percent < 1.0 ? "under 1" : std::to_string(std::lround(percent));
+    return "preview, level " + std::to_string(level) + " of " + std::to_string(kCoarsestPreview) +
+           ": " + share + " % of strands at " + std::to_string(width) + " × " +
+           std::to_string(height);
 }
 
 // ---- Player -------------------------------------------------------------------------------------
@@ -284,111 +335,57 @@ Sphere groomNow(const Shown& shown) {
 
 std::string Shown::stateHash() const { return report::hashBytes(std::as_bytes(std::span(guides))); }
 
-// ---- Timings of drawn frames --------------------------------------------------------------------
+// ---- Choice of the level of preview -------------------------------------------------------------
 
-void TimingHistory::add(
-    const engine::FrameRecord& frame, engine::Timing timing, std::uint32_t number) {
-    TimedFrames& frames = timing == engine::Timing::overlapped ? overlapped_ : isolated_;
-    if (frames.size() == kFrames) {
-        frames.records.erase(frames.records.begin());
-        frames.numbers.erase(frames.numbers.begin());
-    }
-    frames.records.push_back(frame);
-    frames.numbers.push_back(number);
+double PreviewControl::expected(unsigned level) const {
+    double factor = 1.0;
+    for (unsigned coarser = level; coarser <= kCoarsestPreview; ++coarser, factor *= 2.0)
+        if (took_[coarser] > 0.0) return took_[coarser] * factor;
+    return 0.0;
 }
 
-void TimingHistory::clear() {
-    isolated_ = {};
-    overlapped_ = {};
-    ++revision_;
-}
-
-// ---- Edit history -------------------------------------------------------------------------------
-
-EditHistory::EditHistory(scene::Document document) { documents_.push_back(std::move(document)); }
-
-void EditHistory::edit(scene::Document document, bool continues) {
-    const bool replaces = continues && continuing_;
-    if (!replaces && document == current()) return;
-    continuing_ = continues;
-    if (replaces) {
-        documents_[index_] = std::move(document);
+void PreviewControl::drawn(unsigned level, double milliseconds) {
+    if (level > kCoarsestPreview || !(milliseconds > 0.0)) return;
+    took_[level] = milliseconds;
+    crawling_ = level == kCoarsestPreview && milliseconds > kCrawl ? crawling_ + 1 : 0;
+    if (level != moving_) {
+        // A finer picture was drawn while nothing moved, so the next move may start at its level.
+        if (level < moving_ && milliseconds < kClearlyWithin) {
+            moving_ = level;
+            calm_ = 0;
+        }
+        // Nothing is known yet about pictures in motion.
+        while (moving_ < level && took_[moving_] == 0.0 && expected(moving_) > kAim) ++moving_;
         return;
     }
-    documents_.resize(index_ + 1);
-    documents_.push_back(std::move(document));
-    ++index_;
+    if (milliseconds > kAim) {
+        const double halvings = std::ceil(std::log2(milliseconds / kAim));
+        const unsigned steps =
+            static_cast<unsigned>(std::clamp(halvings, 1.0, double{kCoarsestPreview}));
+        if (tried_finer_) patience_ = std::min(2 * patience_, kMostPatience);
+        moving_ = std::min(moving_ + steps, kCoarsestPreview);
+        calm_ = 0;
+        tried_finer_ = false;
+        return;
+    }
+    if (milliseconds >= kLittle) {
+        calm_ = 0;
+        return;
+    }
+    if (moving_ == 0 || ++calm_ < patience_) return;
+    --moving_;
+    calm_ = 0;
+    tried_finer_ = true;
 }
 
-const scene::Document& EditHistory::undo() {
-    if (canUndo()) --index_;
-    continuing_ = false;
-    return current();
-}
-
-const scene::Document& EditHistory::redo() {
-    if (canRedo()) ++index_;
-    continuing_ = false;
-    return current();
-}
-
-// ---- Side ---------------------------------------------------------------------------------------
-
-Side::Side(std::uint64_t id, const hair::Settings& settings, const std::filesystem::path& directory)
-    : id_(id), directory_(directory), wanted_(settings), original_(settings),
-      history_(documentOf(settings)) {
-    shown_.settings = settings;
-    shown_.directory = directory;
-}
-
-void Side::edit(const hair::Settings& settings, Edit edit) {
-    if (!edit.changed) return;
-    wanted_ = settings;
-    scene::rereadExtensions(wanted_, directory_);
-    history_.edit(documentOf(wanted_), edit.continues);
-    continues_ = edit.continues;
-    ++revision_;
-}
-
-void Side::settle() {
-    history_.settle();
-    if (!continues_) return;
-    continues_ = false;
-    ++revision_;
-}
-
-void Side::undo() {
-    wanted_ = scene::readSettings(history_.undo().json());
-    scene::rereadExtensions(wanted_, directory_);
-    continues_ = false;
-    ++revision_;
-}
-
-void Side::redo() {
-    wanted_ = scene::readSettings(history_.redo().json());
-    scene::rereadExtensions(wanted_, directory_);
-    continues_ = false;
-    ++revision_;
-}
-
-SideOrder Side::order() const {
-    return {
-        .side = id_,
-        .revision = revision_,
-        .settings = wanted_,
-        .continues = continues_,
-        .directory = directory_,
-        .beside = std::nullopt};
-}
-
-void Side::take(SideReply reply, Beside beside) {
-    answered_ = reply.revision;
-    problem_ = std::move(reply.problem);
-    if (reply.reread) scene::rereadExtensions(wanted_, directory_);
-    if (reply.restarts_timings) timings_.clear();
-    if (reply.timed && beside == Beside::nothing)
-        timings_.add(reply.timed->record, reply.timed->timing, reply.timed->number);
-    if (reply.shown) shown_ = std::move(*reply.shown);
+unsigned PreviewControl::still(unsigned shown, double seconds) const {
+    if (shown == 0) return 0;
+    unsigned next = shown - 1;
+    for (unsigned finer = 0; finer < next; ++finer)
+        if (expected(finer) <= kAtOnce) next = finer;
+    const double wait =
+        std::clamp(kShareOfWait * expected(next) / 1000.0, kShortestWait, kLongestWait);
+    return seconds >= wait ? next : shown;
 }
 
 // ---- Moment of a drag ---------------------------------------------------------------------------
@@ -415,15 +412,6 @@ Moment momentOf(const Shown& shown) {
     const hair::Settings& settings = shown.settings;
     return momentAfter(
         shown.frame, double{settings.run.frame_time}, double{settings.simulation.time_step});
-}
-
-// ---- Running clock ------------------------------------------------------------------------------
-
-bool RunningClock::runs(const Shown& shown, double seconds) {
-    const auto [entry, is_new] = seen_.try_emplace(&shown, Seen{.frame = shown.frame});
-    Seen& seen = entry->second;
-    if (seen.frame != shown.frame) seen = {shown.frame, seconds};
-    return seconds - seen.since < kPause;
 }
 
 }  // namespace benchmarks::viewer

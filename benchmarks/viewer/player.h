@@ -1,13 +1,10 @@
 #pragma once
 
-#include <cstddef>
 #include <array>
 #include <chrono>
 #include <cstdint>
-#include <exception>
 #include <filesystem>
 #include <functional>
-#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -18,15 +15,12 @@
 
 #include "benchmarks/measure/case.h"
 #include "benchmarks/report/report.h"
-#include "benchmarks/scene/json.h"
-#include "benchmarks/viewer/edit.h"
 #include "benchmarks/viewer/gizmo.h"
-#include "benchmarks/viewer/preview.h"
 #include "benchmarks/viewer/shader_reload.h"
 #include "engine/frame_loop.h"
 
-// Plays frames by the window's clock. Also has a case that follows its settings, and a side with
-// its settings, their history and what is shown of them.
+// Plays frames by the window's clock: a case that follows its settings, what is shown of it, and
+// coarser pictures during motion, if whole pictures take too long.
 namespace benchmarks::viewer {
 
 // Decides how many frames to play per picture of the window.
@@ -43,19 +37,35 @@ private:
     double due_ = 0.0;  // frames, below 1
 };
 
-// The user's wishes about time. Simulated time always advances in the scene's fixed steps; the
-// speed only decides when a frame is played.
-struct PlayState {
-    bool playing = true;
-    bool step = false;  // plays one frame while paused
-    std::optional<std::uint32_t> seek;
-    // A frame to play to in parts, each of which is shown, because the user may choose another one
-    // meanwhile.
-    std::optional<std::uint32_t> scrub;
-    std::uint32_t furthest = 0;  // last frame that was shown so far
-    // Simulated seconds per second; absent: one frame per picture of the window.
-    std::optional<double> speed;
+// ---- Levels of preview --------------------------------------------------------------------------
+
+// Levels of a picture: the scene's own and the previews, each with about half the work of the one
+// before. Previews have fewer strands and segments (/lod) and fewer pixels, since strands grow
+// wider as they become fewer. Previews have one sample per pixel.
+struct PreviewLevel {
+    float coarser = 0.0f;  // added to the level of detail
+    float across = 1.0f;  // share of the pixels along either side of the picture
 };
+inline constexpr std::array kPreviewLevels{
+    PreviewLevel{},
+    PreviewLevel{1.0f, 0.75f},
+    PreviewLevel{2.0f, 0.5f},
+    PreviewLevel{3.0f, 0.375f},
+    PreviewLevel{4.0f, 0.25f},
+    PreviewLevel{5.0f, 0.25f},
+    PreviewLevel{6.0f, 0.25f},
+    PreviewLevel{7.0f, 0.25f}};
+inline constexpr unsigned kCoarsestPreview = kPreviewLevels.size() - 1;
+
+// Returns the settings for a level. Those of level 0 are unchanged; others differ only in /lod and
+// /render. Levels of detail by distance become the level at the camera's target.
+hair::Settings previewSettings(const hair::Settings& settings, unsigned level);
+
+// "preview, level 3 of 7: 12 % of strands at 480 × 270"
+std::string
+previewText(unsigned level, double strand_share, std::uint32_t width, std::uint32_t height);
+
+// ---- Player -------------------------------------------------------------------------------------
 
 // Values of what a side shows, for one thread to read while another plays on.
 struct Shown {
@@ -63,7 +73,7 @@ struct Shown {
     std::filesystem::path directory;  // file names in the settings are relative to this
     std::uint32_t frame = 0;
     bool previews = false;  // Player::previews()
-    unsigned level = 0;  // preview level (preview.h); 0: the runner's picture
+    unsigned level = 0;  // preview level; 0: the runner's picture
     double strand_share = 1.0;  // strands in the picture over the runner's
     std::uint32_t width = 0;  // of the picture, px
     std::uint32_t height = 0;
@@ -97,7 +107,7 @@ Sphere groomNow(const Shown& shown);
 // affects the simulation, it is replayed up to the current frame. Only a preview differs.
 class Player {
 public:
-    // Draws frame 0 at this level of preview.h. Throws like Case. The cache may be null.
+    // Draws frame 0 at this level of preview. Throws like Case. The cache may be null.
     Player(
         const engine::Device& device, const hair::Settings& settings,
         const std::filesystem::path& directory, measure::HairCache* cache = nullptr,
@@ -114,7 +124,7 @@ public:
     // Whether the shown frame belongs to no settings; apply() then replays it.
     bool previews() const { return previews_; }
 
-    // Sets the level of preview.h for the next pictures.
+    // Sets the level of preview for the next pictures.
     void setLevel(unsigned level) { level_ = level; }
 
     // Recreates everything after shaders have changed, up to the current frame. Throws like Case
@@ -180,145 +190,50 @@ private:
     std::chrono::steady_clock::time_point next_look_;
 };
 
-// Records of frames in one timing mode, oldest first.
-struct TimedFrames {
-    std::vector<engine::FrameRecord> records;
-    std::vector<std::uint32_t> numbers;  // each frame's number in the simulation, from 0
+// ---- Choice of the level of preview -------------------------------------------------------------
 
-    std::size_t size() const { return records.size(); }
-};
-
-// Records of the last drawn frames, by timing mode. The history must be cleared when settings
-// change, so that frames of different settings do not mix.
-class TimingHistory {
+// Chooses levels by the time that pictures took. Uses no clock, so it depends on its inputs alone.
+class PreviewControl {
 public:
-    static constexpr std::size_t kFrames = 300;  // limit per mode
+    static constexpr double kAim = 100.0;  // ms, maximum for a picture in motion
 
-    // `timing` is isolated or overlapped.
-    void add(const engine::FrameRecord& frame, engine::Timing timing, std::uint32_t number);
-    void clear();
+    static constexpr double kCrawl = 1000.0;  // ms
 
-    const TimedFrames& isolated() const { return isolated_; }
-    const TimedFrames& overlapped() const { return overlapped_; }
+    // The level of a scene's first picture, whose time is not known: it appears soon, and on a fast
+    // device a finer one soon after.
+    static constexpr unsigned kFirst = 4;
 
-    // Changes with each clear(); earlier results then belong to other settings.
-    std::uint64_t revision() const { return revision_; }
+    // Reports the time of a picture at this level, ms.
+    void drawn(unsigned level, double milliseconds);
+
+    // Returns the level for the next picture in motion. It becomes coarser at once if a picture
+    // took longer than kAim, and finer after several in a row that took so little that twice the
+    // work would still fit. A finer level that proves too slow is tried less often.
+    unsigned moving() const { return moving_; }
+
+    // Returns the level that replaces a picture of level `shown` after it has stood still for
+    // `seconds`, or `shown` if it is too early. The wait grows with the expected time of the finer
+    // picture, because a picture in progress cannot be stopped.
+    unsigned still(unsigned shown, double seconds) const;
+
+    // Whether two coarsest pictures in a row took too long for motion to be visible.
+    bool crawls() const { return crawling_ >= 2; }
+
+    // Returns the expected time of a level, ms.
+    double expected(unsigned level) const;
 
 private:
-    TimedFrames isolated_;
-    TimedFrames overlapped_;
-    std::uint64_t revision_ = 0;
+    std::array<double, kPreviewLevels.size()> took_{};  // last time in ms; 0: unknown
+    unsigned moving_ = 0;
+    unsigned calm_ = 0;  // consecutive fast pictures
+    unsigned patience_ = kPatience;
+    unsigned crawling_ = 0;  // consecutive coarsest pictures slower than kCrawl
+    bool tried_finer_ = false;  // the last change was to a finer level
+
+    static constexpr unsigned kPatience = 4;
 };
 
-// Past documents of a scene, for undo and redo.
-class EditHistory {
-public:
-    explicit EditHistory(scene::Document document);
-
-    const scene::Document& current() const { return documents_[index_]; }
-
-    // Adds a state and discards undone ones. With `continues`, as in a drag of a slider, it
-    // replaces the last state.
-    void edit(scene::Document document, bool continues);
-    // Ends a drag: the next state is a new one.
-    void settle() { continuing_ = false; }
-
-    bool canUndo() const { return index_ > 0; }
-    bool canRedo() const { return index_ + 1 < documents_.size(); }
-    const scene::Document& undo();
-    const scene::Document& redo();
-
-private:
-    std::vector<scene::Document> documents_;
-    std::size_t index_ = 0;
-    bool continuing_ = false;
-};
-
-// Orders for a side, and their replies.
-
-// The settings to play a side with.
-struct SideOrder {
-    std::uint64_t side = 0;  // Side::id()
-    std::uint64_t revision = 0;  // changes with the settings
-    hair::Settings settings;
-    bool continues = false;  // a drag is in progress
-    std::filesystem::path directory;
-    // A new side starts at the frame of this side; absent: at frame 0.
-    std::optional<std::uint64_t> beside;
-};
-
-// A frame that was timed while this program gave the machine no other work.
-struct TimedFrame {
-    engine::FrameRecord record;
-    engine::Timing timing = engine::Timing::isolated;
-    std::uint32_t number = 0;
-};
-
-struct SideReply {
-    std::uint64_t side = 0;
-    std::uint64_t revision = 0;  // of the applied or refused settings
-    std::string problem;  // why they were refused; empty: they were applied
-    std::exception_ptr failure;  // why a new side could not be made; or null
-    bool reread = false;  // GLSL files of the settings have changed
-    bool restarts_timings = false;  // earlier timings belong to other settings
-    std::optional<TimedFrame> timed;
-    std::optional<Shown> shown;  // present if another picture was drawn
-};
-
-// Settings that widgets change, with their history, and what is shown of the hair that follows
-// them. A viewer that compares has two.
-class Side {
-public:
-    // `id` is unique among sides. File names in the settings are relative to `directory`.
-    Side(std::uint64_t id, const hair::Settings& settings, const std::filesystem::path& directory);
-
-    std::uint64_t id() const { return id_; }
-    // Returns the settings in the widgets. If they are impossible, problem() gives the reason and
-    // other settings are played.
-    const hair::Settings& wanted() const { return wanted_; }
-    // Returns the settings on disk.
-    const hair::Settings& original() const { return original_; }
-    const std::string& problem() const { return problem_; }
-
-    // Continued edits count as one for undo(), until settle().
-    void edit(const hair::Settings& settings, Edit edit);
-    // Ends a drag.
-    void settle();
-    void undo();
-    void redo();
-    bool canUndo() const { return history_.canUndo(); }
-    bool canRedo() const { return history_.canRedo(); }
-    void setOriginal(const hair::Settings& settings) { original_ = settings; }
-
-    SideOrder order() const;
-    // Drops timings of a frame that ran beside other work.
-    enum class Beside { nothing, other_work };
-    void take(SideReply reply, Beside beside);
-    // Returns the revision of the last request.
-    std::uint64_t revision() const { return revision_; }
-    std::uint64_t answered() const { return answered_; }  // the last applied or refused revision
-    // Whether the last request was applied or refused.
-    bool isFollowed() const { return answered_ == revision_; }
-    // Whether an edit is in progress.
-    bool isDragged() const { return continues_; }
-
-    const Shown& shown() const { return shown_; }
-    const TimingHistory& timings() const { return timings_; }
-    TimingHistory& timings() { return timings_; }
-
-private:
-    std::uint64_t id_;
-    std::filesystem::path directory_;
-    hair::Settings wanted_;
-    hair::Settings original_;
-    std::string problem_;
-    EditHistory history_;
-    bool continues_ = false;
-    std::uint64_t revision_ = 1;
-    std::uint64_t answered_ = 0;
-    Shown shown_;
-    TimingHistory timings_;
-};
+// ---- Times of a drag ----------------------------------------------------------------------------
 
 // Simulated times, s, strictly ascending, at which a drag writes keys. A drag does not change
 // played frames; the dragged object follows the mouse from the next frame on.
@@ -333,20 +248,5 @@ struct Moment {
 Moment momentAfter(std::uint32_t frame, double frame_time, double time_step);
 
 Moment momentOf(const Shown& shown);
-
-// Whether frames are being played, judged by their numbers: a device that is too slow counts as
-// paused.
-class RunningClock {
-public:
-    // `seconds` of the window's clock. The Shown of a side must keep its address.
-    bool runs(const Shown& shown, double seconds);
-
-private:
-    struct Seen {
-        std::uint32_t frame = 0;
-        double since = -1e9;  // when the frame last changed
-    };
-    std::map<const Shown*, Seen> seen_;
-};
 
 }  // namespace benchmarks::viewer

@@ -12,6 +12,7 @@
 #include <imgui.h>
 #include <unistd.h>
 
+#include "benchmarks/viewer/settings_panel.h"
 #include "engine/error.h"
 #include "engine/files.h"
 #include "engine/process.h"

@@ -20,6 +20,7 @@
 #include "benchmarks/measure/measure.h"
 #include "benchmarks/viewer/player.h"
 #include "benchmarks/viewer/shader_reload.h"
+#include "benchmarks/viewer/side.h"
 #include "benchmarks/viewer/timings.h"
 #include "engine/device.h"
 
@@ -139,7 +140,7 @@ struct Order {
     std::optional<std::uint32_t> seek;
     std::uint32_t frames = 0;  // number to play; the last one is drawn
     engine::Timing timing = engine::Timing::isolated;
-    unsigned level = 0;  // of preview.h
+    unsigned level = 0;  // of preview
     std::optional<std::uint64_t> count;  // the side with a picture to count work of
     std::optional<MeasureOrder> measure;
 };

@@ -157,6 +157,25 @@ std::vector<report::Metric> OwnMemory::metrics() const {
 
 }  // namespace
 
+// ---- Timings of drawn frames --------------------------------------------------------------------
+
+void TimingHistory::add(
+    const engine::FrameRecord& frame, engine::Timing timing, std::uint32_t number) {
+    TimedFrames& frames = timing == engine::Timing::overlapped ? overlapped_ : isolated_;
+    if (frames.size() == kFrames) {
+        frames.records.erase(frames.records.begin());
+        frames.numbers.erase(frames.numbers.begin());
+    }
+    frames.records.push_back(frame);
+    frames.numbers.push_back(number);
+}
+
+void TimingHistory::clear() {
+    isolated_ = {};
+    overlapped_ = {};
+    ++revision_;
+}
+
 // ---- Metrics of frames --------------------------------------------------------------------------
 
 report::CaseResult frameMetrics(const TimingHistory& history, engine::DeviceType device_type) {
@@ -238,13 +257,6 @@ ShownSide shownTimings(const TimingHistory& history, engine::DeviceType device_t
     return shown;
 }
 
-ShownSide shownSide(const Side& side, engine::DeviceType device_type) {
-    ShownSide shown = shownTimings(side.timings(), device_type);
-    shown.metrics.counts = side.shown().counts;
-    shown.metrics.backend = side.shown().backend;
-    return shown;
-}
-
 std::string frameTimeCaption(const TimingHistory& history) {
     std::vector<double> times;
     for (const engine::FrameRecord& frame : history.isolated().records) times.push_back(frame.wall);
@@ -269,8 +281,7 @@ report::CaseResult countStatistics(const engine::Device& device, measure::Case& 
     return result;
 }
 
-FrozenSide frozenSide(const Side& side, ShownSide shown) {
-    const Shown& seen = side.shown();
+FrozenSide frozenSide(const Shown& seen, ShownSide shown) {
     const report::CaseResult& transparency = seen.transparency;
     std::ranges::copy(transparency.metrics, std::back_inserter(shown.metrics.metrics));
     std::ranges::copy(transparency.counts, std::back_inserter(shown.metrics.counts));

@@ -22,6 +22,36 @@
 // measurement like the runner's.
 namespace benchmarks::viewer {
 
+// Records of frames in one timing mode, oldest first.
+struct TimedFrames {
+    std::vector<engine::FrameRecord> records;
+    std::vector<std::uint32_t> numbers;  // each frame's number in the simulation, from 0
+
+    std::size_t size() const { return records.size(); }
+};
+
+// Records of the last drawn frames, by timing mode. The history must be cleared when settings
+// change, so that frames of different settings do not mix.
+class TimingHistory {
+public:
+    static constexpr std::size_t kFrames = 300;  // limit per mode
+
+    // `timing` is isolated or overlapped.
+    void add(const engine::FrameRecord& frame, engine::Timing timing, std::uint32_t number);
+    void clear();
+
+    const TimedFrames& isolated() const { return isolated_; }
+    const TimedFrames& overlapped() const { return overlapped_; }
+
+    // Changes with each clear(); earlier results then belong to other settings.
+    std::uint64_t revision() const { return revision_; }
+
+private:
+    TimedFrames isolated_;
+    TimedFrames overlapped_;
+    std::uint64_t revision_ = 0;
+};
+
 // Returns a report's metrics of frames that the viewer drew: the runner's metrics by its own
 // functions, and the sum of the passes over the frame. The viewer draws one frame at a time, so
 // metrics that need two frames in flight are absent: fps, fps.low_*, frame.time, cpu.wait.time,
@@ -95,8 +125,6 @@ struct ShownSide {
 };
 
 ShownSide shownTimings(const TimingHistory& history, engine::DeviceType device_type);
-// shownTimings() with the side's counts and its back end.
-ShownSide shownSide(const Side& side, engine::DeviceType device_type);
 
 // "12.3 ms": the median time of the isolated frames, from submission to completion; empty without
 // frames.
@@ -122,7 +150,7 @@ struct FrozenSide {
 
 // Returns a frozen side, with the costs of blended fragments and, unless it shows a preview, the
 // hashes of the picture and the guides.
-FrozenSide frozenSide(const Side& side, ShownSide shown);
+FrozenSide frozenSide(const Shown& seen, ShownSide shown);
 
 // Returns a report's result for a frozen side: the metrics in their modes, `statistics` (from
 // countStatistics(), or empty), and warnings that describe how all was measured.

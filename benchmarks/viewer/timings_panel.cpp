@@ -19,7 +19,7 @@
 #include "benchmarks/measure/trust.h"
 #include "benchmarks/report/report.h"
 #include "benchmarks/report/text.h"
-#include "benchmarks/viewer/player.h"
+#include "benchmarks/viewer/side.h"
 #include "benchmarks/viewer/timings.h"
 #include "engine/device.h"
 
@@ -490,6 +490,16 @@ void remember(std::vector<double>& times, double time) {
     times.push_back(time);
 }
 
+// ---- Figures of a side --------------------------------------------------------------------------
+
+// Returns shownTimings() with the side's counts and its back end.
+ShownSide shownSide(const Side& side, engine::DeviceType device_type) {
+    ShownSide shown = shownTimings(side.timings(), device_type);
+    shown.metrics.counts = side.shown().counts;
+    shown.metrics.backend = side.shown().backend;
+    return shown;
+}
+
 }  // namespace
 
 // ---- The panel ----------------------------------------------------------------------------------
@@ -545,7 +555,7 @@ void TimingsPanel::controls(Side& side, Side* compared, const ReportOrigin& orig
         frozen_compared_.reset();
         const engine::DeviceType type = device_.info().type;
         if (freeze) {
-            frozen_ = frozenSide(side, shownSide(side, type));
+            frozen_ = frozenSide(side.shown(), shownSide(side, type));
             warnOfChangedShaders(replaced_, frozen_->shown.metrics.trust);
         }
         if (freeze && compared) frozen_compared_ = shownSide(*compared, type);

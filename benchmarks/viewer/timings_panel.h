@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "benchmarks/viewer/measure_panel.h"
+#include "benchmarks/viewer/side.h"
 #include "benchmarks/viewer/timings.h"
 
 namespace benchmarks::viewer {

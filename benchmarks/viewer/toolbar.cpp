@@ -27,7 +27,16 @@ constexpr ToolRow kTools[] = {
     {Tool::colliders, "Colliders", "Capsules that hair collides with: click to select, then drag"},
     {Tool::lights, "Lights", "Lights and the environment: drag them round the hair"}};
 
+constexpr double kPause = 0.5;  // s without a new frame; longer than a frame on a slow device
+
 }  // namespace
+
+bool RunningClock::runs(const Shown& shown, double seconds) {
+    const auto [entry, is_new] = seen_.try_emplace(&shown, Seen{.frame = shown.frame});
+    Seen& seen = entry->second;
+    if (seen.frame != shown.frame) seen = {shown.frame, seconds};
+    return seconds - seen.since < kPause;
+}
 
 // ---- Mouse and keys over a picture --------------------------------------------------------------
 

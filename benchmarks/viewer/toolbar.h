@@ -1,5 +1,8 @@
 #pragma once
 
+#include <cstdint>
+#include <map>
+
 #include "benchmarks/viewer/body_tools.h"
 #include "benchmarks/viewer/edit.h"
 #include "benchmarks/viewer/gizmo.h"
@@ -10,6 +13,21 @@
 
 // Tools for the picture: the selected one, and the line of buttons to choose it.
 namespace benchmarks::viewer {
+
+// Whether frames are being played, judged by their numbers: a device that is too slow counts as
+// paused.
+class RunningClock {
+public:
+    // `seconds` of the window's clock. The Shown of a side must keep its address.
+    bool runs(const Shown& shown, double seconds);
+
+private:
+    struct Seen {
+        std::uint32_t frame = 0;
+        double since = -1e9;  // when the frame last changed
+    };
+    std::map<const Shown*, Seen> seen_;
+};
 
 // Action of the mouse in the picture. Away from handles, it moves the camera.
 enum class Tool {

@@ -15,7 +15,7 @@
 namespace benchmarks::viewer {
 
 enum class Action;  // actions.h
-class Side;         // player.h
+class Side;         // side.h
 struct PlayState;   // player.h
 
 // A window that plays a scene and can change everything about it. It responds while pictures of the

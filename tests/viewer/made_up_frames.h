@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "benchmarks/viewer/player.h"
+#include "benchmarks/viewer/timings.h"
 
 namespace benchmarks::viewer {
 

@@ -1,4 +1,4 @@
-#include "benchmarks/viewer/preview.h"
+#include "benchmarks/viewer/player.h"
 
 #include <algorithm>
 #include <cmath>

@@ -8,7 +8,6 @@
 
 #include <gmock/gmock.h>
 
-#include "benchmarks/viewer/preview.h"
 #include "tests/golden/features.h"
 #include "tests/gpu_fixture.h"
 #include "tests/temporary_folder.h"

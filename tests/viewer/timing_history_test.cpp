@@ -1,4 +1,4 @@
-#include "benchmarks/viewer/player.h"
+#include "benchmarks/viewer/timings.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
