@@ -201,6 +201,55 @@ TEST(Units, AreAsFewAsTheyWere) {
     if (HasFailure()) ADD_FAILURE() << "for one unit: " << testing::PrintToString(for_code);
 }
 
+std::string textOf(const std::filesystem::path& file) {
+    std::ifstream stream(file);
+    return {std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
+}
+
+// A value is named, by one of these texts, in the files that make, convert or use it. Other files
+// pass it on inside its struct.
+struct Way {
+    std::string_view value;
+    std::vector<std::string_view> names;
+    std::string_view without;  // a folder whose files set the value for experiments; may be empty
+    std::size_t most;
+};
+
+bool isNamedIn(const std::string& text, const Way& way) {
+    return std::ranges::any_of(
+        way.names, [&](std::string_view name) { return text.find(name) != std::string::npos; });
+}
+
+// Fails if a value is named in more files than before. Code in such a file should get the value
+// inside its struct, typed. If a count falls, lower its bound.
+TEST(Ways, AreAsShortAsTheyWere) {
+    const Way ways[] = {
+        {"/strands/density", {"strands.density"}, "", 5},
+        {"/simulation/time_step", {"time_step"}, "benchmarks/physics/", 10},
+        {"a scene's JSON read as settings", {"readSettings("}, "", 4},
+        {"settings written as JSON", {"writeSettings(", "writeFields("}, "", 13},
+        {"a device's type by its name",
+         {"type == \"cpu\"", "type != \"cpu\"", "type == \"discrete\"", "type == \"integrated\""},
+         "",
+         0},
+        {"a finished case in the journal", {"eachCase(["}, "", 1}};
+    const std::filesystem::path root = HAIRBENCH_SOURCE_DIR;
+    std::map<std::string_view, std::vector<std::string>> found;  // way -> files
+    for (const auto& [file, included] : sourcesIn({"engine", "hair", "benchmarks"})) {
+        const std::string text = textOf(root / file);
+        for (const Way& way : ways)
+            if ((way.without.empty() || !file.starts_with(way.without)) && isNamedIn(text, way))
+                found[way.value].push_back(file);
+    }
+    for (const Way& way : ways) {
+        const std::vector<std::string>& files = found[way.value];
+        std::cout << std::setw(8) << files.size() << "  files name " << way.value << ", at most "
+                  << way.most << '\n';
+        EXPECT_LE(files.size(), way.most)
+            << way.value << " is named in " << testing::PrintToString(files);
+    }
+}
+
 TEST(Units, HeadersForOneUnitAreFound) {
     using testing::ElementsAre;
     const Includes files{
