@@ -41,9 +41,7 @@ Residual residualOf(std::span<const StopTimes> stops) {
     const Stop top = multisampled ? Stop::msaa : Stop::fragment;
     Residual residual{
         .closure = difference(stops, Stop::pass, top),
-        .discard = difference(stops, Stop::clipped, Stop::geometry),
-        .multisampling = {},
-        .interaction = {}};
+        .discard = difference(stops, Stop::clipped, Stop::geometry)};
     const std::array samples{
         Term{Stop::msaa, 1.0}, Term{Stop::fragment, -1.0}, Term{Stop::raster_msaa, -1.0},
         Term{Stop::raster, 1.0}};
@@ -61,7 +59,7 @@ Residual residualOf(std::span<const StopTimes> stops) {
 
 Cost costOf(std::span<const double> differences) {
     const report::MedianInterval interval = report::signedRankInterval(differences, kAlpha);
-    Cost cost{.estimate = interval.estimate, .interval = {}};
+    Cost cost{.estimate = interval.estimate};
     if (std::isfinite(interval.lower) && std::isfinite(interval.upper))
         cost.interval = {interval.lower, interval.upper, interval.confidence};
     return cost;
@@ -69,16 +67,14 @@ Cost costOf(std::span<const double> differences) {
 
 Attribution attribute(std::span<const StopTimes> stops) {
     Attribution attribution{
-        .rungs = {},
         .pass_time = report::summarize(lapTimes(stops, Stop::pass)).median,
         .clipped_time = report::summarize(lapTimes(stops, Stop::clipped)).median,
-        .residual = residualOf(stops),
-        .watching = {}};
+        .residual = residualOf(stops)};
     std::optional<Stop> below;
     for (const StopTimes& each : stops) {
         if (!isRung(each.stop)) continue;
         const std::vector<double> times = lapTimes(stops, each.stop);
-        RungCost rung{.stop = each.stop, .time = report::summarize(times).median, .marginal = {}};
+        RungCost rung{.stop = each.stop, .time = report::summarize(times).median};
         rung.marginal = below ? difference(stops, each.stop, *below) : costOf(times);
         rung.share = rung.marginal.estimate / attribution.pass_time;
         attribution.rungs.push_back(rung);

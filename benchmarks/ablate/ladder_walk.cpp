@@ -242,13 +242,11 @@ WorkCounts workOf(const std::vector<StopRecord>& stops, const hair::rendering::S
     constexpr const char* kEvaluations = "tessellation_evaluation_invocations";
     WorkCounts work{
         .patches = plan.patches(),
-        .strands = {},
         .segments = measuredCount(stops, Stop::geometry, "geometry_invocations"),
         .evaluations_1 = measuredCount(stops, Stop::tessellation_1, kEvaluations),
         .evaluations = measuredCount(stops, Stop::tessellation, kEvaluations),
         .fragments = measuredCount(stops, Stop::fragment, "samples_passed"),
-        .samples = measuredCount(stops, Stop::msaa, "samples_passed"),
-        .fragments_note = {}};
+        .samples = measuredCount(stops, Stop::msaa, "samples_passed")};
     if (plan.lod_mode == hair::LodMode::forced) work.strands = plan.strands();
     if (!work.fragments) {
         work.fragments = measuredCount(stops, Stop::fragment, "fragment_invocations");

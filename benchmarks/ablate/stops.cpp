@@ -153,9 +153,7 @@ public:
     void
     add(const char* name, std::optional<std::uint64_t> measured,
         std::optional<std::uint64_t> expected) {
-        if (measured)
-            lines_.push_back(
-                {.name = name, .measured = *measured, .expected = expected, .note = {}});
+        if (measured) lines_.push_back({.name = name, .measured = *measured, .expected = expected});
     }
 
     std::vector<report::Statistic> take() { return std::move(lines_); }

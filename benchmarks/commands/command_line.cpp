@@ -57,10 +57,7 @@ Declared::Declared(const std::vector<std::string>& arguments) {
     addProgramCommands(line);
 
     CommandText text{
-        .name = "hairbench",
-        .description = app.get_description(),
-        .examples = {},
-        .notes = kExitStatus};
+        .name = "hairbench", .description = app.get_description(), .notes = kExitStatus};
     addFirstExamples(*this, app, text.examples);
     std::string footer = "Examples (COMMAND --help has more):";
     for (const std::string& example : text.examples) footer += "\n  " + example;
@@ -103,9 +100,7 @@ CommandHelp helpOf(Declared& declared, CLI::App& app, std::vector<std::string> w
         .words = words,
         .description = text.description,
         .notes = text.notes,
-        .examples = text.examples,
-        .options = {},
-        .commands = {}};
+        .examples = text.examples};
     for (const CLI::Option* const option : app.get_options({}))
         help.options.push_back(helpOf(*option));
     for (CLI::App* const command : commandsOf(app))

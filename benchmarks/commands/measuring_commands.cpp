@@ -50,8 +50,8 @@ int conclude(
     const bool any_ran = finished.measured > 0;
     int status = any_ran ? report::kOk : report::kNothingRan;
     if (any_ran && !options.baseline.empty())
-        status = compareReports(
-            {.a = {}, .b = out, .baseline = options.baseline, .verdict = options.verdict});
+        status =
+            compareReports({.b = out, .baseline = options.baseline, .verdict = options.verdict});
     // Saved after the comparison, because it may replace the baseline that was compared with.
     if (!options.save_baseline.empty()) report::saveBaseline(options.save_baseline, out);
     tellTrust(finished.verdicts);
@@ -453,9 +453,7 @@ int checkPhysics(const PhysicsOptions& options) {
     std::cerr << report::versionOnDevice(device) << '\n';
     physics::PhysicsReport report{
         .environment =
-            report::describeEnvironment(device, options.command, kSeed, options.device.validation),
-        .outcomes = {},
-        .curves = {}};
+            report::describeEnvironment(device, options.command, kSeed, options.device.validation)};
     const auto finish = [&] {
         engine::writeFileAtomically(out, physics::physicsReportText(report));
         std::cout << physics::physicsTable(report) << "report: " << out.string() << '\n';

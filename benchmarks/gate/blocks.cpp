@@ -193,7 +193,7 @@ namespace fs = std::filesystem;
 // ---- Report of a block --------------------------------------------------------------------------
 
 BlockCase readCase(const scene::Json& result) {
-    BlockCase read{.outcome = report::caseOutcome(result), .metrics = {}};
+    BlockCase read{.outcome = report::caseOutcome(result)};
     if (read.outcome.status != "ok") return read;
     read.metrics = report::readMetrics(result);
     const scene::Json reasons =
@@ -210,8 +210,7 @@ BlockReport readBlock(const std::filesystem::path& path) {
             .environment = scene::Document(report.at("environment")),
             .scene = scene::Document(scene::Json{
                 {"path", report.at("scene").at("path")}, {"hash", report.at("scene").at("hash")}}),
-            .software_device = report::isSoftwareDevice(report.at("environment")),
-            .cases = {}};
+            .software_device = report::isSoftwareDevice(report.at("environment"))};
         for (const scene::Json& each : report.at("cases")) block.cases.push_back(readCase(each));
         return block;
     } catch (const scene::Json::exception& error) {

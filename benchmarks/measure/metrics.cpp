@@ -169,8 +169,7 @@ void addStatistics(
         report::Statistic statistic{
             .name = std::string(names[i]),
             .measured = strands->counts[i],
-            .expected = expectedOf(expected, names[i]),
-            .note = ""};
+            .expected = expectedOf(expected, names[i])};
         if (isApproximate(names[i], device)) statistic.note = kApproximate;
         const std::optional<std::string> missed =
             missedCount(statistic.name, statistic.measured, statistic.expected, device.info());

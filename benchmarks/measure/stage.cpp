@@ -128,7 +128,7 @@ public:
     }
 
     RoundEnd end() override {
-        RoundEnd end{.picture = test_case_.picture(), .picture_hash = {}, .state_hash = {}};
+        RoundEnd end{.picture = test_case_.picture()};
         end.picture_hash = report::hashBytes(std::as_bytes(std::span(end.picture)));
         end.state_hash = test_case_.stateHash();
         return end;

@@ -65,11 +65,7 @@ DeviceRecord describeDevice(const engine::Device& of) {
         .api_version = device.api_version,
         .timestamp_period_ns = double{device.limits.timestampPeriod},
         .id = idOf(device.handle),
-        .timestamp_valid_bits = device.timestamp_valid_bits,
-        .board = {},
-        .pci_address = {},
-        .power_limit_w = {},
-        .limits = {}};
+        .timestamp_valid_bits = device.timestamp_valid_bits};
     for (const auto& [name, member] : kCounts)
         record.limits.emplace_back(name, device.limits.*member);
     if (of.maxTessellatedVertices() != std::numeric_limits<std::uint32_t>::max())
@@ -119,8 +115,7 @@ HostRecord describeHost() {
     HostRecord host{
         .system = systemName(),
         .processor = processorName(),
-        .processor_count = std::thread::hardware_concurrency(),
-        .memory_bytes = std::nullopt};
+        .processor_count = std::thread::hardware_concurrency()};
     const long pages = sysconf(_SC_PHYS_PAGES);
     const long page_size = sysconf(_SC_PAGE_SIZE);
     if (pages > 0 && page_size > 0) {
@@ -138,8 +133,7 @@ BuildRecord describeBuild() {
         .commit = kBuildCommit,
         .compiler = kBuildCompiler,
         .type = kBuildType,
-        .flags = kBuildFlags,
-        .dirty = std::nullopt};
+        .flags = kBuildFlags};
     if (!build.commit.empty()) build.dirty = kBuildDirty;
     return build;
 }

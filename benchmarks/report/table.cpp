@@ -56,7 +56,7 @@ const scene::Json* metricOf(const scene::Json& result, const MetricId& id) {
 
 std::optional<BackendTime> timeOf(const scene::Json& result) {
     if (const scene::Json* const whole = metricOf(result, ofStrands(Measured::time))) {
-        BackendTime time{.median = whole->at("median").get<double>(), .lower = {}, .upper = {}};
+        BackendTime time{.median = whole->at("median").get<double>()};
         if (const auto interval = whole->find("interval"); interval != whole->end()) {
             time.lower = interval->at("lower").get<double>();
             time.upper = interval->at("upper").get<double>();
@@ -66,7 +66,7 @@ std::optional<BackendTime> timeOf(const scene::Json& result) {
     }
     const scene::Json* const strands = metricOf(result, ofPass("strands", Measured::time));
     if (!strands) return std::nullopt;
-    BackendTime time{.median = strands->at("median").get<double>(), .lower = {}, .upper = {}};
+    BackendTime time{.median = strands->at("median").get<double>()};
     if (const scene::Json* const points = metricOf(result, ofPass("points", Measured::time)))
         time.median += points->at("median").get<double>();
     return time;
@@ -110,7 +110,7 @@ std::vector<BackendLine> linesOf(const scene::Json& cases) {
         const auto place = static_cast<std::size_t>(found - keys.begin());
         if (found == keys.end()) {
             keys.push_back(std::move(key));
-            BackendLine line{.backend = *backend, .held = {}, .points = {}, .law = {}};
+            BackendLine line{.backend = *backend};
             for (const auto& [pointer, value] : held.items())
                 line.held.emplace_back(pointer, scene::Document(value));
             lines.push_back(std::move(line));
@@ -125,7 +125,7 @@ std::vector<BackendLine> linesOf(const scene::Json& cases) {
 }
 
 BackendRatio ratioOf(const std::string& name, const BackendTime& time, const BackendTime& to) {
-    BackendRatio ratio{.name = name, .ratio = time.median / to.median, .lower = {}, .upper = {}};
+    BackendRatio ratio{.name = name, .ratio = time.median / to.median};
     if (!time.lower || !time.upper || !to.lower || !to.upper || !(*to.lower > 0.0)) return ratio;
     ratio.lower = *time.lower / *to.upper;
     ratio.upper = *time.upper / *to.lower;
@@ -288,7 +288,7 @@ void CaseTable::put(Column& column, std::string cell) const {
 void CaseTable::add(const scene::Json& result) {
     for (const auto& [pointer, value] : member(result, "axes").items()) {
         auto axis = std::ranges::find(axes_, pointer, &AxisColumn::pointer);
-        if (axis == axes_.end()) axis = axes_.insert(axis, {.column = {}, .pointer = pointer});
+        if (axis == axes_.end()) axis = axes_.insert(axis, {.pointer = pointer});
         axis->values.insert(value.dump());
         put(axis->column, value.is_null() ? "-" : scene::valueLabel(value));
     }

@@ -77,8 +77,7 @@ RunPlan planRun(
     scene::AssetStore* assets) {
     const report::Shard shard = shard_text.empty() ? report::Shard{} : parseShard(shard_text);
     std::vector<scene::Scene> scenes = scene::loadScenes(options.scene, options.outside);
-    RunPlan plan{
-        .name = options.scene.stem().string(), .scene = {}, .seed = scenes.front().settings.seed};
+    RunPlan plan{.name = options.scene.stem().string(), .seed = scenes.front().settings.seed};
     scene::Json documents = scene::Json::object();
     std::string all_documents;
     std::vector<PlannedCase> cases;

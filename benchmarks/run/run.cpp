@@ -321,7 +321,6 @@ FinishedRun playRun(
     if (options.resume)
         if (const auto measured = measuredInComplete(plan, header, out))
             return {
-                .summary = {},
                 .verdicts = report::verdictsOf(report::readReport(out)),
                 .done = plan.cases.size(),
                 .measured = *measured,

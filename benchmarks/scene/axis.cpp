@@ -125,7 +125,7 @@ void requireFew(const std::string& axis, std::size_t values) {
 Axis echoedAxis(const Axis& axis, hair::Settings settings) {
     if (axis.values.empty()) throw engine::Error(axis.pointer, "an axis needs at least one value");
     requireFew(axis.pointer, axis.values.size());
-    Axis echoed{.pointer = axis.pointer, .values = {}, .tied = {}};
+    Axis echoed{.pointer = axis.pointer};
     for (const Document& value : axis.values) {
         setField(settings, axis.pointer, value.json());
         echoed.values.push_back(
@@ -148,7 +148,7 @@ Axis parseAxis(std::string_view argument) {
     if (equals == std::string_view::npos || equals == 0)
         throw engine::Error(
             "-a " + std::string(argument), "expected POINTER=V1,V2, as in /strands/density=16,64");
-    Axis axis{.pointer = std::string(argument.substr(0, equals)), .values = {}, .tied = {}};
+    Axis axis{.pointer = std::string(argument.substr(0, equals))};
     for (const std::string& text : splitAtTopLevelCommas(argument.substr(equals + 1))) {
         if (text.empty()) throw engine::Error("-a " + std::string(argument), "a value is empty");
         if (const auto values = rangeOf(argument, text)) {
@@ -208,7 +208,7 @@ void within(const std::string& context, Action&& action) {
 Axis writtenAxis(const std::string& pointer, const Json& values) {
     if (!values.is_array())
         throw engine::Error(pointer, "expected an array of values, found " + described(values));
-    Axis axis{.pointer = pointer, .values = {}, .tied = {}};
+    Axis axis{.pointer = pointer};
     for (const Json& value : values) axis.values.emplace_back(value);
     return axis;
 }
@@ -252,9 +252,9 @@ Axis listed(const Json& rows, const hair::Settings& settings) {
     requireFew("/sweep/cases", rows.size());
     readObjects("cases", rows, [&](const Json& row) {
         for (const auto& [pointer, value] : row.items()) {
-            echoedAxis({.pointer = pointer, .values = {Document(value)}, .tied = {}}, settings);
+            echoedAxis({.pointer = pointer, .values = {Document(value)}}, settings);
             if (std::ranges::find(fields, pointer, &Axis::pointer) == fields.end())
-                fields.push_back({.pointer = pointer, .values = {}, .tied = {}});
+                fields.push_back({.pointer = pointer});
         }
     });
     if (fields.empty()) throw engine::Error("/sweep/cases", "a list needs at least one case");

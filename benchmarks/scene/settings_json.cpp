@@ -146,7 +146,7 @@ void read(
     parameters = {};
     for (const auto& [name, member] : value.items()) {
         const std::string here = pointer + '/' + escapedToken(name);
-        hair::ExtensionValue read{.name = name, .is_vector = member.is_array(), .value = {}};
+        hair::ExtensionValue read{.name = name, .is_vector = member.is_array()};
         if (member.is_array() && member.size() != 3)
             throw mismatch(here, "a number or an array of 3 numbers", member);
         for (int i = 0; i < (read.is_vector ? 3 : 1); ++i) {

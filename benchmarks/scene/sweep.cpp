@@ -159,7 +159,7 @@ public:
             for (const Axis& field : exclusion) {
                 const auto known = std::ranges::find(pointers_, field.pointer);
                 conditions.push_back(
-                    {.field = static_cast<std::size_t>(known - pointers_.begin()), .texts = {}});
+                    {.field = static_cast<std::size_t>(known - pointers_.begin())});
                 if (known == pointers_.end()) pointers_.push_back(field.pointer);
                 for (const Document& value : field.values)
                     conditions.back().texts.insert(value.text());

@@ -359,7 +359,7 @@ void OpenScene::startComparing() {
     auto side =
         makeSide(a_->problem().empty() ? a_->wanted() : a_->shown().settings, file_.directory);
     side->setOriginal(file_.settings);
-    coming_ = Coming{.side = std::move(side), .file = std::nullopt};
+    coming_ = Coming{.side = std::move(side)};
 }
 
 // Puts the finished side into place.

@@ -300,9 +300,7 @@ Shown Player::shown(Guides guides) const {
         .vertices_per_guide = groom.vertices_per_strand,
         .rest = sphereRound(groom.points),
         .head = case_->head(),
-        .counts = case_->counts(),
-        .backend = {},
-        .transparency = {}};
+        .counts = case_->counts()};
     if (const auto backend = case_->backend())
         shown.backend = {hair::backendName(backend->backend), backend->variant, backend->reason};
     if (target) {

@@ -160,7 +160,7 @@ void showChanged(const std::vector<std::string>& changed) {
 // ---- Watched files ------------------------------------------------------------------------------
 
 void WatchedFiles::watch(const std::string& file, Text text) {
-    files_.try_emplace(file, File{.text = std::move(text), .read = {}, .seen = {}});
+    files_.try_emplace(file, File{.text = std::move(text)});
 }
 
 const WatchedFiles::Text& WatchedFiles::text(const std::string& file) {
@@ -325,8 +325,7 @@ bool ShaderReload::Parts::tryReload() {
     if (paths.empty()) return false;
 
     engine::ShaderLibrary& library = device.shaders();
-    attempt =
-        Attempt{.before = library.replacements(), .used = used, .files = {}, .start = Clock::now()};
+    attempt = Attempt{.before = library.replacements(), .used = used, .start = Clock::now()};
     engine::ShaderLibrary::Replacements replacements = attempt->before;
     for (const std::string& path : paths) compile(path, replacements);
     if (!problems.empty()) {
@@ -368,8 +367,7 @@ void ShaderReload::accept() {
     Parts& parts = *parts_;
     if (!parts.attempt) return;
     const std::chrono::duration<double> took = Clock::now() - parts.attempt->start;
-    parts.reloaded = {
-        .paths = {}, .seconds = took.count(), .when = std::chrono::system_clock::now()};
+    parts.reloaded = {.seconds = took.count(), .when = std::chrono::system_clock::now()};
     for (auto& [path, its_files] : parts.attempt->files) {
         const std::string_view file = engine::shaderFile(path);  // of adjacent variants
         std::vector<std::string>& reloaded = parts.reloaded.paths;
@@ -405,8 +403,7 @@ ShaderStatus ShaderReload::status() const {
         .folder = folder(),
         .problems = problems(),
         .changed = changed(),
-        .reloaded = reloaded(),
-        .replaced = {}};
+        .reloaded = reloaded()};
     for (const auto& [path, code] : parts_->device.shaders().replacements())
         status.replaced.push_back(path);
     return status;

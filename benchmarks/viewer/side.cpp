@@ -79,8 +79,7 @@ SideOrder Side::order() const {
         .revision = revision_,
         .settings = wanted_,
         .continues = continues_,
-        .directory = directory_,
-        .beside = std::nullopt};
+        .directory = directory_};
 }
 
 void Side::take(SideReply reply, Beside beside) {

@@ -198,8 +198,7 @@ std::optional<FrameRate> frameRate(const report::CaseResult& metrics) {
     if (!walls) return std::nullopt;
     FrameRate rate{
         .fps = report::framesPerSecond(walls->samples),
-        .median = report::summarize(walls->samples).median,
-        .low = std::nullopt};
+        .median = report::summarize(walls->samples).median};
     if (walls->samples.size() >= measure::fewestForLow(kSlowest))
         rate.low = report::lowRates(walls->samples, kSlowest);
     return rate;
@@ -236,7 +235,7 @@ std::optional<PassRows> passRows(const TimedFrames& isolated) {
     std::vector<double> sums;
     for (const engine::FrameRecord& frame : isolated.records)
         sums.push_back(measure::passSum(frame));
-    PassRows rows{.sum = timeSeries("all passes", std::move(sums), isolated.numbers), .passes = {}};
+    PassRows rows{.sum = timeSeries("all passes", std::move(sums), isolated.numbers)};
     for (const std::string& pass : measure::passNames(isolated.records))
         rows.passes.push_back(timeSeries(
             pass, measure::passTimes(isolated.records, pass), numbersOf(isolated, pass)));
@@ -318,7 +317,7 @@ SideMeasurement measureSide(
     const engine::Device& device, const hair::Settings& settings,
     const std::filesystem::path& directory, const std::string& name,
     const measure::MeasureHooks& hooks) {
-    SideMeasurement measured{.settings = settings, .result = {.name = name}, .picture = {}};
+    SideMeasurement measured{.settings = settings, .result = {.name = name}};
     report::CaseResult& result = measured.result;
     result.index = result.order = 0;
     OwnMemory memory(device);

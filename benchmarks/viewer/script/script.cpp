@@ -623,7 +623,7 @@ Script::Script(const std::filesystem::path& path) : parts_(std::make_unique<Part
     try {
         const Members members(document, "", {"description", "out", "steps"});
         members.text("description");
-        ScriptFolders folders{.script = path.parent_path(), .out = {}};
+        ScriptFolders folders{.script = path.parent_path()};
         if (const auto out = members.text("out")) folders.out = *out;
         const scene::Json& steps = members.at("steps");
         if (!steps.is_array()) throw engine::Error("/steps", "expected an array");
