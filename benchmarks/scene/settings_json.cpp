@@ -186,16 +186,17 @@ void read(
     std::visit([&](const auto& row) { read(value, pointer, row, settings); }, field.kind);
 }
 
-void requireKnownKeys(
-    const Json& object, const std::string& pointer, const std::vector<hair::Field>& fields,
-    std::span<const std::string_view> passed_over) {
+// Returns null for a name that is passed over. `pointer`: of the name.
+const hair::Field* fieldNamed(
+    const std::string& name, const std::vector<hair::Field>& fields, const std::string& pointer,
+    std::span<const std::string_view> passed_over = {}) {
+    const auto found = std::ranges::find(fields, name, &hair::Field::name);
+    if (found != fields.end()) return &*found;
+    if (std::ranges::find(passed_over, name) != passed_over.end()) return nullptr;
     std::vector<std::string> known;
     for (const hair::Field& field : fields) known.emplace_back(field.name);
     known.insert(known.end(), passed_over.begin(), passed_over.end());
-    for (const auto& [key, value] : object.items())
-        if (std::ranges::find(known, key) == known.end())
-            throw engine::Error(
-                pointer + '/' + escapedToken(key), unknownName("unknown key", key, known));
+    throw engine::Error(pointer, unknownName("unknown key", name, known));
 }
 
 void readFields(
@@ -203,7 +204,8 @@ void readFields(
     std::span<const std::string_view> passed_over) {
     if (!object.is_object())
         throw mismatch(pointer.empty() ? "the document" : pointer, "an object", object);
-    requireKnownKeys(object, pointer, settings.fields(), passed_over);
+    for (const auto& [key, value] : object.items())
+        fieldNamed(key, settings.fields(), pointer + '/' + escapedToken(key), passed_over);
     for (const hair::Field& field : settings.fields())
         if (const auto member = object.find(field.name); member != object.end())
             read(*member, pointer + '/' + field.name, field, settings);
@@ -332,15 +334,6 @@ struct Part {
     std::string rest;  // names a component or a parameter within the field; may be empty
 };
 
-const hair::Field& fieldNamed(
-    const std::string& name, const std::vector<hair::Field>& fields, const std::string& pointer) {
-    const auto found = std::ranges::find(fields, name, &hair::Field::name);
-    if (found != fields.end()) return *found;
-    std::vector<std::string> known;
-    for (const hair::Field& field : fields) known.emplace_back(field.name);
-    throw engine::Error(pointer, unknownName("unknown key", name, known));
-}
-
 // `Settings` is hair::SettingsRef or hair::SettingsView.
 template <class Settings>
 Part<Settings> partAt(Settings settings, const std::string& pointer) {
@@ -360,7 +353,7 @@ Part<Settings> partAt(Settings settings, const std::string& pointer) {
             part.rest = here.substr(part.pointer.size());
             continue;
         }
-        part.field = &fieldNamed(token, part.owner.fields(), here);
+        part.field = fieldNamed(token, part.owner.fields(), here);
         part.pointer = here;
     }
     return part;
