@@ -58,6 +58,8 @@ constexpr Rule kRules[] = {
     {"engine/", "assimp/"},
     {"benchmarks/", "assimp/"},
     {"hair/", "assimp/", "hair/groom/mesh/mesh_reader.cpp"},
+    {"", "draco/", "hair/groom/mesh/gltf_compression.cpp", "tests/"},
+    {"", "meshoptimizer", "hair/groom/mesh/gltf_compression.cpp", "tests/"},
     {"", "tiny_gltf", "hair/groom/mesh/gltf_model.h"},
     {"", "stb", "engine/"},
     {"", "OpenEXR/", "engine/float_pictures.cpp"},

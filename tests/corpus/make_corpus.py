@@ -182,8 +182,71 @@ def gltf(mode, indices=None):
     }, indent=1).encode()
 
 
+def zigzag(number):
+    return 2 * number if number >= 0 else -2 * number - 1
+
+
+def meshopt_attributes(elements):
+    """EXT_meshopt_compression, mode 0, of elements of up to 32 bytes: each byte of the elements by itself,
+    differences to the one before it in groups of 16, each with its number of bits."""
+    stride, data, last = len(elements[0]), bytearray(b"\xa0"), elements[0]
+    assert len(elements) <= 256 and stride <= 32
+    for byte in range(stride):
+        column = [row[byte] for row in [last, *elements]]
+        steps = [zigzag((b - a + 128) % 256 - 128) for a, b in zip(column, column[1:])]
+        steps += [0] * (-len(steps) % 16)
+        groups, headers = b"", 0
+        for number, group in enumerate(steps[i:i + 16] for i in range(0, len(steps), 16)):
+            kind = 0 if not any(group) else 1 if max(group) < 3 else 3
+            headers |= kind << 2 * number
+            if kind == 1:  # four to a byte, the first in the highest bits
+                groups += bytes(a << 6 | b << 4 | c << 2 | d for a, b, c, d in zip(*[iter(group)] * 4))
+            elif kind == 3:
+                groups += bytes(group)
+        data += headers.to_bytes((len(steps) // 16 + 3) // 4, "little") + groups
+    return bytes(data) + bytes(32 - stride) + last
+
+
+def meshopt_indices(indices):
+    """EXT_meshopt_compression, mode 2: differences to the index before, in groups of 7 bits."""
+    data, last = bytearray(b"\xd1"), 0
+    for index in indices:
+        step, last = 2 * zigzag(index - last), index
+        while step > 127:
+            data.append(step % 128 + 128)
+            step //= 128
+        data.append(step)
+    return bytes(data) + bytes(4)
+
+
+def meshopt_gltf():
+    """Lines as in lines.gltf, compressed, with a second buffer that only stands for the result."""
+    lines = [0, 1, 1, 2, 2, 3, 4, 5, 6, 7, 7, 8]
+    parts = [meshopt_attributes([floats([point]) for point in POINTS]), meshopt_indices(lines)]
+    name = "EXT_meshopt_compression"
+    views, first, result = [], 0, 0
+    for part, (mode, stride, count) in zip(parts, [("ATTRIBUTES", 12, 9), ("INDICES", 2, 12)]):
+        views.append({"buffer": 1, "byteOffset": result, "byteLength": stride * count, "extensions": {name: {
+            "buffer": 0, "byteOffset": first, "byteLength": len(part), "byteStride": stride, "mode": mode,
+            "count": count}}})
+        first, result = first + len(part), result + stride * count
+    data = base64.b64encode(b"".join(parts)).decode()
+    return json.dumps({
+        "asset": {"version": "2.0"}, "extensionsUsed": [name], "extensionsRequired": [name],
+        "scene": 0, "scenes": [{"nodes": [0]}], "nodes": [{"mesh": 0, "translation": [0, 1, 0]}],
+        "meshes": [{"primitives": [{"attributes": {"POSITION": 0}, "indices": 1, "mode": 1}]}],
+        "accessors": [
+            {"bufferView": 0, "componentType": 5126, "count": 9, "type": "VEC3"},
+            {"bufferView": 1, "componentType": 5123, "count": 12, "type": "SCALAR"}],
+        "bufferViews": views,
+        "buffers": [
+            {"byteLength": first, "uri": f"data:application/octet-stream;base64,{data}"},
+            {"byteLength": result, "extensions": {name: {"fallback": True}}}]}, indent=1).encode()
+
+
 def gltf_files():
     lines, line_strip = 1, 3
+    yield "meshopt.gltf", meshopt_gltf()
     yield "strips.gltf", gltf(line_strip)
     yield "lines.gltf", gltf(lines, [0, 1, 1, 2, 2, 3, 4, 5, 6, 7, 7, 8])
 

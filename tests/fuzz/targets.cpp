@@ -584,6 +584,7 @@ std::vector<Target> allTargets() {
         {"mesh",
          readMesh,
          {{"tests/corpus/gltf/trimesh_head_and_lines.glb", {}},
+          {"tests/corpus/gltf/blender_draco.glb", {}},
           {"tests/fuzz/seeds/animation", {}},
           {"scenes/assets", gltf}},
          {.length = 16384}});

@@ -279,16 +279,26 @@ TEST(ImportGltf, RefusesWhatItDoesNotRead) {
         HasSubstr("is not VEC3 of float"));
     EXPECT_THAT(
         importError(
-            {.extra = R"(,"extensionsUsed":["KHR_draco_mesh_compression"],)"
-                      R"("extensionsRequired":["KHR_draco_mesh_compression"])"}),
-        HasSubstr("needs KHR_draco_mesh_compression, which is not supported: it is compressed with "
-                  "Draco; export it without compression"));
-    // Compressed primitives have accessors without a bufferView.
+            {.extra = R"(,"extensionsUsed":["EXT_mesh_of_tomorrow"],)"
+                      R"("extensionsRequired":["EXT_mesh_of_tomorrow"])"}),
+        HasSubstr("needs EXT_mesh_of_tomorrow, which is not supported"));
+}
+
+// KHR_node_visibility: a node without `visible: true` of its own is hidden by one above it.
+TEST(ImportGltf, LeavesOutHiddenNodes) {
+    const std::string hidden = R"("extensions":{"KHR_node_visibility":{"visible":false}})";
+    const std::string shown = R"("extensions":{"KHR_node_visibility":{"visible":true}})";
+    const std::string child = R"(,{"mesh":0,"translation":[5,0,0]})";
+    const Mesh both = import({.node = R"("mesh":0,"children":[1],)" + shown, .more_nodes = child});
+    EXPECT_EQ(both.triangles.size(), 2u);
+    const Mesh one = import(
+        {.node = R"("mesh":0,"children":[1])",
+         .more_nodes = R"(,{"mesh":0,"translation":[5,0,0],)" + hidden + "}"});
+    ASSERT_EQ(one.triangles.size(), 1u);
+    EXPECT_EQ(one.positions.at(2), glm::vec3(2, 0, 0));
     EXPECT_THAT(
-        importError(
-            {.extra = R"(,"extensionsUsed":["EXT_meshopt_compression"],)"
-                      R"("extensionsRequired":["EXT_meshopt_compression"],"bufferViews":[{}])"}),
-        HasSubstr("it is compressed with meshoptimizer"));
+        importError({.node = R"("mesh":0,"children":[1],)" + hidden, .more_nodes = child}),
+        HasSubstr("the file has only hidden meshes: show them, then export"));
 }
 
 // KHR_mesh_quantization: whole numbers of 16 bits, which the node's scale makes metres, and

@@ -9,9 +9,11 @@
 #include <vector>
 
 #include "hair/groom/formats/binary_file.h"
+#include "hair/groom/formats/curves.h"
 #include "hair/groom/formats/ogawa.h"
 
-// Values of the properties of an Alembic archive: their first samples, checked for their type.
+// Values of the properties of an Alembic archive: their first samples, checked for their type; and
+// the transforms of its objects.
 namespace hair::groom {
 
 // The properties of a compound by their names.
@@ -99,5 +101,17 @@ private:
 
     AlembicArchive archive_;
 };
+
+// An object that moves those below it (AbcGeom_Xform_v3).
+struct AlembicTransform {
+    AffineSpace space;  // of the objects below
+    std::optional<AlembicProperty> numbers;  // of the operations, which may move
+};
+
+// Returns the first sample of a transform's operations, from the last to the first, in the space
+// above it. Throws engine::Error for an unknown operation, a rotation about no axis and a
+// projection.
+AlembicTransform alembicTransformOf(
+    AlembicValues& values, const AlembicCompound& transform, const AffineSpace& above);
 
 }  // namespace hair::groom

@@ -194,31 +194,6 @@ Polylines stripOf(std::vector<std::uint32_t> indices) {
     return {{static_cast<std::uint32_t>(indices.size())}, std::move(indices)};
 }
 
-// Finds nodes that KHR_node_visibility hides: those with a `visible` of false, and all below them.
-std::vector<bool> hiddenNodes(const tinygltf::Model& model) {
-    std::vector<bool> hidden(model.nodes.size());
-    std::vector<int> waiting;
-    const auto hide = [&](int node) {
-        const auto index = static_cast<std::size_t>(node);
-        if (node < 0 || index >= hidden.size() || hidden[index]) return;
-        hidden[index] = true;
-        waiting.push_back(node);
-    };
-    for (std::size_t i = 0; i < model.nodes.size(); ++i) {
-        const auto extension = model.nodes[i].extensions.find("KHR_node_visibility");
-        if (extension == model.nodes[i].extensions.end() || !extension->second.Has("visible"))
-            continue;
-        const tinygltf::Value& visible = extension->second.Get("visible");
-        if (visible.IsBool() && !visible.Get<bool>()) hide(static_cast<int>(i));
-    }
-    while (!waiting.empty()) {
-        const int node = waiting.back();
-        waiting.pop_back();
-        for (const int child : model.nodes[static_cast<std::size_t>(node)].children) hide(child);
-    }
-    return hidden;
-}
-
 // Returns a whole number of an object's `extras`, where Blender writes its custom properties.
 std::optional<std::int32_t> extraOf(const tinygltf::Value& extras, const std::string& name) {
     if (!extras.IsObject() || !extras.Has(name)) return {};
@@ -233,8 +208,7 @@ std::optional<std::int32_t> extraOf(const tinygltf::Value& extras, const std::st
 
 class StrandReader {
 public:
-    explicit StrandReader(const tinygltf::Model& model)
-        : model_(model), hidden_nodes_(hiddenNodes(model)) {}
+    explicit StrandReader(const tinygltf::Model& model) : model_(model) {}
 
     void add(const GltfPlace& place) {
         const tinygltf::Primitive& primitive = place.primitive;
@@ -256,7 +230,7 @@ public:
             arrangePoints(set, chainsOf(indices, set.points.size()));
             set.warnings.clear();  // only repeated vertices were left out
         }
-        if (hidden_nodes_[static_cast<std::size_t>(place.node)]) {
+        if (place.is_hidden) {
             hidden_ += set.strandCount();
             return;
         }
@@ -304,9 +278,6 @@ private:
         if (findAttribute(primitive, "_TRANSPARENCY")) {
             set.transparencies.values = readOwn(primitive, "_TRANSPARENCY", count);
         }
-        for (const float width : set.widths.values)
-            if (isNegative(width))
-                throw engine::Error("_WIDTH is negative: " + std::to_string(width));
         // Even the identity would turn -0 into 0.
         if (transform != glm::dmat4(1.0)) place(set, transform);
         return set;
@@ -370,7 +341,6 @@ private:
     }
 
     const tinygltf::Model& model_;
-    std::vector<bool> hidden_nodes_;
     StrandSet set_;
     std::size_t hidden_ = 0;  // strands
     std::vector<StrandRange> without_group_;

@@ -103,7 +103,7 @@ public:
     void read(const tinygltf::Animation& clip) {
         readNodes();
         forEachPrimitive(model_, [&](const GltfPlace& place) {
-            if (hasTriangles(place.primitive)) readPart(place);
+            if (hasTriangles(place.primitive) && !place.is_hidden) readPart(place);
         });
         for (std::size_t i = 0; i < clip.channels.size(); ++i) {
             try {

@@ -289,30 +289,13 @@ int depthOf(std::string_view text) {
     return most;
 }
 
-// Extensions that change the geometry and are not read, with advice.
-struct UnreadExtension {
-    std::string_view name;
-    std::string_view advice;
-};
-
-constexpr std::array kUnreadExtensions{
-    UnreadExtension{
-        "KHR_draco_mesh_compression",
-        ": it is compressed with Draco; export it without compression, or import it in Blender and "
-        "export it again"},
-    UnreadExtension{
-        "EXT_meshopt_compression",
-        ": it is compressed with meshoptimizer; export it without compression, or decode it with "
-        "'gltf-transform copy'"},
-    UnreadExtension{
-        "KHR_meshopt_compression",
-        ": it is compressed with meshoptimizer; export it without compression, or decode it with "
-        "'gltf-transform copy'"}};
-
 constexpr std::string_view kQuantization = "KHR_mesh_quantization";
+constexpr std::string_view kDraco = "KHR_draco_mesh_compression";
+// The second has more filters and a later version of the same streams.
+constexpr std::array<std::string_view, 2> kMeshopt{
+    "EXT_meshopt_compression", "KHR_meshopt_compression"};
 
-// Refuses required extensions that are not known. Before tinygltf reads the file, because it names
-// something else in files that are compressed.
+// Refuses required extensions that are not known.
 void checkExtensions(const json& document) {
     const auto required =
         document.is_object() ? document.find("extensionsRequired") : document.end();
@@ -321,18 +304,123 @@ void checkExtensions(const json& document) {
         if (!element.is_string()) continue;
         const auto& extension = element.get_ref<const std::string&>();
         if (extension.starts_with("KHR_materials_") || extension == "KHR_texture_transform" ||
-            extension == kQuantization)
+            extension == kQuantization || extension == kDraco ||
+            std::ranges::find(kMeshopt, extension) != kMeshopt.end())
             continue;
-        const auto row = std::ranges::find(kUnreadExtensions, extension, &UnreadExtension::name);
-        throw engine::Error(
-            "the file needs " + extension + ", which is not supported" +
-            std::string(row == kUnreadExtensions.end() ? "" : row->advice));
+        throw engine::Error("the file needs " + extension + ", which is not supported");
     }
+}
+
+// ---- Compressed parts ---------------------------------------------------------------------------
+
+// Return the element or member, or null if there is none of this name or the value can't have any.
+json* memberOf(json& object, std::string_view name) {
+    if (!object.is_object()) return nullptr;
+    const auto member = object.find(name);
+    return member == object.end() ? nullptr : &*member;
+}
+
+json* elementOf(json* array, std::int64_t index) {
+    if (!array || !array->is_array() || index < 0 ||
+        static_cast<std::size_t>(index) >= array->size())
+        return nullptr;
+    return &(*array)[static_cast<std::size_t>(index)];
+}
+
+json* extensionOf(json& object, std::string_view name) {
+    json* const extensions = memberOf(object, "extensions");
+    json* const extension = extensions ? memberOf(*extensions, name) : nullptr;
+    return extension && extension->is_object() ? extension : nullptr;
+}
+
+json* meshoptOf(json& object) {
+    for (const std::string_view name : kMeshopt)
+        if (json* const extension = extensionOf(object, name)) return extension;
+    return nullptr;
+}
+
+// Gives buffers that only stand for bytes after decompression a byte of data, because tinygltf
+// requires a source of each buffer. Returns which buffers these are.
+std::vector<bool> fillFallbacks(json& document, bool has_chunk) {
+    std::vector<bool> filled;
+    json* const buffers = memberOf(document, "buffers");
+    if (!buffers || !buffers->is_array()) return filled;
+    for (json& buffer : *buffers) {
+        const bool is_chunk = has_chunk && filled.empty();
+        filled.push_back(!is_chunk && meshoptOf(buffer) && !memberOf(buffer, "uri"));
+        if (!filled.back()) continue;
+        buffer["uri"] = std::string(kDataTypes.front()) + "AA==";
+        buffer["byteLength"] = 1;
+    }
+    return filled;
+}
+
+// Returns the buffer views that have no data but compressed ones.
+std::vector<GltfCompression::View>
+compressedViews(json& document, const std::vector<bool>& fallbacks) {
+    std::vector<GltfCompression::View> compressed;
+    json* const views = memberOf(document, "bufferViews");
+    if (!views || !views->is_array()) return compressed;
+    for (std::size_t i = 0; i < views->size(); ++i) {
+        json& view = (*views)[i];
+        const json* const extension = meshoptOf(view);
+        if (!extension) continue;
+        const auto buffer = view.value("buffer", std::size_t{0});
+        if (buffer < fallbacks.size() && !fallbacks[buffer]) continue;
+        compressed.push_back(
+            {.view = static_cast<int>(i),
+             .buffer = extension->value("buffer", -1),
+             .offset = extension->value("byteOffset", std::uint64_t{0}),
+             .length = extension->value("byteLength", std::uint64_t{0}),
+             .stride = extension->value("byteStride", std::uint64_t{0}),
+             .count = extension->value("count", std::uint64_t{0}),
+             .mode = extension->value("mode", std::string()),
+             .filter = extension->value("filter", std::string("NONE"))});
+    }
+    return compressed;
+}
+
+// Returns the primitives that have data only in Draco's form. Their accessors get the view of the
+// compressed data, because tinygltf requires views of indices.
+std::vector<GltfCompression::Primitive> compressedPrimitives(json& document) {
+    std::vector<GltfCompression::Primitive> compressed;
+    json* const meshes = memberOf(document, "meshes");
+    json* const accessors = memberOf(document, "accessors");
+    if (!meshes || !meshes->is_array()) return compressed;
+    for (std::size_t mesh = 0; mesh < meshes->size(); ++mesh) {
+        json* const primitives = memberOf((*meshes)[mesh], "primitives");
+        if (!primitives || !primitives->is_array()) continue;
+        for (std::size_t i = 0; i < primitives->size(); ++i) {
+            json& primitive = (*primitives)[i];
+            const json* const extension = extensionOf(primitive, kDraco);
+            if (!extension) continue;
+            GltfCompression::Primitive read{
+                .mesh = static_cast<int>(mesh),
+                .primitive = static_cast<int>(i),
+                .view = extension->value("bufferView", -1),
+                .attributes = extension->value("attributes", decltype(read.attributes)())};
+            json* const attributes = memberOf(primitive, "attributes");
+            std::vector<json*> parts{elementOf(accessors, primitive.value("indices", -1))};
+            for (const auto& [name, id] : read.attributes)
+                if (json* const index = attributes ? memberOf(*attributes, name) : nullptr)
+                    parts.push_back(elementOf(accessors, index->get<std::int64_t>()));
+            bool has_data = true;
+            for (json* const part : parts) {
+                if (!part || memberOf(*part, "bufferView")) continue;
+                if (!part->is_object()) continue;
+                has_data = false;
+                (*part)["bufferView"] = read.view;
+            }
+            if (!has_data) compressed.push_back(std::move(read));
+        }
+    }
+    return compressed;
 }
 
 struct Rewritten {
     std::optional<std::string> file;  // absent if the given file stays as it is
     std::vector<tinygltf::Image> images;
+    GltfCompression compression;
 };
 
 // The file as tinygltf is to read it: without images and the sections that aren't read, and with
@@ -351,11 +439,16 @@ Rewritten rewritten(std::string_view file, GltfImages images, GltfMotion motion)
         const std::string data = isGlb(file) ? std::string() : takeData(document);
         std::vector<tinygltf::Image> taken = takeImages(document);
         has_others |= nameMissingMatrices(document);
+        const std::vector<bool> fallbacks = fillFallbacks(document, isGlb(file) || !data.empty());
+        GltfCompression compression{
+            .views = compressedViews(document, fallbacks),
+            .primitives = compressedPrimitives(document)};
+        has_others |= !compression.views.empty() || !compression.primitives.empty();
         if (data.empty() && !has_others && taken.empty()) return {};
         std::string text = document.dump();
         if (!data.empty() || isGlb(file))
             text = glbFile({text, data.empty() ? chunks.binary : data});
-        return {std::move(text), std::move(taken)};
+        return {std::move(text), std::move(taken), std::move(compression)};
     } catch (const json::parse_error& error) {
         const std::string message = firstLine(error.what());
         fail(
@@ -444,6 +537,7 @@ tinygltf::Model loadGltf(
         throw engine::Error("can't be read as glTF: " + reasonIn(exception.what()));
     }
     model.images = std::move(other.images);
+    decompress(model, other.compression);
     return model;
 }
 
@@ -783,7 +877,7 @@ glm::dmat4 localTransform(const tinygltf::Node& node) {
 }
 
 void visitMesh(
-    const tinygltf::Model& model, int node_index, const glm::dmat4& transform,
+    const tinygltf::Model& model, int node_index, const glm::dmat4& transform, bool is_hidden,
     const std::function<void(const GltfPlace& place)>& visit) {
     const tinygltf::Node& node = at(model.nodes, node_index, "node");
     const tinygltf::Mesh& mesh = at(model.meshes, node.mesh, "mesh");
@@ -791,12 +885,19 @@ void visitMesh(
         try {
             visit(
                 {mesh.primitives[i], transform, node.name.empty() ? mesh.name : node.name,
-                 node_index});
+                 node_index, is_hidden});
         } catch (const engine::Error& error) {
             throw engine::Error(
                 numbered("mesh", node.mesh) + ", primitive " + std::to_string(i), error.what());
         }
     }
+}
+
+bool hidesItself(const tinygltf::Node& node) {
+    const auto extension = node.extensions.find("KHR_node_visibility");
+    if (extension == node.extensions.end() || !extension->second.Has("visible")) return false;
+    const tinygltf::Value& visible = extension->second.Get("visible");
+    return visible.IsBool() && !visible.Get<bool>();
 }
 
 // Returns the bytes that one use of a primitive takes once it is read. `available` is the size of
@@ -820,8 +921,12 @@ std::uint64_t unfoldedSize(
 void checkUnfolding(const tinygltf::Model& model) {
     constexpr std::uint64_t kLeast = 16;  // bytes of JSON for a node, a primitive or an accessor
     std::uint64_t available = 0;
-    for (const tinygltf::Buffer& buffer : model.buffers) available += buffer.data.size();
-    std::uint64_t size = available + kLeast * (model.nodes.size() + model.accessors.size());
+    std::uint64_t in_file = 0;
+    for (const tinygltf::Buffer& buffer : model.buffers) {
+        available += buffer.data.size();
+        in_file += buffer.name == kDecompressed ? 0 : buffer.data.size();
+    }
+    std::uint64_t size = in_file + kLeast * (model.nodes.size() + model.accessors.size());
     std::vector<std::uint64_t> sizes;
     for (const tinygltf::Mesh& mesh : model.meshes) {
         size += kLeast * mesh.primitives.size();
@@ -845,6 +950,7 @@ void forEachPrimitive(
     struct Step {
         int node;
         glm::dmat4 parent;
+        bool is_hidden = false;  // by a node above
     };
     if (model.scenes.empty()) throw engine::Error("the file has no scene");
     std::vector<Step> steps;
@@ -853,15 +959,16 @@ void forEachPrimitive(
     }
     std::vector<bool> visited(model.nodes.size());
     for (std::size_t next = 0; next < steps.size(); ++next) {
-        const auto [index, parent] = steps[next];
+        const auto [index, parent, parent_hidden] = steps[next];
         const tinygltf::Node& node = at(model.nodes, index, "node");
         if (visited[static_cast<std::size_t>(index)]) {
             throw engine::Error(numbered("node", index), "is reached twice");
         }
         visited[static_cast<std::size_t>(index)] = true;
         const glm::dmat4 transform = parent * localTransform(node);
-        if (node.mesh >= 0) visitMesh(model, index, transform, visit);
-        for (const int child : node.children) steps.push_back({child, transform});
+        const bool is_hidden = parent_hidden || hidesItself(node);
+        if (node.mesh >= 0) visitMesh(model, index, transform, is_hidden, visit);
+        for (const int child : node.children) steps.push_back({child, transform, is_hidden});
     }
 }
 

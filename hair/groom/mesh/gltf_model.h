@@ -10,6 +10,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <functional>
+#include <map>
 #include <optional>
 #include <span>
 #include <string>
@@ -53,12 +54,44 @@ enum class GltfMotion { skipped, read };
 
 // Reads glTF 2.0: .gltf or, by its first bytes, .glb. Buffers in files of their own are read from
 // the folder of `path` after a call of `check`, or refused if `path` is empty. Sections that
-// nothing here needs are left out. Refuses required extensions that change the geometry. Throws
-// engine::Error without naming the file.
+// nothing here needs are left out, and compressed parts are decompressed. Refuses other required
+// extensions that change the geometry. Throws engine::Error without naming the file.
 tinygltf::Model loadGltf(
     std::span<const std::byte> bytes, const std::filesystem::path& path,
     GltfImages images = GltfImages::skipped, GltfMotion motion = GltfMotion::skipped,
     const NamedFileCheck& check = {});
+
+// Parts of a file that are compressed, with numbers as they are in the file.
+struct GltfCompression {
+    // A buffer view by EXT_meshopt_compression.
+    struct View {
+        int view = -1;  // the view that has the data once they are decoded
+        int buffer = -1;
+        std::uint64_t offset = 0;  // bytes of the compressed data in the buffer
+        std::uint64_t length = 0;
+        std::uint64_t stride = 0;  // bytes of an element
+        std::uint64_t count = 0;  // elements
+        std::string mode;
+        std::string filter;
+    };
+    // A primitive by KHR_draco_mesh_compression.
+    struct Primitive {
+        int mesh = -1;
+        int primitive = -1;
+        int view = -1;  // of the compressed data
+        std::map<std::string, std::uint32_t> attributes;  // Draco's ids, which are unique
+    };
+
+    std::vector<View> views;
+    std::vector<Primitive> primitives;
+};
+
+// The name of the buffer with decompressed data, the model's last.
+inline constexpr std::string_view kDecompressed = "decompressed";
+
+// Decodes these parts into a new buffer of the model. The libraries run in a fork of this process
+// with limits on time and memory. Throws engine::Error with the part at fault.
+void decompress(tinygltf::Model& model, const GltfCompression& compression);
 
 // Access to the elements of a glTF file, with checks of every index and range. Errors begin with
 // the element at fault: "accessor 2: ...".
@@ -131,6 +164,7 @@ struct GltfPlace {
     const glm::dmat4& transform;  // to the scene, metres
     const std::string& name;  // of the node, or else of the mesh
     int node;
+    bool is_hidden;  // KHR_node_visibility hides the node, or one above it
 };
 
 // Visits the primitives of the default scene's meshes. Errors, also those of `visit`, begin with

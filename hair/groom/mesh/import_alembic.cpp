@@ -18,7 +18,6 @@
 #include <glm/vec3.hpp>
 
 #include "engine/files.h"
-#include "hair/groom/formats/alembic_transform.h"
 #include "hair/groom/formats/alembic_values.h"
 #include "hair/groom/formats/binary_file.h"
 #include "hair/groom/formats/curves.h"

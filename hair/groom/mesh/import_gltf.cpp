@@ -266,6 +266,10 @@ public:
     void add(const GltfPlace& place) {
         const tinygltf::Primitive& primitive = place.primitive;
         if (!hasTriangles(primitive)) return;
+        if (place.is_hidden) {
+            has_hidden_ = true;
+            return;
+        }
         const std::size_t first = mesh_.positions.size();
         const std::size_t count = addVertices(primitive, place.transform);
         addGroups(primitive, first, count);
@@ -275,6 +279,8 @@ public:
     }
 
     Mesh take() {
+        if (mesh_.triangles.empty() && has_hidden_)
+            throw engine::Error("the file has only hidden meshes: show them, then export");
         const std::size_t vertices = mesh_.positions.size();
         if (has_texture_coordinates_) mesh_.texture_coordinates.resize(vertices, glm::vec2(0.0f));
         for (VertexGroup& group : mesh_.vertex_groups) group.weights.resize(vertices, 0.0f);
@@ -357,6 +363,7 @@ private:
     const tinygltf::Model& model_;
     Mesh mesh_;
     bool has_texture_coordinates_ = false;
+    bool has_hidden_ = false;
     int part_node_ = -1;
 };
 

@@ -1,14 +1,18 @@
 #include <assimp/Exporter.hpp>
 #include <assimp/scene.h>
 
+#include <glm/geometric.hpp>
 #include <gmock/gmock.h>
 
 #include "hair/groom/formats/alembic_import.h"
 #include "hair/groom/formats/gltf.h"
 #include "hair/groom/formats/obj.h"
 #include "hair/groom/formats/ply.h"
+#include "hair/groom/formats/usd_import.h"
 #include "hair/groom/mesh/import_mesh.h"
 #include "tests/groom/formats/strand_files.h"
+#include "tests/python.h"
+#include "tests/required.h"
 
 // Files that other programs wrote. tests/corpus/README.md says how; some are written here by
 // assimp.
@@ -138,6 +142,72 @@ TEST(IndependentWriters, BlenderAlembic) {
         }
         EXPECT_TRUE(strands.warnings.empty());
     }
+}
+
+// The strands above twice, in metres: one object has a group as a custom property, the other has
+// groups and guides as attributes of its curves, which only USD takes.
+void expectBlendersGroups(const StrandSet& strands) {
+    EXPECT_THAT(strands.ends, ElementsAre(4, 6, 9, 13, 15, 18));
+    ASSERT_EQ(strands.points.size(), 2 * kWritten.size());
+    const auto unit = static_cast<float>(strands.metres_per_unit.value_or(1.0));
+    for (std::size_t k = 0; k < strands.points.size(); ++k) {
+        const std::size_t written = k % kWritten.size();
+        const glm::vec3 expected = kWritten[written] + glm::vec3(1, 3, -2);
+        const float width = 0.125f * (1.0f - static_cast<float>(written) / 16.0f);
+        for (int axis = 0; axis < 3; ++axis)  // a float's rounding of 500 cm
+            EXPECT_NEAR(unit * strands.points[k][axis], expected[axis], 6e-7f) << k;
+        EXPECT_NEAR(unit * strands.widths.at(k), width, 1e-8f) << k;
+    }
+}
+
+TEST(IndependentWriters, BlenderGroupsGuidesWidthsAndUnits) {
+    const StrandSet alembic = readFile(importAlembic, corpus("abc/blender_groups.abc"));
+    expectBlendersGroups(alembic);
+    ASSERT_EQ(alembic.groups.size(), 6u);
+    EXPECT_EQ(std::ranges::count(alembic.groups, 3), 3);
+    EXPECT_THAT(alembic.warnings, ElementsAre(HasSubstr("3 of 6 strands have no group")));
+    if (pythonInterpreter().empty()) return skipWithout(Need::python, kNoPython);
+    for (const auto& [name, unit] : std::initializer_list<std::pair<const char*, double>>{
+             {"groups.usda", 1.0}, {"groups.usdc", 1.0}, {"centimetres.usda", 0.01}}) {
+        SCOPED_TRACE(name);
+        const StrandSet usd = readFile(importUsd, corpus(std::string("usd/blender_") + name));
+        EXPECT_EQ(usd.metres_per_unit, unit);
+        EXPECT_EQ(usd.up, 1);
+        expectBlendersGroups(usd);
+        EXPECT_THAT(usd.groups, ElementsAre(7, 8, 9, 3, 3, 3));
+        EXPECT_THAT(usd.guides, ElementsAre(0, 1, 0, 0, 0, 0));
+    }
+}
+
+// A ball of radius 0.5 about (1, 3, -2), with a corner of each face its own texture coordinate, and
+// the strands as lines. Blender compresses positions to 14 bits of the longest side and leaves
+// lines as they are.
+TEST(IndependentWriters, BlenderGltfWithAndWithoutDraco) {
+    for (const auto& [name, error] : std::initializer_list<std::pair<const char*, float>>{
+             {"gltf/blender_plain.glb", 1e-6f}, {"gltf/blender_draco.glb", 1.0f / 16'383.0f}}) {
+        SCOPED_TRACE(name);
+        const StrandSet strands = readFile(importGltfStrands, corpus(name));
+        EXPECT_THAT(strands.ends, ElementsAre(4, 6, 9));
+        ASSERT_EQ(strands.points.size(), kWritten.size());
+        for (std::size_t k = 0; k < kWritten.size(); ++k)
+            EXPECT_EQ(strands.points[k], kWritten[k] + glm::vec3(1, 3, -2)) << k;
+        EXPECT_THAT(strands.groups, ElementsAre(3, 3, 3));
+        EXPECT_THAT(strands.guides, ElementsAre(1, 1, 1));
+        const Mesh head = importMesh(corpus(name));
+        EXPECT_EQ(head.triangles.size(), 2u * 8 + 3u * 8 * 2);  // two fans and three bands
+        EXPECT_EQ(head.texture_coordinates.size(), head.positions.size());
+        for (const glm::vec3& position : head.positions)
+            EXPECT_NEAR(glm::distance(position, glm::vec3(1, 3, -2)), 0.5f, error);
+    }
+}
+
+// The encoder of make_corpus.py is written from the extension's description.
+TEST(IndependentWriters, MeshoptimizerByItsDescription) {
+    const StrandSet strands = readFile(importGltfStrands, corpus("gltf/meshopt.gltf"));
+    EXPECT_THAT(strands.ends, ElementsAre(4, 6, 9));
+    ASSERT_EQ(strands.points.size(), kWritten.size());
+    for (std::size_t k = 0; k < kWritten.size(); ++k)
+        EXPECT_EQ(strands.points[k], kWritten[k] + glm::vec3(0, 1, 0)) << k;
 }
 
 // The caller's points as strands of 4, 2 and 3 in a scene of assimp's.
