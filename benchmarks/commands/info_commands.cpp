@@ -19,6 +19,7 @@
 #include "benchmarks/scene/sweep.h"
 #include "engine/error.h"
 #include "engine/process.h"
+#include "hair/groom/files.h"
 
 namespace benchmarks::commands {
 
@@ -36,9 +37,13 @@ void printStart(
     const measure::StartInspection start = [&] {
         const engine::Step step("inspects the hair of " + spec.name);
         const measure::Case first(device, spec.settings, scene.directory, &cache);
-        if (is_strict && !first.groom().warnings.empty())
-            throw engine::Error(
-                path.string(), first.groom().warnings.front() + ": refused by --strict");
+        // The case has checked the names of these files.
+        const hair::GroomSettings& groom = spec.settings.groom;
+        for (const std::string& file : {groom.file, groom.fixed, groom.cache.file})
+            if (is_strict && !file.empty())
+                hair::groom::importStrands(
+                    scene.directory / file, file == groom.file ? groom.points_per_strand : 0, {},
+                    hair::groom::BadStrands::refused);
         return measure::inspectStart(first);
     }();
     const report::StartRecord& record = start.record;

@@ -147,10 +147,11 @@ numbersOf(const std::vector<Value>& values, bool is_per_point, std::string_view 
         sizeof(Value) / sizeof(float), is_per_point, reason};
 }
 
-// Finds the first of a strand's faults; an empty reason if there is none.
+// Finds the first of a strand's faults; an empty reason if there is none. `widths` are those of all
+// points if any is negative.
 std::string_view faultOf(
     const StrandSet& strands, std::uint32_t strand, std::span<const StrandNumbers> suspects,
-    std::span<const StrandSet::Fault>& faults) {
+    std::span<const float> widths, std::span<const StrandSet::Fault>& faults) {
     if (!faults.empty() && faults.front().strand == strand) {
         const std::string_view reason = faults.front().reason;
         faults = faults.subspan(1);
@@ -164,7 +165,20 @@ std::string_view faultOf(
         if (firstNotFinite({suspect.first + first * suspect.each, count * suspect.each}))
             return suspect.reason;
     }
+    if (!widths.empty() && anyNegative(widths.subspan(strands.first(strand), strands.size(strand))))
+        return "with a negative width";
     return {};
+}
+
+// Has no branch within the loop, so that the compiler makes vector instructions of it.
+bool allHaveTwoPoints(const StrandSet& strands) {
+    std::uint32_t before = 0;
+    std::uint32_t shorter = 0;
+    for (const std::uint32_t end : strands.ends) {
+        shorter |= end - before < 2 ? 1u : 0u;
+        before = end;
+    }
+    return shorter == 0;
 }
 
 // Moves the values of kept strands to the front.
@@ -285,6 +299,10 @@ std::string warningOf(const LeftOutStrands& left_out) {
 
 StrandSet usableStrands(StrandSet strands, BadStrands bad) {
     assert(bad != BadStrands::kept);
+    if (isNegative(strands.widths.everywhere.value_or(0.0f)) && strands.widths.values.empty()) {
+        strands.widths.everywhere.reset();
+        strands.warnings.emplace_back("the width of all strands is negative and is left out");
+    }
     dropNotFinite(strands.widths, "width", strands);
     dropNotFinite(strands.transparencies, "transparency", strands);
     dropNotFinite(strands.colors, "colour", strands);
@@ -299,11 +317,16 @@ StrandSet usableStrands(StrandSet strands, BadStrands bad) {
             numbers.is_per_point ? strands.points.size() : strands.ends.size();
         return !numbers.first || !firstNotFinite({numbers.first, count * numbers.each});
     });
+    std::span<const float> widths;
+    if (anyNegative(strands.widths.values)) widths = strands.widths.values;
     std::span<const StrandSet::Fault> faults(strands.faults);
+    // Files of millions of good strands, the usual ones, need no look at each.
+    if (suspects.empty() && widths.empty() && faults.empty() && allHaveTwoPoints(strands))
+        return strands;
     std::vector<std::uint32_t> bad_strands;
     const std::uint32_t count = strands.strandCount();
     for (std::uint32_t i = 0; i < count; ++i) {
-        const std::string_view reason = faultOf(strands, i, suspects, faults);
+        const std::string_view reason = faultOf(strands, i, suspects, widths, faults);
         if (reason.empty()) continue;
         bad_strands.push_back(i);
         const auto known = std::ranges::find(strands.left_out, reason, &LeftOutStrands::reason);

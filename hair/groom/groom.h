@@ -152,10 +152,10 @@ constexpr BadStrands badStrands(bool is_strict) {
 }
 
 // Leaves out strands that can't be drawn or simulated: without points, of one point, with a number
-// that is not finite, and those with a fault that their reader found. Root triangles with such a
-// corner go too. A warning for each reason counts the strands and names the first. In `strands`
-// ends may repeat and numbers be NaN or infinite. Throws engine::Error if no strand is left, or if
-// any are left out and they are `refused`. Must not be called with `kept`.
+// that is not finite or a negative width, and those with a fault that their reader found. Root
+// triangles with such a corner go too. A warning for each reason counts the strands and names the
+// first. In `strands` ends may repeat and numbers be NaN or infinite. Throws engine::Error if no
+// strand is left, or if any are left out and they are `refused`. Must not be called with `kept`.
 StrandSet usableStrands(StrandSet strands, BadStrands bad = BadStrands::left_out);
 
 // Returns "3 strands of a single point (the first is strand 5, counted from 0) are left out".

@@ -121,6 +121,18 @@ TEST_F(GroomEditCli, NamesRefusesAndMendsStrandsThatCantBeUsed) {
     EXPECT_FALSE(std::filesystem::exists(folder_.file("out.ply")));
     EXPECT_FALSE(std::filesystem::exists(folder_.file("out.json")));
 
+    folder_.write(
+        "bad.json",
+        R"({"groom": {"file": "bad.hair", "placement": {"scale": 0.01}, "vertices": 3}})");
+    const Outcome valid = hairbench("validate --start " + quoted("bad.json"));
+    if (valid.status != 77) {  // there is a device
+        EXPECT_EQ(valid.status, 0) << valid.output;
+        EXPECT_THAT(valid.output, AllOf(HasSubstr(single), HasSubstr(nan)));
+        const Outcome strict = hairbench("validate --start --strict " + quoted("bad.json"));
+        EXPECT_EQ(strict.status, 2);
+        EXPECT_THAT(strict.output, AllOf(HasSubstr(single), HasSubstr("refused by --strict")));
+    }
+
     const Outcome fixed = edit("fix", "bad.hair", "--scale 0.01");
     EXPECT_EQ(fixed.status, 0);
     EXPECT_THAT(

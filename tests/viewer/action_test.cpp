@@ -81,6 +81,19 @@ TEST(SettingActions, SwitchOneSettingEach) {
     EXPECT_EQ(switchOf(Action::play, settings), nullptr);
 }
 
+// Every value of /render/show has one entry, in the menu View.
+TEST(SettingActions, ShowTheStrandsInOneWayEach) {
+    std::map<hair::Show, std::string> shown;
+    for (const ActionRow& row : actionTable()) {
+        const auto show = showOf(row.action);
+        if (!show) continue;
+        EXPECT_STREQ(row.menu, "View");
+        EXPECT_TRUE(shown.emplace(*show, row.name).second) << row.name;
+    }
+    EXPECT_EQ(shown.size(), 9u);
+    EXPECT_EQ(shown[hair::Show::groups], "Strands: groups");
+}
+
 TEST(SettingActions, LookFromAPresetOfTheirOwn) {
     std::set<const CameraPreset*> presets;
     for (const Action action :

@@ -22,7 +22,6 @@
 #include <glm/vec4.hpp>
 
 #include "hair/groom/formats/alembic_curves.h"
-#include "hair/groom/formats/alembic_transform.h"
 #include "hair/groom/formats/alembic_values.h"
 #include "hair/groom/formats/binary_file.h"
 #include "hair/groom/formats/curves.h"
@@ -389,7 +388,6 @@ private:
     std::vector<float> widthsOf(const AlembicParameter& parameter, const AffineSpace& space) const {
         parameter.require(AlembicType::float32, 1);
         auto widths = values_.stored<float>(parameter);
-        requireNotNegative(widths, parameter.elements.start, parameter.path);
         const double factor = space.isIdentity() ? 1.0 : space.widthFactor();
         // A rotation has the factor 1 up to rounding.
         if (std::abs(factor - 1.0) > 1e-9)
@@ -411,10 +409,12 @@ private:
         auto width = eitherOf(parameters, own, "groom_width");
         if (!width && !place.width) width = values_.parameterOf(geometry, "width");
         if (width) {
-            curves.widths = perPoint(
-                *width, topology, widthsOf(*width, place.space),
-                // Between vertices, a curve may be below all of them.
-                [](double value) { return static_cast<float>(value < 0.0 ? 0.0 : value); });
+            std::vector<float> widths = widthsOf(*width, place.space);
+            // Between vertices with widths that are not negative, a curve may be below all of them.
+            const bool is_cut = std::ranges::none_of(widths, isNegative);
+            curves.widths = perPoint(*width, topology, std::move(widths), [is_cut](double value) {
+                return static_cast<float>(is_cut && value < 0.0 ? 0.0 : value);
+            });
         } else if (place.width) {
             const double factor = place.space.isIdentity() ? 1.0 : place.space.widthFactor();
             curves.widths.everywhere = static_cast<float>(*place.width * factor);

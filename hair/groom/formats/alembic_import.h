@@ -26,7 +26,7 @@ namespace hair::groom {
 // 16, follow their knots. Parameters that only some of the objects have are left out with a
 // warning; objects without the guide parameter are no guides. Refuses archives that AlembicArchive
 // refuses; closed curves, other bases (Hermite, power), weights that differ; counts that don't
-// fit, values of other types, numbers that are not finite, negative widths; projections. Throws
+// fit, values of other types, numbers that are not finite; projections. Throws
 // engine::Error "byte N: path of the object or property: reason".
 StrandSet importAlembic(const StrandFile& file);
 

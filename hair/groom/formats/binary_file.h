@@ -108,8 +108,7 @@ void requireFinite(
 // False for minus infinity, which is no number that is wrong but none.
 bool isNegative(float width);
 
-// Throws if a diameter is negative.
-void requireNotNegative(
-    const std::vector<float>& widths, std::uint64_t offset, std::string_view name);
+// Whether a diameter is negative.
+bool anyNegative(std::span<const float> widths);
 
 }  // namespace hair::groom

@@ -176,8 +176,6 @@ struct Source {
     HairArray array;
     std::uint64_t start;  // of the array
     Value everywhere;
-    std::uint64_t everywhere_at;  // byte of the header that holds the value for all points
-    std::string name;  // of an element, for messages
 };
 
 template <class Value>
@@ -194,13 +192,8 @@ PointAttribute<Value> readAttribute(
 
 PointAttribute<float>
 readWidths(const HairHeader& header, const Layout& layout, std::span<const std::byte> bytes) {
-    const Source<float> source{
-        HairArray::thickness, layout.thickness, header.default_thickness,
-        offsetof(HairHeader, default_thickness), "thickness"};
+    const Source<float> source{HairArray::thickness, layout.thickness, header.default_thickness};
     auto widths = readAttribute(source, header, bytes);
-    requireNotNegative(widths.values, source.start, source.name);
-    if (isNegative(widths.everywhere.value_or(0.0f)))
-        failAt(source.everywhere_at, "the default thickness is negative");
     if (widths.everywhere == 0.0f) widths.everywhere.reset();
     return widths;
 }
@@ -251,13 +244,10 @@ StrandSet importHair(const StrandFile& file) {
         .points = arrayAt<glm::vec3>(file.bytes, layout.points, header.point_count),
         .widths = readWidths(header, layout, file.bytes),
         .transparencies = readAttribute<float>(
-            {HairArray::transparency, layout.transparency, header.default_transparency,
-             offsetof(HairHeader, default_transparency), "transparency"},
-            header, file.bytes),
+            {HairArray::transparency, layout.transparency, header.default_transparency}, header,
+            file.bytes),
         .colors = readAttribute<glm::vec3>(
-            {HairArray::colors, layout.colors, header.default_color,
-             offsetof(HairHeader, default_color), "colour"},
-            header, file.bytes),
+            {HairArray::colors, layout.colors, header.default_color}, header, file.bytes),
         .comment = textOf(header.info)};
 }
 

@@ -24,7 +24,7 @@ std::vector<std::string> exportHair(const StrandSet& strands, std::ostream& out)
 
 // Refuses files that are not exactly of the format: no strands, no points, an unknown array,
 // segments that don't add up to the points, a size that doesn't match the header (checked before
-// any allocation), a number that is not finite, a negative thickness. A thickness of 0 in the
+// any allocation), a number that is not finite. A thickness of 0 in the
 // header means that widths are not known. Throws engine::Error "byte N: reason".
 StrandSet importHair(const StrandFile& file);
 

@@ -466,11 +466,7 @@ private:
         const XmlElement* const positions = arrayOf(element, "positions", "animated_positions");
         if (element.child("positions2")) left_out_.insert("positions2");
         if (!positions) failAtLine(element.line, inQuotes(element.name) + " without positions");
-        std::vector<glm::vec4> vectors = arrays_.vectors(*positions);
-        for (std::size_t i = 0; i < vectors.size(); ++i)
-            if (vectors[i].w < 0.0f)
-                failAtLine(positions->line, "radius " + std::to_string(i) + " is negative");
-        return vectors;
+        return arrays_.vectors(*positions);
     }
 
     // Returns three vertices for each vertex of a Hermite curve: before it by a third of its
@@ -583,13 +579,16 @@ private:
         glm::dvec4 point(0.0);
         for (std::size_t i = 0; i < corners.size(); ++i)
             point += weights[i] * glm::dvec4(corners[i]);
+        // Between vertices with radii that are not negative, a curve's may be below all of them.
+        const bool is_cut =
+            std::ranges::none_of(corners, [](const glm::vec4& corner) { return corner.w < 0.0f; });
+        if (is_cut && point.w < 0.0) point.w = 0.0;
         return point;
     }
 
     void add(const glm::dvec4& point, const AffineSpace& space) {
         glm::dvec3 place(point);
-        // Between control vertices, a curve's radius may be less than at all of them.
-        double width = 2.0 * (point.w < 0.0 ? 0.0 : point.w);
+        double width = 2.0 * point.w;
         if (!space.isIdentity()) {
             place = space.place(place);
             width *= space.widthFactor();

@@ -22,7 +22,7 @@ namespace hair::groom {
 // `scale`) and references (`ref`) to nodes with an `id` or in an `assign` are followed. Other
 // contents of the scene, and strands with a vertex that is NaN, are left out with a warning.
 // Refuses other files, other bases, transforms in other forms, indices out of range, arrays of a
-// wrong length, infinite numbers, negative radii and references to over 256 MB, counted as often
+// wrong length, infinite numbers and references to over 256 MB, counted as often
 // as they are followed. Throws engine::Error "line N: reason".
 StrandSet importEmbreeXml(const StrandFile& file);
 

@@ -101,7 +101,6 @@ StrandSet readMitsubaText(std::string_view text) {
                                    : std::to_string(expected) + " as in the first line"));
         if (set.points.size() == std::numeric_limits<std::uint32_t>::max())
             fail("the strands have 2^32 vertices, or more");
-        if (numbers[3] < 0.0) fail("the radius is negative");
         set.points.emplace_back(numbers[0], numbers[1], numbers[2]);
         if (count == 4) set.widths.values.push_back(static_cast<float>(2.0 * numbers[3]));
     }

@@ -34,7 +34,7 @@ bool looksLikeMitsubaText(std::span<const std::byte> head, std::uint64_t size);
 
 // Reads both forms; widths are twice the radii. Refuses other files: a number of vertices that
 // doesn't match the file's size (checked before any allocation), words that are not numbers, lines
-// with more or fewer numbers than the first, negative radii. Throws engine::Error "byte N: reason"
+// with more or fewer numbers than the first. Throws engine::Error "byte N: reason"
 // or "line N: reason".
 StrandSet importMitsubaHair(const StrandFile& file);
 

@@ -487,12 +487,6 @@ void readWidths(const NpyArray& array, NpzSource source) {
     auto& widths = source.set.widths.values;
     widths.resize(source.set.points.size());
     readFloats(array, widths);
-    const auto wrong = std::ranges::find_if(widths, isNegative);
-    if (wrong == widths.end()) return;
-    const auto index = static_cast<std::uint64_t>(wrong - widths.begin());
-    failAt(
-        array.start + placeOf(array, index) * rowOf(array.type).size,
-        "width " + std::to_string(index) + " is negative");
 }
 
 void readGroups(const NpyArray& array, NpzSource source) {

@@ -27,8 +27,8 @@ std::vector<std::string> exportNpz(const StrandSet& strands, std::ostream& out);
 
 // Arrays of other names, such as DiffLocks' root_normal, are left out with a warning. Both refuse
 // files that are not exactly of the format: other types and shapes, arrays not as long as their
-// header says (checked before any allocation), wrong checksums, numbers that are not finite,
-// negative widths. Both throw engine::Error "byte N: reason".
+// header says (checked before any allocation), wrong checksums. Both throw engine::Error "byte N:
+// reason".
 StrandSet importNpy(const StrandFile& file);
 StrandSet importNpz(const StrandFile& file);
 

@@ -462,8 +462,6 @@ private:
         const double all = curve.width.value_or(kWidth);
         const std::array<double, 2> widths{curve.width0.value_or(all), curve.width1.value_or(all)};
         has_widths_ = has_widths_ || curve.width || curve.width0 || curve.width1;
-        for (const double width : widths)
-            if (width < 0.0) failAtLine(curve.line, "a width is negative");
         const std::size_t first = set_.points.size();
         const std::size_t segments = (curve.vertices.size() - basis.degree - 1) / basis.step + 1;
         const std::size_t pieces = (curve.vertices.size() - 1 + segments - 1) / segments;

@@ -29,7 +29,7 @@ std::vector<std::string> exportPbrt(const StrandSet& strands, std::ostream& out)
 // ends, with the same width, because some programs write only segments. The comment at the
 // beginning is kept. Curves in objects (ObjectBegin) and included files are left out with a
 // warning. If no curve has a width, widths are not known. Refuses other text, degrees and bases,
-// numbers of vertices that make no curve, negative widths, and curves after LookAt or
+// numbers of vertices that make no curve, and curves after LookAt or
 // CoordSysTransform. Throws engine::Error "line N: reason".
 StrandSet importPbrt(const StrandFile& file);
 

@@ -536,11 +536,6 @@ void readPlyVertices(Source& source, const PlyElement& element, StrandSet& set) 
             }
             const double share = source.take(property.type) / column.divisor;
             const auto value = static_cast<float>(column.is_opacity ? 1.0 - share : share);
-            if (column.slot == width && isNegative(value)) {
-                throw engine::Error(
-                    Source::place(source.position()),
-                    inQuotes(property.name) + " of vertex " + std::to_string(i) + " is negative");
-            }
             values[column.slot] = value;
         }
         source.endElement();

@@ -265,7 +265,6 @@ void readPositions(const TfxHeader& header, std::span<const std::byte> bytes, St
 PointAttribute<float> readWidths(const TfxHeader& header, std::span<const std::byte> bytes) {
     if (header.strand_thickness == 0) return {};
     const auto widths = arrayAt<float>(bytes, header.strand_thickness, header.strands);
-    requireNotNegative(widths, header.strand_thickness, "thickness");
     std::vector<float> values;
     values.reserve(std::size_t{header.strands} * header.vertices_per_strand);
     for (const float width : widths) values.insert(values.end(), header.vertices_per_strand, width);

@@ -36,7 +36,7 @@ std::vector<std::string> exportTfx(const StrandSet& strands, std::ostream& out);
 // and a warning reports the number of followers of each. Text with a transform is refused, because
 // nothing states how it is applied. Refuses other versions, no strands, strands of less than 2
 // vertices, arrays that overlap, lie outside the file (checked before any allocation) or not at a
-// multiple of 4 bytes, numbers that are not finite and negative thickness. Throws engine::Error
+// multiple of 4 bytes, numbers that are not finite. Throws engine::Error
 // "byte N: reason", or "line N: reason".
 StrandSet importTfx(const StrandFile& file);
 

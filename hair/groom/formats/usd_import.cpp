@@ -165,44 +165,57 @@ std::vector<std::filesystem::path> librariesOf(const std::filesystem::path& inte
     return all;
 }
 
-// Runs a script on the file, and returns its output, read by `parse`.
-template <class Parse>
-auto readStage(
-    const std::string& tool, Samples samples, const std::filesystem::path& path,
-    const NamedFileCheck& check, const Parse& parse) {
+}  // namespace
+
+std::vector<std::byte> runScript(
+    const FormatScript& tool, const std::vector<std::string>& arguments,
+    engine::ChildLimits limits) {
     // -B writes no byte code beside the tool, -E ignores environment variables of Python.
-    // An absolute path can't be taken for an option.
     const std::string python = engine::pythonInterpreter("python", "HAIRBENCH_PYTHON");
-    const std::filesystem::path script = engine::programFile("hair/groom/formats/" + tool);
+    const std::filesystem::path script = engine::programFile("hair/groom/formats/" + tool.script);
     std::vector<std::string> command{python, "-B", "-E", script.string()};
-    if (samples == Samples::all) command.emplace_back("--samples");
-    for (const std::filesystem::path& folder : check.folders())
-        command.push_back("--below=" + folder.string());
-    command.push_back(std::filesystem::absolute(path).string());
-    std::error_code unknown;
-    const std::uintmax_t size = std::filesystem::file_size(path, unknown);
-    engine::ChildLimits limits = limitsFor(unknown ? 0 : size, samples);
+    command.insert(command.end(), arguments.begin(), arguments.end());
 #ifdef HAIRBENCH_SANITIZE
     limits.bytes = 0;
 #endif
-    limits.reads = readsOf(check);
     std::ranges::move(librariesOf(python), std::back_inserter(*limits.reads));
     limits.reads->push_back(script.parent_path());
-    std::vector<std::byte> bytes;
     try {
-        bytes = engine::runTool(command, limits);
+        return engine::runTool(command, limits);
     } catch (const std::system_error& error) {
         if (error.code() != std::errc::no_such_file_or_directory)
             throw engine::Error(
-                "the program that reads USD can't be started: " + error.code().message());
+                "the program that reads " + tool.what +
+                " can't be started: " + error.code().message());
         throw engine::Error(
-            "reading USD needs the project's Python environment: run " +
+            "reading " + tool.what + " needs the project's Python environment: run " +
             engine::makesPythonEnvironment("python") + " (" + error.what() + ')');
     } catch (const engine::Error& error) {
         const std::string reason = error.what();
         if (!reason.starts_with(python)) throw;
-        throw engine::Error("usd-core, which reads it," + reason.substr(python.size()));
+        throw engine::Error(tool.library + ", which reads it," + reason.substr(python.size()));
     }
+}
+
+namespace {
+
+// Runs usd_curves.py or usd_mesh.py on the file, and returns its output, read by `parse`.
+template <class Parse>
+auto readStage(
+    const std::string& tool, Samples samples, const std::filesystem::path& path,
+    const NamedFileCheck& check, const Parse& parse) {
+    std::vector<std::string> arguments;
+    if (samples == Samples::all) arguments.emplace_back("--samples");
+    for (const std::filesystem::path& folder : check.folders())
+        arguments.push_back("--below=" + folder.string());
+    // An absolute path can't be taken for an option.
+    arguments.push_back(std::filesystem::absolute(path).string());
+    std::error_code unknown;
+    const std::uintmax_t size = std::filesystem::file_size(path, unknown);
+    engine::ChildLimits limits = limitsFor(unknown ? 0 : size, samples);
+    limits.reads = readsOf(check);
+    const std::vector<std::byte> bytes =
+        runScript({.script = tool, .what = "USD", .library = "usd-core"}, arguments, limits);
     try {
         return parse(std::span<const std::byte>(bytes));
     } catch (const engine::Error& error) {
@@ -221,9 +234,6 @@ StrandSet readUsdStream(std::span<const std::byte> bytes) {
     set.ends = endsOf(sections.take<std::uint32_t>(), header.points);
     set.points = sections.take<glm::vec3>();
     set.widths = sections.takeAttribute<float>();
-    requireNotNegative(set.widths.values, sections.start(), "width");
-    if (set.widths.everywhere)
-        requireNotNegative({*set.widths.everywhere}, sections.start(), "width");
     set.transparencies = sections.takeAttribute<float>();
     set.colors = sections.takeAttribute<glm::vec3>();
     set.root_uvs = sections.take<glm::vec2>();

@@ -5,15 +5,31 @@
 #include <cstdint>
 #include <filesystem>
 #include <span>
+#include <string>
 #include <vector>
 
 #include <glm/vec3.hpp>
 
+#include "engine/run_tool.h"
 #include "hair/groom/groom.h"
 #include "hair/groom/mesh/mesh.h"
 #include "hair/groom/strand_format.h"
 
 namespace hair::groom {
+
+// A script of this folder that reads files for the program.
+struct FormatScript {
+    std::string script;  // "usd_curves.py"
+    std::string what;  // for messages: "USD"
+    std::string library;  // "usd-core"
+};
+
+// Runs it in the project's Python environment with these limits, `reads` among them, which get the
+// interpreter's own folders too. Returns its stdout. Throws engine::Error if the environment is
+// missing, and with the last line of the script's errors if it fails.
+std::vector<std::byte> runScript(
+    const FormatScript& tool, const std::vector<std::string>& arguments,
+    engine::ChildLimits limits);
 
 // Reads the curves of every UsdGeomBasisCurves and UsdGeomNurbsCurves in a stage of Universal Scene
 // Description (.usd, .usda, .usdc, .usdz) by usd_curves.py; its comments have the details. Throws

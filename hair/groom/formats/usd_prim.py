@@ -173,6 +173,7 @@ class Prim:
             values = self._value(self.curves.GetWidthsAttr())
         if values is None:
             return None
+        self.controls = np.atleast_1d(values)
         topology = self.topology
         name += f" ({interpolation})"
         if interpolation == "constant":
@@ -198,12 +199,9 @@ class Prim:
             self.has_groom_width = widths is not None
         if widths is None:
             return None
-        # Between control vertices, a curve may be below all of them.
-        if not isinstance(self.topology, LinearCurves):
+        # Between control vertices with widths that are not negative, a curve may be below all of them.
+        if not isinstance(self.topology, LinearCurves) and not (self.controls < 0).any():
             widths = np.maximum(widths, 0)  # NaN stays
-        negative = widths[(widths < 0) & np.isfinite(widths)]
-        if negative.size:
-            self.refuse(f"a width is negative: {negative.min()}")
         return widths if scale == 1 else (widths * scale).astype(np.float32)
 
     def _transparencies(self):

@@ -210,11 +210,6 @@ TEST(ImportPly, RefusesWrongValues) {
     EXPECT_THAT(
         readText(importPly, ascii(vertexElement() + kLists, kVertexRows + "3 0 1 2\n0\n")).warnings,
         testing::Contains(leftOutStrand("without points", 1)));
-    EXPECT_THAT(
-        errorOfPly(ascii(
-            vertexElement("property float width\n") + kLists,
-            "0 0 0 -1\n" + std::string("0 0 0 1\n0 0 0 1\n0 0 0 1\n0 0 0 1\n3 0 1 2\n2 3 4"))),
-        StartsWith("line 11: 'width' of vertex 0 is negative"));
 }
 
 TEST(ImportPly, NamesTheByteInBinaryFiles) {

@@ -88,6 +88,51 @@ TEST(UsableStrands, AreRequiredInEveryFormat) {
     });
 }
 
+// Strand 2 has a negative width in the middle; TressFX has one width for each strand.
+TEST(UsableStrands, HaveWidthsThatAreNotNegative) {
+    StrandSet strands = fourStrands();
+    strands.widths.values.assign(12, 0.5f);
+    for (std::size_t k = 6; k < 9; ++k) strands.widths.values[k] = -0.25f;
+    std::size_t formats = 0;
+    forEachFormat(strands, [&](const std::filesystem::path& path) {
+        const StrandSet read = importStrands(path);
+        EXPECT_EQ(brokenPromise(read), "");
+        if (!read.widths.known()) return;  // the format has none
+        ++formats;
+        EXPECT_THAT(read.ends, ElementsAre(3, 6, 9));
+        EXPECT_EQ(read.points.back(), glm::vec3(3, 2, 0));
+        EXPECT_EQ(read.widths.at(8), 0.5f);
+        EXPECT_THAT(
+            read.warnings,
+            Contains("1 strand with a negative width (strand 2, counted from 0) is left out"));
+        EXPECT_THAT(
+            errorText([&] { importStrands(path, 0, {}, BadStrands::refused); }),
+            AllOf(HasSubstr("1 strand with a negative width"), HasSubstr("--strict")));
+    });
+    EXPECT_GE(formats, 7u);
+}
+
+// A cubic curve may be thinner than at all its vertices, and Catmull-Rom's below zero: that is cut
+// unless a vertex is negative itself.
+TEST(UsableStrands, OfCurvesAreCutAtZeroOnlyBetweenVertices) {
+    const auto scene = [](const std::string& radii) {
+        std::string vertices;
+        std::istringstream words(radii);
+        int k = 0;
+        for (std::string radius; words >> radius; ++k)
+            vertices += std::to_string(k) + " 0 0 " + radius + ' ';
+        return "<?xml version=\"1.0\"?><scene><Curves basis=\"catmull_rom\" type=\"flat\">"
+               "<positions>" +
+               vertices + "</positions><indices>0</indices></Curves></scene>";
+    };
+    const TemporaryFolder folder;
+    const StrandSet cut = importStrands(folder.write("a.xml", scene("1 0 0 1")));
+    EXPECT_EQ(std::ranges::min(cut.widths.values), 0.0f);
+    EXPECT_THAT(
+        errorText([&] { importStrands(folder.write("b.xml", scene("1 0.5 -0.5 1"))); }),
+        HasSubstr("1 strand with a negative width"));
+}
+
 // Formats of edges and of equally long strands have no strands of one point.
 TEST(UsableStrands, HaveTwoPoints) {
     StrandSet strands = fourStrands();
