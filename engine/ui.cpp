@@ -1,6 +1,8 @@
 #include "engine/ui.h"
 
+#include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <cstring>
 #include <filesystem>
 #include <ranges>
@@ -42,19 +44,18 @@ Handle<VkDescriptorPool, &vkDestroyDescriptorPool> makeDescriptors(VkDevice devi
 }
 
 // `size`: font height, px.
-void addFont(float size) {
-    ImGuiIO& io = ImGui::GetIO();
+void addFont(ImFontAtlas& fonts, float size) {
     if (std::filesystem::is_regular_file(HAIRBENCH_UI_FONT)) {
         // Latin with accents, and signs of units and ranges.
         static constexpr ImWchar kGlyphs[] = {0x20,   0x17f,  0x2010, 0x2030, 0x2070,
                                               0x209f, 0x2190, 0x21ff, 0x2200, 0x22ff,
                                               0x370,  0x3ff,  0};
-        io.Fonts->AddFontFromFileTTF(HAIRBENCH_UI_FONT, size, nullptr, kGlyphs);
+        fonts.AddFontFromFileTTF(HAIRBENCH_UI_FONT, size, nullptr, kGlyphs);
         return;
     }
     ImFontConfig config;
     config.SizePixels = size;
-    io.Fonts->AddFontDefault(&config);
+    fonts.AddFontDefault(&config);
 }
 
 UiRect rectOf(const ImRect& rect) { return {rect.Min.x, rect.Min.y, rect.Max.x, rect.Max.y}; }
@@ -79,6 +80,80 @@ UiItem itemOf(const ImGuiContext& context, ImGuiID id, const ImRect& rect) {
 }  // namespace
 
 // A child's name is its parent's name, a slash, its own name and a number that makes it unique.
+TextPainter::TextPainter(float size) : atlas_(std::make_unique<ImFontAtlas>()) {
+    addFont(*atlas_, std::round(size));
+    unsigned char* pixels = nullptr;
+    int width = 0, height = 0;
+    atlas_->GetTexDataAsAlpha8(&pixels, &width, &height);  // draws the glyphs
+}
+
+TextPainter::~TextPainter() = default;
+
+namespace {
+
+// Calls `each` with the glyph of every character.
+template <class Each>
+void forEachGlyph(const ImFontAtlas& atlas, std::string_view text, const Each& each) {
+    const ImFont& font = *atlas.Fonts.front();
+    const char* const end = text.data() + text.size();
+    for (const char* at = text.data(); at < end;) {
+        unsigned code = 0;
+        at += std::max(1, ImTextCharFromUtf8(&code, at, end));
+        const ImFontGlyph* const glyph = font.FindGlyphNoFallback(static_cast<ImWchar>(code));
+        each(glyph ? *glyph : *font.FindGlyph('?'));
+    }
+}
+
+}  // namespace
+
+float TextPainter::width(std::string_view text) const {
+    float width = 0.0f;
+    forEachGlyph(*atlas_, text, [&](const ImFontGlyph& glyph) { width += glyph.AdvanceX; });
+    return width;
+}
+
+void TextPainter::draw(
+    Pixels& picture, float left, float top, std::string_view text,
+    const std::array<std::uint8_t, 3>& color) const {
+    // A glyph may have several texels for a pixel.
+    const auto covered = [&](const ImFontGlyph& glyph, int columns, int x, int y) {
+        const auto texel = [](float share, int size) {
+            return static_cast<int>(std::round(share * static_cast<float>(size)));
+        };
+        const int first = texel(glyph.U0, atlas_->TexWidth);
+        const int count = texel(glyph.U1, atlas_->TexWidth) - first;
+        const int from = first + count * x / columns;
+        const int to = std::max(from + 1, first + count * (x + 1) / columns);
+        const int row = (texel(glyph.V0, atlas_->TexHeight) + y) * atlas_->TexWidth;
+        int sum = 0;
+        for (int u = from; u < to; ++u) sum += atlas_->TexPixelsAlpha8[row + u];
+        return static_cast<float>(sum) / (255.0f * static_cast<float>(to - from));
+    };
+    forEachGlyph(*atlas_, text, [&](const ImFontGlyph& glyph) {
+        const int x0 = static_cast<int>(std::round(left + glyph.X0));
+        const int y0 = static_cast<int>(std::round(top + glyph.Y0));
+        const int columns = static_cast<int>(std::round(glyph.X1 - glyph.X0));
+        const int rows = static_cast<int>(std::round(glyph.Y1 - glyph.Y0));
+        for (int y = 0; y < rows && glyph.Visible; ++y) {
+            for (int x = 0; x < columns; ++x) {
+                if (x0 + x < 0 || x0 + x >= static_cast<int>(picture.width) || y0 + y < 0 ||
+                    y0 + y >= static_cast<int>(picture.height))
+                    continue;
+                const float share = covered(glyph, columns, x, y);
+                const auto pixel = static_cast<std::size_t>(y0 + y) * picture.width +
+                                   static_cast<std::size_t>(x0 + x);
+                for (std::size_t channel = 0; channel < 3; ++channel) {
+                    std::uint8_t& value = picture.rgba[4 * pixel + channel];
+                    value = static_cast<std::uint8_t>(std::lround(
+                        (1.0f - share) * static_cast<float>(value) +
+                        share * static_cast<float>(color[channel])));
+                }
+            }
+        }
+        left += glyph.AdvanceX;
+    });
+}
+
 std::string windowName(const ImGuiWindow& window) {
     std::string name = window.Name;
     if (!(window.Flags & ImGuiWindowFlags_ChildWindow)) return name;
@@ -126,7 +201,7 @@ void Ui::makeFont() {
     ImGuiIO& io = ImGui::GetIO();
     const float density = window_.density();
     io.Fonts->Clear();
-    addFont(std::round(kFontSize * scale_ * density));
+    addFont(*io.Fonts, std::round(kFontSize * scale_ * density));
     io.FontGlobalScale = 1.0f / density;
 }
 

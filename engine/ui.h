@@ -1,14 +1,20 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
+#include <memory>
 #include <string>
+#include <string_view>
 #include <vector>
 
+#include "engine/pictures.h"
 #include "engine/presenter.h"
 
 typedef void* ImTextureID;
 
-// The user interface: Dear ImGui in a window, and the widgets of its last frame.
+// The user interface: Dear ImGui in a window, the widgets of its last frame, and its font for
+// pictures.
+struct ImFontAtlas;
 struct ImGuiWindow;
 
 namespace engine {
@@ -56,6 +62,25 @@ private:
     const Window& window_;
     float scale_ = 1.0f;
     Handle<VkDescriptorPool, &vkDestroyDescriptorPool> descriptors_;
+};
+
+// Draws lines of text into pictures, with the font of the user interface. Needs no window.
+class TextPainter {
+public:
+    explicit TextPainter(float size);  // font height, px
+    ~TextPainter();
+    TextPainter(const TextPainter&) = delete;
+    TextPainter& operator=(const TextPainter&) = delete;
+
+    // Width of a line, px. Characters that the font lacks become "?".
+    float width(std::string_view text) const;
+    // Draws from the top left corner of the first letter. Parts outside the picture are left out.
+    void draw(
+        Pixels& picture, float left, float top, std::string_view text,
+        const std::array<std::uint8_t, 3>& color) const;
+
+private:
+    std::unique_ptr<ImFontAtlas> atlas_;
 };
 
 // Returns a Dear ImGui window's name as in UiItem::window.

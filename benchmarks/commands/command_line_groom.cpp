@@ -23,8 +23,8 @@ void addPointsPerStrand(
 void addStrict(CLI::App& command, bool& strict) {
     command.add_flag(
         "--strict", strict,
-        "refuse a file with strands of a single point or with numbers that are not finite, "
-        "instead of leaving these strands out");
+        "refuse a file with strands of a single point, with numbers that are not finite or with "
+        "negative widths, instead of leaving these strands out");
 }
 
 void addGroups(CLI::App& command, std::vector<std::int32_t>& groups, const std::string& what) {
@@ -44,6 +44,13 @@ constexpr const char* kGroomSceneNotes =
 share of roots, the share of the second-best choice and every other choice are printed. A head that is
 not in metres with +y up is converted and written beside OUT as .head.obj, without its materials.
 Then: hairbench render OUT -o x.png)";
+
+constexpr const char* kGroomSheetNotes =
+    R"(Files are found in subfolders, too, and sorted by name. A line for each has its strands, points, unit, up
+axis, median length, strays and strands that were left out; "?" marks a guess. Oddities and files that can't
+be read follow. Pictures show up to 4,000 strands of each file. An archive (.zip, .tar, .tar.gz, ...) of up
+to 2 GiB of hair is unpacked into a temporary folder. --json has what 'hairbench groom info --json' says of
+each file.)";
 
 constexpr const char* kFilterNotes =
     R"(A strand is left out by the first test that it fails; the count for each test is printed. A root
@@ -302,6 +309,54 @@ void addGroomCommands(const CommandLine& line) {
             command.add_option(
                 "--device", options.device.wanted,
                 "for --sheet: index or part of the name of the device");
+            command.add_flag("--force", options.force, "replace existing files");
+        });
+    addCommand<GroomSheetOptions>(
+        line, *groom,
+        {.name = "sheet",
+         .description =
+             "draws all files of hair of a folder or an archive, and lists their oddities",
+         .examples =
+             {"hairbench groom sheet hairstyles -o sheet.png",
+              "hairbench groom sheet hairstyles.zip -o sheet.png --json sheet.json --head "
+              "head.obj"},
+         .notes = kGroomSheetNotes},
+        makeGroomSheet, [](CLI::App& command, GroomSheetOptions& options) {
+            command.add_option("folder", options.folder, "folder or archive of files of hair")
+                ->required()
+                ->type_name("FOLDER");
+            command.add_option("-o,--out", options.out, "picture to write (.png)")
+                ->required()
+                ->type_name("PNG");
+            command.add_option("--json", options.json, "file to write the table to")
+                ->type_name("JSON");
+            command.add_option("--head", options.head, "mesh that the hair of all files grows on")
+                ->type_name("HEAD");
+            command
+                .add_option(
+                    "--scale", options.scale,
+                    "metres per unit of the files (default: as each states, or a guess)")
+                ->check(CLI::PositiveNumber);
+            command.add_option("--up", options.up, "upward axis of the files (default: a guess)")
+                ->check(CLI::IsMember({"x", "y", "z"}));
+            addPointsPerStrand(command, options.points_per_strand);
+            addStrict(command, options.strict);
+            command
+                .add_option(
+                    "--most", options.most,
+                    "files to read; of more, as many are taken at equal distances")
+                ->check(CLI::Range(1, 10000))
+                ->capture_default_str();
+            command.add_option("--size", options.size, "width of each picture in pixels")
+                ->check(CLI::Range(64, 1024))
+                ->capture_default_str();
+            command
+                .add_option(
+                    "--columns", options.columns,
+                    "pictures in a row (default: about as many as rows)")
+                ->check(CLI::Range(1, 100));
+            command.add_option(
+                "--device", options.device.wanted, "index or part of the name of the device");
             command.add_flag("--force", options.force, "replace existing files");
         });
     addCommand<groom::ConvertOptions>(

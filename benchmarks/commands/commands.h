@@ -135,6 +135,23 @@ struct GroomSceneOptions {
 };
 int makeGroomScene(const GroomSceneOptions& options);
 
+struct GroomSheetOptions {
+    std::filesystem::path folder;  // of files of hair, or an archive
+    std::filesystem::path out;  // .png
+    std::filesystem::path json;  // empty: none
+    std::filesystem::path head;  // mesh that all of the hair grows on; empty: none
+    std::optional<double> scale;  // metres per unit of the files
+    std::string up;  // upward axis of the files: "x", "y" or "z"; empty: guessed
+    std::uint32_t points_per_strand = 0;  // if the files do not state it
+    bool strict = false;  // refuse files with strands that can't be used
+    std::uint32_t most = 200;  // files that are read
+    std::uint32_t size = 256;  // px of a picture
+    std::uint32_t columns = 0;  // 0: about as many as rows
+    engine::DeviceOptions device;
+    bool force = false;  // replace existing files
+};
+int makeGroomSheet(const GroomSheetOptions& options);
+
 int convertGroom(const groom::ConvertOptions& options);
 
 // Edits of a file of hair; each command reads some of them.

@@ -147,42 +147,133 @@ void chooseStrands(const StrandSet& strands, GroomScene& scene) {
 
 struct FieldChoice {
     std::uint32_t resolution;
+    double cell;  // m
     std::string reason;
 };
 
-// Returns the resolution of the head's distance field. Cells of 3 mm show ears and the nape. A
-// whole body needs more cells along its longest side than a head, but most of its box is narrow.
+// Cells of this size show ears and the nape.
+constexpr double kFieldCell = 3e-3;  // m
+
+// Returns the resolution of the head's distance field. A whole body needs more cells along its
+// longest side than a head, but most of its box is narrow.
 FieldChoice fieldChoice(const Mesh& head) {
-    constexpr double kCell = 3e-3;  // m
     constexpr double kRounded = 1e-3;  // cells; positions are rounded to floats
     constexpr double kFewestCells = 96.0;
     constexpr double kMostCells = 256.0;  // the greatest that /simulation/distance_fields permits
-    glm::dvec3 low(std::numeric_limits<double>::infinity());
-    glm::dvec3 high = -low;
-    for (const glm::vec3& position : head.positions) {
-        low = glm::min(low, glm::dvec3(position));
-        high = glm::max(high, glm::dvec3(position));
-    }
-    const glm::dvec3 size = high - low;
-    const double side = std::max({size.x, size.y, size.z});
-    const double cells = std::clamp(std::ceil(side / kCell - kRounded), kFewestCells, kMostCells);
-    const glm::dvec3 counts = size * (cells / side) + 3.0;
+    const Box box = boxOf(head.positions);
+    const double side = box.longestSide();
+    const double cells =
+        std::clamp(std::ceil(side / kFieldCell - kRounded), kFewestCells, kMostCells);
+    const glm::dvec3 counts = (box.high - box.low) * (cells / side) + 3.0;
     FieldChoice choice{
         .resolution = static_cast<std::uint32_t>(cells),
-        .reason = "the head, a distance field of " + report::plainNumber(cells) + " cells of " +
+        .cell = side / cells,
+        .reason = "a distance field of " + report::plainNumber(cells) + " cells of " +
                   report::lengthText(side / cells)};
     if (cells == kFewestCells) return choice;
     const double megabytes = sizeof(float) * counts.x * counts.y * counts.z * 1e-6;
     choice.reason += ", because the mesh is " + report::lengthText(side) +
                      " long and a head needs cells of 3 mm" +
-                     (cells == kMostCells && side / cells > kCell
+                     (cells == kMostCells && side / cells > kFieldCell
                           ? " (256 is the greatest number; a mesh of the head alone is finer)"
                           : "") +
                      "; it takes " + report::shortNumber(megabytes) + " MB";
     return choice;
 }
 
-void chooseSimulation(const Mesh* head, GroomScene& scene) {
+// Cuts triangles off at the sides of a box. Neighbouring triangles are cut at the same points.
+class MeshCut {
+public:
+    MeshCut(const Mesh& mesh, const Box& box) : mesh_(mesh), box_(box) {}
+
+    // Returns the part in the box, without materials.
+    Mesh take() {
+        for (const auto& triangle : mesh_.triangles) {
+            std::vector<Corner> corners;
+            for (const std::uint32_t vertex : triangle)
+                corners.push_back({mesh_.positions[vertex], mesh_.normals[vertex]});
+            for (int axis = 0; axis < 3; ++axis) {
+                corners = cut(corners, axis, static_cast<float>(box_.low[axis]), 1.0f);
+                corners = cut(corners, axis, static_cast<float>(box_.high[axis]), -1.0f);
+            }
+            add(corners);
+        }
+        return std::move(part_);
+    }
+
+private:
+    struct Corner {
+        glm::vec3 position;
+        glm::vec3 normal;
+    };
+
+    static Corner between(const Corner& a, const Corner& b, int axis, float at) {
+        // From the same end, in whichever order two triangles have them.
+        const bool is_first = a.position[axis] < b.position[axis];
+        const Corner& from = is_first ? a : b;
+        const Corner& to = is_first ? b : a;
+        const float share = (at - from.position[axis]) / (to.position[axis] - from.position[axis]);
+        Corner corner{
+            glm::mix(from.position, to.position, share), glm::mix(from.normal, to.normal, share)};
+        corner.position[axis] = at;
+        return corner;
+    }
+
+    // Keeps the part of a convex polygon on one side of a plane (Sutherland and Hodgman 1974).
+    static std::vector<Corner>
+    cut(const std::vector<Corner>& corners, int axis, float at, float side) {
+        std::vector<Corner> kept;
+        const auto isIn = [&](const Corner& each) {
+            return side * each.position[axis] >= side * at;
+        };
+        for (std::size_t i = 0; i < corners.size(); ++i) {
+            const Corner& here = corners[i];
+            const Corner& next = corners[(i + 1) % corners.size()];
+            if (isIn(here)) kept.push_back(here);
+            if (isIn(here) != isIn(next)) kept.push_back(between(here, next, axis, at));
+        }
+        return kept;
+    }
+
+    void add(const std::vector<Corner>& corners) {
+        const auto first = static_cast<std::uint32_t>(part_.positions.size());
+        for (const Corner& corner : corners) {
+            part_.positions.push_back(corner.position);
+            part_.normals.push_back(corner.normal);
+        }
+        for (std::uint32_t i = 2; i < corners.size(); ++i) {
+            const glm::dvec3 a(corners[0].position), b(corners[i - 1].position);
+            const glm::dvec3 c(corners[i].position);
+            if (glm::cross(b - a, c - a) == glm::dvec3(0.0)) continue;
+            part_.triangles.push_back({first, first + i - 1, first + i});
+            part_.triangle_materials.push_back(0);
+        }
+    }
+
+    const Mesh& mesh_;
+    Box box_;
+    Mesh part_;
+};
+
+// Returns the part of a long mesh round the hair, if its field has finer cells. Hair moves less
+// than 10 cm beyond where it hangs unless the head moves a lot.
+std::optional<Mesh> partRound(const StrandSet& strands, const Mesh& head) {
+    constexpr double kRound = 0.1;  // m
+    if (fieldChoice(head).cell <= kFieldCell) return {};
+    Box box = boxOf(strands.points);
+    box.low -= kRound;
+    box.high += kRound;
+    Mesh part = MeshCut(head, box).take();
+    if (part.triangles.empty() || fieldChoice(part).cell > 0.9 * fieldChoice(head).cell) return {};
+    try {
+        hair::groom::bodyMesh(part);
+    } catch (const engine::Error&) {
+        return {};
+    }
+    return part;
+}
+
+void chooseSimulation(const StrandSet& strands, const Mesh* head, GroomScene& scene) {
     hair::SimulationSettings& simulation = scene.settings.simulation;
     simulation.solver = hair::Solver::rod;
     simulation.rest = hair::RestShape::balanced;
@@ -201,10 +292,14 @@ void chooseSimulation(const Mesh* head, GroomScene& scene) {
         return;
     }
     simulation.collision = {.margin = 0.002f, .friction = 3.0f};
-    const FieldChoice field = fieldChoice(*head);
+    scene.body = partRound(strands, *head);
+    const FieldChoice field = fieldChoice(scene.body ? *scene.body : *head);
     simulation.distance_fields = {{.resolution = field.resolution}};
     scene.settings.strands.collision = hair::StrandCollision::push_out;
-    scene.choices.push_back({"body", field.reason + ", margin 2 mm"});
+    scene.choices.push_back(
+        {"body",
+         (scene.body ? "the part of the mesh up to 10 cm beyond the hair, " : "the head, ") +
+             field.reason + ", margin 2 mm"});
 }
 
 // ---- Light and colour ---------------------------------------------------------------------------
@@ -553,7 +648,11 @@ GroomScene sceneOf(const StrandSet& strands, const Mesh* head, const LayGuess& g
             "; leave them out in the program that makes the hair");
     findLengths(strands, scene);
     chooseStrands(strands, scene);
-    chooseSimulation(head, scene);
+    chooseSimulation(
+        strays.empty()
+            ? strands
+            : hair::groom::pickStrands(strands, hair::groom::strandsBut(strands, strays)),
+        head, scene);
     if (head) findOnHead(strands, *head, guess, scene);
     chooseWidths(strands, scene);
     chooseColor(strands, scene);

@@ -2,6 +2,7 @@
 
 #include <filesystem>
 #include <iosfwd>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -22,6 +23,8 @@ struct SceneChoice {
 struct GroomScene {
     hair::Settings
         settings;  // without /groom/file and /groom/mesh, which depend on the scene's folder
+    // The part of the head that is the body, as a mesh of its own; absent: all of it.
+    std::optional<hair::groom::Mesh> body;
     std::vector<SceneChoice> choices;
     std::vector<hair::CameraSettings> views;  // from the front, the head's left, the back, its
                                               // right

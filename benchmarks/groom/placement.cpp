@@ -39,27 +39,6 @@ glm::dmat3 uprightOf(int up) {
 
 // ---- The head by itself -------------------------------------------------------------------------
 
-struct Box {
-    glm::dvec3 low{std::numeric_limits<double>::infinity()};
-    glm::dvec3 high{-std::numeric_limits<double>::infinity()};
-
-    void add(const glm::dvec3& point) {
-        low = glm::min(low, point);
-        high = glm::max(high, point);
-    }
-    glm::dvec3 centre() const { return 0.5 * (low + high); }
-    double longestSide() const {
-        const glm::dvec3 size = high - low;
-        return std::max({size.x, size.y, size.z});
-    }
-};
-
-Box boxOf(const hair::groom::Mesh& mesh) {
-    Box box;
-    for (const glm::vec3& position : mesh.positions) box.add(position);
-    return box;
-}
-
 // A head is 0.2 to 0.3 m high, a bust 0.5 m, a whole figure 1.8 m. The scatter is a factor on the
 // size, chosen so that a figure in metres, and a head alone in any unit, are recognised.
 constexpr double kHeadSize = 0.35;
@@ -94,7 +73,7 @@ enum class End { root, tip };
 class Roots {
 public:
     Roots(const hair::groom::StrandSet& strands, const hair::groom::Mesh& head, End end)
-        : surface_(head.positions, head.triangles), head_(boxOf(head)) {
+        : surface_(head.positions, head.triangles), head_(boxOf(head.positions)) {
         for (const std::uint32_t i : sampled(strands))
             roots_.push_back(
                 end == End::root ? strands.strand(i).front() : strands.strand(i).back());
@@ -147,6 +126,12 @@ private:
 };
 
 }  // namespace
+
+Box boxOf(const std::vector<glm::vec3>& points) {
+    Box box;
+    for (const glm::vec3& point : points) box.add(point);
+    return box;
+}
 
 // ---- Hair by itself -----------------------------------------------------------------------------
 

@@ -1,10 +1,13 @@
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
+#include <limits>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include <glm/common.hpp>
 #include <glm/mat3x3.hpp>
 #include <glm/vec3.hpp>
 
@@ -15,6 +18,24 @@
 // Places files of hair and heads in a scene, which is in metres with +y up. Guesses units and axes
 // that files do not state by how well the roots fit the head.
 namespace benchmarks::groom {
+
+// An axis-aligned box; without points, `low` is above `high`.
+struct Box {
+    glm::dvec3 low{std::numeric_limits<double>::infinity()};
+    glm::dvec3 high{-std::numeric_limits<double>::infinity()};
+
+    void add(const glm::dvec3& point) {
+        low = glm::min(low, point);
+        high = glm::max(high, point);
+    }
+    glm::dvec3 centre() const { return 0.5 * (low + high); }
+    double longestSide() const {
+        const glm::dvec3 size = high - low;
+        return std::max({size.x, size.y, size.z});
+    }
+};
+
+Box boxOf(const std::vector<glm::vec3>& points);
 
 // Transform from a file's coordinates to the scene's: scales, turns the upward axis to +y by a
 // quarter turn, then turns about +y.

@@ -1,7 +1,11 @@
 // Tests `hairbench groom scene` as a user runs it: its guesses about files that the test wrote.
+#include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstdint>
 #include <filesystem>
 #include <numbers>
+#include <set>
 #include <sstream>
 #include <string>
 #include <vector>
@@ -12,6 +16,8 @@
 
 #include "engine/pictures.h"
 #include "tests/cli/groom_files.h"
+#include "tests/python.h"
+#include "tests/required.h"
 
 namespace {
 
@@ -383,7 +389,7 @@ std::string boxObj(double width, double height, double depth) {
 // Cells of 3 mm: 96 suffice for a head of 0.28 m; a bust of 0.6 m needs 200. A body of 1.72 m would
 // need 574, more than the field permits.
 TEST_F(GroomSceneCli, GivesALargeBodyAFineDistanceField) {
-    for (const auto& [height, cells] : {std::pair{0.28, 96}, {0.6, 200}, {1.72, 256}}) {
+    for (const auto& [height, cells] : {std::pair{0.28, 96}, {0.6, 200}}) {
         HairFile file{.thickness = 80e-6f};
         for (int i = 0; i < 100; ++i) {
             file.segments.push_back(1);
@@ -396,11 +402,47 @@ TEST_F(GroomSceneCli, GivesALargeBodyAFineDistanceField) {
         folder_.write("head.obj", boxObj(0.2, height, 0.2));
         const Outcome outcome = sceneOnHead("--force --scale 1 --up y");
         ASSERT_EQ(outcome.status, 0) << outcome.output;
-        EXPECT_EQ(written()["simulation"]["distance_fields"][0]["resolution"], cells);
+        const nlohmann::json field = written()["simulation"]["distance_fields"][0];
+        EXPECT_EQ(field["resolution"], cells);
+        EXPECT_FALSE(field.contains("mesh"));
         if (cells > 96) {
             EXPECT_THAT(outcome.output, HasSubstr("MB, margin 2 mm"));
         }
     }
+}
+
+// A body of 1.72 m with hair of 10 cm on top of it: the field is that of its uppermost 10 cm, which
+// is 0.2 m wide and deep: 96 cells.
+TEST_F(GroomSceneCli, CutsABodyOffWhereNoHairIs) {
+    HairFile file{.thickness = 80e-6f};
+    for (int i = 0; i < 100; ++i) {
+        file.segments.push_back(1);
+        const double x = 0.1 * (i % 10 / 9.0 - 0.5);
+        const double z = 0.1 * (i / 10 / 9.0 - 0.5);
+        for (const double c : {x, 1.72, z, x, 1.82, z})
+            file.points.push_back(static_cast<float>(c));
+    }
+    folder_.write("mine.hair", file.text());
+    folder_.write("head.obj", boxObj(0.2, 1.72, 0.2));
+    const Outcome outcome = sceneOnHead("--force --scale 1 --up y");
+    ASSERT_EQ(outcome.status, 0) << outcome.output;
+    EXPECT_THAT(outcome.output, HasSubstr("the part of the mesh up to 10 cm beyond the hair"));
+    const nlohmann::json field = written()["simulation"]["distance_fields"][0];
+    EXPECT_EQ(field["resolution"], 96);
+    EXPECT_EQ(field["mesh"], "mine.body.obj");
+    std::istringstream lines(textOf(folder_.file("mine.body.obj")));
+    double least = 2.0, most = 0.0;
+    for (std::string word; lines >> word;)
+        if (word == "v") {
+            double x = 0.0, y = 0.0;
+            lines >> x >> y;
+            least = std::min(least, y);
+            most = std::max(most, y);
+        }
+    EXPECT_NEAR(least, 1.62, 1e-6);
+    EXPECT_NEAR(most, 1.72, 1e-6);
+    const Outcome valid = hairbench("validate " + quoted("mine.json"));
+    EXPECT_EQ(valid.status, 0) << valid.output;
 }
 
 TEST_F(GroomSceneCli, TakesWhatIsStated) {
@@ -472,6 +514,100 @@ TEST_F(GroomSceneCli, DrawsASheetOfFourViews) {
     EXPECT_EQ(
         textOf(folder_.file("sheet.png")).substr(16, 8), std::string("\0\0\5\0\0\0\1\x40", 8));
     EXPECT_EQ(scene("--force --sheet " + quoted("sheet.jpg")).status, 2);
+}
+
+// ---- Sheets of data sets ------------------------------------------------------------------------
+
+class GroomSheetCli : public GroomSceneCli {
+protected:
+    void SetUp() override {
+        std::filesystem::create_directory(folder_.file("set"));
+        std::filesystem::create_directory(folder_.file("set/more"));
+        folder_.write("set/b10.hair", hairOnHead({}));
+        folder_.write("set/b2.hair", hairOnHead({}));
+        folder_.write("set/a.hair", hairOnHead({0.01}));
+        folder_.write("set/more/c.hair", hairOnHead({}));
+        folder_.write("set/broken.data", "no strands");
+        folder_.write("set/picture.jpg", "not hair");
+    }
+    Outcome sheet(const std::string& from, const std::string& options = "") const {
+        return hairbench(
+            "groom sheet " + quoted(from) + " -o " + quoted("sheet.png") + " --json " +
+            quoted("sheet.json") + " --size 64 --columns 2 " + options);
+    }
+    nlohmann::json listed() const {
+        return nlohmann::json::parse(textOf(folder_.file("sheet.json")));
+    }
+};
+
+// Four files of hair in the order of their numbers, two in a row, and one that can't be read.
+TEST_F(GroomSheetCli, DrawsAndListsAFolder) {
+    const Outcome outcome = sheet("set");
+    if (outcome.status == 77) GTEST_SKIP() << outcome.output;
+    ASSERT_EQ(outcome.status, 0) << outcome.output;
+    const nlohmann::json all = listed();
+    std::vector<std::string> names;
+    for (const nlohmann::json& groom : all["grooms"]) {
+        names.push_back(groom["file"]);
+        EXPECT_EQ(groom["strands"], 480);
+        EXPECT_EQ(groom["points"], 480 * 6);
+    }
+    EXPECT_THAT(names, testing::ElementsAre("a.hair", "b2.hair", "b10.hair", "more/c.hair"));
+    EXPECT_EQ(all["grooms"][0]["unit"]["name"], "cm");
+    EXPECT_EQ(all["grooms"][1]["unit"]["name"], "m");
+    EXPECT_THAT(outcome.output, HasSubstr("its unit is cm?, that of most files m?"));
+    ASSERT_EQ(all["refused"].size(), 1u);
+    EXPECT_EQ(all["refused"][0]["file"], "broken.data");
+    EXPECT_THAT(outcome.output, AllOf(HasSubstr("not read:"), HasSubstr("broken.data")));
+    EXPECT_THAT(outcome.output, ContainsRegex("a.hair +480 +2,880 +0 +0 +cm\\? +\\+y\\?"));
+    const engine::Pixels picture = engine::readImage(folder_.file("sheet.png"));
+    ASSERT_GE(picture.width, 128u);
+    ASSERT_GE(picture.height, 128u);
+    // Hair covers some of each quarter of the sheet: its darkest pixels are darker than the rest.
+    for (const std::uint32_t row : {0u, 1u})
+        for (const std::uint32_t column : {0u, 1u}) {
+            std::set<std::array<std::uint8_t, 3>> colors;
+            for (std::uint32_t y = 0; y < 64; ++y)
+                for (std::uint32_t x = 0; x < picture.width / 2; ++x) {
+                    const std::size_t pixel =
+                        std::size_t{row * picture.height / 2 + y} * picture.width +
+                        column * picture.width / 2 + x;
+                    colors.insert(
+                        {picture.rgba[4 * pixel], picture.rgba[4 * pixel + 1],
+                         picture.rgba[4 * pixel + 2]});
+                }
+            EXPECT_GT(colors.size(), 100u) << row << ' ' << column;
+        }
+    EXPECT_EQ(sheet("set").status, 2);  // both files exist
+    EXPECT_EQ(sheet("set", "--force --most 2").status, 0);
+    ASSERT_EQ(listed()["grooms"].size(), 2u);
+    EXPECT_EQ(listed()["files"], 5);
+}
+
+// Without a device there is no picture, but everything else about an archive.
+TEST_F(GroomSheetCli, ReadsArchives) {
+    if (pythonInterpreter().empty()) return skipWithout(Need::python, kNoPython);
+    const Outcome whole = sheet("set");
+    if (whole.status == 77) GTEST_SKIP() << whole.output;
+    const nlohmann::json of_folder = listed();
+    const std::string python =
+        "cd '" + folder_.path().string() + "/set' && '" + pythonInterpreter() + "' -m ";
+    for (const char* const command :
+         {"zipfile -c ../set.zip a.hair b2.hair b10.hair more broken.data picture.jpg",
+          "tarfile -c ../set.tar.gz a.hair b2.hair b10.hair more broken.data picture.jpg"}) {
+        SCOPED_TRACE(command);
+        ASSERT_EQ(runInShell(python + command).status, 0);
+        const std::string name =
+            std::string(command).find(".zip") != std::string::npos ? "set.zip" : "set.tar.gz";
+        const Outcome outcome = sheet(name, "--force");
+        ASSERT_EQ(outcome.status, 0) << outcome.output;
+        EXPECT_EQ(listed()["grooms"], of_folder["grooms"]);
+        EXPECT_EQ(listed()["refused"], of_folder["refused"]);
+    }
+    folder_.write("cut.zip", textOf(folder_.file("set.zip")).substr(0, 3000));
+    EXPECT_THAT(sheet("cut.zip", "--force").output, HasSubstr("can't be read as an archive"));
+    EXPECT_THAT(sheet("none", "--force").output, HasSubstr("is neither a folder nor an archive"));
+    EXPECT_THAT(sheet("set/more/c.hair", "--force").output, HasSubstr("archive"));
 }
 
 }  // namespace
