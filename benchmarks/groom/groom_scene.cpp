@@ -259,7 +259,7 @@ private:
 // than 10 cm beyond where it hangs unless the head moves a lot.
 std::optional<Mesh> partRound(const StrandSet& strands, const Mesh& head) {
     constexpr double kRound = 0.1;  // m
-    if (fieldChoice(head).cell <= kFieldCell) return {};
+    if (fieldChoice(head).cell <= 1.001 * kFieldCell) return {};  // positions are floats
     Box box = boxOf(strands.points);
     box.low -= kRound;
     box.high += kRound;
