@@ -11,7 +11,7 @@ class NurbsCurves:
     """Curves with knots, with the interface of CubicCurves. A segment is an interval between two
     different successive knots, within the curve's range. All segments have as many points, even in
     the parameter: the fewest that give no curve fewer points than vertices, but no more of them
-    than the order of its curve asks for."""
+    than the order of its curve asks for. A curve of one vertex is a point, and one of none has none."""
 
     def __init__(self, sizes, orders, knots, ranges=None, weights=None):
         """`sizes`, `orders` and `ranges` (2 columns) have a row for each curve, or the last two
@@ -22,28 +22,28 @@ class NurbsCurves:
         self.knots = self._knots(np.asarray(knots, np.float64))
         self.weights = self._weights(weights)
         self._find_segments(self._ranges(ranges))
-        pieces = np.minimum(-(-(self.sizes - 1) // self.segments), self.orders - 1)
+        pieces = np.minimum(-(-(self.sizes - 1) // np.maximum(self.segments, 1)), self.orders - 1)
         self.between = int(np.max(pieces, initial=1)) - 1
 
     def point_counts(self):
-        return self.segments * (self.between + 1) + 1
+        return np.where(self.sizes == 0, 0, self.segments * (self.between + 1) + 1)
 
     def ends(self):
         """Returns the number of ends of segments of each curve."""
-        return self.segments + 1
+        return np.where(self.sizes == 0, 0, self.segments + 1)
 
     def vertex(self, values):
         """Returns points from one value (row) for each vertex."""
         values = np.asarray(values, np.float64)
         if self.weights is None:
-            return self._place(lambda at: self._sum(values, at))
+            return self._place(lambda at: self._sum(values, at), values[self._alone(self.sizes)])
         rational = np.column_stack([values * self.weights[:, None], self.weights])
 
         def quotient(at):
             sums = self._sum(rational, at)
             return sums[:, :-1] / sums[:, -1:]
 
-        return self._place(quotient)
+        return self._place(quotient, values[self._alone(self.sizes)])
 
     def varying(self, values):
         """Returns points by linear interpolation of one value for each end of a segment."""
@@ -53,7 +53,11 @@ class NurbsCurves:
         def between(at):
             return (1 - at) * values[first] + at * values[first + 1]
 
-        return self._place(between)
+        return self._place(between, np.asarray(values)[self._alone(self.ends())])
+
+    def _alone(self, counts):
+        """Returns the places of curves of one vertex among values, of which curves have `counts`."""
+        return starts(counts)[self.sizes == 1]
 
     # ---- Checks ----
 
@@ -63,7 +67,8 @@ class NurbsCurves:
             orders = np.broadcast_to(orders, self.sizes.shape)
         if orders.size != self.sizes.size:
             raise ValueError(f"{orders.size} orders of {self.sizes.size} curves")
-        wrong = np.flatnonzero((orders < 2) | (orders > MOST_ORDER) | (self.sizes < orders))
+        short = (self.sizes < orders) & (self.sizes > 1)
+        wrong = np.flatnonzero((orders < 2) | (orders > MOST_ORDER) | short)
         if wrong.size:
             curve = wrong[0]
             raise ValueError(
@@ -131,7 +136,7 @@ class NurbsCurves:
         self.least = least[self.knot]
         self.most = most[self.knot]
         self.segments = np.bincount(self.curve, minlength=self.sizes.size)
-        empty = np.flatnonzero(self.segments == 0)
+        empty = np.flatnonzero((self.segments == 0) & (self.sizes > 1))
         if empty.size:
             raise ValueError(f"curve {empty[0]} has no different knots within its range")
 
@@ -159,15 +164,17 @@ class NurbsCurves:
             points[own] = sum(weights[r][:, None] * values[vertex + r] for r in range(order))
         return points
 
-    def _place(self, points_at):
-        """Returns all points, from a function that gives a point of each segment."""
+    def _place(self, points_at, alone):
+        """Returns all points, from a function that gives a point of each segment. `alone` are the
+        points of curves of one vertex."""
         counts = self.point_counts()
         number = np.arange(self.curve.size) - starts(self.segments)[self.curve]
         first = starts(counts)[self.curve] + (self.between + 1) * number
-        last = np.cumsum(self.segments) - 1
-        ends = points_at(1.0)[last]
+        ends = points_at(1.0)
         points = np.empty((counts.sum(), ends.shape[1]))
         for i in range(self.between + 1):
             points[first + i] = points_at(i / (self.between + 1))
-        points[np.cumsum(counts) - 1] = ends
+        last, has_segments = np.cumsum(counts) - 1, self.segments > 0
+        points[last[has_segments]] = ends[(np.cumsum(self.segments) - 1)[has_segments]]
+        points[last[self.sizes == 1]] = alone
         return points

@@ -126,6 +126,11 @@ def curves_with_knots():
     part.CreateRangesAttr([(0.5, 2)])
     widths(part, "varying", [1, 2, 4])
     stage.Save()
+    stage = new_stage("nurbs_short.usda")
+    flat = [0, 0, 0, 1, 1, 1]
+    short = nurbs(stage, "/hair", [1, 3, 0, 3], [3], [0, 0, 0, 1] + flat + [0, 0, 0] + flat)
+    widths(short, "varying", [1, 2, 4, 8, 16])
+    stage.Save()
 
 
 def refused_knots():

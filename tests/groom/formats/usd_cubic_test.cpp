@@ -176,6 +176,21 @@ TEST_F(UsdNurbs, FollowTheirKnots) {
     expectPoints(set, 7, alongKnots(madeVertices(0, 4), knots, 2, {0.5, 0.75, 1, 1.5, 2}));
 }
 
+// Of 1, 3, 0 and 3 vertices: the first and the third are left out like other strands without
+// length.
+TEST_F(UsdNurbs, OfOneVertexOrNoneAreLeftOut) {
+    const StrandSet set = usableStrands(read("nurbs_short.usda"));
+    ASSERT_EQ(set.strandCount(), 2u);
+    const std::vector<double> knots{0, 0, 0, 1, 1, 1};
+    expectPoints(set, 0, alongKnots(madeVertices(1, 3), knots, 2, {0, 0.5, 1}));
+    expectPoints(set, 1, alongKnots(madeVertices(4, 3), knots, 2, {0, 0.5, 1}));
+    EXPECT_EQ(set.widths.values, (std::vector<float>{2, 3, 4, 8, 12, 16}));
+    EXPECT_THAT(
+        set.warnings, testing::IsSupersetOf(
+                          {"1 strand of a single point (strand 0, counted from 0) is left out",
+                           "1 strand without points (strand 2, counted from 0) is left out"}));
+}
+
 TEST_F(UsdNurbs, AreUniformBsplinesWithKnotsAtWholeNumbers) {
     const StrandSet set = read("nurbs.usda");
     const auto bspline = set.strand(5);
