@@ -176,8 +176,7 @@ TEST_F(UsdNurbs, FollowTheirKnots) {
     expectPoints(set, 7, alongKnots(madeVertices(0, 4), knots, 2, {0.5, 0.75, 1, 1.5, 2}));
 }
 
-// Of 1, 3, 0 and 3 vertices: the first and the third are left out like other strands without
-// length.
+// The curves have 1, 3, 0 and 3 vertices.
 TEST_F(UsdNurbs, OfOneVertexOrNoneAreLeftOut) {
     const StrandSet set = usableStrands(read("nurbs_short.usda"));
     ASSERT_EQ(set.strandCount(), 2u);
