@@ -131,14 +131,15 @@ def compare(program):
                 # Alembic states no unit.
                 stated = ["--scale", "1", "--from-up", "y"] if source.endswith(".abc") else []
                 subprocess.run(
-                    [program, "groom", "convert", os.path.join(FOLDER, source), to, "--for", "blender", "--force",
+                    [program, "groom", "convert", os.path.join(FOLDER, source), to, "--for", "blender",
                      *stated], check=True, stdout=subprocess.DEVNULL)
                 positions, radii, numbers = strands_of(to)
                 wanted = [tuple(p + t for p, t in zip(NUMBERS[3 * k:3 * k + 3], PLACE)) for k in range(len(POINTS))] * 2
                 off = [abs(a - b) for p, q in zip(positions, wanted) for a, b in zip(p, q)]
                 wide = [abs(a - b) for a, b in zip(radii, RADII * 2)]
                 right = len(positions) == len(wanted) and max(off) < 1e-6 and len(wide) == len(wanted) and max(wide) < 1e-7
-                if extension == ".usda":  # Blender's reader of Alembic reads no attributes of curves
+                # Blender writes no attributes of curves to Alembic and reads none from it.
+                if extension == ".usda" and not source.endswith(".abc"):
                     groups_wanted = [GROUP] * len(SIZES) + GROUPS
                     right &= sorted(numbers["groom_group_id"]) == sorted(groups_wanted)
                     right &= sum(numbers["groom_guide"]) == sum(GUIDES)
