@@ -225,7 +225,10 @@ bool isNamedIn(const std::string& text, const Way& way) {
 TEST(Ways, AreAsShortAsTheyWere) {
     const Way ways[] = {
         {"/strands/density", {"strands.density"}, "", 5},
-        {"/simulation/time_step", {"time_step"}, "benchmarks/physics/", 10},
+        {"/simulation/time_step",
+         {".time_step", "float time_step", "double time_step", "/time_step", "\"time_step\""},
+         "benchmarks/physics/",
+         10},
         {"a scene's JSON read as settings", {"readSettings("}, "", 4},
         {"settings written as JSON", {"writeSettings(", "writeFields("}, "", 13},
         {"a device's type by its name",
