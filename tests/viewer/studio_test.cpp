@@ -150,7 +150,7 @@ TEST_F(StudioTest, SaysWhyASideCannotBeMade) {
 TEST_F(StudioTest, LetsGoOfSidesThatAreNotWanted) {
     const auto bytes = [](const Reply& reply) {
         std::uint64_t sum = 0;
-        for (const auto& [entry, held] : reply.memory.bytes()) sum += held;
+        for (const auto& [entry, held] : reply.memory) sum += held;
         return sum;
     };
     const SideOrder a = side(1, movingSettings()), b = side(2, movingSettings());
