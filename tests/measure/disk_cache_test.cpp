@@ -174,12 +174,13 @@ TEST_F(DiskCacheTest, WhatWasUsedLongestAgoGoesFirst) {
     EXPECT_LE(sum, 4096u);
 }
 
-// A process that is killed while it writes an entry leaves a temporary file. Other processes may be
-// writing one now, but not for hours.
+// A process that is killed while it writes an entry leaves a temporary file, named as
+// engine::replaceFile() does. Other processes may be writing one now, but not for hours.
 TEST_F(DiskCacheTest, RemovesWhatKilledProcessesLeft) {
     const DiskCache kept = cache();
     kept.store("a", "1");
-    const fs::path old(kept.fileOf("b").string() + ".12"), young(kept.fileOf("b").string() + ".13");
+    const fs::path old(kept.fileOf("b").string() + ".0123456789abcdef.partial");
+    const fs::path young(kept.fileOf("b").string() + ".fedcba9876543210.partial");
     const fs::path other = folder_.write("cache/notes.txt", "of the user");
     for (const fs::path& path : {old, young}) std::ofstream(path) << "half an entry";
     const auto now = fs::file_time_type::clock::now();
