@@ -123,8 +123,8 @@ struct CaseVerdict {
 
 // Returns the verdict on a case of a report. `environment` is the report's member. Unknown facts
 // raise no doubt, except that a median without an interval does. Returns nothing for a case that
-// was skipped or failed, or was only compiled. A verdict in the case itself is not used: reports of all builds are
-// judged by the same rules.
+// was skipped or failed, or was only compiled. A verdict in the case itself is not used: reports of
+// all builds are judged by the same rules.
 std::optional<CaseVerdict> judgeCase(const scene::Json& environment, const scene::Json& result);
 
 // Half the interval of the median frame time over that median: the column "+-" of tables. Absent

@@ -44,7 +44,8 @@ TEST(ShaderCosts, HaveOneNameForWhatDriversShare) {
     EXPECT_EQ(result.shaders[2].subgroup_size, 64u);
 }
 
-// Pipelines with other constants have equal stages. Fewer waves are worse, and more of everything else.
+// Pipelines with other constants have equal stages. Fewer waves are worse, and more of everything
+// else.
 TEST(ShaderCosts, AreTheWorstOfEqualStages) {
     const std::vector<std::string> stages{"strands/a.vert", "strands/a.tesc+packed"};
     const std::vector programs{
