@@ -24,7 +24,7 @@ StrandPoint evaluatedPoint(PictureParameters picture) {
     uint piece_end = uint(place.y);
 
     StrandPatch strand_patch;
-    if (kSkinnedStrands != 0) strand_patch.triangle = patch_triangle;
+    if (kNeedsTriangle) strand_patch.triangle = patch_triangle;
     strand_patch.key = patch_ids.x;
     strand_patch.segment = patch_ids.y;
     strand_patch.first_strand = patch_ids.z;

@@ -185,6 +185,9 @@ StrandPoint pointOnStrand(PictureParameters picture, StrandPatch strand_patch, P
     return point;
 }
 
+// True if a strand's point depends on the root triangle itself, beyond its guides' points.
+const bool kNeedsTriangle = kSkinnedStrands != 0 || kShow == kShowGroups;
+
 // Returns the shade of the group that a patch's strands belong to: that of the groom's own strand,
 // or of the first guide.
 float groupShade(PictureParameters picture, StrandPatch strand_patch) {

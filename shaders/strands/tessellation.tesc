@@ -16,7 +16,7 @@ layout(location = 14) patch out vec3 root_lift[3];
 layout(location = 17) patch out uvec3 patch_guides;
 layout(location = 18) patch out vec4 single_shares;  // of the control points
 layout(location = 19) patch out uvec2 patch_pieces;  // pieces, step
-layout(location = 20) patch out uint patch_triangle;  // set if kSkinnedStrands
+layout(location = 20) patch out uint patch_triangle;  // set if kNeedsTriangle
 
 void main() {
     PictureParameters picture = PictureReference(push.picture).parameters;
@@ -36,7 +36,7 @@ void main() {
         }
     }
     patch_guides = guides;
-    if (kSkinnedStrands != 0) patch_triangle = strand_patch.triangle;
+    if (kNeedsTriangle) patch_triangle = strand_patch.triangle;
     single_shares = singleShares(picture, guides, strand_patch.segment);
     root_lift = rootLift(picture, strand_patch, guides).edges;
 

@@ -115,17 +115,22 @@ TEST_F(ShowPictureTest, GroupsHaveColorsOfTheirOwn) {
     EXPECT_EQ(of_other.size(), 1u);
     EXPECT_NE(of_guide, of_other);
 
-    // Three strands, one on each guide, in two groups.
+    std::set<std::array<int, 3>> both = of_guide;
+    both.insert(of_other.begin(), of_other.end());
+    const auto expectBoth = [&](const char* what) {
+        for (const Backend backend : {Backend::tessellation, Backend::pulling, Backend::expanded}) {
+            shown.strands.backend = backend;
+            EXPECT_EQ(colors(drawGroom(device(), shown, groom, nullptr)), both)
+                << what << ", " << static_cast<int>(backend);
+        }
+    };
+    groom.root_triangles = {{0, 1, 2}, {1, 2, 0}};
+    expectBoth("two root triangles, with first guides of two groups");
+
     for (std::uint32_t i = 0; i < 3; ++i) groom.bindings.push_back({.guides = {i, i, i}});
     groom.groups = {2, 7, 2};
     shown.strands.source = StrandSource::groom;
-    for (const Backend backend : {Backend::tessellation, Backend::pulling, Backend::expanded}) {
-        shown.strands.backend = backend;
-        std::set<std::array<int, 3>> both = of_guide;
-        both.insert(of_other.begin(), of_other.end());
-        EXPECT_EQ(colors(drawGroom(device(), shown, groom, nullptr)), both)
-            << static_cast<int>(backend);
-    }
+    expectBoth("three strands, one on each guide, in two groups");
 }
 
 // The number of fragments of a pixel in a picture that counts them; -1 if its three colours
