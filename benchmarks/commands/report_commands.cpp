@@ -82,7 +82,8 @@ namespace {
 // Says how many changes can't be known. They must not look like unchanged times.
 void tellUnknown(const report::ReportComparison& comparison) {
     const auto unknown = std::ranges::count_if(comparison.changes, [](const report::Change& each) {
-        return !std::isfinite(each.comparison.upper);
+        return each.comparison.verdict == report::Verdict::inconclusive &&
+               !std::isfinite(each.comparison.upper);
     });
     if (unknown > 0)
         std::cerr << "hairbench: " << unknown << " of " << comparison.changes.size()

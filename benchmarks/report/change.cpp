@@ -98,6 +98,7 @@ void putFinite(scene::Json& object, const char* key, double value) {
 
 // "+1.8 %"
 std::string percentText(double share) {
+    if (share == std::numeric_limits<double>::infinity()) return "from none";
     if (!std::isfinite(share)) return "-";
     char text[48];
     std::snprintf(text, sizeof text, "%+.*f %%", std::abs(share) < 0.1 ? 2 : 1, share * 100.0);

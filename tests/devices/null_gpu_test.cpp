@@ -24,6 +24,8 @@ class NullGpu : public testing::TestWithParam<const char*> {
 protected:
     void SetUp() override {
         const Outcome outcome = run("devices");
+        if (outcome.output.find("there is no usr/lib/*/libvulkan_nouveau.so") != std::string::npos)
+            GTEST_SKIP() << outcome.output;  // Debian 12 does not package NVK
         if (outcome.status != 0) return skipWithout(Need::null_gpus, outcome.output);
         ASSERT_THAT(outcome.output, HasSubstr("runs hairbench"));
     }
@@ -40,6 +42,7 @@ protected:
 };
 
 INSTANTIATE_TEST_SUITE_P(Amd, NullGpu, testing::Values("polaris10", "navi21", "navi31"));
+INSTANTIATE_TEST_SUITE_P(Nvidia, NullGpu, testing::Values("ga102"));
 
 // The lines of a table, without those about the run.
 std::string tableIn(const std::string& output) {
@@ -82,12 +85,14 @@ TEST_P(NullGpu, CompilesShadersToTheCostsOfTheCommittedTable) {
     EXPECT_EQ(tables, expected.str()) << committed;
 }
 
-// Two queues, as a GPU has them.
+// Two queues, where the driver has them.
 TEST_P(NullGpu, RecordsFramesThatValidationAccepts) {
     const Outcome outcome =
         run("run " + shippedScene("smoke.json") +
-            "--set /run/async_compute=true --frames 2 --max-time 0 --validate --out '" +
-            file("run.json").string() + "'");
+            (run("devices").output.find("second queue") == std::string::npos
+                 ? "--set /run/async_compute=true "
+                 : "") +
+            "--frames 2 --max-time 0 --validate --out '" + file("run.json").string() + "'");
     EXPECT_THAT(outcome.output, HasSubstr("the device did not write a timestamp"));
     EXPECT_THAT(outcome.output, Not(HasSubstr("validation: ")));
     EXPECT_THAT(outcome.output, Not(HasSubstr("VUID")));
