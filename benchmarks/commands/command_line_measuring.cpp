@@ -149,7 +149,8 @@ void addGateOptions(CLI::App& command, gate::GateOptions& options) {
     command.add_flag(
         "--shaders", options.shaders,
         "compare what the driver's compiler made of the shaders ('hairbench shaders') instead of "
-        "times: one process each, no noise");
+        "times: one process each, no noise; their reports are left beside --out, as .a.json and "
+        ".b.json");
     command.add_option("--pairs", options.pairs, "pairs before the first verdict (default 12)")
         ->check(CLI::IsMember({12, 24, 48}));
     command

@@ -414,6 +414,7 @@ void BlockRunner::play(const Side& side, std::uint32_t seed, const fs::path& rep
     const fs::path folder = scratch_.path() / "block";
     std::error_code ignored;
     fs::remove_all(folder, ignored);
+    fs::remove(report, ignored);  // of an earlier process
     // It is in the block's folder, so that the leftovers of a killed run are removed with it.
     const fs::path temporary = folder / "temporary";
     fs::create_directories(temporary);
@@ -430,8 +431,6 @@ void BlockRunner::play(const Side& side, std::uint32_t seed, const fs::path& rep
 
 BlockReport BlockRunner::run(const Side& side, std::uint32_t seed) {
     const fs::path report = scratch_.path() / "report.json";
-    std::error_code ignored;
-    fs::remove(report, ignored);
     play(side, seed, report);
     try {
         return readBlock(report);

@@ -72,7 +72,7 @@ enum class Measured {
     time_per_sample,
     copy_bandwidth,
     arithmetic,
-    registers,  // per invocation, and the next five
+    registers,  // per invocation, and the next four
     scalar_registers,
     spills,  // registers kept in memory
     scalar_spills,

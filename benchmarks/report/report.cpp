@@ -250,7 +250,10 @@ scene::Json toJson(const CaseResult& result) {
     put(object, "backend", result.backend);
     put(object, "start", result.start);
     // A case that was throttled throughout has failed, but its measurements show by how much.
-    if (result.status == Status::ok || !result.metrics.empty()) putMeasured(object, result);
+    if (result.status == Status::ok || !result.metrics.empty())
+        putMeasured(object, result);
+    else if (!result.trust.warnings.empty())  // as by the validation layer before the failure
+        object["trust"] = toJson(result.trust);
     return object;
 }
 

@@ -92,8 +92,8 @@ TEST_F(SwiftShader, DrawsStrandsAsTheOtherDeviceDoes) {
                 EXPECT_EQ(outcome.status, 0) << outcome.output;
                 return picture;
             };
-            // Where in a quad a pixel with several samples is shaded is a rasteriser's own choice
-            // (Vulkan specification, "Centroid"). `software` shades every sample.
+            // A rasteriser chooses the place in a quad at which it shades a pixel with several
+            // samples (Vulkan specification, "Centroid"). `software` shades every sample.
             const bool is_chosen = samples != "1" && backend != "software";
             EXPECT_LE(
                 flipErrors({{draw("there", false), draw("here", true)}})[0],

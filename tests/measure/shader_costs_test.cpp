@@ -28,7 +28,7 @@ double only(const report::CaseResult& result, const report::MetricId& id) {
 TEST(ShaderCosts, HaveOneNameForWhatDriversShare) {
     const std::vector programs{
         program({"a.comp"}, {{"VGPRs", 24}, {"Spilled VGPRs", 3}, {"Instructions", 100}}),
-        program({"b.comp"}, {{"Number of GPRs", 40}, {"Spills to memory", 8}}),
+        program({"b.comp"}, {{"Number of GPRs", 40}, {"SLM Size", 8}}),
         program({"c.comp"}, {{"Max live registers", 90}, {"Spill Count", 2}, {"Else", 7}})};
     report::CaseResult result;
     addShaderCosts(programs, result);
@@ -36,7 +36,7 @@ TEST(ShaderCosts, HaveOneNameForWhatDriversShare) {
     EXPECT_EQ(only(result, report::ofShader("a:comp", Measured::spills)), 3);
     EXPECT_EQ(only(result, report::ofShader("a:comp", Measured::instructions)), 100);
     EXPECT_EQ(only(result, report::ofShader("b:comp", Measured::registers)), 40);
-    EXPECT_EQ(only(result, report::ofShader("b:comp", Measured::spills)), 8);
+    EXPECT_EQ(only(result, report::ofShader("b:comp", Measured::scratch)), 8);
     EXPECT_EQ(only(result, report::ofShader("c:comp", Measured::registers)), 90);
     EXPECT_EQ(result.metrics.size(), 7u);
     ASSERT_EQ(result.shaders.size(), 3u);  // with every figure, under the driver's name

@@ -200,10 +200,10 @@ TEST_F(PictureTest, QuadsAreAsWideAsTheirStrands) {
 
 // A cylinder's normal towards the eye is sqrt(1 - a^2) at a place `a` across it, -1 to 1, with the
 // mean pi / 4. With several samples per pixel, the pixel's centre may lie outside a strand, and
-// must not be the place that is shaded: that would be up to 12 % too little. A fragment is shaded
-// once, at the mean place of its samples. The normal is concave, so this is too much, by 3 % at 0.7
-// px. The strand leans, so that samples lie everywhere across it: 1 % is twice the error of the
-// mean of width x 256 equidistant places.
+// must not be the place that is shaded: that would be 4 % too little at 3.3 px, and more for
+// thinner strands. A fragment is shaded once, at the mean place of its samples. The normal is
+// concave, so this is too much, by 3 % at 0.7 px. The strand leans, so that samples lie everywhere
+// across it: 1 % is twice the error of the mean of width x 256 equidistant places.
 TEST_F(PictureTest, TheMeanNormalOfAStrandIsTheSameForAllSampleCounts) {
     constexpr std::uint32_t kRows = 256, kColumns = 64;
     const float pixel = 2.0f * 20.0f * std::tan(0.5f * 0.0174533f) / kRows;  // m, at 20 m

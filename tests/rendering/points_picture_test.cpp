@@ -279,7 +279,8 @@ TEST_F(PointsPicture, HasMoreLargePiecesThanTheirListHolds) {
 // The mean light of hair does not depend on the samples or on the back end. Supersampling shades
 // each sample at its own place, as `software` does. Other back ends shade a pixel's samples of a
 // strand once, at a place inside the strand: highlights are concave across a strand, and strands of
-// a pixel's width get up to 3 % more. (A place outside the quad made them 6 % darker.)
+// a pixel's width get up to 3 % more. (At a place outside the quad, as before, the scene `msaa` had
+// 0.983 of this light.)
 TEST_F(PointsPicture, HasTheSameMeanLightWithAnySamples) {
     Settings settings = thesisAtRest();
     Settings many = settings;

@@ -472,7 +472,8 @@ function buildEnvironment() {
 
 function buildContents() {
     const sections = [["devices", "Devices"], ["scaling", "Scaling"], ["passes", "Passes"], ["distributions", "Samples"],
-        ["quality", "Quality"], ["backends", "Back ends"], ["shaders", "Shaders"], ["comparison", "Comparison"],
+        ["quality", "Quality"], ["backends", "Back ends"], ["shaders", "Shaders"],
+        ["comparison", "Comparison"],
         ["pictures", "Pictures"], ["cases", "Cases"], ["environment", "Environment"]];
     showOnly(byId("contents"), ...sections.filter(([id]) => byId(id)).map(
         ([id, text]) => element("a", {href: `#${id}`}, text)));

@@ -196,7 +196,7 @@ void appendMesh(
     for (const Array& array : attributes) appendAttribute(mesh, array, part.name, decoded);
 }
 
-// Where the accessors of a decoded primitive are, in the order of the data.
+// The accessors of a decoded primitive, in the order of the data.
 struct Decoded {
     std::vector<int*> accessors;  // the numbers of them in the primitive
     std::vector<Array> arrays;
