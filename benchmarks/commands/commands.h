@@ -14,6 +14,7 @@
 #include "benchmarks/run/plan.h"
 #include "benchmarks/scene/sweep.h"
 #include "engine/device.h"
+#include "hair/groom/mesh/mesh.h"
 
 // The program's commands. Each prints its output, returns the exit status, and throws engine::Error
 // for errors that the user has to fix.
@@ -119,6 +120,9 @@ int printGroomFormats(const GroomFormatsOptions& options);
 hair::groom::StrandSet chosenGroups(
     hair::groom::StrandSet strands, const std::vector<std::int32_t>& groups,
     const std::filesystem::path& file);
+
+// Reads a mesh, and prints the warnings about its file.
+hair::groom::Mesh meshOf(const std::filesystem::path& file);
 
 struct GroomSceneOptions {
     std::filesystem::path hair;

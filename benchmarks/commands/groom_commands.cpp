@@ -50,9 +50,9 @@ std::optional<double> metresOf(const std::optional<double>& millimetres) {
     return metresOf(*millimetres);
 }
 
-std::optional<hair::groom::BodyMesh> meshOf(const EditGroomOptions& options) {
-    if (options.mesh.empty()) return {};
-    return hair::groom::bodyMesh(hair::groom::importMesh(options.mesh));
+std::optional<hair::groom::BodyMesh> bodyOf(const std::filesystem::path& mesh) {
+    if (mesh.empty()) return {};
+    return hair::groom::bodyMesh(meshOf(mesh));
 }
 
 void warnOf(const std::filesystem::path& file, const std::vector<std::string>& warnings) {
@@ -274,7 +274,7 @@ int filterGroom(const EditGroomOptions& options) {
         throw engine::Error("--mesh", "is missing; --farthest-root and --deepest need it");
     if (!options.mesh.empty() && !settings.farthest_root && !settings.deepest)
         throw engine::Error("--mesh", "has no effect without --farthest-root or --deepest");
-    const std::optional<hair::groom::BodyMesh> mesh = meshOf(options);
+    const std::optional<hair::groom::BodyMesh> mesh = bodyOf(options.mesh);
     return editGroom(options, [&](const StrandSet& strands, double unit) {
         return hair::groom::filterStrands(strands, settings, mesh ? &*mesh : nullptr, unit);
     });
@@ -308,7 +308,7 @@ int fixGroom(const EditGroomOptions& options) {
     if (options.farthest_root && options.mesh.empty())
         throw engine::Error("--mesh", "is missing; --farthest-root needs it");
     constexpr double kFarthestRoot = 10.0;  // mm
-    const std::optional<hair::groom::BodyMesh> mesh = meshOf(options);
+    const std::optional<hair::groom::BodyMesh> mesh = bodyOf(options.mesh);
     const GroomEdit edit = [&](StrandSet strands, double unit) {
         if (options.scale) {
             strands = hair::groom::scaleLengths(std::move(strands), unit);
@@ -378,8 +378,7 @@ int compareGrooms(const CompareGroomsOptions& options) {
     if (!options.thresholds.empty()) settings.thresholds.clear();
     for (const std::string& text : options.thresholds)
         settings.thresholds.push_back(parsedThreshold(text));
-    std::optional<hair::groom::BodyMesh> mesh;
-    if (!options.mesh.empty()) mesh = hair::groom::bodyMesh(hair::groom::importMesh(options.mesh));
+    const std::optional<hair::groom::BodyMesh> mesh = bodyOf(options.mesh);
     const groom::ComparedFile first =
         readCompared(options.first, options.first_scale, options.first_points_per_strand);
     const groom::ComparedFile second =
@@ -429,6 +428,12 @@ hair::groom::StrandSet chosenGroups(
     } catch (const engine::Error& error) {
         throw engine::Error(file.string() + ": --group", error.what());
     }
+}
+
+hair::groom::Mesh meshOf(const std::filesystem::path& file) {
+    hair::groom::Mesh mesh = hair::groom::importMesh(file);
+    warnOf(file, mesh.warnings);
+    return mesh;
 }
 
 int printGroomFormats(const GroomFormatsOptions& options) {

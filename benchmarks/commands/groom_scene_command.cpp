@@ -40,7 +40,6 @@
 #include "hair/groom/files.h"
 #include "hair/groom/formats/usd_import.h"
 #include "hair/groom/inspect.h"
-#include "hair/groom/mesh/import_mesh.h"
 #include "hair/groom/style/style.h"
 
 namespace benchmarks::commands {
@@ -63,11 +62,6 @@ void refuseToReplace(const fs::path& path, const GroomSceneOptions& options) {
 std::string namedFrom(const fs::path& scene, const fs::path& file) {
     const fs::path folder = fs::absolute(scene).parent_path();
     return fs::absolute(file).lexically_proximate(folder.lexically_normal()).generic_string();
-}
-
-bool formatStatesAxes(const fs::path& head) {
-    const std::string extension = hair::groom::lowerCaseExtension(head);
-    return extension == ".glb" || extension == ".gltf" || extension == ".dae";
 }
 
 void tell(const std::string& what, const std::string& text) {
@@ -181,13 +175,13 @@ int makeGroomScene(const GroomSceneOptions& options) {
     if (strands.strandCount() == 0)
         throw engine::Error(options.hair.string(), "there are no strands");
     std::optional<hair::groom::Mesh> mesh;
-    if (!options.head.empty()) mesh = hair::groom::importMesh(options.head);
+    if (!options.head.empty()) mesh = meshOf(options.head);
     engine::checkWritable(options.out);
     tell(
         "read", options.hair.string() + ", " + report::countText(strands.strandCount(), "strand") +
                     ", " + report::countText(strands.points.size(), "point"));
 
-    groom::LayHints hints{.head_is_stated = formatStatesAxes(options.head)};
+    groom::LayHints hints{.head_is_stated = mesh && mesh->is_placed};
     hints.metres_per_unit = options.scale;
     hints.up = groom::axisOf(options.up);
     const groom::LayGuess guess = groom::guessLay(strands, mesh ? &*mesh : nullptr, hints);
@@ -368,7 +362,7 @@ Grown grownOf(
     hair::groom::StrandSet strands = hair::groom::importStrands(
         file, options.points_per_strand, {}, hair::groom::badStrands(options.strict));
     if (strands.strandCount() == 0) throw engine::Error("there are no strands");
-    groom::LayHints hints{.head_is_stated = formatStatesAxes(options.head)};
+    groom::LayHints hints{.head_is_stated = mesh && mesh->is_placed};
     hints.metres_per_unit = options.scale;
     hints.up = groom::axisOf(options.up);
     Grown grown{.name = name, .guess = groom::guessLay(strands, mesh, hints)};
@@ -571,7 +565,7 @@ int makeGroomSheet(const GroomSheetOptions& options) {
             engine::checkWritable(file);
         }
     std::optional<hair::groom::Mesh> head;
-    if (!options.head.empty()) head = hair::groom::importMesh(options.head);
+    if (!options.head.empty()) head = meshOf(options.head);
     const engine::ScratchFolder scratch;
     std::vector<std::pair<fs::path, std::string>> files = filesOf(options, scratch.path());
     const std::size_t found = files.size();

@@ -228,7 +228,10 @@ void convert(const ConvertOptions& given, const ConvertLog& log) {
     const hair::groom::StrandExporter& exporter = hair::groom::strandExporterOf(options.out);
     checkOptions(options, exporter);
     std::optional<hair::groom::Mesh> mesh;
-    if (!options.mesh.empty()) mesh = hair::groom::importMesh(options.mesh);
+    if (!options.mesh.empty()) {
+        mesh = hair::groom::importMesh(options.mesh);
+        warnAll(log, options.mesh, mesh->warnings);
+    }
 
     hair::groom::StrandSet strands = hair::groom::importStrands(
         options.in, options.points_per_strand, {}, hair::groom::badStrands(options.strict));

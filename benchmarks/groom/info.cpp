@@ -270,6 +270,7 @@ scene::Json toJson(const hair::groom::MeshFindings& mesh) {
     if (mesh.strands_inside) object["strands_inside"] = *mesh.strands_inside;
     if (mesh.points_inside) object["points_inside"] = *mesh.points_inside;
     if (mesh.deepest) object["deepest"] = {{"unit", "m"}, {"value", *mesh.deepest}};
+    object["left_out"] = mesh.warnings;
     return object;
 }
 
@@ -514,9 +515,12 @@ std::string groomInfoText(const GroomInfo& info) {
         text += line("inside the mesh", insideText(*found.mesh));
     }
     if (found.strands > 0) text += '\n' + summaries(info);
-    if (!info.strands.warnings.empty()) text += "\nleft out:\n";
-    for (const std::string& warning : info.strands.warnings)
-        text += "  " + engine::shownText(warning) + '\n';
+    std::vector<std::string> warnings = info.strands.warnings;
+    if (found.mesh)
+        for (const std::string& warning : found.mesh->warnings)
+            warnings.push_back("the mesh: " + warning);
+    if (!warnings.empty()) text += "\nleft out:\n";
+    for (const std::string& warning : warnings) text += "  " + engine::shownText(warning) + '\n';
     if (info.oddities.empty()) return text + "\nnothing odd\n";
     text += "\nodd:\n";
     for (const Oddity& each : info.oddities)

@@ -334,10 +334,16 @@ LayGuess guessLay(
     guess.head.metres_per_unit = is_stated ? 1.0 : headUnit(size);
     guess.head_reason =
         is_stated
-            ? "Its format states metres and +y up."
+            ? "The file states its unit and upward axis."
             : "Its longest side is " + report::shortNumber(size * guess.head.metres_per_unit) +
                   " m in " + hair::groom::statedUnit(guess.head.metres_per_unit).name +
                   " (a head is 0.2 m to 0.3 m high, a bust 0.5 m).";
+
+    if (hints.head_is_stated && !is_stated)
+        guess.doubts.push_back(
+            "the head would be " + report::lengthText(size) +
+            " long in the unit that its file states; it is taken to be in " +
+            hair::groom::statedUnit(guess.head.metres_per_unit).name + " instead");
 
     // Options count more than the file's statements, and these count more than any fit.
     std::vector<double> open_units(kUnits.begin(), kUnits.end());

@@ -78,7 +78,7 @@ struct LayAttempt {
 struct LayHints {
     std::optional<double> metres_per_unit;  // of the hair; absent: as the file states
     std::optional<int> up;  // upward axis in the file of hair
-    bool head_is_stated = false;  // the head's format states metres and +y up
+    bool head_is_stated = false;  // the head's file states its unit and upward axis
 };
 
 struct LayGuess {
@@ -92,7 +92,7 @@ struct LayGuess {
     // Best attempt with the strands' last points as roots, if few roots but most of these are on
     // the head.
     std::optional<LayAttempt> reversed;
-    std::vector<std::string> doubts;  // without a head: sizes and directions against statements
+    std::vector<std::string> doubts;  // sizes and directions against statements
     std::string hair_reason;  // sentences
     std::string head_reason;  // empty without a head
 };

@@ -45,6 +45,9 @@ std::vector<std::string> checkFields(
     const auto meshes = loadFieldMeshes(settings, grown_on, scene.parent_path(), reach);
     std::vector<std::string> warnings;
     for (std::size_t i = 0; i < meshes.size(); ++i) {
+        if (!fields[i].mesh.empty())
+            for (const std::string& warning : meshes[i].warnings)
+                warnings.push_back(scene.string() + ": " + fields[i].mesh + ": " + warning);
         try {
             const std::string warning = hair::groom::bodyWarning(hair::groom::bodyMesh(meshes[i]));
             if (!warning.empty())
@@ -306,6 +309,12 @@ std::vector<std::string> checkAssets(
     const std::optional<hair::groom::Mesh>& mesh = assets.mesh(settings, directory, reach);
     const hair::groom::Groom& groom = assets.groom(settings, directory, reach);
     std::vector<std::string> warnings = checkFields(settings, mesh, scene, reach);
+    if (mesh)
+        for (const std::string& warning : mesh->warnings)
+            warnings.push_back(
+                scene.string() + ": " +
+                (settings.groom.file.empty() ? settings.groom.grow.mesh : settings.groom.mesh) +
+                ": " + warning);
     checkMeshes(settings.render, scene);
     loadRenderAssets(settings, mesh ? &*mesh : nullptr, directory, reach);
     loadDeforming(settings, mesh, directory, reach);

@@ -23,6 +23,9 @@
 namespace hair::groom {
 namespace {
 
+// Fewer strands say neither how far apart hair is nor how large a scalp is.
+constexpr std::uint32_t kFewest = 20;
+
 // ---- Duplicates ---------------------------------------------------------------------------------
 
 // Rounds of multiply and shift with the constants of MurmurHash3's finalizer (Appleby 2011).
@@ -165,7 +168,7 @@ void inspectInside(const StrandSet& strands, BodyMesh mesh, double scale, MeshFi
 
 // The mesh is in metres and has at least one triangle.
 MeshFindings inspectOnMesh(const StrandSet& strands, const Mesh& mesh, double metres_per_unit) {
-    MeshFindings findings{.tolerance = kSurfaceTolerance};
+    MeshFindings findings{.tolerance = kSurfaceTolerance, .warnings = mesh.warnings};
     const NearestSurface surface(mesh.positions, mesh.triangles);
     std::vector<float> distances;
     distances.reserve(strands.strandCount());
@@ -278,7 +281,6 @@ double metresOf(std::string_view unit) {
 // ---- Strays -------------------------------------------------------------------------------------
 
 std::vector<Stray> findStrays(const StrandSet& strands) {
-    constexpr std::uint32_t kFewest = 20;
     constexpr double kWithin = 0.95;
     constexpr double kApart = 4.0;
     const std::uint32_t count = strands.strandCount();
@@ -390,7 +392,7 @@ inspect(const StrandSet& strands, const Mesh* mesh, std::optional<double> metres
     const UnitGuess guess =
         guessUnit(rootExtent(strands, kept), findings.lengths.median, strands.metres_per_unit);
     const Unit unit = strands.metres_per_unit ? statedUnit(*strands.metres_per_unit) : guess.unit;
-    if (strands.metres_per_unit && guess.certainty >= kClear &&
+    if (strands.metres_per_unit && guess.certainty >= kClear && kept.size() >= kFewest &&
         std::abs(guess.unit.metres / unit.metres - 1.0) >= 1e-6)
         findings.other_unit = guess;
     findings.unit = unit.name;

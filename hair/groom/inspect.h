@@ -44,6 +44,7 @@ struct MeshFindings {
     std::optional<double> deepest;  // m
     bool closed = false;
     std::string not_closed;  // why it is not closed, or why the three are absent
+    std::vector<std::string> warnings;  // as in Mesh
 };
 
 // A strand that lies apart from the others. Units, sizes and views do not count it.
@@ -99,7 +100,8 @@ struct StrandFindings {
     bool unit_stated = false;
     double metres_per_unit = 1.0;
     std::string unit_reason;  // a sentence: the file states it, or what the guess rests on
-    std::optional<UnitGuess> other_unit;  // if a unit is stated and sizes clearly suggest another
+    // If a unit is stated and the sizes of at least 20 strands clearly suggest another.
+    std::optional<UnitGuess> other_unit;
     std::optional<MeshFindings> mesh;
 };
 

@@ -246,6 +246,7 @@ def mesh_stream():
     stream += struct.pack("<Q", 1) + name("head")
     stream += struct.pack("<Q", 1) + name("bone") + sized(struct.pack("<4f", 0, 0.5, 1, 1), 4)
     stream += struct.pack("<Q", 1) + name("skin") + struct.pack("<3f", 0.5, 0.25, 0.125)
+    stream += b"\1" + struct.pack("<Q", 1) + name("1 hidden mesh is left out")
     return stream + struct.pack("<Q", 1) + name("skin.png")
 
 

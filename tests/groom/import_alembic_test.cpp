@@ -112,6 +112,33 @@ TEST(ImportAlembicMesh, SplitsVerticesWhereTextureCoordinatesDiffer) {
     EXPECT_EQ(meshOf({madeMesh(of_vertices)}).texture_coordinates[4], glm::vec2(0.25f, 0.75f));
 }
 
+// Alembic's ObjectVisibility is a scalar int8 beside the schema's properties: 0 hidden, 1 visible,
+// -1 as the object above.
+TEST(ImportAlembicMesh, LeavesOutHiddenMeshes) {
+    const auto with = [](MadeObject object, std::string name, std::int8_t visibility) {
+        object.name = std::move(name);
+        object.properties.push_back(
+            {.name = "visible",
+             .kind = 1,
+             .type = 2,
+             .samples = {std::string(1, static_cast<char>(visibility))}});
+        return object;
+    };
+    const MadeObject square = madeMesh(squareAndTriangle());
+    const MadeObject above = madeTransform(
+        "move", "\x10", {0, 5, 0},
+        {square, with(square, "shown", 1), with(square, "as_above", -1)});
+    const Mesh mesh = meshOf({with(above, "hides", 0), with(square, "own", -1)});
+    EXPECT_THAT(mesh.parts, ElementsAre("shown", "own"));
+    EXPECT_EQ(mesh.triangles.size(), 6u);
+    EXPECT_EQ(mesh.positions[0], glm::vec3(0, 5, 0));
+    EXPECT_THAT(mesh.warnings, ElementsAre("2 hidden meshes are left out"));
+    EXPECT_THAT(meshOf({square}).warnings, ElementsAre());
+    EXPECT_THAT(
+        meshError({with(square, "a", 0)}),
+        HasSubstr("the archive has only hidden meshes: show them, then export"));
+}
+
 TEST(ImportAlembicMesh, RefusesCountsAndIndicesThatDoNotFit) {
     const auto error = [&](std::size_t which, MadeProperty property) {
         std::vector<MadeProperty> geometry = squareAndTriangle();

@@ -20,6 +20,7 @@ namespace {
 
 using testing::AllOf;
 using testing::HasSubstr;
+using testing::Not;
 using testing::StartsWith;
 
 // A square roof: a quad of scalp at y = 1 and a triangle of skin, counter-clockwise seen from +y.
@@ -457,6 +458,29 @@ TEST(ImportAssimp, RefusesCornersOfAPlyThatAreNoVertices) {
             testing::EndsWith(": vertex 4 is named, but there are 4")));
 }
 
+// Texts and files that stand in a mesh's place, by the first bytes that their own documents state.
+TEST(ImportMesh, NamesWhatItDoesNotRead) {
+    const TemporaryFolder folder;
+    const std::pair<std::string, const char*> kStandIns[] = {
+        {"version https://git-lfs.github.com/spec/v1\noid sha256:00\nsize 5\n",
+         "is a pointer of Git LFS, which is not read: it stands for a large file: run 'git lfs "
+         "pull'"},
+        {"<!DOCTYPE html>\n<html lang=\"en\">", "is a page in HTML, which is not read"},
+        {"BLENDER-v405", "is a Blender file, which is not read"}};
+    for (const auto& [bytes, reason] : kStandIns)
+        for (const char* name : {"a.glb", "a.gltf", "a.obj", "a.ply", "a.stl", "a.fbx", "a.abc"}) {
+            const auto path = folder.write(name, bytes);
+            EXPECT_THAT(
+                errorText([&] { importMesh(path); }),
+                AllOf(StartsWith(path.string() + ": "), HasSubstr(reason)))
+                << name;
+        }
+    // Meshes of FBX are read, so that a damaged one is not refused for its format.
+    EXPECT_THAT(
+        errorText([&] { importMesh(folder.write("a.fbx", "Kaydara FBX Binary  ")); }),
+        Not(HasSubstr("which is not read")));
+}
+
 // A stream from a program that a file has taken over.
 TEST(MeshStream, IsRefusedWhateverIsChanged) {
     ReadMesh read;
@@ -469,6 +493,8 @@ TEST(MeshStream, IsRefusedWhateverIsChanged) {
     read.mesh.parts = {"scalp"};
     read.mesh.vertex_groups = {{.name = "hair", .weights = {0, 0.5f, 1}}};
     read.mesh.materials = {{.name = "skin", .base_color = {0.25f, 0.5f, 1}}};
+    read.mesh.is_placed = true;
+    read.mesh.warnings = {"1 hidden mesh is left out"};
     read.textures = {"skin.png"};
     std::ostringstream out;
     writeMeshStream(out, read);
@@ -483,6 +509,8 @@ TEST(MeshStream, IsRefusedWhateverIsChanged) {
     EXPECT_EQ(same.mesh.vertex_groups[0].weights, read.mesh.vertex_groups[0].weights);
     EXPECT_EQ(same.mesh.materials[0].name, "skin");
     EXPECT_EQ(same.mesh.materials[0].base_color, read.mesh.materials[0].base_color);
+    EXPECT_TRUE(same.mesh.is_placed);
+    EXPECT_EQ(same.mesh.warnings, read.mesh.warnings);
     EXPECT_EQ(same.textures, read.textures);
     for (std::size_t size = 0; size < whole.size(); ++size)
         EXPECT_THAT(errorText([&] { parsed(whole.substr(0, size)); }), StartsWith("byte ")) << size;

@@ -296,6 +296,9 @@ TEST(ImportGltf, LeavesOutHiddenNodes) {
          .more_nodes = R"(,{"mesh":0,"translation":[5,0,0],)" + hidden + "}"});
     ASSERT_EQ(one.triangles.size(), 1u);
     EXPECT_EQ(one.positions.at(2), glm::vec3(2, 0, 0));
+    EXPECT_THAT(both.warnings, ElementsAre());
+    EXPECT_THAT(one.warnings, ElementsAre("1 hidden mesh is left out"));
+    EXPECT_TRUE(one.is_placed);
     EXPECT_THAT(
         importError({.node = R"("mesh":0,"children":[1],)" + hidden, .more_nodes = child}),
         HasSubstr("the file has only hidden meshes: show them, then export"));

@@ -165,7 +165,7 @@ private:
         const AlembicContents contents = values_.archive().contentsOf(object, path);
         const std::string_view schema = alembicValue(object.metadata, "schema");
         AlembicPlace place = above;
-        readVisibility(contents.properties, path, place);
+        place.is_hidden = isHidden(values_, contents.properties, path, above.is_hidden);
         if (schema.starts_with("AbcGeom_Xform_v")) {
             readTransform(contents.properties, path, place);
         } else if (schema.starts_with("AbcGeom_Curve_v")) {
@@ -185,19 +185,6 @@ private:
     void leaveOut(std::string_view name) {
         constexpr std::size_t kMostNames = 20;
         if (left_out_.size() < kMostNames) left_out_.insert(inQuotes(name));
-    }
-
-    // Alembic's ObjectVisibility: -1 as the object above, 0 hidden, 1 visible.
-    void readVisibility(
-        const std::vector<AlembicProperty>& properties, const std::string& path,
-        AlembicPlace& place) {
-        const auto property = std::ranges::find(properties, "visible", &AlembicProperty::name);
-        if (property == properties.end()) return;
-        const auto visible =
-            values_.parameterOf({.path = path, .properties = {{"visible", *property}}}, "visible");
-        if (!visible) return;
-        const std::int32_t code = values_.integersOf(*visible).front();
-        if (code != -1) place.is_hidden = code == 0;
     }
 
     void readTransform(

@@ -252,4 +252,16 @@ AlembicTransform alembicTransformOf(
     return result;
 }
 
+bool isHidden(
+    AlembicValues& values, const std::vector<AlembicProperty>& properties, const std::string& path,
+    bool is_hidden_above) {
+    const auto property = std::ranges::find(properties, "visible", &AlembicProperty::name);
+    if (property == properties.end()) return is_hidden_above;
+    const auto visible =
+        values.parameterOf({.path = path, .properties = {{"visible", *property}}}, "visible");
+    if (!visible) return is_hidden_above;
+    const std::int32_t code = values.integersOf(*visible).front();
+    return code == -1 ? is_hidden_above : code == 0;
+}
+
 }  // namespace hair::groom

@@ -114,4 +114,10 @@ struct AlembicTransform {
 AlembicTransform alembicTransformOf(
     AlembicValues& values, const AlembicCompound& transform, const AffineSpace& above);
 
+// Returns whether an object's properties hide it: Alembic's ObjectVisibility is 0 if it is hidden
+// and 1 if it is visible. Without it, or if it is -1, the object is as the one above it.
+bool isHidden(
+    AlembicValues& values, const std::vector<AlembicProperty>& properties, const std::string& path,
+    bool is_hidden_above);
+
 }  // namespace hair::groom

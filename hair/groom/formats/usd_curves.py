@@ -38,6 +38,8 @@ MOST_SUBLAYERS = 256  # of a layer and its sublayers together, each as often as 
 MOST_SAMPLES = 1 << 31  # bytes of points over time
 MOST_UNFOLDED = 32 << 20  # bytes of points and triangles, plus 16 times the size of its files
 
+HIDDEN_CURVES = (UsdGeom.Tokens.guide,)  # purposes; hair may be a proxy of nothing else
+
 OUT_OF_MEMORY = "needs more memory than a file of its size may use"
 
 # The prims that a spec composes to, their nesting, and the number of parts of a prim.
@@ -229,6 +231,23 @@ def metres_per_unit_of(stage):
     return float(str(np.float32(unit)))
 
 
+def why_hidden(prim, purposes):
+    """Returns why a prim isn't drawn: it is invisible or has one of these purposes. Returns nothing if
+    it is drawn."""
+    imageable = UsdGeom.Imageable(prim)
+    if imageable.ComputeVisibility(Usd.TimeCode.EarliestTime()) == UsdGeom.Tokens.invisible:
+        return "invisible prims"
+    purpose = imageable.ComputePurpose()
+    return f'prims of purpose "{purpose}"' if purpose in purposes else None
+
+
+def hidden_text(hidden, one, many=None):
+    """Returns "2 strands of invisible prims, 1 strand of ..." for a count of each reason."""
+    return ", ".join(
+        f"{count} {one if count == 1 else many or one + 's'} of {why}" for why, count in sorted(hidden.items())
+    )
+
+
 class Reader:
     """Reads a stage: `prims`, `metres_per_unit`, `stated`, `comment`, `warnings`."""
 
@@ -247,8 +266,8 @@ class Reader:
             if prim.IsA(UsdGeom.PointInstancer):
                 self.warnings.append(f"{prim.GetPath()}: instances on points are left out")
                 walk.PruneChildren()
-            elif self._is_read(prim) and self._why_hidden(prim):
-                self.hidden[self._why_hidden(prim)] += Prim.curve_count(prim)
+            elif self._is_read(prim) and why_hidden(prim, HIDDEN_CURVES):
+                self.hidden[why_hidden(prim, HIDDEN_CURVES)] += Prim.curve_count(prim)
             elif self._is_read(prim):
                 self.prims.append(Prim(prim, xforms, self.group_names))
                 unfolded.add(self.prims[-1].points)
@@ -257,10 +276,10 @@ class Reader:
             elif prim.IsA(UsdGeom.Curves):
                 self.warnings.append(f"{prim.GetPath()}: its {prim.GetTypeName()} are left out")
         if not any(prim.sizes.size for prim in self.prims):
-            hidden = f" that are shown, but {self._hidden_text()}" if self.hidden else ""
+            hidden = f" that are shown, but {hidden_text(self.hidden, 'strand')}" if self.hidden else ""
             raise Refused("the stage has no BasisCurves or NurbsCurves with points" + hidden)
         if self.hidden:
-            self.warnings.append(f"{self._hidden_text()}: left out")
+            self.warnings.append(f"{hidden_text(self.hidden, 'strand')}: left out")
         if left_out:
             self.warnings.append(f"{', '.join(sorted(left_out))}: left out")
         # USD's defaults, cm and +Y up, are no statements: many programs leave out the unit of metres.
@@ -271,22 +290,6 @@ class Reader:
     @staticmethod
     def _is_read(prim):
         return prim.IsA(UsdGeom.BasisCurves) or prim.IsA(UsdGeom.NurbsCurves)
-
-    @staticmethod
-    def _why_hidden(prim):
-        """Returns why a prim isn't drawn; nothing if it is. Hair may be a proxy of nothing else."""
-        curves = UsdGeom.Imageable(prim)
-        if curves.ComputeVisibility(Usd.TimeCode.EarliestTime()) == UsdGeom.Tokens.invisible:
-            return "invisible prims"
-        if curves.ComputePurpose() == UsdGeom.Tokens.guide:
-            return 'prims of purpose "guide"'
-        return None
-
-    def _hidden_text(self):
-        return ", ".join(
-            f"{count} {'strand' if count == 1 else 'strands'} of {why}"
-            for why, count in sorted(self.hidden.items())
-        )
 
     def _warn_of_samples(self, prim):
         count = UsdGeom.BasisCurves(prim).GetPointsAttr().GetNumTimeSamples()

@@ -1,15 +1,16 @@
 """Writes the meshes of a stage of Universal Scene Description to stdout, as mesh_stream.h says.
 
 Every Mesh prim that is rendered (neither invisible nor of purpose proxy or guide) is read, in the
-stage's order, including instances, in world space, +Y up, in metres: its control mesh, without
-subdivision. At rest, points are at the default time, or else at their first sample. With --samples,
-the times at which anything moves are written instead, in seconds from the first, and the vertices'
-positions at each. Points with samples (point caches), transforms, and skeletons and blend shapes,
-which UsdSkel bakes into points, can move. A stage that can't be read ends the program with one line
-on stderr.
+stage's order, including instances, in world space, +Y up, in metres or, if the stage states no
+unit, as it is: its control mesh, without subdivision. Other meshes are counted. At rest, points are
+at the default time, or else at their first sample. With --samples, the times at which anything
+moves are written instead, in seconds from the first, and the vertices' positions at each. Points
+with samples (point caches), transforms, and skeletons and blend shapes, which UsdSkel bakes into
+points, can move. A stage that can't be read ends the program with one line on stderr.
 """
 
 import argparse
+import collections
 import struct
 import sys
 
@@ -18,12 +19,13 @@ try:
     from pxr import Gf, Tf, Usd, UsdGeom, UsdShade, UsdSkel
 
     from usd_curves import OUT_OF_MEMORY, Xforms, joined, metres_per_unit_of, open_stage, open_stream
-    from usd_curves import words_of
+    from usd_curves import hidden_text, why_hidden, words_of
     from usd_prim import Refused
 except ImportError as error:
     sys.exit(f"{error}: this Python lacks a package of requirements.txt")
 
 MOST = 1 << 31  # bytes of positions over time
+HIDDEN_MESHES = (UsdGeom.Tokens.proxy, UsdGeom.Tokens.guide)  # purposes
 
 
 def encoded(linear):
@@ -159,7 +161,8 @@ class Mesh:
 
 
 class Reader:
-    """Reads a stage: its `meshes`, and the unit and axis that take positions to metres, +Y up."""
+    """Reads a stage: its `meshes`, the unit and axis that take positions to metres, +Y up (as they are
+    if no unit is stated), whether it states both, and `warnings`."""
 
     def __init__(self, path, below, samples):
         self.stage, unfolded = open_stage(path, below)
@@ -167,13 +170,24 @@ class Reader:
             self._bake()
         xforms = Xforms()
         self.meshes = []
+        hidden = collections.Counter()
         for prim in Usd.PrimRange.Stage(self.stage, Usd.TraverseInstanceProxies()):
-            if prim.IsA(UsdGeom.Mesh) and self._is_rendered(prim):
-                self.meshes.append(Mesh(prim, xforms))
-                unfolded.add(self.meshes[-1].positions, self.meshes[-1].triangles)
+            if not prim.IsA(UsdGeom.Mesh):
+                continue
+            why = why_hidden(prim, HIDDEN_MESHES)
+            if why:
+                hidden[why] += 1
+                continue
+            self.meshes.append(Mesh(prim, xforms))
+            unfolded.add(self.meshes[-1].positions, self.meshes[-1].triangles)
+        text = hidden_text(hidden, "mesh", "meshes")
         if not sum(len(mesh.triangles) for mesh in self.meshes):
-            raise Refused("the stage has no Mesh with faces")
-        self.unit = metres_per_unit_of(self.stage)
+            raise Refused("the stage has no Mesh with faces" + (f" that is shown, but {text}" if text else ""))
+        self.warnings = [f"{text}: left out"] if text else []
+        # USD's defaults, cm and +Y up, are no statements.
+        states_unit = UsdGeom.StageHasAuthoredMetersPerUnit(self.stage)
+        self.unit = metres_per_unit_of(self.stage) if states_unit else 1.0
+        self.is_placed = states_unit and self.stage.HasAuthoredMetadata(UsdGeom.Tokens.upAxis)
         self.is_z_up = UsdGeom.GetStageUpAxis(self.stage) == UsdGeom.Tokens.z
 
     def _bake(self):
@@ -181,14 +195,6 @@ class Reader:
         for prim in self.stage.Traverse():
             if prim.IsA(UsdSkel.Root):
                 UsdSkel.BakeSkinning(UsdSkel.Root(prim), Gf.Interval.GetFullInterval())
-
-    @staticmethod
-    def _is_rendered(prim):
-        imageable = UsdGeom.Imageable(prim)
-        return (
-            imageable.ComputePurpose() not in (UsdGeom.Tokens.proxy, UsdGeom.Tokens.guide)
-            and imageable.ComputeVisibility() != UsdGeom.Tokens.invisible
-        )
 
     def metres(self, positions):
         positions = np.concatenate(positions)
@@ -231,6 +237,10 @@ class Reader:
         for name, color in zip(names, colors):
             text(stream, name)
             stream.write(struct.pack("<3f", *color))
+        stream.write(bytes([self.is_placed]))
+        count(stream, len(self.warnings))
+        for warning in self.warnings:
+            text(stream, warning)
         count(stream, len(names))
         for _ in names:
             text(stream, "")  # no textures

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
 #include <limits>
 #include <map>
@@ -39,18 +40,23 @@ public:
 
     Mesh read() {
         mesh_.materials.push_back({.name = "default"});
-        readObject(values_.archive().top(), "", {});
+        readObject(values_.archive().top(), "", {}, false);
+        if (mesh_.triangles.empty() && hidden_ > 0)
+            failAt(0, "the archive has only hidden meshes: show them, then export");
         if (mesh_.triangles.empty())
             failAt(0, "the archive has no mesh" + std::string(has_curves_ ? ", only curves" : ""));
+        warnOfHidden(hidden_, mesh_);
         if (has_coordinates_)
             mesh_.texture_coordinates.resize(mesh_.positions.size(), glm::vec2(0.0f));
         return std::move(mesh_);
     }
 
 private:
-    void
-    readObject(const AlembicObject& object, const std::string& path, const AffineSpace& above) {
+    void readObject(
+        const AlembicObject& object, const std::string& path, const AffineSpace& above,
+        bool is_hidden_above) {
         const AlembicContents contents = values_.archive().contentsOf(object, path);
+        const bool is_hidden = isHidden(values_, contents.properties, path, is_hidden_above);
         const std::string_view schema = alembicValue(object.metadata, "schema");
         AffineSpace space = above;
         if (schema.starts_with("AbcGeom_Xform_v")) {
@@ -60,12 +66,16 @@ private:
         has_curves_ = has_curves_ || schema.starts_with("AbcGeom_Curve_v");
         const bool is_mesh =
             schema.starts_with("AbcGeom_PolyMesh_v") || schema.starts_with("AbcGeom_SubD_v");
+        if (is_mesh && is_hidden) {
+            ++hidden_;
+            return;
+        }
         if (is_mesh) {
             readMesh(contents, std::string(object.name), path, space);
             return;
         }
         for (const AlembicObject& child : contents.children)
-            readObject(child, path + '/' + std::string(child.name), space);
+            readObject(child, path + '/' + std::string(child.name), space, is_hidden);
     }
 
     void readMesh(
@@ -273,6 +283,7 @@ private:
     std::map<std::string, std::uint32_t> material_numbers_;
     bool has_coordinates_ = false;
     bool has_curves_ = false;
+    std::size_t hidden_ = 0;  // meshes
 };
 
 }  // namespace

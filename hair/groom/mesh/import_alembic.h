@@ -18,9 +18,9 @@ namespace hair::groom {
 
 // Reads the first sample of moving data. A part is a mesh; a material is a face set, or else the
 // default one. Vertices are split where corners have other texture coordinates. Normals are those
-// of the vertices before that; normals of the file, edges' sharpness and hidden meshes are not
-// treated specially. Refuses archives that AlembicArchive refuses, counts that don't fit, indices
-// out of range, numbers that are not finite, and over 16 times the file's size. Throws
+// of the vertices before that; normals of the file and edges' sharpness are not read. Hidden meshes
+// are counted in a warning. Refuses archives that AlembicArchive refuses, counts that don't fit,
+// indices out of range, numbers that are not finite, and over 16 times the file's size. Throws
 // engine::Error "byte N: path: reason".
 Mesh readAlembicMesh(std::span<const std::byte> bytes);
 

@@ -10,6 +10,7 @@
 #include <limits>
 #include <map>
 #include <optional>
+#include <set>
 #include <span>
 #include <string>
 #include <string_view>
@@ -267,7 +268,7 @@ public:
         const tinygltf::Primitive& primitive = place.primitive;
         if (!hasTriangles(primitive)) return;
         if (place.is_hidden) {
-            has_hidden_ = true;
+            hidden_.insert(place.node);
             return;
         }
         const std::size_t first = mesh_.positions.size();
@@ -279,7 +280,7 @@ public:
     }
 
     Mesh take() {
-        if (mesh_.triangles.empty() && has_hidden_)
+        if (mesh_.triangles.empty() && !hidden_.empty())
             throw engine::Error("the file has only hidden meshes: show them, then export");
         const std::size_t vertices = mesh_.positions.size();
         if (has_texture_coordinates_) mesh_.texture_coordinates.resize(vertices, glm::vec2(0.0f));
@@ -287,6 +288,7 @@ public:
         std::erase_if(mesh_.vertex_groups, [](const VertexGroup& group) {
             return !std::ranges::all_of(group.weights, isWeight);
         });
+        warnOfHidden(hidden_.size(), mesh_);
         return std::move(mesh_);
     }
 
@@ -363,7 +365,7 @@ private:
     const tinygltf::Model& model_;
     Mesh mesh_;
     bool has_texture_coordinates_ = false;
-    bool has_hidden_ = false;
+    std::set<int> hidden_;  // nodes
     int part_node_ = -1;
 };
 
@@ -380,6 +382,7 @@ Mesh importGltf(const std::filesystem::path& path, Textures textures, const Name
     MeshReader reader(model);
     forEachPrimitive(model, [&](const GltfPlace& place) { reader.add(place); });
     Mesh mesh = reader.take();
+    mesh.is_placed = true;
     GltfMaterials materials = readMaterials(model, textures, path.parent_path(), check);
     mesh.materials = std::move(materials.materials);
     mesh.pictures = std::move(materials.pictures);

@@ -8,6 +8,7 @@
 #include <filesystem>
 #include <span>
 #include <string>
+#include <string_view>
 #include <system_error>
 #include <utility>
 
@@ -71,6 +72,7 @@ Mesh importAssimp(
         throw engine::Error("assimp, which reads it," + reason.substr(program.size()));
     }
     Mesh mesh = std::move(read.mesh);
+    mesh.is_placed = lowerCaseExtension(path) == ".dae";
     if (textures == Textures::skipped) return mesh;
     for (std::size_t i = 0; i < mesh.materials.size(); ++i) {
         if (read.textures[i].empty()) continue;
@@ -188,12 +190,13 @@ Mesh importMesh(const std::filesystem::path& path, Textures textures, const Name
         const auto head =
             std::span(bytes).first(std::min<std::uintmax_t>(file.size(), bytes.size()));
         file.read(head);
-        const std::string extension = lowerCaseExtension(path);
+        const std::string_view text(head.data(), head.size());
         // A mesh of FBX is read, strands are not.
+        const OtherFile* const other = recognise(text, "");
+        const bool is_fbx = other && other->name.starts_with("an FBX file");
         throw engine::Error(
-            path.string(), extension == ".fbx"
-                               ? error.what()
-                               : explained(error.what(), {head.data(), head.size()}, extension));
+            path.string(),
+            is_fbx ? error.what() : explained(error.what(), text, lowerCaseExtension(path)));
     }
 }
 

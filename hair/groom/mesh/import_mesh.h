@@ -24,8 +24,9 @@ std::span<const MeshImporter> meshImporters();
 
 // Reads a mesh in the format of its extension, in upper or lower case. The mesh has at least one
 // triangle, finite positions and texture coordinates, weights from 0 to 1, and unit normals.
-// Lengths are in the file's unit; formats that state their unit (glTF, FBX, COLLADA, USD) come out
-// in metres. Throws engine::Error "path: reason", also for errors that `check` throws.
+// Lengths are in the file's unit; files that state their unit (glTF, FBX, COLLADA, USD with
+// metersPerUnit) come out in metres. Throws engine::Error "path: reason", also for errors that
+// `check` throws.
 Mesh importMesh(
     const std::filesystem::path& path, Textures textures = Textures::skipped,
     const NamedFileCheck& check = {});

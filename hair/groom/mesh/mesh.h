@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -57,7 +58,17 @@ struct Mesh {
     std::vector<std::uint32_t> triangle_parts;  // [triangle], index into parts, or empty
     std::vector<std::string> parts;  // names of meshes, objects or groups
     std::vector<VertexGroup> vertex_groups;
+    bool is_placed = false;  // the file states its unit and upward axis
+    std::vector<std::string> warnings;  // parts of the file that are left out
 };
+
+// Adds "2 hidden meshes are left out", if there are any.
+inline void warnOfHidden(std::size_t meshes, Mesh& mesh) {
+    if (meshes == 0) return;
+    mesh.warnings.push_back(
+        std::to_string(meshes) +
+        (meshes == 1 ? " hidden mesh is left out" : " hidden meshes are left out"));
+}
 
 // Whether the textures of a mesh's materials are read.
 enum class Textures { skipped, decoded };

@@ -40,6 +40,8 @@ void streamMesh(Stream& stream, MeshOrConst& mesh) {
         stream.array(material.name);
         stream.value(material.base_color);
     });
+    stream.flag(mesh.is_placed);
+    stream.each(mesh.warnings, [&](auto& warning) { stream.array(warning); });
 }
 
 class MeshWriter {
@@ -50,6 +52,7 @@ public:
     void value(const Value& value) {
         writeValue(out_, value);
     }
+    void flag(bool is_set) { value(std::uint8_t{is_set}); }
     template <class Array>
     void array(const Array& elements) {
         writeValue(out_, std::uint64_t{elements.size()});
@@ -76,6 +79,12 @@ public:
         require(1, sizeof value);
         value = valueAt<Value>(bytes_, at_);
         at_ += sizeof value;
+    }
+    void flag(bool& is_set) {
+        std::uint8_t byte = 0;
+        value(byte);
+        if (byte > 1) failAt(at_ - 1, "a flag that is neither 0 nor 1");
+        is_set = byte == 1;
     }
     template <class Array>
     void array(Array& elements) {

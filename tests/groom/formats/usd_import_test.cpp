@@ -368,6 +368,38 @@ TEST_F(UsdImportTest, ReadsWhatUnrealEngineNames) {
     EXPECT_THAT(set.warnings, ElementsAre("primvars:groom_roughness: left out"));
 }
 
+// A triangle each. A mesh below an invisible prim is hidden, too. USD's default of a centimetre is
+// no statement.
+TEST_F(UsdImportTest, LeavesOutHiddenMeshes) {
+    const TemporaryFolder files;
+    const auto mesh = [](const std::string& name, const std::string& more = "") {
+        return "def Mesh \"" + name + "\" {\nint[] faceVertexCounts = [3]\n" +
+               "int[] faceVertexIndices = [0, 1, 2]\n" +
+               "point3f[] points = [(0, 0, 0), (0, 1, 0), (1, 0, 0)]\n" + more + "\n}\n";
+    };
+    const std::string invisible = "token visibility = \"invisible\"\n";
+    const std::string hidden = "def Xform \"x\" {\n" + invisible + mesh("a") + "}\n" +
+                               mesh("b", invisible) +
+                               mesh("c", "uniform token purpose = \"proxy\"") +
+                               mesh("d", "uniform token purpose = \"guide\"");
+    const Mesh read = importMesh(files.write(
+        "a.usda", "#usda 1.0\n" + mesh("shown", "uniform token purpose = \"render\"") + hidden));
+    EXPECT_THAT(read.parts, ElementsAre("shown"));
+    EXPECT_EQ(read.positions[1], glm::vec3(0, 1, 0));
+    EXPECT_FALSE(read.is_placed);
+    EXPECT_THAT(
+        read.warnings, ElementsAre("2 meshes of invisible prims, 1 mesh of prims of purpose "
+                                   "\"guide\", 1 mesh of prims of purpose \"proxy\": left out"));
+    const Mesh stated = importMesh(files.write(
+        "b.usda", "#usda 1.0\n(metersPerUnit = 0.25\nupAxis = \"Z\")\n" + mesh("shown")));
+    EXPECT_EQ(stated.positions[1], glm::vec3(0, 0, -0.25f));
+    EXPECT_TRUE(stated.is_placed);
+    EXPECT_THAT(stated.warnings, ElementsAre());
+    EXPECT_THAT(
+        errorText([&] { importMesh(files.write("c.usda", "#usda 1.0\n" + hidden)); }),
+        HasSubstr("the stage has no Mesh with faces that is shown, but 2 meshes of invisible"));
+}
+
 TEST_F(UsdImportTest, ReadsUnitsThatAreStoredAsFloats) {
     EXPECT_EQ(read("float_unit.usdc").metres_per_unit, 0.5);
     EXPECT_EQ(read("float_centimetre.usdc").metres_per_unit, 0.01);

@@ -162,6 +162,18 @@ TEST(Inspect, DoubtsAStatedUnitThatSizesContradict) {
     }
 }
 
+// Two strands 5 cm apart are no scalp.
+TEST(Inspect, DoubtsNoUnitOfAFewStrands) {
+    StrandSet strands = squareOfHair(0.01);
+    strands.ends.resize(19);
+    strands.points.resize(strands.ends.back());
+    strands.metres_per_unit = 1.0;
+    EXPECT_FALSE(inspect(strands, nullptr, {}).other_unit);
+    strands = squareOfHair(0.01);
+    strands.metres_per_unit = 1.0;
+    EXPECT_TRUE(inspect(strands, nullptr, {}).other_unit);
+}
+
 TEST(FindStrays, FindsRootsAndSegmentsThatAreFarOff) {
     StrandSet strands = squareOfHair(0.01);
     EXPECT_TRUE(findStrays(strands).empty());
