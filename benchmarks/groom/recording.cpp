@@ -64,6 +64,7 @@ hair::groom::StrandSet Recording::strands() const {
                                          : measure::drawnStrands(case_.strands());
     if (strands.ends.empty())
         throw engine::Error(scene_.path.string(), "no strands are drawn: --guides writes guides");
+    strands.up = 1;
     strands.comment = "hairbench simulate, " + scene_.name;
     return strands;
 }

@@ -251,9 +251,6 @@ constexpr FormatFact both(Fact fact, std::string_view how = {}) { return {fact, 
 constexpr FormatFact onlyRead(Fact fact, std::string_view how = {}) {
     return {fact, true, false, how};
 }
-constexpr FormatFact onlyWritten(Fact fact, std::string_view how = {}) {
-    return {fact, false, true, how};
-}
 
 constexpr auto kAnyLength = "of any length"sv;
 constexpr auto kOneLength = "of one length"sv;
@@ -295,7 +292,7 @@ constexpr FormatFact kUsdaFacts[] = {
     both(Fact::unit, "any"),
     both(Fact::up, "+y; +z is read"),
     both(Fact::root_triangles),
-    onlyWritten(Fact::animation, "by `simulate --export`")};
+    both(Fact::animation, "written by `simulate --export`")};
 constexpr FormatFact kUsdFacts[] = {
     onlyRead(Fact::strands, kAnyLength),
     onlyRead(Fact::guides),
@@ -306,7 +303,8 @@ constexpr FormatFact kUsdFacts[] = {
     onlyRead(Fact::root_uvs),
     onlyRead(Fact::unit, "any"),
     onlyRead(Fact::up, "+y or +z"),
-    onlyRead(Fact::root_triangles)};
+    onlyRead(Fact::root_triangles),
+    onlyRead(Fact::animation)};
 constexpr FormatFact kAlembicFacts[] = {
     both(Fact::strands, kAnyLength),
     both(Fact::guides),
@@ -315,7 +313,9 @@ constexpr FormatFact kAlembicFacts[] = {
     both(Fact::colors, kPerPoint),
     both(Fact::root_uvs),
     both(Fact::unit, "own"),
-    both(Fact::root_triangles, "own")};
+    both(Fact::up, "own"),
+    both(Fact::root_triangles, "own"),
+    onlyRead(Fact::animation)};
 constexpr FormatFact kPointsFacts[] = {both(Fact::strands, kAnyLength)};
 constexpr FormatFact kPointsReadFacts[] = {onlyRead(Fact::strands, kAnyLength)};
 constexpr FormatFact kNpyFacts[] = {both(Fact::strands, kOneLength)};

@@ -60,11 +60,14 @@ void stage(
         text.string(readable ? strands.comment : utf8FromLatin1(strands.comment));
         text.text("\n");
     }
-    if (!strands.metres_per_unit)
-        warnings.emplace_back("the unit of length is not known; the file says metres");
-    line(text, "    metersPerUnit", strands.metres_per_unit.value_or(1.0));
+    if (strands.metres_per_unit)
+        line(text, "    metersPerUnit", *strands.metres_per_unit);
+    else
+        warnings.emplace_back(
+            "the unit of length is not known, so the file states none; other programs take it as "
+            "cm");
     if (strands.up == 0) throw engine::Error("USD has no +x up: use --up y or z");
-    text.text(strands.up == 2 ? "    upAxis = \"Z\"\n" : "    upAxis = \"Y\"\n");
+    if (strands.up) text.text(strands.up == 2 ? "    upAxis = \"Z\"\n" : "    upAxis = \"Y\"\n");
     if (timing) {
         // With the float next to 1/60 s as frame time, the rate is exactly 60.
         const double rate = 1.0 / timing->frame_time;

@@ -7,6 +7,10 @@ from usd_cubic import CubicCurves, starts
 from usd_nurbs import NurbsCurves
 
 
+# User properties in which Blender keeps the names of its own objects and data.
+NAMES_OF_BLENDER = ("blender:", "blenderName:")
+
+
 class Refused(Exception):
     """The reason why a file can't be read."""
 
@@ -80,11 +84,9 @@ class Prim:
         curves = self.curves
         times = set(curves.GetPointsAttr().GetTimeSamples())
         times |= set(curves.GetCurveVertexCountsAttr().GetTimeSamples())
-        prim = curves.GetPrim()
-        while prim and not prim.IsPseudoRoot():
+        for prim in self._and_above():
             if prim.IsA(UsdGeom.Xformable):
                 times |= set(UsdGeom.Xformable(prim).GetTimeSamples())
-            prim = prim.GetParent()
         return times
 
     def go_to(self, code, seconds, xforms):
@@ -242,14 +244,19 @@ class Prim:
             f"{topology.sizes.sum()} vertices"
         )
 
-    def _user(self, name):
-        """Returns a user property of the prim or of the nearest prim above that has it."""
+    def _and_above(self):
+        """Yields the prim, its parent, and so on."""
         prim = self.curves.GetPrim()
         while prim and not prim.IsPseudoRoot():
+            yield prim
+            prim = prim.GetParent()
+
+    def _user(self, name):
+        """Returns a user property of the prim or of the nearest prim above that has it."""
+        for prim in self._and_above():
             attribute = prim.GetAttribute("userProperties:" + name)
             if attribute and attribute.HasAuthoredValue():
                 return self._value(attribute)
-            prim = prim.GetParent()
         return None
 
     def _named(self, name):
@@ -317,10 +324,12 @@ class Prim:
         if "displayColor" not in self._primvar_names():
             known.add("groom_color")
         names = {"primvars:" + name for name in self._primvar_names() - known}
-        for attribute in self.curves.GetPrim().GetAuthoredPropertiesInNamespace("userProperties"):
-            name = attribute.GetName().removeprefix("userProperties:")
-            if name not in known - {"displayColor", "displayOpacity", "widths"}:
-                names.add(attribute.GetName())
+        known -= {"displayColor", "displayOpacity", "widths"}
+        for prim in self._and_above():
+            for attribute in prim.GetAuthoredPropertiesInNamespace("userProperties"):
+                name = attribute.GetName().removeprefix("userProperties:")
+                if name not in known and not name.startswith(NAMES_OF_BLENDER):
+                    names.add(attribute.GetName())
         for name in ("normals", "velocities", "accelerations"):
             if self.curves.GetPrim().GetAttribute(name).HasAuthoredValue():
                 names.add(name)

@@ -31,9 +31,9 @@ curves = UsdGeom.BasisCurves(prim)
 api = UsdGeom.PrimvarsAPI(prim)
 assert curves and prim == stage.GetDefaultPrim() and not prim.GetAllChildren()
 assert UsdGeom.GetStageUpAxis(stage) == UsdGeom.Tokens.y
-assert UsdGeom.StageHasAuthoredMetersPerUnit(stage)
 print(f"{prim.GetPath()} {curves.GetTypeAttr().Get()} {curves.GetWrapAttr().Get()}")
-print(f"metersPerUnit {UsdGeom.GetStageMetersPerUnit(stage)!r}")
+states_unit = UsdGeom.StageHasAuthoredMetersPerUnit(stage)
+print(f"metersPerUnit {repr(UsdGeom.GetStageMetersPerUnit(stage)) if states_unit else 'none'}")
 print(f"doc {stage.GetRootLayer().documentation.encode()!r}")
 if stage.HasAuthoredTimeCodeRange():
     print(f"time {stage.GetStartTimeCode():g} to {stage.GetEndTimeCode():g},", end=" ")

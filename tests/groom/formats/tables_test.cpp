@@ -214,6 +214,7 @@ constexpr KnownPart kParts[] = {
      }},
     {Fact::root_uvs, [](const StrandSet& s) { return !s.root_uvs.empty(); }},
     {Fact::unit, [](const StrandSet& s) { return s.metres_per_unit.has_value(); }},
+    {Fact::up, [](const StrandSet& s) { return s.up.has_value(); }},
     {Fact::root_triangles, [](const StrandSet& s) { return !s.root_triangles.empty(); }},
 };
 
@@ -235,6 +236,7 @@ StrandSet strandsWithAll(std::vector<std::uint32_t> sizes) {
     set.guides = {0, 1, 0};
     set.root_triangles = {{0, 1, 2}};
     set.metres_per_unit = 1.0;
+    set.up = 1;
     return set;
 }
 
@@ -257,10 +259,17 @@ TEST(FormatFacts, CoverAllFormatsAndNoOthers) {
         for (const FormatFact& fact : format.facts)
             EXPECT_TRUE(fact.is_read || fact.is_written) << format.name;
     }
-    std::set<std::string_view> importers;
-    for (const StrandImporter& importer : strandImporters())
+    std::set<std::string_view> importers, playing, with_samples;
+    for (const StrandImporter& importer : strandImporters()) {
         importers.insert(importer.extensions.begin(), importer.extensions.end());
+        if (importer.read_samples)
+            with_samples.insert(importer.extensions.begin(), importer.extensions.end());
+    }
     EXPECT_EQ(read, importers);
+    for (const FormatFacts& format : formatFacts())
+        if (const FormatFact* const fact = factOf(format, Fact::animation); fact && fact->is_read)
+            playing.insert(format.extensions.begin(), format.extensions.end());
+    EXPECT_EQ(playing, with_samples);
     std::set<std::string_view> exporters;
     for (const StrandExporter& exporter : strandExporters()) exporters.insert(exporter.extension);
     EXPECT_EQ(written, exporters);

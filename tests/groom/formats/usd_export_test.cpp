@@ -118,7 +118,8 @@ TEST_F(UsdExportTest, WritesWhatIsTheSameEverywhereOnce) {
     set.colors.everywhere = glm::vec3(0.25f, 0.5f, 1.0f);
     set.transparencies.everywhere = 0.0f;
     const std::string text = dump(exported(set));
-    EXPECT_THAT(text, HasSubstr("metersPerUnit 1.0\ndoc b''\n"));
+    EXPECT_THAT(text, HasSubstr("metersPerUnit none\ndoc b''\n"));
+    EXPECT_THAT(textOf(folder_.file("hair.usda")), testing::Not(HasSubstr("upAxis")));
     EXPECT_THAT(text, HasSubstr("widths float[] constant:" + bits(std::vector{0.5f})));
     EXPECT_THAT(
         text,
@@ -161,7 +162,8 @@ TEST_F(UsdExportTest, SaysWhatItCannotHold) {
     EXPECT_THAT(
         warnings_, ElementsAre(
                        "the comment is not UTF-8: taken as Latin-1",
-                       "the unit of length is not known; the file says metres",
+                       "the unit of length is not known, so the file states none; other programs "
+                       "take it as cm",
                        "the transparencies are rounded: USD holds opacities"));
     EXPECT_THAT(text, HasSubstr("doc b'br\\xc3\\xa4un'"));
 }
