@@ -1,5 +1,6 @@
 #include "benchmarks/scene/schema.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "tests/error_text.h"
@@ -36,6 +37,27 @@ TEST(CheckSettings, WantsFramesWithRoomForTheirSteps) {
     };
     EXPECT_EQ(steps(199.0f), "no error");
     EXPECT_EQ(steps(201.0f), "/run/frame_time: is more than 200 times /simulation/time_step");
+}
+
+// Frames of 1/60 s have 1 or 2 steps of 0.01 s, and 0 or 1 of 1/15 s. A step that divides them is
+// suggested: 1/120 s, or a whole frame.
+TEST(StepWarning, IsOfStepsThatDoNotDivideFrames) {
+    const auto warning = [](float step, bool interpolate = false) {
+        hair::Settings settings;
+        settings.run.frame_time = 1.0f / 60.0f;
+        settings.run.interpolate = interpolate;
+        settings.simulation.time_step = step;
+        return scene::stepWarning(settings);
+    };
+    EXPECT_THAT(warning(0.01f), testing::HasSubstr("a frame advances by 1 or 2 steps"));
+    EXPECT_THAT(
+        warning(0.01f), testing::HasSubstr("set /simulation/time_step to 0.008333334 or "
+                                           "/run/interpolate to true"));
+    EXPECT_THAT(warning(1.0f / 15.0f), testing::HasSubstr("by 0 or 1 steps"));
+    EXPECT_THAT(warning(1.0f / 15.0f), testing::HasSubstr("to 0.016666668 or"));
+    for (const float step : {1.0f / 60.0f, 1.0f / 120.0f, 1.0f / 240.0f})
+        EXPECT_EQ(warning(step), "");
+    EXPECT_EQ(warning(0.01f, true), "");
 }
 
 TEST(CheckSettings, WantsAPassForBusyWork) {

@@ -1,12 +1,18 @@
 // Tests `hairbench groom filter`, `smooth`, `resample` and `fix` as a user runs them.
+#include <cstddef>
+#include <cstdint>
 #include <filesystem>
 #include <limits>
+#include <sstream>
 #include <string>
+#include <string_view>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "tests/cli/groom_files.h"
+#include "tests/python.h"
+#include "tests/required.h"
 
 namespace {
 
@@ -93,19 +99,71 @@ TEST_F(GroomEditCli, FixLeavesNothingThatInfoFindsInStrands) {
     EXPECT_TRUE(json("out.hair", "--scale 1")["odd"].empty());  // "out.hair" is in metres
 }
 
+// ---- Strands that can't be used -----------------------------------------------------------------
+
+// USC-HairSalon's strands: their number, then for each that of its points and the points.
+std::string dataText(const HairFile& file) {
+    std::string text;
+    const auto append = [&](auto value) {
+        text.append(reinterpret_cast<const char*>(&value), sizeof value);
+    };
+    append(static_cast<std::int32_t>(file.segments.size()));
+    const float* point = file.points.data();
+    for (const std::uint16_t segments : file.segments) {
+        append(std::int32_t{segments} + 1);
+        for (int k = 0; k < 3 * (segments + 1); ++k) append(*point++);
+    }
+    return text;
+}
+
+std::string usdText(const HairFile& file) {
+    std::ostringstream text;
+    text << "#usda 1.0\ndef BasisCurves \"hair\" {\nuniform token type = \"linear\"\n"
+            "int[] curveVertexCounts = [";
+    for (std::size_t i = 0; i < file.segments.size(); ++i)
+        text << (i == 0 ? "" : ", ") << file.segments[i] + 1;
+    text << "]\npoint3f[] points = [";
+    for (std::size_t i = 0; i < file.points.size(); i += 3)
+        text << (i == 0 ? "(" : ", (") << file.points[i] << ", " << file.points[i + 1] << ", "
+             << file.points[i + 2] << ')';
+    text << "]\n}\n";
+    return text.str();
+}
+
+struct WrittenFormat {
+    const char* extension;
+    std::string (*text)(const HairFile& file);
+};
+
+class BadStrandsCli : public GroomEditCli, public testing::WithParamInterface<WrittenFormat> {
+protected:
+    void SetUp() override {
+        if (std::string_view(GetParam().extension) == ".usda" && pythonInterpreter().empty())
+            return skipWithout(Need::python, kNoPython);
+    }
+};
+
+INSTANTIATE_TEST_SUITE_P(
+    Formats, BadStrandsCli,
+    testing::Values(
+        WrittenFormat{".hair", [](const HairFile& file) { return file.text(); }},
+        WrittenFormat{".data", dataText}, WrittenFormat{".usda", usdText}),
+    [](const auto& format) { return std::string(format.param.extension).substr(1); });
+
 // Six strands: the fifth is a single point, and the sixth has a point that is not a number.
-TEST_F(GroomEditCli, NamesRefusesAndMendsStrandsThatCantBeUsed) {
+TEST_P(BadStrandsCli, AreNamedRefusedAndMended) {
     HairFile file = fourStrands();
     file.segments.push_back(0);
     file.points.insert(file.points.end(), {2, 0, 2});
     file.segments.push_back(2);
     file.points.insert(
         file.points.end(), {7, 0, 7, 7, std::numeric_limits<float>::quiet_NaN(), 7, 7, 9, 7});
-    folder_.write("bad.hair", file.text());
+    const std::string name = std::string("bad") + GetParam().extension;
+    folder_.write(name, GetParam().text(file));
     const std::string single = "1 strand of a single point (strand 4, counted from 0)";
     const std::string nan =
         "1 strand with a position that is not finite (strand 5, counted from 0)";
-    const std::string bad = quoted("bad.hair");
+    const std::string bad = quoted(name);
 
     const Outcome info = hairbench("groom info " + bad);
     EXPECT_EQ(info.status, 0);
@@ -123,7 +181,7 @@ TEST_F(GroomEditCli, NamesRefusesAndMendsStrandsThatCantBeUsed) {
 
     folder_.write(
         "bad.json",
-        R"({"groom": {"file": "bad.hair", "placement": {"scale": 0.01}, "vertices": 3}})");
+        R"({"groom": {"file": ")" + name + R"(", "placement": {"scale": 0.01}, "vertices": 3}})");
     const Outcome valid = hairbench("validate --start " + quoted("bad.json"));
     if (valid.status != 77) {  // there is a device
         EXPECT_EQ(valid.status, 0) << valid.output;
@@ -133,7 +191,7 @@ TEST_F(GroomEditCli, NamesRefusesAndMendsStrandsThatCantBeUsed) {
         EXPECT_THAT(strict.output, AllOf(HasSubstr(single), HasSubstr("refused by --strict")));
     }
 
-    const Outcome fixed = edit("fix", "bad.hair", "--scale 0.01");
+    const Outcome fixed = edit("fix", name, "--scale 0.01");
     EXPECT_EQ(fixed.status, 0);
     EXPECT_THAT(
         fixed.output, AllOf(
@@ -141,6 +199,8 @@ TEST_F(GroomEditCli, NamesRefusesAndMendsStrandsThatCantBeUsed) {
                           HasSubstr("left out: strands of a single point: 1\n"),
                           ContainsRegex("wrote: .*out.hair, 5 strands, ")));
 }
+
+// ---- Groups -------------------------------------------------------------------------------------
 
 TEST_F(GroomEditCli, ChoosesGroups) {
     folder_.write("four.hair", fourStrands().text());
@@ -151,23 +211,41 @@ TEST_F(GroomEditCli, ChoosesGroups) {
         hairbench("groom info " + quoted("four.hair") + " --group 1").output,
         HasSubstr("--group: the file has no groups to choose from"));
     // Two strands, in the groups 3 and -4; the first is a guide.
-    const std::string file = "'" HAIRBENCH_SOURCE_DIR "/tests/corpus/npz/groups_and_guides.npz'";
-    for (const std::string option : {"--group 3", "--group=-4"}) {
-        const Outcome outcome = hairbench("groom info --json " + file + " " + option);
-        ASSERT_EQ(outcome.status, 0) << outcome.output;
-        const nlohmann::json found = nlohmann::json::parse(outcome.output);
-        EXPECT_EQ(found["strands"], 1);
-        EXPECT_EQ(found["has"]["groups"], 1);
-        EXPECT_EQ(found["has"]["guides"], option == "--group 3" ? 1 : 0);
+    folder_.write(
+        "two.npz", textOf(HAIRBENCH_SOURCE_DIR "/tests/corpus/npz/groups_and_guides.npz"));
+    for (const std::string extension : {".npz", ".abc", ".usda"}) {
+        if (extension == ".usda" && pythonInterpreter().empty()) continue;
+        SCOPED_TRACE(extension);
+        const std::string file = "two" + extension;
+        const std::string out = "out" + extension;
+        if (extension != ".npz") {
+            ASSERT_EQ(convert("two.npz", file).status, 0);
+        }
+        for (const std::string option : {"--group 3", "--group=-4"}) {
+            const nlohmann::json found = json(file, option);
+            EXPECT_EQ(found["strands"], 1);
+            EXPECT_EQ(found["has"]["groups"], 1);
+            EXPECT_EQ(found["has"]["guides"], option == "--group 3" ? 1 : 0);
+        }
+        EXPECT_EQ(
+            hairbench("groom filter " + quoted(file) + " " + quoted(out) + " --group 3 --group=-4")
+                .status,
+            0);
+        EXPECT_EQ(json(out)["strands"], 2);
+        EXPECT_THAT(
+            info(file, "--group 5").output,
+            HasSubstr("--group: no strand belongs to group 5; the file has -4, 3"));
+        const Outcome groups = hairbench("groom groups " + quoted(file));
+        EXPECT_THAT(
+            groups.output, AllOf(ContainsRegex("\n +-4 +1 +0 +"), ContainsRegex("\n +3 +1 +1 +")));
+        const Outcome scene = hairbench(
+            "groom scene " + quoted(file) + " --group=-4 --scale 1 --force -o " +
+            quoted("out.json"));
+        EXPECT_EQ(scene.status, 0) << scene.output;
+        EXPECT_THAT(scene.output, HasSubstr("1 strand, "));
+        EXPECT_EQ(nlohmann::json::parse(textOf(folder_.file("out.json")))["groom"]["groups"], "-4");
+        EXPECT_EQ(hairbench("validate " + quoted("out.json")).status, 0);
     }
-    EXPECT_EQ(
-        hairbench("groom filter " + file + " " + quoted("out.npz") + " --group 3 --group=-4")
-            .status,
-        0);
-    EXPECT_EQ(json("out.npz")["strands"], 2);
-    EXPECT_THAT(
-        hairbench("groom info " + file + " --group 5").output,
-        HasSubstr("--group: no strand belongs to group 5; the file has -4, 3"));
 }
 
 TEST_F(GroomEditCli, ReversesTransformsAndListsGroups) {

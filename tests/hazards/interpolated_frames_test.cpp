@@ -1,14 +1,18 @@
 // Tests frames that are drawn between two steps: /run/interpolate.
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
+#include <string>
 #include <vector>
 
 #include <gtest/gtest.h>
 
 #include "benchmarks/measure/case.h"
 #include "engine/frame_loop.h"
+#include "hair/groom/files.h"
 #include "tests/golden/features.h"
 #include "tests/gpu_fixture.h"
+#include "tests/temporary_folder.h"
 
 namespace benchmarks::measure {
 namespace {
@@ -87,6 +91,28 @@ TEST_F(InterpolatedFrames, MoveEvenlyIfStepsDoNotDivideThem) {
         const Played uneven = play(device(), uniformMotion(time_step, false));
         EXPECT_GT(unevenness(uneven.roots), 0.3 * double{kSpeed} * double{time_step});
         EXPECT_EQ(even.state, uneven.state);  // the simulation is the same
+    }
+}
+
+// Guides of files; the thesis's own above are of .hgl.
+TEST_F(InterpolatedFrames, MoveEvenlyWithFilesOfOtherFormats) {
+    constexpr double kTolerance = 2e-6;  // m, as above
+    hair::groom::StrandSet strands{.metres_per_unit = 1.0};
+    for (int i = 0; i < 6; ++i) {
+        for (int k = 0; k < 4; ++k)
+            strands.points.emplace_back(0.02f * i, 0.02f * k, 0.002f * i * i);
+        strands.ends.push_back(static_cast<std::uint32_t>(strands.points.size()));
+    }
+    const TemporaryFolder folder;
+    for (const std::string extension : {".hair", ".abc", ".npz", ".ply"}) {
+        SCOPED_TRACE(extension);
+        hair::Settings settings = uniformMotion(0.01f, true);
+        const auto path = folder.file("guides" + extension);
+        hair::groom::exportStrands(strands, path);
+        settings.groom.file = path.string();
+        const Played even = play(device(), settings);
+        EXPECT_LT(unevenness(even.roots), kTolerance);
+        EXPECT_LT(unevenness(even.heads), kTolerance);
     }
 }
 

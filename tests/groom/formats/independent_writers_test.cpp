@@ -21,6 +21,7 @@ namespace {
 
 using testing::ElementsAre;
 using testing::HasSubstr;
+using testing::Not;
 
 // The points that the programs of the corpus were given.
 const std::vector<glm::vec3> kWritten{{0, 0, 0},        {0, 0.25f, 0},     {0, 0.5f, 0.125f},
@@ -176,6 +177,8 @@ TEST(IndependentWriters, BlenderGroupsGuidesWidthsAndUnits) {
         expectBlendersGroups(usd);
         EXPECT_THAT(usd.groups, ElementsAre(7, 8, 9, 3, 3, 3));
         EXPECT_THAT(usd.guides, ElementsAre(0, 1, 0, 0, 0, 0));
+        // Blender's names of its objects are no data of the user.
+        EXPECT_THAT(usd.warnings, testing::Each(Not(HasSubstr("userProperties"))));
     }
 }
 

@@ -1,6 +1,9 @@
 // Tests what becomes of strands that can't be used, and of guides, groups and parts that only some
 // strands have, in files of several formats.
+#include <filesystem>
 #include <limits>
+#include <memory>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -201,6 +204,23 @@ TEST(MendStrands, LeavesOutPointsAndThenStrands) {
     EXPECT_EQ(mended.notes[1].count, 1u);
 }
 
+// Strand 1 loses its middle point, strand 3 its last one.
+TEST(MendStrands, MendsFilesOfEveryFormat) {
+    StrandSet strands = fourStrands();
+    strands.points[4].y = kNan;
+    strands.points[11].z = std::numeric_limits<float>::infinity();
+    forEachFormat(strands, [](const std::filesystem::path& path) {
+        const EditedStrands mended = mendStrands(importStrands(path, 0, {}, BadStrands::kept));
+        EXPECT_EQ(brokenPromise(mended.strands), "");
+        EXPECT_THAT(mended.strands.ends, ElementsAre(3, 5, 8, 10));
+        ASSERT_EQ(mended.strands.points.size(), 10u);
+        EXPECT_EQ(mended.strands.points[4], glm::vec3(1, 2, 0));
+        EXPECT_EQ(mended.strands.points[9], glm::vec3(3, 1, 0));
+        ASSERT_FALSE(mended.notes.empty());
+        EXPECT_GE(mended.notes[0].count, 2u);  // pbrt's curves have more points than vertices
+    });
+}
+
 TEST(MendStrands, ChangesNoGoodStrands) {
     const EditedStrands mended = mendStrands(fourStrands());
     expectBitEqual(mended.strands.points, fourStrands().points);
@@ -224,12 +244,12 @@ StrandSet flaggedStrands() {
 }
 
 template <class Test>
-void forEachFlaggingFormat(const Test& test) {
+void forEachFlaggingFormat(const Test& test, const StrandSet& strands = flaggedStrands()) {
     const TemporaryFolder folder;
     for (const std::string extension : {".npz", ".abc", ".usda"}) {
         if (isPython(extension) && pythonInterpreter().empty()) continue;
         SCOPED_TRACE(extension);
-        exportStrands(flaggedStrands(), folder.file("a" + extension));
+        exportStrands(strands, folder.file("a" + extension));
         test(folder.path(), "a" + extension);
     }
 }
@@ -271,13 +291,15 @@ TEST(FlaggedGuides, AreChosenFromByTheirNumber) {
 }
 
 TEST(FlaggedGuides, AreHairToo_IfThereIsNoOther) {
-    const TemporaryFolder folder;
     StrandSet strands = flaggedStrands();
     strands.guides.assign(6, 1);
-    exportStrands(strands, folder.file("a.npz"));
-    const Groom groom = buildGroom(settingsOf("a.npz"), nullptr, folder.path(), 1);
-    EXPECT_EQ(groom.strand_count, 6u);
-    EXPECT_EQ(groom.bindings.size(), 6u);
+    forEachFlaggingFormat(
+        [](const std::filesystem::path& folder, const std::string& file) {
+            const Groom groom = buildGroom(settingsOf(file), nullptr, folder, 1);
+            EXPECT_EQ(groom.strand_count, 6u);
+            EXPECT_EQ(groom.bindings.size(), 6u);
+        },
+        strands);
 }
 
 TEST(Groups, AreChosenByTheScene) {
@@ -299,11 +321,11 @@ TEST(Groups, AreChosenByTheScene) {
 }
 
 TEST(Groups, AreRefusedIfTheFileHasNone) {
-    const TemporaryFolder folder;
-    exportStrands(fourStrands(), folder.file("a.hair"));
-    GroomSettings settings = settingsOf("a.hair");
-    settings.groups = "0";
-    EXPECT_THAT(buildError(settings, folder.path()), HasSubstr("the file has no groups"));
+    forEachFormat(fourStrands(), [](const std::filesystem::path& path) {
+        GroomSettings settings = settingsOf(path.filename().string());
+        settings.groups = "0";
+        EXPECT_THAT(buildError(settings, path.parent_path()), HasSubstr("the file has no groups"));
+    });
 }
 
 TEST(Groups, AreKeptByTheFilter) {
@@ -314,59 +336,136 @@ TEST(Groups, AreKeptByTheFilter) {
 }
 
 TEST(Warnings, OfBadStrandsAreInTheGroom) {
-    const TemporaryFolder folder;
-    StrandSet strands = flaggedStrands();
+    StrandSet strands = fourStrands();
     strands.points[1].x = kNan;
-    folder.write("a.data", writeText(strandExporterOf("a.data").write, strands).bytes);
-    const Groom groom = buildGroom(settingsOf("a.data"), nullptr, folder.path(), 1);
-    EXPECT_THAT(groom.warnings, ElementsAre("a.data: " + leftOutStrand(kNoPosition, 0)));
+    forEachFormat(strands, [](const std::filesystem::path& path) {
+        const std::string name = path.filename().string();
+        const Groom groom = buildGroom(settingsOf(name), nullptr, path.parent_path(), 1);
+        EXPECT_EQ(groom.strand_count, 3u);
+        EXPECT_THAT(groom.warnings, ElementsAre(name + ": " + leftOutStrand(kNoPosition, 0)));
+    });
 }
 
 // ---- Reported files of USD ----------------------------------------------------------------------
 
-class ReportedUsd : public testing::Test {
+// Curves under a prim with a custom property, as Blender writes those of objects, and under one
+// with none. The names of Blender's objects and data are no data of the user.
+constexpr const char* kUserProperties = R"(#usda 1.0
+(metersPerUnit = 1)
+def Xform "x" {
+    custom int userProperties:groom_group_id = 7
+    custom string userProperties:blender:object_name = "x"
+    custom double userProperties:density = 2
+    def BasisCurves "c" {
+        uniform token type = "linear"
+        int[] curveVertexCounts = [2]
+        point3f[] points = [(0,0,0),(0,1,0)]
+        custom string userProperties:blender:data_name = "c.001"
+        custom string userProperties:blenderName:data = "c.001"
+    }
+}
+def Xform "y" {
+    def BasisCurves "c" {
+        uniform token type = "linear"
+        int[] curveVertexCounts = [2]
+        point3f[] points = [(0,0,0),(0,1,0)]
+        custom int userProperties:groom_group_id = 9
+        custom bool userProperties:groom_guide = 1
+        custom string userProperties:note = "x"
+    }
+}
+)";
+
+constexpr const char* kNamedGroups = R"(#usda 1.0
+(metersPerUnit = 1)
+def BasisCurves "c" {
+    uniform token type = "linear"
+    int[] curveVertexCounts = [2, 2, 2]
+    point3f[] points = [(0,0,0),(0,1,0),(1,0,0),(1,1,0),(2,0,0),(2,1,0)]
+    string[] primvars:groom_group_name = ["brow", "hair", "brow"] (interpolation = "uniform")
+}
+)";
+
+class ReportedUsd : public testing::TestWithParam<const char*> {
 protected:
     void SetUp() override {
         if (pythonInterpreter().empty()) return skipWithout(Need::python, kNoPython);
     }
-    static StrandSet read(const std::string& name) {
-        return importStrands(corpus("usd/reported_" + name));
+    static std::string nameOf(const std::string& stem) { return stem + GetParam(); }
+    static std::filesystem::path path(const std::string& stem) {
+        return inAllKinds().file(nameOf(stem));
+    }
+    static StrandSet read(const std::string& stem) { return importStrands(path(stem)); }
+
+    // Has the stages as .usda, .usdc and .usdz, which usd-core wrote.
+    static const TemporaryFolder& inAllKinds() {
+        static const std::unique_ptr<const TemporaryFolder> made = [] {
+            auto folder = std::make_unique<const TemporaryFolder>();
+            for (const auto& entry : std::filesystem::directory_iterator(corpus("usd")))
+                if (entry.path().filename().string().starts_with("reported_"))
+                    std::filesystem::copy(entry.path(), folder->path());
+            folder->write("user_properties.usda", kUserProperties);
+            folder->write("named_groups.usda", kNamedGroups);
+            const std::string script =
+                "import glob\nfrom pxr import Sdf, UsdUtils\nfor name in glob.glob(\"*.usda\"):\n"
+                "    assert Sdf.Layer.FindOrOpen(name).Export(name[:-1] + \"c\")\n"
+                "    assert UsdUtils.CreateNewUsdzPackage(name[:-1] + \"c\", name[:-1] + \"z\")\n";
+            const Outcome outcome = runInShell(
+                "cd '" + folder->path().string() + "' && '" + pythonInterpreter() + "' -c '" +
+                script + "' 2>&1");
+            if (outcome.status != 0) throw std::runtime_error(outcome.output);
+            return folder;
+        }();
+        return *made;
     }
 };
 
-TEST_F(ReportedUsd, FlagsGuidesAndHasGroups) {
-    const StrandSet set = read("guides_flag.usda");
-    EXPECT_THAT(set.guides, ElementsAre(0, 0, 0, 0, 1, 1));
-    EXPECT_THAT(set.groups, ElementsAre(0, 0, 1, 1, 0, 1));
-    const Groom groom =
-        buildGroom(settingsOf("reported_guides_flag.usda"), nullptr, corpus("usd"), 1);
-    EXPECT_EQ(groom.strand_count, 2u);
-    EXPECT_EQ(groom.bindings.size(), 4u);
+TEST_P(ReportedUsd, StatesUnitAndUpwardAxis) {
+    const StrandSet set = read("reported_up_stated");
+    EXPECT_EQ(set.strandCount(), 4u);
+    EXPECT_EQ(set.metres_per_unit, 1.0);
+    EXPECT_EQ(set.up, 1);
+    EXPECT_EQ(set.points[1], glm::vec3(0.1f, 1.7f, 0.001f));
 }
 
-TEST_F(ReportedUsd, HasHiddenCurves) {
-    const StrandSet set = read("invisible.usda");
+TEST_P(ReportedUsd, FlagsGuidesAndHasGroups) {
+    const StrandSet set = read("reported_guides_flag");
+    EXPECT_THAT(set.guides, ElementsAre(0, 0, 0, 0, 1, 1));
+    EXPECT_THAT(set.groups, ElementsAre(0, 0, 1, 1, 0, 1));
+    GroomSettings settings = settingsOf(nameOf("reported_guides_flag"));
+    const Groom groom = buildGroom(settings, nullptr, inAllKinds().path(), 1);
+    EXPECT_EQ(groom.strand_count, 2u);
+    EXPECT_EQ(groom.bindings.size(), 4u);
+    EXPECT_THAT(groom.guide_groups, ElementsAre(0, 1));
+    settings.groups = "1";
+    const Groom one = buildGroom(settings, nullptr, inAllKinds().path(), 1);
+    EXPECT_EQ(one.strand_count, 1u);
+    EXPECT_EQ(one.bindings.size(), 2u);
+}
+
+TEST_P(ReportedUsd, HasHiddenCurves) {
+    const StrandSet set = read("reported_invisible");
     EXPECT_EQ(set.strandCount(), 2u);
     EXPECT_THAT(
         set.warnings, Contains("1 strand of invisible prims, 1 strand of prims of purpose "
                                "\"guide\": left out"));
 }
 
-TEST_F(ReportedUsd, HasOneWidth) {
-    const StrandSet set = read("usd_width1.usda");
+TEST_P(ReportedUsd, HasOneWidth) {
+    const StrandSet set = read("reported_usd_width1");
     EXPECT_EQ(set.widths.everywhere, 0.0001f);
     EXPECT_THAT(set.widths.values, IsEmpty());
 }
 
-TEST_F(ReportedUsd, HasTextureCoordinatesOfVertices) {
-    const StrandSet set = read("st_vertex.usda");
+TEST_P(ReportedUsd, HasTextureCoordinatesOfVertices) {
+    const StrandSet set = read("reported_st_vertex");
     EXPECT_THAT(set.root_uvs, ElementsAre(glm::vec2(0.1f, 0.2f), glm::vec2(0.7f, 0.8f)));
     EXPECT_THAT(set.warnings, IsEmpty());
 }
 
 // A pinned curve begins and ends at its end vertices, and so do its widths.
-TEST_F(ReportedUsd, HasPinnedCurves) {
-    const StrandSet set = read("pinned_varying.usda");
+TEST_P(ReportedUsd, HasPinnedCurves) {
+    const StrandSet set = read("reported_pinned_varying");
     ASSERT_EQ(set.strandCount(), 1u);
     EXPECT_EQ(set.points.front(), glm::vec3(0, 0, 0));
     EXPECT_EQ(set.points.back(), glm::vec3(0, 6, 0));
@@ -374,8 +473,8 @@ TEST_F(ReportedUsd, HasPinnedCurves) {
     EXPECT_FLOAT_EQ(set.widths.values.back(), 0.1f);
 }
 
-TEST_F(ReportedUsd, HasAColourOnOnePrim) {
-    const StrandSet set = read("half_width.usda");
+TEST_P(ReportedUsd, HasAColourOnOnePrim) {
+    const StrandSet set = read("reported_half_width");
     ASSERT_EQ(set.colors.values.size(), 5u);
     EXPECT_EQ(set.colors.values[2], glm::vec3(0.3f, 0.2f, 0.1f));
     EXPECT_EQ(set.colors.values[3], glm::vec3(1.0f));
@@ -384,37 +483,40 @@ TEST_F(ReportedUsd, HasAColourOnOnePrim) {
     EXPECT_EQ(set.widths.values[4], 0.00005f);
 }
 
-// Blender writes an object's custom properties as userProperties.
-TEST_F(ReportedUsd, HasUserProperties) {
-    const TemporaryFolder folder;
-    const std::string curve =
-        "def BasisCurves \"c\" {\nuniform token type = \"linear\"\n"
-        "int[] curveVertexCounts = [2]\npoint3f[] points = [(0,0,0),(0,1,0)]\n";
-    const auto path = folder.write(
-        "a.usda", "#usda 1.0\n(metersPerUnit = 1)\n"
-                  "def Xform \"x\" {\ncustom int userProperties:groom_group_id = 7\n" +
-                      curve + "}\n}\ndef Xform \"y\" {\n" + curve +
-                      "custom int userProperties:groom_group_id = 9\n"
-                      "custom bool userProperties:groom_guide = 1\n"
-                      "custom string userProperties:note = \"x\"\n}\n}\n");
-    const StrandSet set = importStrands(path);
-    EXPECT_THAT(set.groups, ElementsAre(7, 9));
-    EXPECT_THAT(set.guides, ElementsAre(0, 1));
-    EXPECT_THAT(set.warnings, ElementsAre("userProperties:note: left out"));
+// 24 time codes a second, which is USD's default.
+TEST_P(ReportedUsd, DoesNotPlayIfStrandsVanish) {
+    const StrandSet first = read("reported_seq");
+    EXPECT_EQ(first.strandCount(), 2u);
+    EXPECT_EQ(first.metres_per_unit, 0.01);
+    EXPECT_THAT(first.warnings, ElementsAre("/a: one of its 3 time samples is read"));
+    const auto refused = HasSubstr(
+        "/a: at time code 2 (0.0416667 s) it has 1 curves, but 2 at first: strands that appear, "
+        "vanish or change their number of points don't play");
+    EXPECT_THAT(errorText([] { importStrandSamples(path("reported_seq")); }), refused);
+    GroomSettings settings = settingsOf(nameOf("reported_seq"));
+    EXPECT_EQ(buildGroom(settings, nullptr, inAllKinds().path(), 1).strand_count, 2u);
+    for (const CacheMode mode : {CacheMode::play, CacheMode::follow}) {
+        settings.cache.mode = mode;
+        EXPECT_THAT(buildError(settings, inAllKinds().path()), refused);
+    }
 }
 
-TEST_F(ReportedUsd, HasNamedGroups) {
-    const TemporaryFolder folder;
-    const auto path = folder.write(
-        "a.usda",
-        "#usda 1.0\n(metersPerUnit = 1)\ndef BasisCurves \"c\" {\nuniform token type = "
-        "\"linear\"\nint[] curveVertexCounts = [2, 2, 2]\npoint3f[] points = [(0,0,0),(0,1,0),"
-        "(1,0,0),(1,1,0),(2,0,0),(2,1,0)]\nstring[] primvars:groom_group_name = [\"brow\", "
-        "\"hair\", \"brow\"] (interpolation = \"uniform\")\n}\n");
-    const StrandSet set = importStrands(path);
+TEST_P(ReportedUsd, HasUserProperties) {
+    const StrandSet set = read("user_properties");
+    EXPECT_THAT(set.groups, ElementsAre(7, 9));
+    EXPECT_THAT(set.guides, ElementsAre(0, 1));
+    EXPECT_THAT(set.warnings, ElementsAre("userProperties:density, userProperties:note: left out"));
+}
+
+TEST_P(ReportedUsd, HasNamedGroups) {
+    const StrandSet set = read("named_groups");
     EXPECT_THAT(set.groups, ElementsAre(0, 1, 0));
     EXPECT_THAT(set.warnings, IsEmpty());
 }
+
+INSTANTIATE_TEST_SUITE_P(
+    Kinds, ReportedUsd, testing::Values(".usda", ".usdc", ".usdz"),
+    [](const auto& kind) { return std::string(kind.param).substr(1); });
 
 }  // namespace
 }  // namespace hair::groom
