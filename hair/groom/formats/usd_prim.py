@@ -238,7 +238,8 @@ class Prim:
         for sizes in (topology.sizes, topology.ends()):
             if len(values) == sizes.sum():
                 # A curve without vertices gets the first value of another; it is left out anyway.
-                return values[np.minimum(starts(sizes), max(len(values) - 1, 0))]
+                values = values if len(values) else np.zeros((1, 2))
+                return values[np.minimum(starts(sizes), len(values) - 1)]
         self.refuse(
             f"{len(values)} texture coordinates ({interpolation}), but there are "
             f"{topology.sizes.sum()} vertices"

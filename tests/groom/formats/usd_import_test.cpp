@@ -400,6 +400,28 @@ TEST_F(UsdImportTest, LeavesOutHiddenMeshes) {
         HasSubstr("the stage has no Mesh with faces that is shown, but 2 meshes of invisible"));
 }
 
+TEST_F(UsdImportTest, LeavesOutACurveWithoutVerticesAndItsTextureCoordinates) {
+    const TemporaryFolder files;
+    const auto curves = [](const std::string& name, const std::string& more) {
+        return "def BasisCurves \"" + name + "\" {\nuniform token type = \"linear\"\n" + more +
+               " (interpolation = \"vertex\")\n}\n";
+    };
+    const StrandSet set = importStrands(files.write(
+        "a.usda",
+        "#usda 1.0\n" +
+            curves(
+                "none", "int[] curveVertexCounts = [0]\npoint3f[] points = []\n"
+                        "texCoord2f[] primvars:st = []") +
+            curves(
+                "one", "int[] curveVertexCounts = [2]\npoint3f[] points = [(0, 0, 0), (0, 1, 0)]\n"
+                       "texCoord2f[] primvars:st = [(0.5, 0.25), (0, 0)]")));
+    EXPECT_EQ(set.strandCount(), 1u);
+    EXPECT_THAT(set.root_uvs, ElementsAre(glm::vec2(0.5f, 0.25f)));
+    EXPECT_THAT(
+        set.warnings,
+        ElementsAre("1 strand without points (strand 0, counted from 0) is left out"));
+}
+
 TEST_F(UsdImportTest, ReadsUnitsThatAreStoredAsFloats) {
     EXPECT_EQ(read("float_unit.usdc").metres_per_unit, 0.5);
     EXPECT_EQ(read("float_centimetre.usdc").metres_per_unit, 0.01);
