@@ -6,6 +6,7 @@
 #include <limits>
 #include <numeric>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include <glm/geometric.hpp>
@@ -15,6 +16,7 @@
 #include "benchmarks/physics/kirchhoff.h"
 #include "benchmarks/physics/theory.h"
 #include "hair/simulation/hair_hair.h"
+#include "hair/simulation/solvers.h"
 #include "hair/simulation/stiffness.h"
 
 namespace benchmarks::physics {
@@ -289,7 +291,201 @@ double frictionRate(float setting) {
     return -std::log1p(-double{setting}) / hair::simulation::kReferenceStep;
 }
 
+// ---- Slide --------------------------------------------------------------------------------------
+
+// A limp hair lies across a slope with its whole length and slides down. The slope is a level
+// capsule, whose incline grows on the way; the plane side of a field; or the level top of a capsule
+// on a head that accelerates sideways by A, so that gravity is sqrt(g^2 + A^2) at atan(A / g) from
+// the vertical. On the first two the head moves the root as theory says. On the last the root stays
+// in its place on the capsule. The tip is 7 segments away and moves by less than half of one.
+// Finally a hair slides over a level field until friction has stopped it.
+
+enum class Slope { capsule, field, moving_head };
+
+constexpr const char* kSlopeNames[] = {"capsule", "field", "moving head"};
+constexpr std::uint32_t kSlidingSegments = 8;
+constexpr double kSlidingHair = 0.1;  // m
+constexpr double kSlopeRadius = 0.5;  // m
+constexpr double kSlideTime = 0.1;  // s
+constexpr double kLeashedSlide = 0.005;  // m, with a root that stays
+constexpr double kRestTime = 0.5;  // s
+constexpr double kSlopes[] = {10.0, 30.0, 60.0};  // degrees
+// Friction over the tangent of the slope: at the last one it rests.
+constexpr double kShares[] = {0.0, 0.5, 0.9, 1.05};
+constexpr double kSlideSteps[] = {1.0 / 60.0, 1.0 / 240.0, 1.0 / 1920.0};  // s
+// Positions are rounded to 7.5e-9 m, and a vertex starts within that of the surface or off it.
+constexpr double kSlideTolerance = 0.02;
+constexpr double kStillTolerance = 1e-3;  // of the length
+constexpr double kThrown = 0.2;  // m/s, along the level field
+constexpr double kStoppingFriction = 0.5;
+// A vertex may come to rest one substep early or late. Its displacement in that substep is less
+// than friction's, mu g h^2.
+
+struct Incline {
+    Slope slope;
+    double angle;  // rad
+    double friction;
+    double step;  // s
+};
+
+// A box of half a metre with its upper side through the origin, which falls by `angle` towards +x.
+hair::groom::Mesh tiltedBox(double angle) {
+    constexpr double kHalf = 0.25;  // m
+    hair::groom::Mesh mesh;
+    for (int i = 0; i < 8; ++i) {
+        const glm::dvec3 corner{
+            i & 1 ? kHalf : -kHalf, i & 2 ? 0.0 : -2.0 * kHalf, i & 4 ? kHalf : -kHalf};
+        mesh.positions.emplace_back(
+            corner.x * std::cos(angle) + corner.y * std::sin(angle),
+            corner.y * std::cos(angle) - corner.x * std::sin(angle), corner.z);
+    }
+    mesh.triangles = {{0, 4, 6}, {0, 6, 2}, {1, 3, 7}, {1, 7, 5}, {0, 1, 5}, {0, 5, 4},
+                      {2, 6, 7}, {2, 7, 3}, {0, 2, 3}, {0, 3, 1}, {4, 5, 7}, {4, 7, 6}};
+    return mesh;
+}
+
+struct Slid {
+    double measured;  // m, of the tip
+    double expected;
+    double substep = 0.0;  // s
+};
+
+// Plays the hair for kSlideTime, or for kRestTime if it should rest.
+Slid slide(
+    const engine::Device& device, hair::SimulationSettings settings, const Incline& incline) {
+    const bool rests = incline.friction >= std::tan(incline.angle);
+    const bool on_head = incline.slope == Slope::moving_head;
+    const double gravity = on_head ? kGravity / std::cos(incline.angle) : kGravity;
+    const double radius =
+        incline.slope == Slope::field ? std::numeric_limits<double>::infinity() : kSlopeRadius;
+    settings.time_step = static_cast<float>(incline.step);
+    settings.collision.friction = static_cast<float>(incline.friction);
+    settings.collision.margin = 0.0f;
+    const double substep = incline.step / hair::simulation::stepOf(settings).count;
+    // Hair that falls freely by implicit Euler's method or Verlet's has fallen n (n + 1) / 2 g h^2
+    // after n substeps h, as at the time sqrt(n (n + 1)) h.
+    const auto reached = [&](double time) { return std::sqrt(time * (time + substep)); };
+    const auto expected = [&](double time) {
+        return slideDistance(gravity, incline.angle, radius, incline.friction, reached(time));
+    };
+    double time = rests ? kRestTime : kSlideTime;
+    if (on_head && !rests)
+        while (time > incline.step && expected(time) > kLeashedSlide) time /= 2.0;
+    time = incline.step * std::max(1.0, std::round(time / incline.step));
+
+    const double angle = on_head ? 0.0 : incline.angle;
+    const auto placeAt = [&](double distance) {
+        if (incline.slope == Slope::field)
+            return distance * glm::dvec3(std::cos(angle), -std::sin(angle), 0.0);
+        const double there = angle + distance / radius;
+        return radius *
+               glm::dvec3(
+                   std::sin(there) - std::sin(angle), std::cos(there) - std::cos(angle), 0.0);
+    };
+    const double acceleration = gravity * std::sin(incline.angle);  // of the moving head
+    const auto headAt = [&](double at) {
+        if (on_head) return glm::dvec3(-acceleration / 2.0 * at * (at + substep), 0.0, 0.0);
+        return placeAt(expected(at));
+    };
+    for (std::uint32_t i = 0; !(rests && !on_head) && i * substep < time + incline.step; ++i)
+        settings.motion.keyframes.push_back(
+            {.time = static_cast<float>(i * substep),
+             .rotation = {},
+             .translation = headAt(i * substep)});
+    std::vector<hair::groom::Mesh> meshes;
+    if (incline.slope == Slope::field) {
+        settings.distance_fields = {
+            {.mesh = "", .resolution = 16, .follows = hair::Follows::world}};
+        meshes.push_back(tiltedBox(angle));
+    } else {
+        const glm::dvec3 axis = -radius * glm::dvec3(std::sin(angle), std::cos(angle), 0.0);
+        constexpr double kReach = 2.0 * kSlidingHair;
+        settings.colliders = {
+            {.a = axis - glm::dvec3(0.0, 0.0, kReach),
+             .b = axis + glm::dvec3(0.0, 0.0, kReach),
+             .radius = static_cast<float>(radius),
+             .follows = on_head ? hair::Follows::head : hair::Follows::world}};
+    }
+    Experiment experiment(
+        device, straightStrand(kSlidingSegments, kSlidingHair, {0.0, 0.0, 1.0}), settings, meshes);
+    const std::uint32_t steps = experiment.stepsIn(time);
+    experiment.advance(steps);
+    const glm::dvec3 from{0.0, 0.0, kSlidingHair};
+    glm::dvec3 tip = experiment.positions().back();
+    if (on_head) tip -= headAt(steps * incline.step);
+    if (rests) return {glm::distance(tip, from), 0.0};
+    tip -= from;
+    const double chord = glm::length(glm::dvec2(tip.x, tip.y));
+    return {
+        incline.slope == Slope::field ? chord : 2.0 * radius * std::asin(chord / (2.0 * radius)),
+        expected(steps * incline.step)};
+}
+
+// The distance in m that a hair slides over a level field, and that of theory in substeps h, which
+// is the sum of (v - n mu g h) h while it is positive.
+Slid stop(const engine::Device& device, hair::SimulationSettings settings, double step) {
+    settings.time_step = static_cast<float>(step);
+    settings.collision.friction = static_cast<float>(kStoppingFriction);
+    settings.collision.margin = 0.0f;
+    settings.distance_fields = {{.mesh = "", .resolution = 16, .follows = hair::Follows::world}};
+    const std::array meshes{tiltedBox(0.0)};
+    const hair::groom::Groom groom =
+        straightStrand(kSlidingSegments, kSlidingHair, {0.0, 0.0, 1.0});
+    Experiment experiment(device, groom, settings, meshes);
+    const std::vector<glm::dvec3> points = experiment.positions();
+    experiment.launch(points, std::vector<glm::dvec3>(points.size(), {kThrown, 0.0, 0.0}));
+    experiment.advance(experiment.stepsIn(kRestTime));
+    const double h = experiment.substep();
+    double expected = 0.0;
+    for (double speed = kThrown; (speed -= kStoppingFriction * kGravity * h) > 0.0;)
+        expected += speed * h;
+    return {experiment.positions().back().x, expected, h};
+}
+
 }  // namespace
+
+void checkSlide(const engine::Device& device, hair::Solver solver, Findings& findings) {
+    hair::SimulationSettings settings = chain(solver, kSlidingHair);
+    for (const bool warm_start : {false, true}) {
+        if (warm_start && solver != hair::Solver::rod) continue;
+        settings.collision.warm_start = warm_start;
+        for (const Slope slope : {Slope::capsule, Slope::field, Slope::moving_head})
+            for (const double degrees : kSlopes)
+                for (const double share : kShares)
+                    for (const double step : kSlideSteps) {
+                        const double angle = degrees * kPi / 180.0;
+                        const double friction = share * std::tan(angle);
+                        const Slid slid = slide(device, settings, {slope, angle, friction, step});
+                        std::vector<Parameter> with{
+                            {"slope", degrees, "degrees"},
+                            {"friction", friction, "1"},
+                            {"time_step", step, "s"}};
+                        if (solver == hair::Solver::rod)
+                            with.push_back({"warm_start", warm_start ? 1.0 : 0.0, "count"});
+                        const std::string on =
+                            std::string(" on a ") + kSlopeNames[static_cast<std::size_t>(slope)];
+                        if (slid.expected == 0.0)
+                            findings.deviation(
+                                {"distance that hair moves at rest" + on + " / length", "1", with},
+                                slid.measured / kSlidingHair, kStillTolerance);
+                        else
+                            findings.compare(
+                                {"distance that hair slides" + on, "m", with}, slid.measured,
+                                slid.expected, kSlideTolerance);
+                    }
+        for (const double step : kSlideSteps) {
+            const Slid slid = stop(device, settings, step);
+            const double last = kStoppingFriction * kGravity * slid.substep * slid.substep;
+            std::vector<Parameter> with{
+                {"friction", kStoppingFriction, "1"}, {"time_step", step, "s"}};
+            if (solver == hair::Solver::rod)
+                with.push_back({"warm_start", warm_start ? 1.0 : 0.0, "count"});
+            findings.compare(
+                {"distance after which friction stops hair", "m", with}, slid.measured,
+                slid.expected, kSlideTolerance + last / slid.expected);
+        }
+    }
+}
 
 void checkStickSlip(const engine::Device& device, hair::Solver solver, Findings& findings) {
     if (const auto why = lack(solver, Need::material)) return findings.skip(*why);

@@ -281,6 +281,7 @@ constexpr Check kChecks[] = {
     {"drag_deflection", checkDragDeflection},
     {"terminal_speed", checkTerminalSpeed},
     {"stick_slip", checkStickSlip},
+    {"slide", checkSlide},
     {"contact_momentum", checkContactMomentum},
     {"friction_invariance", checkFrictionInvariance},
     {"length", checkLength},

@@ -184,6 +184,8 @@ void checkTerminalSpeed(const engine::Device&, hair::Solver, Findings&);
 
 // Compression at which a hair pressed onto the ground slips.
 void checkStickSlip(const engine::Device&, hair::Solver, Findings&);
+// Motion of hair down a slope, and its rest there, by Coulomb's law of friction.
+void checkSlide(const engine::Device&, hair::Solver, Findings&);
 // Momentum lost by contact of hair with hair.
 void checkContactMomentum(const engine::Device&, hair::Solver, Findings&);
 // Sliding speed of hair past hair, at any time step.

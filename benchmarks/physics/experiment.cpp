@@ -72,10 +72,10 @@ hair::groom::Groom curvedStrand(std::uint32_t segments, double length, double cu
 
 Experiment::Experiment(
     const engine::Device& device, const hair::groom::Groom& groom,
-    const hair::SimulationSettings& settings)
+    const hair::SimulationSettings& settings, std::span<const hair::groom::Mesh> field_meshes)
     : device_(&device), settings_(settings),
       substep_(double{settings.time_step} / hair::simulation::stepOf(settings).count),
-      simulation_(device, groom, settings, kSeed) {}
+      simulation_(device, groom, settings, kSeed, field_meshes) {}
 
 void Experiment::advance(std::uint32_t steps) {
     // Hair-hair contact adds to the accelerations of the air.

@@ -11,6 +11,7 @@
 
 #include "engine/device.h"
 #include "hair/groom/groom.h"
+#include "hair/groom/mesh/mesh.h"
 #include "hair/settings.h"
 #include "hair/simulation/simulation.h"
 
@@ -37,7 +38,8 @@ class Experiment {
 public:
     Experiment(
         const engine::Device& device, const hair::groom::Groom& groom,
-        const hair::SimulationSettings& settings);
+        const hair::SimulationSettings& settings,
+        std::span<const hair::groom::Mesh> field_meshes = {});
 
     void advance(std::uint32_t steps);
 

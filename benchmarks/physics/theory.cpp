@@ -306,6 +306,28 @@ constexpr int kSamplesPerPeriod = 40;
 
 }  // namespace
 
+double slideDistance(double gravity, double angle, double radius, double friction, double time) {
+    if (friction >= std::tan(angle)) return 0.0;
+    const auto acceleration = [&](double s, double speed) {
+        const double slope = angle + s / radius;
+        return gravity * std::sin(slope) -
+               friction * (gravity * std::cos(slope) - speed * speed / radius);
+    };
+    constexpr int kSteps = 1000;
+    const double h = time / kSteps;
+    double s = 0.0;
+    double v = 0.0;
+    for (int i = 0; i < kSteps; ++i) {  // Runge and Kutta's method of fourth order
+        const double a1 = acceleration(s, v);
+        const double a2 = acceleration(s + h / 2.0 * v, v + h / 2.0 * a1);
+        const double a3 = acceleration(s + h / 2.0 * (v + h / 2.0 * a1), v + h / 2.0 * a2);
+        const double a4 = acceleration(s + h * (v + h / 2.0 * a2), v + h * a3);
+        s += h * v + h * h / 6.0 * (a1 + a2 + a3);
+        v += h / 6.0 * (a1 + 2.0 * a2 + 2.0 * a3 + a4);
+    }
+    return s;
+}
+
 std::optional<double> measureFrequency(Experiment& experiment, const Vibration& vibration) {
     experiment.place(
         deflected(vibration.shape, vibration.segment, vibration.direction, vibration.sideways));

@@ -73,6 +73,13 @@ double terminalSpeed(const hair::SimulationSettings& settings);
 // the tip loses a factor exp(2/3 sqrt(w L^3 / EI)).
 glm::dvec2 draggedTip(const hair::SimulationSettings& settings, double speed, double length);
 
+// Distance in m that a body slides down a slope from rest, under `gravity` and Coulomb's friction,
+// in `time`. The slope falls by `angle` from the horizontal at the start, and by 1 / `radius` more
+// per metre; an infinite radius is a plane:
+//   s'' = g sin(angle + s / radius) - friction (g cos(angle + s / radius) - s'^2 / radius).
+// It does not start if friction exceeds tan(angle).
+double slideDistance(double gravity, double angle, double radius, double friction, double time);
+
 // Releases a strand that is deflected along `sideways` and measures its frequency over five
 // expected periods. Absent if it does not swing.
 struct Vibration {

@@ -160,8 +160,9 @@ vec3 turnSoFar(uint i) {
 // Eliminates segments from the tip up. The minimum energy of all below a vertex is x A x / 2 + x B
 // t + t C t / 2 + a x + b t, where x is the further displacement of the vertex and t the further
 // rotation of the segment that ends there. All are in the segment's own axes: under great tension,
-// bending and twisting differ too much for 32 bits to hold their sum.
-void eliminate() {
+// bending and twisting differ too much for 32 bits to hold their sum. `first`: nothing has moved
+// since the prediction.
+void eliminate(bool first) {
     mat3 A = mat3(0.0);
     mat3 B = mat3(0.0);
     mat3 C = mat3(0.0);
@@ -195,12 +196,14 @@ void eliminate() {
         if (kWarmStart) {
             ContactConstraint constraint = constraintAt(i);
             if (constraint.normal != vec3(0.0)) {
+                mat3 contact_stiffness = pinMass() * constraintProjection(constraint);
+                vec3 off = scratchAt(i, 6).xyz + constraint.offset;
                 vec3 contact = motionAt(i).contact;
-                mat3 contact_stiffness = pinMass() * constraintProjection(constraint, contact);
+                if (!first)  // before the first solve, the spring has not held the vertex
+                    contact = carriedForce(
+                        constraint, contact, off, pinMass() / segment.mass);
                 A += from_space * contact_stiffness * transpose(from_space);
-                held += from_space *
-                        (contact_stiffness * (scratchAt(i, 6).xyz + constraint.offset) -
-                         segment.mass * contact);
+                held += from_space * (contact_stiffness * off - segment.mass * contact);
             }
         }
         force += held;
@@ -321,7 +324,8 @@ void pushSegments() {
                 touched = pushed.w;
             } else if (!isPinned(i)) {
                 vec3 pushed;
-                held = collideVertex(i, free, before, touched, pushed);
+                VertexContact met;
+                held = collideVertex(i, free, before, touched, pushed, met);
             }
             float w_a = i > 1 && !isPinned(i - 1) ? 1.0 : 0.0;
             float w_b = isPinned(i) ? 0.0 : 1.0;
@@ -379,13 +383,14 @@ void finish() {
         if (!isPinned(i)) {
             vec3 free = root_now + unit * edges;
             vec3 held;
+            VertexContact met = VertexContact(vec4(0.0), kTouchesNone);
             if (kSegmentsCollide) {
                 vec4 push_of_bodies = scratchAt(i, kPushRow);
                 pushed = push_of_bodies.xyz;
                 contact = max(contact, push_of_bodies.w);
                 held = free + unit * pushed;
             } else {
-                held = collideVertex(i, free, before, contact, pushed);
+                held = collideVertex(i, free, before, contact, pushed, met);
             }
             // Implicit Euler's velocity already includes the load.
             vec3 load = kAlpha ? loadAt(i) : vec3(0.0);
@@ -401,11 +406,11 @@ void finish() {
                     float mass =
                         segmentRow(rod.segments, i, kRodStiffness, guides.strand_count, strand).y;
                     vec3 off = scratchAt(i, 6).xyz + constraint.offset;
-                    vec3 force =
-                        motion.contact -
-                        pinMass() / mass * (constraintProjection(constraint, motion.contact) * off);
-                    motion.contact =
-                        clampToFrictionCone(constraint, force, off, guides.bodies.friction);
+                    motion.contact = alongSurface(
+                        clampToFrictionCone(
+                            constraint, motion.contact, off, pinMass() / mass,
+                            guides.bodies.friction),
+                        constraint.normal, met.plane.xyz);
                 }
             }
             point.xyz = held;
@@ -436,7 +441,7 @@ void main() {
     predict();
     float last_turn = 0.0;
     for (uint i = 0; i < rod.iterations; ++i) {
-        eliminate();
+        eliminate(i == 0);
         last_turn = turnSegments();
     }
     if (kSegmentsCollide) pushSegments();

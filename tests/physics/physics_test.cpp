@@ -103,6 +103,12 @@ TEST_F(Physics, RodSticksAndSlipsAsCoulombsCone) {
     expectPass(findings);
 }
 
+TEST_F(Physics, RodSlidesDownASlopeAsCoulombsLaw) {
+    Findings findings("slide", hair::Solver::rod);
+    checkSlide(device(), hair::Solver::rod, findings);
+    expectPass(findings);
+}
+
 TEST_F(Physics, RodLosesWhatItsMaterialsDampingSays) {
     Findings findings("bending_decay", hair::Solver::rod);
     checkBendingDecay(device(), hair::Solver::rod, findings);

@@ -69,7 +69,8 @@ void finish() {
         motion.velocity = vec3(0.0);
         if (!isPinned(i)) {
             vec3 free = root_now + unit * edges;
-            vec3 held = collideVertex(i, free, before, contact, pushed);
+            VertexContact met;
+            vec3 held = collideVertex(i, free, before, contact, pushed, met);
             motion.velocity = moved + pushed;
             point.xyz = held;
         }

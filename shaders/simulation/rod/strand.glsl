@@ -74,9 +74,10 @@ vec4 dragAt(uint i, RodMotion motion) {
 }
 
 // Moves a vertex out of bodies from `free`. `pushed` is its displacement from there, in the
-// strand's unit. `contact` is 1 from the first vertex on that touches a body.
-vec3 collideVertex(uint i, vec3 free, vec3 before, inout float contact, inout vec3 pushed) {
-    VertexContact met;
+// strand's unit. `contact` is 1 from the first vertex on that touches a body. `met`: its contact.
+vec3 collideVertex(
+    uint i, vec3 free, vec3 before, inout float contact, inout vec3 pushed,
+    out VertexContact met) {
     vec3 held = pushOutOfBodies(
         free, before, bodiesAt(guides, root + i), push.frame, push.frame_before, met);
     if (met.held != kTouchesNone) {
