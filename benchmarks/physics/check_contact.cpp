@@ -321,6 +321,16 @@ constexpr double kStoppingFriction = 0.5;
 // A vertex may come to rest one substep early or late. Its displacement in that substep is less
 // than friction's, mu g h^2.
 
+// In a step of 1/60 s hair falls into the slope by up to 2.7 mm, a fifth of a segment. `shape` and
+// `ftl` then correct lengths, which moves hair along the slope before friction acts.
+std::optional<double> slidePromise(hair::Solver solver, bool rests, double step) {
+    double longest = 1.0;  // s
+    if (solver == hair::Solver::ftl || solver == hair::Solver::shape) longest = 1.0 / 200.0;
+    if (solver == hair::Solver::shape && !rests) longest = 1.0 / 1000.0;
+    if (step > longest) return {};
+    return rests ? kStillTolerance : kSlideTolerance;
+}
+
 struct Incline {
     Slope slope;
     double angle;  // rad
@@ -467,11 +477,11 @@ void checkSlide(const engine::Device& device, hair::Solver solver, Findings& fin
                         if (slid.expected == 0.0)
                             findings.deviation(
                                 {"distance that hair moves at rest" + on + " / length", "1", with},
-                                slid.measured / kSlidingHair, kStillTolerance);
+                                slid.measured / kSlidingHair, slidePromise(solver, true, step));
                         else
                             findings.compare(
                                 {"distance that hair slides" + on, "m", with}, slid.measured,
-                                slid.expected, kSlideTolerance);
+                                slid.expected, slidePromise(solver, false, step));
                     }
         for (const double step : kSlideSteps) {
             const Slid slid = stop(device, settings, step);

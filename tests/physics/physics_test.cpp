@@ -103,9 +103,9 @@ TEST_F(Physics, RodSticksAndSlipsAsCoulombsCone) {
     expectPass(findings);
 }
 
-TEST_F(Physics, RodSlidesDownASlopeAsCoulombsLaw) {
-    Findings findings("slide", hair::Solver::rod);
-    checkSlide(device(), hair::Solver::rod, findings);
+TEST_P(EverySolver, SlidesDownASlopeAsCoulombsLaw) {
+    Findings findings("slide", solver());
+    checkSlide(device(), solver(), findings);
     expectPass(findings);
 }
 
