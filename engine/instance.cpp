@@ -358,8 +358,11 @@ std::uint64_t largestLocalHeap(VkPhysicalDevice device) {
 }
 
 DeviceInfo inspect(VkPhysicalDevice device) {
+    VkPhysicalDeviceSubgroupProperties subgroup{};
+    subgroup.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_SUBGROUP_PROPERTIES;
     VkPhysicalDeviceDriverProperties driver{};
     driver.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_DRIVER_PROPERTIES;
+    driver.pNext = &subgroup;
     VkPhysicalDeviceProperties2 properties{};
     properties.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROPERTIES_2;
     properties.pNext = &driver;
@@ -375,6 +378,7 @@ DeviceInfo inspect(VkPhysicalDevice device) {
     info.driver_id = driver.driverID;
     info.api_version = versionText(core.apiVersion);
     info.limits = core.limits;
+    info.subgroup_size = subgroup.subgroupSize;
     info.local_bytes = largestLocalHeap(device);
     if (core.apiVersion < VK_API_VERSION_1_3) {
         info.missing.push_back("Vulkan 1.3 (it has " + info.api_version + ")");

@@ -191,6 +191,7 @@ struct DeviceInfo {
     VkDriverId driver_id{};
     VkPhysicalDeviceLimits limits{};
     VkPhysicalDeviceMeshShaderPropertiesEXT mesh_limits{};  // with Feature::mesh_shader
+    std::uint32_t subgroup_size = 1;  // invocations
     std::uint64_t local_bytes = 0;  // of the largest device-local memory heap
     std::uint32_t queue_family = 0;  // graphics, compute and transfer
     // Family of the second queue: another family with compute, preferably without graphics, or the

@@ -233,12 +233,9 @@ public:
     explicit ExpandedBackend(const BackendContext& context)
         : points_(*context.points), is_listed_(context.output.quads == QuadKind::camera),
           draws_(divideUp(points_.strandCount(), gpu::kExpandedStrands)),
+          group_(strandGroup(context.device)),
           indices_per_strand_(6 * context.plan.segments * context.plan.forced_tessellation),
-          list_(
-              context.device, {.shader = "strands/points/list.comp",
-                               .constants = pointsConstants(context.strands, context.plan),
-                               .push_size = sizeof(gpu::ExpandedPush)}),
-          pipeline_(context.device, describe(context)) {
+          list_(context.device, listStage(context)), pipeline_(context.device, describe(context)) {
         const engine::MemoryRows rows = rowsOf(context.strands, context.plan);
         indices_ = engine::makeBuffer(
             context.device, quadIndices(strandLines(context.strands, context.plan)), rows,
@@ -264,7 +261,7 @@ public:
                        .visible = commands.writes(visible_),
                        .arguments = commands.writes(arguments_),
                        .strands = points_.strandCount()});
-        commands.dispatchInvocations(draws_, gpu::kPointsGroup);
+        commands.dispatchInvocations(draws_, group_);
     }
 
     void draw(engine::Commands& commands, const StrandPicture& picture) const override {
@@ -318,6 +315,15 @@ private:
         return rows;
     }
 
+    static engine::ComputeDescription listStage(const BackendContext& context) {
+        engine::Constants constants = pointsConstants(context.strands, context.plan);
+        constants.emplace_back(gpu::kGroupConstant, strandGroup(context.device));
+        return {
+            .shader = "strands/points/list.comp",
+            .constants = constants,
+            .push_size = sizeof(gpu::ExpandedPush)};
+    }
+
     static engine::GraphicsDescription describe(const BackendContext& context) {
         engine::GraphicsDescription description = strandPipeline(context);
         const engine::Constants places = placeConstants(context.plan);
@@ -334,6 +340,7 @@ private:
     const PointsPass& points_;
     bool is_listed_;  // prepare() lists the strands that the picture can show
     std::uint32_t draws_;
+    std::uint32_t group_;  // invocations of a work group of list_
     std::uint32_t indices_per_strand_;
     engine::Buffer indices_;
     engine::Buffer visible_;  // gpu::ExpandedPush::visible

@@ -187,11 +187,20 @@ std::uint32_t evaluatedBlock(
     return strandBlock(device, strands, plan, 4);
 }
 
+// Returns the segments that an invocation evaluates. A processor reads the control points that two
+// segments share once. On other devices a strand whose segments are evaluated at the same time is
+// done sooner, and an invocation needs fewer registers.
+std::uint32_t segmentRun(const engine::Device& device, const StrandPlan& plan) {
+    return device.info().type == engine::DeviceType::cpu ? plan.segments : 1;
+}
+
 engine::ComputeDescription
 evaluateStage(const engine::Device& device, const Settings& settings, const StrandPlan& plan) {
     engine::Constants constants = pointsConstants(settings.strands, plan);
     constants.emplace_back(
         gpu::kStrandBlockConstant, evaluatedBlock(device, settings.strands, plan));
+    constants.emplace_back(gpu::kSegmentRunConstant, segmentRun(device, plan));
+    constants.emplace_back(gpu::kGroupConstant, strandGroup(device));
     constants.emplace_back(gpu::kPixelSamplesConstant, settings.render.msaa);
     return {
         .shader = readsPairs(device) ? "strands/points/evaluate.comp+packed"
@@ -233,9 +242,11 @@ PointsPass::PointsPass(
           .reach = plan.reach,
           .greatest_width = plan.greatest_width,
           .culls = culls},
-      blocks_(
+      group_(strandGroup(device)),
+      invocations_(
           plan.triangles *
-          divideUp(plan.forced_density, evaluatedBlock(device, settings.strands, plan))),
+          divideUp(plan.forced_density, evaluatedBlock(device, settings.strands, plan)) *
+          divideUp(plan.segments, segmentRun(device, plan))),
       evaluate_(device, evaluateStage(device, settings, plan)) {
     const engine::MemoryRows rows = PointsPass::rows(settings.strands, plan);
     points_ = {device, rows["strands' points"]};
@@ -256,7 +267,7 @@ void PointsPass::record(
     push.bounds = commands.writes(bounds_);
     declareStrands(commands, parameters, engine::Access::compute_read);
     commands.bind(evaluate_, push);
-    commands.dispatchInvocations(blocks_, gpu::kPointsGroup);
+    commands.dispatchInvocations(invocations_, group_);
 }
 
 engine::Constants placeConstants(const StrandPlan& plan) {
@@ -273,6 +284,12 @@ engine::Constants pointsConstants(const StrandSettings& strands, const StrandPla
 }
 
 bool readsPairs(const engine::Device& device) { return device.has(engine::Feature::long_integers); }
+
+std::uint32_t strandGroup(const engine::Device& device) {
+    constexpr std::uint32_t kLeast = 32;
+    if (device.info().type == engine::DeviceType::cpu) return kLeast;
+    return std::max(device.info().subgroup_size, kLeast);
+}
 
 std::uint32_t strandBlock(
     const engine::Device& device, const StrandSettings& strands, const StrandPlan& plan,

@@ -100,7 +100,8 @@ public:
 
 private:
     gpu::PointsPush push_;  // all except addresses
-    std::uint32_t blocks_;  // blocks of strands; one per invocation
+    std::uint32_t group_;  // invocations of a work group
+    std::uint32_t invocations_;  // one per block of strands and run of segments
     engine::Buffer points_;
     std::optional<engine::TexelView> texels_;
     engine::Buffer pieces_;
@@ -116,6 +117,10 @@ engine::Constants pointsConstants(const StrandSettings& strands, const StrandPla
 // Whether shaders read and write points 64 bits at a time. A device that takes one element of one
 // invocation at a time reads 64 bits as fast as 32.
 bool readsPairs(const engine::Device& device);
+
+// Returns the invocations of a work group of passes with some strands or pieces per invocation: a
+// subgroup, so that none of its lanes is idle, but at least 32.
+std::uint32_t strandGroup(const engine::Device& device);
 
 // Returns the number of strands per invocation, if each piece of a strand takes `turns` iterations
 // of loops. On a processor, an invocation reads once what its strands share. Other devices need

@@ -18,7 +18,6 @@ static_assert(offsetof(gpu::SoftwarePush, width) == 88 && sizeof(gpu::SoftwarePu
 
 constexpr const char* kSoftware = "/strands/backend: software";
 constexpr std::size_t kSampleBytes = 8;  // two words
-constexpr std::uint32_t kRasterizedPieces = 128;  // at most, per invocation
 
 // Throws engine::Unsupported for counts and positions of samples that the shaders don't know.
 std::uint32_t checkedSamples(const engine::Device& device, std::uint32_t samples) {
@@ -63,10 +62,22 @@ bool shadesPixelPerInvocation(const BackendContext& context) {
     });
 }
 
-engine::Constants softwareConstants(const BackendContext& context, std::uint32_t block) {
+// Returns the most pieces per invocation of `raster`, of `pieces` in all. A processor is busy with
+// few invocations, and 128 pieces are few enough to be done before lavapipe ends an invocation's
+// loops. Other devices get one piece per invocation, until there are enough invocations for any of
+// them.
+std::uint32_t rasterizedPieces(const engine::Device& device, std::uint32_t pieces) {
+    constexpr std::uint32_t kMost = 128;
+    constexpr std::uint32_t kEnoughInvocations = 1 << 18;  // more than any GPU keeps resident
+    if (device.info().type == engine::DeviceType::cpu) return kMost;
+    return std::clamp(pieces / kEnoughInvocations, 1U, kMost);
+}
+
+engine::Constants
+softwareConstants(const BackendContext& context, std::uint32_t block, std::uint32_t group) {
     engine::Constants constants = pointsConstants(context.strands, context.plan);
     constants.emplace_back(gpu::kStrandBlockConstant, block);
-    constants.emplace_back(gpu::kPixelGroupConstant, pixelGroup(context.device));
+    constants.emplace_back(gpu::kGroupConstant, group);
     constants.emplace_back(gpu::kPixelSamplesConstant, context.output.samples);
     constants.insert(constants.end(), context.output.shading.begin(), context.output.shading.end());
     return constants;
@@ -84,11 +95,12 @@ std::string shaderOf(const BackendContext& context, const std::string& name) {
     return "strands/software/" + name + (isPacked(context.device) ? "+packed" : "");
 }
 
-engine::ComputeDescription
-softwareStage(const BackendContext& context, const std::string& name, std::uint32_t block = 1) {
+engine::ComputeDescription softwareStage(
+    const BackendContext& context, const std::string& name, std::uint32_t group,
+    std::uint32_t block = 1) {
     return {
         .shader = shaderOf(context, name),
-        .constants = softwareConstants(context, block),
+        .constants = softwareConstants(context, block, group),
         .extensions = context.output.extensions,
         .push_size = sizeof(gpu::SoftwarePush)};
 }
@@ -96,22 +108,24 @@ softwareStage(const BackendContext& context, const std::string& name, std::uint3
 // A stage that fetches from `buffers` texel buffers if texelsOf() is set.
 engine::ComputeDescription texelStage(
     const BackendContext& context, const std::string& name, std::uint32_t buffers,
-    std::uint32_t block = 1) {
-    if (!texelsOf(context)) return softwareStage(context, name, block);
-    engine::ComputeDescription stage = softwareStage(context, name + "+texels", block);
+    std::uint32_t group, std::uint32_t block = 1) {
+    if (!texelsOf(context)) return softwareStage(context, name, group, block);
+    engine::ComputeDescription stage = softwareStage(context, name + "+texels", group, block);
     stage.texel_buffers = buffers;
     return stage;
 }
 
 engine::ComputeDescription clearStage(const BackendContext& context) {
     engine::ComputeDescription stage = softwareStage(
-        context, context.output.samples > 1 ? "clear.comp+multisample" : "clear.comp");
+        context, context.output.samples > 1 ? "clear.comp+multisample" : "clear.comp",
+        pixelGroup(context.device));
     stage.sampled_images = 1;
     return stage;
 }
 
 engine::ComputeDescription shadeStage(const BackendContext& context) {
-    engine::ComputeDescription stage = texelStage(context, "shade.comp", 2);
+    engine::ComputeDescription stage =
+        texelStage(context, "shade.comp", 2, pixelGroup(context.device));
     stage.combined_images = context.output.sampled_images;
     return stage;
 }
@@ -122,7 +136,7 @@ engine::GraphicsDescription blitStage(const BackendContext& context) {
         .shaders =
             {"strands/software/blit.vert",
              shaderOf(context, has_texels ? "blit.frag+texels" : "blit.frag")},
-        .constants = softwareConstants(context, 1),
+        .constants = softwareConstants(context, 1, 1),
         .push_size = sizeof(gpu::SoftwarePush),
         .colors = context.output.colors,
         .depth_format = context.output.depth_format,
@@ -167,16 +181,21 @@ engine::MemoryRows SoftwareBackend::rows(
 SoftwareBackend::SoftwareBackend(const BackendContext& context)
     : target_(*context.target), points_(*context.points),
       samples_per_pixel_(checkedSamples(context.device, context.output.samples)),
+      group_(strandGroup(context.device)),
       block_(culledBlock(context.device, context.strands, context.plan)),
       blocks_(divideUp(points_.strandCount(), block_)),
       pieces_per_strand_(context.plan.segments * context.plan.forced_tessellation),
+      rasterized_pieces_(
+          rasterizedPieces(context.device, points_.strandCount() * pieces_per_strand_)),
       is_packed_(isPacked(context.device)), texels_(texelsOf(context)),
       clear_(context.device, clearStage(context)),
-      reduce_tiles_(context.device, texelStage(context, "tiles.comp", 1)),
-      build_pyramid_(context.device, texelStage(context, "pyramid.comp", 1)),
-      cull_(context.device, texelStage(context, "cull.comp", 2, block_)),
-      rasterize_(context.device, texelStage(context, "raster.comp", 2)),
-      rasterize_large_(context.device, texelStage(context, "raster_large.comp", 2)),
+      reduce_tiles_(
+          context.device, texelStage(context, "tiles.comp", 1, pixelGroup(context.device))),
+      build_pyramid_(
+          context.device, texelStage(context, "pyramid.comp", 1, pixelGroup(context.device))),
+      cull_(context.device, texelStage(context, "cull.comp", 2, group_, block_)),
+      rasterize_(context.device, texelStage(context, "raster.comp", 2, group_)),
+      rasterize_large_(context.device, texelStage(context, "raster_large.comp", 2, group_)),
       shaded_columns_(
           shadesPixelPerInvocation(context)
               ? divideUp(target_.color().extent().width, pixelGroup(context.device))
@@ -249,12 +268,11 @@ void SoftwareBackend::cullPieces(engine::Commands& commands, gpu::SoftwarePush c
     constants.list = commands.writes(list_);
     commands.bind(cull_, constants);
     if (texels_) commands.images(cull_, {}, std::array{texels_, &pyramid_texels_});
-    commands.dispatchInvocations(blocks, gpu::kSoftwareStrandGroup);
+    commands.dispatchInvocations(blocks, group_);
 }
 
-// Dispatches an invocation for every kRasterizedPieces pieces of all strands. Only listed pieces
-// are covered, so most invocations have few. kRasterizedPieces are few enough to be done before
-// lavapipe ends an invocation's loops.
+// Dispatches an invocation for every rasterized_pieces_ pieces of all strands. Only listed pieces
+// are covered, so most invocations have fewer.
 void SoftwareBackend::rasterizePieces(
     engine::Commands& commands, gpu::SoftwarePush constants) const {
     constants.points = commands.reads(points_.points());
@@ -266,7 +284,7 @@ void SoftwareBackend::rasterizePieces(
     commands.bind(rasterize_, constants);
     if (texels_) commands.images(rasterize_, {}, std::array{texels_, &visibility_texels_});
     const std::uint32_t pieces = points_.strandCount() * pieces_per_strand_;
-    commands.dispatchInvocations(divideUp(pieces, kRasterizedPieces), gpu::kSoftwareStrandGroup);
+    commands.dispatchInvocations(divideUp(pieces, rasterized_pieces_), group_);
 }
 
 void SoftwareBackend::rasterizeLarge(

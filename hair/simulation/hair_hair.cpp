@@ -127,7 +127,12 @@ bool isPacked(const engine::Device& device) {
     return device.has(engine::Feature::long_integers) && device.has(engine::Feature::long_atomics);
 }
 
-engine::ComputePipeline pipeline(const engine::Device& device, const char* shader) {
+// Returns the variant of shaders that visit all cells round a vertex (simulation/volume.glsl).
+std::string slices(const engine::Device& device) {
+    return device.info().type == engine::DeviceType::cpu ? "" : "+slices";
+}
+
+engine::ComputePipeline pipeline(const engine::Device& device, const std::string& shader) {
     return {device, {.shader = shader, .push_size = sizeof(gpu::VolumePush)}};
 }
 
@@ -204,9 +209,9 @@ HairHair::HairHair(
     : vertex_count_(static_cast<std::uint32_t>(groom.points.size())),
       sample_(pipeline(device, "simulation/volume_sample.comp")),
       splat_(pipeline(
-          device, isPacked(device) ? "simulation/volume_splat.comp+packed"
-                                   : "simulation/volume_splat.comp")),
-      force_(pipeline(device, "simulation/volume_force.comp")) {
+          device,
+          "simulation/volume_splat.comp" + slices(device) + (isPacked(device) ? "+packed" : ""))),
+      force_(pipeline(device, "simulation/volume_force.comp" + slices(device))) {
     const engine::MemoryRows rows = HairHair::rows(sizeOf(groom), settings);
     shares_ = engine::makeBuffer(device, toFloat(lengthShares(groom)), rows, "volume shares");
     samples_ = {device, rows["volume samples"]};

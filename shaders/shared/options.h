@@ -98,8 +98,10 @@ const uint kMostSegmentsConstant = 10u;
 const uint kMostPiecesConstant = 11u;
 // Constant of those two and of strands/pulling.vert.
 const uint kStrandBlockConstant = 12u;
-// Invocations of a work group in the per-pixel passes of strands/software.
-const uint kPixelGroupConstant = 29u;
+// Invocations of a work group of strands/points and strands/software.
+const uint kGroupConstant = 29u;
+// Segments per invocation of strands/points/evaluate.comp.
+const uint kSegmentRunConstant = 37u;
 
 // Constants of the back end `lines`: strands/lines.vert, strands/fragment.glsl.
 const uint kStrictLinesConstant = 13u;

@@ -3,9 +3,6 @@
 
 // Data that hair/rendering/points_pass.h and the back ends that draw its points share with shaders.
 
-// Invocations in a work group. Each evaluates some strands.
-const uint kPointsGroup = 32u;
-
 // Maximum number of visible strands in a draw of the back end `expanded`.
 const uint kExpandedStrands = 128u;
 

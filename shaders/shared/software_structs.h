@@ -3,9 +3,6 @@
 
 // Data that the strand back end `software` shares with its shaders, strands/software.
 
-// Invocations in a work group of passes with one strand, or a few pieces, per invocation.
-const uint kSoftwareStrandGroup = 32u;
-
 // Pieces with more estimated samples than kLargePieceSamples are rasterised by whole work groups.
 // kMostLargePieces is the capacity of their list. Mesa's lavapipe silently ends an invocation's
 // loops after 65,535 iterations in total, so no single invocation may rasterise a large piece, and

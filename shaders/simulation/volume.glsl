@@ -15,10 +15,20 @@ layout(buffer_reference, scalar) readonly buffer VolumeReference { VolumeParamet
 layout(buffer_reference, scalar) buffer Samples { VolumeSample at[]; };
 layout(buffer_reference, scalar) buffer Blocks { VolumeBlock at[]; };
 
-// Number of cells in a grid over which a vertex is spread, and their offsets from the vertex's
-// cell.
+// A vertex is spread over the 27 cells round its own, its stencil. The block after VISIT_SLICES(z)
+// visits kSlices slices of it from z, a slice being the 3 x 3 cells with one z: all three, so that
+// the strand's vertices are found once, or, with HAIRBENCH_SLICES, one after the other, because all
+// cells need more registers than GPUs have.
+#ifdef HAIRBENCH_SLICES
+const uint kSlices = 1;
+#define VISIT_SLICES(z) for (uint z = 0; z < 3; ++z)
+#else
+const uint kSlices = 3;
+#define VISIT_SLICES(z) const uint z = 0;
+#endif
 const uint kStencil = 27;
-ivec3 stencilOffset(uint i) { return ivec3(i % 3, i / 3 % 3, i / 9) - 1; }
+const uint kSliceCells = 9;
+ivec3 stencilOffset(uint i, uint z) { return ivec3(i % 3, i / 3 % 3, z + i / kSliceCells) - 1; }
 
 // Converts a point of the first grid to the coordinates of another.
 vec3 onGrid(vec3 point, uint grid) { return point + 0.5 * float(grid); }
@@ -45,17 +55,18 @@ Splines slopesAt(vec3 point, ivec3 cell) {
     return Splines(vec3[3](offset - 0.5, -2.0 * offset, offset + 0.5));
 }
 
-// The part of a vertex that goes to a cell of the stencil.
-float weight(Splines splines, uint i) {
-    return splines.at[i % 3].x * splines.at[i / 3 % 3].y * splines.at[i / 9].z;
+// The values along x, y and z for a cell of the slices from z.
+vec3 valuesOf(Splines splines, uint i, uint z) {
+    uint k = z + i / kSliceCells;
+    float third = k == 0 ? splines.at[0].z : k == 1 ? splines.at[1].z : splines.at[2].z;
+    return vec3(splines.at[i % 3].x, splines.at[i / 3 % 3].y, third);
 }
 
+// The part of a vertex that goes to the cell with these values.
+float weight(vec3 values) { return values.x * values.y * values.z; }
+
 // The gradient of weight() by the vertex's position, 1/cell.
-vec3 weightGradient(Splines splines, Splines slopes, uint i) {
-    vec3 along = vec3(splines.at[i % 3].x, splines.at[i / 3 % 3].y, splines.at[i / 9].z);
-    vec3 slope = vec3(slopes.at[i % 3].x, slopes.at[i / 3 % 3].y, slopes.at[i / 9].z);
-    return slope * along.yzx * along.zxy;
-}
+vec3 weightGradient(vec3 values, vec3 slopes) { return slopes * values.yzx * values.zxy; }
 
 uint cellIndex(uint grid, ivec3 cell, uint resolution) {
     uvec3 c = uvec3(cell);
@@ -87,27 +98,27 @@ vec2 scalesOf(VolumeBlock block) {
     return vec2(powerOfTwo(32 - share), powerOfTwo(32 - share - fastest));
 }
 
-// Finds the scales of the cells over which a vertex in the cell `middle` is spread. They lie in up
-// to two blocks along each axis.
+// Finds the scales of the cells of the slices from z for a vertex in the cell `middle`. The cells
+// lie in up to two blocks along each axis.
 void findScales(
-    Blocks blocks, uint grid, ivec3 middle, uint resolution, out vec2 scales[kStencil]) {
-    uvec3 first = blockOf(middle - 1);
-    uvec3 last = blockOf(middle + 1);
+    Blocks blocks, uint grid, ivec3 middle, uint z, uint resolution, out vec2 scales[kStencil]) {
+    uvec3 first = blockOf(middle + ivec3(-1, -1, int(z) - 1));
+    uvec3 last = blockOf(middle + ivec3(1, 1, int(z + kSlices) - 2));
     vec2 corners[8];
     [[unroll]] for (uint i = 0; i < 8; ++i) {
         uvec3 block = mix(first, last, bvec3(i % 2 == 1, i / 2 % 2 == 1, i / 4 == 1));
         corners[i] = scalesOf(blocks.at[blockIndex(grid, block, resolution)]);
     }
     bvec3 is_last[3] = bvec3[3](bvec3(false), equal(blockOf(middle), last), bvec3(true));
-    [[unroll]] for (uint z = 0; z < 3; ++z) {
+    [[unroll]] for (uint k = 0; k < kSlices; ++k) {
         vec2 slice[4];
         [[unroll]] for (uint i = 0; i < 4; ++i)
-            slice[i] = is_last[z].z ? corners[4 + i] : corners[i];
+            slice[i] = is_last[k].z ? corners[4 + i] : corners[i];
         [[unroll]] for (uint y = 0; y < 3; ++y) {
             vec2 low = is_last[y].y ? slice[2] : slice[0];
             vec2 high = is_last[y].y ? slice[3] : slice[1];
             [[unroll]] for (uint x = 0; x < 3; ++x)
-                scales[(z * 3 + y) * 3 + x] = is_last[x].x ? high : low;
+                scales[(k * 3 + y) * 3 + x] = is_last[x].x ? high : low;
         }
     }
 }

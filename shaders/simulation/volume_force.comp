@@ -37,37 +37,40 @@ void main() {
     for (uint grid = 0; grid < kVolumeGrids; ++grid) {
         vec3 point = onGrid(vertex.point, grid);
         ivec3 middle = ivec3(floor(point));
-        vec2 scales[kStencil];
-        findScales(blocks, grid, middle, volume.resolution, scales);
-
-        // Contributions of the vertex's own strand to the cells.
-        ivec4 own[kStencil];
-        [[unroll]] for (uint i = 0; i < kStencil; ++i) own[i] = ivec4(0);
-        for (uint v = root; v < root + guides.vertices_per_strand; ++v) {
-            VolumeSample other = samples.at[v];
-            vec3 away = abs(other.point - vertex.point);
-            if (max(away.x, max(away.y, away.z)) > 3.0) continue;  // no cell in common
-            Splines splines = splinesAt(onGrid(other.point, grid), middle);
-            vec4 parts = partsOf(other);
-            [[unroll]] for (uint i = 0; i < kStencil; ++i)
-                own[i] += inFixedPoint(parts, weight(splines, i), scales[i]);
-        }
-
         Splines splines = splinesAt(point, middle);
         Splines slopes = slopesAt(point, middle);
-        [[unroll]] for (uint i = 0; i < kStencil; ++i) {
-            ivec3 cell = middle + stencilOffset(i);
-            ivec4 sum = sumAt(volume, cellIndex(grid, cell, volume.resolution));
-            ivec4 others = sum - own[i];
-            float share_unit = inverseOf(scales[i].x);
-            vec3 momentum = inverseOf(scales[i].y) * vec3(others.yzw);
-            // A cell without hair has no part of this vertex either.
-            dragged += weight(splines, i) *
-                       (momentum - share_unit * float(others.x) * vertex.velocity) /
-                       (share_unit * float(max(sum.x, 1)));
-            pushed -= (potential(share_unit * float(sum.x), volume.crowded) -
-                       potential(share_unit * float(own[i].x), volume.crowded)) *
-                      weightGradient(splines, slopes, i);
+        VISIT_SLICES(z) {
+            vec2 scales[kStencil];
+            findScales(blocks, grid, middle, z, volume.resolution, scales);
+
+            // Contributions of the vertex's own strand to the cells.
+            ivec4 own[kStencil];
+            [[unroll]] for (uint i = 0; i < kSlices * kSliceCells; ++i) own[i] = ivec4(0);
+            for (uint v = root; v < root + guides.vertices_per_strand; ++v) {
+                VolumeSample other = samples.at[v];
+                vec3 away = abs(other.point - vertex.point);
+                if (max(away.x, max(away.y, away.z)) > 3.0) continue;  // no cell in common
+                Splines its = splinesAt(onGrid(other.point, grid), middle);
+                vec4 parts = partsOf(other);
+                [[unroll]] for (uint i = 0; i < kSlices * kSliceCells; ++i)
+                    own[i] += inFixedPoint(parts, weight(valuesOf(its, i, z)), scales[i]);
+            }
+
+            [[unroll]] for (uint i = 0; i < kSlices * kSliceCells; ++i) {
+                ivec3 cell = middle + stencilOffset(i, z);
+                ivec4 sum = sumAt(volume, cellIndex(grid, cell, volume.resolution));
+                ivec4 others = sum - own[i];
+                float share_unit = inverseOf(scales[i].x);
+                vec3 momentum = inverseOf(scales[i].y) * vec3(others.yzw);
+                // A cell without hair has no part of this vertex either.
+                vec3 values = valuesOf(splines, i, z);
+                dragged += weight(values) *
+                           (momentum - share_unit * float(others.x) * vertex.velocity) /
+                           (share_unit * float(max(sum.x, 1)));
+                pushed -= (potential(share_unit * float(sum.x), volume.crowded) -
+                           potential(share_unit * float(own[i].x), volume.crowded)) *
+                          weightGradient(values, valuesOf(slopes, i, z));
+            }
         }
     }
     dragged /= float(kVolumeGrids);

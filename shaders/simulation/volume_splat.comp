@@ -46,13 +46,15 @@ void main() {
         vec3 point = onGrid(vertex.point, grid);
         ivec3 middle = ivec3(floor(point));
         Splines splines = splinesAt(point, middle);
-        vec2 scales[kStencil];
-        findScales(blocks, grid, middle, volume.resolution, scales);
-        [[unroll]] for (uint i = 0; i < kStencil; ++i) {
-            ivec3 cell = middle + stencilOffset(i);
-            addToCell(
-                volume.sums, cellIndex(grid, cell, volume.resolution),
-                inFixedPoint(parts, weight(splines, i), scales[i]));
+        VISIT_SLICES(z) {
+            vec2 scales[kStencil];
+            findScales(blocks, grid, middle, z, volume.resolution, scales);
+            [[unroll]] for (uint i = 0; i < kSlices * kSliceCells; ++i) {
+                ivec3 cell = middle + stencilOffset(i, z);
+                addToCell(
+                    volume.sums, cellIndex(grid, cell, volume.resolution),
+                    inFixedPoint(parts, weight(valuesOf(splines, i, z)), scales[i]));
+            }
         }
     }
 }

@@ -43,6 +43,12 @@ void bare(DeviceInfo& info) {
     info.limits.maxTessellationGenerationLevel = 0;
 }
 
+// Gets the work that a GPU gets: processors get few long invocations, GPUs many short ones.
+void likeAGpu(DeviceInfo& info) {
+    info.type = engine::DeviceType::discrete;
+    info.subgroup_size = 64;
+}
+
 // Devices are made one after the other, because volk's functions belong to the last one.
 class LesserDevice : public testing::Test {
 protected:
@@ -117,6 +123,27 @@ hair::Settings onlyGuides() {
     settings.render.hair = false;
     settings.render.overlays = {.guides = true, .root_triangles = true, .bodies = true};
     return settings;
+}
+
+// ---- As a GPU ----------------------------------------------------------------------------------
+
+TEST_F(LesserDevice, IsGivenAGpusShareOfWorkForTheSamePicture) {
+    hair::Settings settings = smallCase();
+    settings.simulation.solver = hair::Solver::ftl;  // with the same invocations on all devices
+    settings.strands.density = 11;
+    settings.strands.tessellation = 3;
+    for (const hair::Backend backend : {hair::Backend::software, hair::Backend::expanded})
+        for (const hair::Taper taper : {hair::Taper::strand, hair::Taper::segment}) {
+            settings.strands.backend = backend;
+            settings.strands.taper = taper;
+            make({});
+            const Pixels expected = pictureOf(settings);
+            make(likeAGpu);
+            EXPECT_TRUE(pictureOf(settings) == expected);
+            settings.render.hair = false;
+            EXPECT_FALSE(pictureOf(settings) == expected);
+            settings.render.hair = true;
+        }
 }
 
 // ---- Skipped cases ------------------------------------------------------------------------------
@@ -350,8 +377,13 @@ TEST_F(LesserDevice, HairFeelsHairTheSameWithoutAtomicsOnLongIntegers) {
         make(without(missing));
         EXPECT_EQ(played(), there);
     }
+    make(likeAGpu);  // which takes a part of the cells at a time
+    settings.parallelism = hair::Parallelism::serial;
+    const std::vector<glm::vec3> serial = played();
+    make({});
+    EXPECT_EQ(played(), serial);
     settings.hair_hair = {};
-    EXPECT_NE(played(), there);
+    EXPECT_NE(played(), serial);
 }
 
 TEST_F(LesserDevice, DrawsEverythingButStrandsWithoutAnyFeature) {

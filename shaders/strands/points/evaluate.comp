@@ -1,7 +1,7 @@
 #version 460
 // Evaluates each point of the strands once, and finds the part of the picture that they touch. An
-// invocation has some strands of a root triangle and slides a window of control points along its
-// guides.
+// invocation has some strands of a root triangle and a run of their segments, along which it slides
+// a window of the guides' control points. All segments are whole runs.
 #extension GL_GOOGLE_include_directive : require
 #include "common/vectors.glsl"
 
@@ -10,13 +10,14 @@
 #include "strands/strand.glsl"
 
 layout(constant_id = kStrandBlockConstant) const uint kBlock = 1;  // strands per invocation
+layout(constant_id = kSegmentRunConstant) const uint kSegmentRun = 1;  // segments per invocation
 
 layout(push_constant, scalar) uniform Push { PointsPush push; };
 
 #include "strands/pixel_margin.glsl"
 #include "strands/points/quad.glsl"
 
-layout(local_size_x = kPointsGroup) in;
+layout(local_size_x_id = kGroupConstant) in;
 
 // Extent of the corners so far, px.
 struct Extent {
@@ -52,7 +53,10 @@ void mergeBounds(Extent extent) {
 
 void main() {
     uint group = gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x;
-    uint block = group * gl_WorkGroupSize.x + gl_LocalInvocationID.x;
+    uint invocation = group * gl_WorkGroupSize.x + gl_LocalInvocationID.x;
+    const uint runs = kSegments / kSegmentRun;  // of a strand
+    uint block = invocation / runs;
+    uint first_segment = invocation % runs * kSegmentRun;
     PictureParameters picture = PictureReference(push.picture).parameters;
     uint blocks = (picture.forced_density + kBlock - 1u) / kBlock;  // of a triangle
     uint triangle = block / blocks;
@@ -74,7 +78,7 @@ void main() {
             push.reach + offset + push.greatest_width * strand_patch.lod.width_scale;
         if (isOutsideFrustum(picture, guides, 0u, kSegments, beyond)) drawn = begin;
     }
-    for (uint index = begin; index < end; ++index) {
+    for (uint index = begin; index < end && first_segment == 0u; ++index) {
         uint word = pieces;
         if (kMergedHairs != 0)
             word |= strandMerged(strand_patch.lod, strand_patch.key, index) & 0xffff0000u;
@@ -86,15 +90,19 @@ void main() {
     vec3 controls[12];
     for (int corner = 0; corner < 3; ++corner) {
         for (int k = 0; k < 4; ++k)
-            controls[4 * corner + k] = guideControlPoint(picture, guides[corner], k - 1);
+            controls[4 * corner + k] =
+                guideControlPoint(picture, guides[corner], int(first_segment) + k - 1);
     }
     Extent extent = Extent(vec2(1e9), vec2(-1e9));
     PatchStrand strand;
     strand.guides = guides;
-    for (uint segment = 0u; segment < kSegments; ++segment) {
+    for (uint turn = 0u; turn < kSegmentRun; ++turn) {
+        uint segment = first_segment + turn;
         strand_patch.segment = segment;
         vec4 shares = singleShares(picture, guides, segment);
-        for (strand.index = begin; strand.index < drawn; ++strand.index) {
+        for (uint i = 0u; i < kBlock; ++i) {
+            strand.index = begin + i;
+            if (strand.index >= drawn) break;
             strand.weights = strandWeights(picture, strand_patch.key, strand.index);
             strand.lift = strandLift(lift, strand.weights);
             strandControlPoints(
@@ -102,15 +110,16 @@ void main() {
             uint first = (number + strand.index - begin) * kPointsPerStrand +
                          segment * (pieces + kSplitJoints);
             // A segment's first point is the last of the previous segment, unless joints are split.
-            for (uint i = segment == 0u ? 0u : 1u - kSplitJoints; i <= pieces; ++i) {
-                StrandPoint point = drawnPoint(picture, strand_patch, strand, i);
+            for (uint end = segment == 0u ? 0u : 1u - kSplitJoints; end <= pieces; ++end) {
+                StrandPoint point = drawnPoint(picture, strand_patch, strand, end);
                 float width = point.width;
                 if (kMergedHairs != 0) width *= mergedSpread(point.merged);
                 PackedPoint kept = PackedPoint(point.position, point.tangent, width);
-                storePoint(push.points, first + i, kept);
+                storePoint(push.points, first + end, kept);
                 widen(extent, pieceEnd(picture, kept));
             }
         }
+        if (turn + 1u == kSegmentRun) break;
         for (int corner = 0; corner < 3; ++corner) {
             for (int k = 0; k < 3; ++k) controls[4 * corner + k] = controls[4 * corner + k + 1];
             controls[4 * corner + 3] =

@@ -4,7 +4,7 @@
 #extension GL_GOOGLE_include_directive : require
 #include "strands/points/layout.glsl"
 
-layout(local_size_x = kPointsGroup) in;
+layout(local_size_x_id = kGroupConstant) in;
 
 layout(push_constant, scalar) uniform Push { ExpandedPush push; };
 

@@ -6,7 +6,7 @@
 #include "common/depth.glsl"
 #include "strands/software/software.glsl"
 
-layout(local_size_x_id = kPixelGroupConstant) in;
+layout(local_size_x_id = kGroupConstant) in;
 
 #ifdef HAIRBENCH_MULTISAMPLE
 layout(binding = 0) uniform texture2DMS scene_depth;

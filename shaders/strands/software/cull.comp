@@ -11,7 +11,7 @@
 
 #include "strands/points/quad.glsl"
 
-layout(local_size_x = kSoftwareStrandGroup) in;
+layout(local_size_x_id = kGroupConstant) in;
 
 const uint kWord = 32u;
 

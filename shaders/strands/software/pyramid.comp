@@ -17,7 +17,7 @@ uint fetchTile(uvec2 tile) { return TileDepths(push.tile_depths).at[tileIndex(ti
 #endif
 
 
-layout(local_size_x_id = kPixelGroupConstant) in;
+layout(local_size_x_id = kGroupConstant) in;
 
 void main() {
     uvec2 low;

@@ -8,7 +8,7 @@
 #endif
 #include "strands/software/raster.glsl"
 
-layout(local_size_x = kSoftwareStrandGroup) in;
+layout(local_size_x_id = kGroupConstant) in;
 
 // Lists a large piece, which is rasterised later.
 void listLarge(uint piece) {

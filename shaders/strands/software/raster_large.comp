@@ -8,7 +8,7 @@
 #endif
 #include "strands/software/raster.glsl"
 
-layout(local_size_x = kSoftwareStrandGroup) in;
+layout(local_size_x_id = kGroupConstant) in;
 
 void main() {
     PieceCounts counts = Counts(push.counts).counts;

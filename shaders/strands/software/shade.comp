@@ -12,7 +12,7 @@
 #include "strands/software/samples.glsl"
 #include "strands/merged_fragment.glsl"
 
-layout(local_size_x_id = kPixelGroupConstant) in;
+layout(local_size_x_id = kGroupConstant) in;
 
 // Returns the point of a piece that is seen at a screen position, px.
 StrandFragment visiblePoint(PictureParameters picture, uint number, vec2 place, out uint merged) {

@@ -7,7 +7,7 @@
 #endif
 #include "strands/software/visibility.glsl"
 
-layout(local_size_x_id = kPixelGroupConstant) in;
+layout(local_size_x_id = kGroupConstant) in;
 
 uint farthest(uvec2 begin, uvec2 end) {
     uint far = 0u;
