@@ -1,6 +1,7 @@
 // Tests drivers of GPUs that the machine lacks: scripts/null-gpu. They compile and validate, and
 // execute nothing.
 #include <algorithm>
+#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <sstream>
@@ -10,6 +11,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include "benchmarks/scene/extensions.h"
 #include "tests/cli/run_hairbench.h"
 #include "tests/required.h"
 #include "tests/temporary_folder.h"
@@ -82,6 +84,24 @@ TEST_P(NullGpu, CompilesShadersToTheCostsOfTheCommittedTable) {
     std::ostringstream expected;
     expected << text.rdbuf();
     EXPECT_EQ(tables, expected.str()) << committed;
+}
+
+// A minute or more for each driver: scripts/test --device radv or nvk.
+TEST_P(NullGpu, CompilesEveryShippedSceneWithoutSpills) {
+    if (!std::getenv("HAIRBENCH_EVERY_SCENE")) GTEST_SKIP() << "HAIRBENCH_EVERY_SCENE is not set";
+    int compiled = 0;
+    for (const std::string& scene : benchmarks::scene::shippedScenes()) {
+        const Outcome outcome =
+            run("shaders " + scene + " --out '" + file("shaders.json").string() + "'");
+        ASSERT_EQ(outcome.status, 0) << scene << '\n' << outcome.output;
+        for (const auto& each : nlohmann::json::parse(std::ifstream(file("shaders.json")))["cases"])
+            for (const auto& [name, metric] : each.value("metrics", nlohmann::json()).items()) {
+                ++compiled;
+                if (!name.ends_with(".spills")) continue;
+                EXPECT_EQ(metric["median"], 0) << scene << ' ' << each["name"] << ' ' << name;
+            }
+    }
+    EXPECT_GT(compiled, 0);
 }
 
 // Two queues, where the driver has them.
