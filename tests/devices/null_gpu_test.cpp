@@ -39,6 +39,27 @@ protected:
 
     fs::path file(const std::string& name) const { return folder_.path() / name; }
 
+    nlohmann::json casesOf(const std::string& report) const {
+        return nlohmann::json(nlohmann::json::parse(std::ifstream(file(report))).at("cases"));
+    }
+
+    // Expects no spills in the cases of a report, and figures of them. NVK tells spilled registers
+    // as scratch memory, with the arrays of shape_serial, which no GPU's registers hold.
+    void expectNoSpills(const std::string& report, const std::string& scene) const {
+        const std::string figure = GetParam() == std::string("ga102") ? ".scratch" : ".spills";
+        int found = 0;
+        for (const nlohmann::json& each : casesOf(report)) {
+            if (!each.contains("metrics")) continue;
+            for (const auto& [name, metric] : each["metrics"].items()) {
+                if (!name.ends_with(figure) || name.find("shape_serial") != std::string::npos)
+                    continue;
+                ++found;
+                EXPECT_EQ(metric["median"], 0) << scene << ' ' << each["name"] << ' ' << name;
+            }
+        }
+        EXPECT_GT(found, 0) << scene;
+    }
+
     TemporaryFolder folder_;
 };
 
@@ -68,11 +89,7 @@ TEST_P(NullGpu, CompilesShadersToTheCostsOfTheCommittedTable) {
         ASSERT_EQ(outcome.status, 0) << outcome.output;
         output = outcome.output;
         tables += tableIn(outcome.output);
-        for (const auto& each : nlohmann::json::parse(std::ifstream(file("shaders.json")))["cases"])
-            for (const auto& [name, metric] : each.value("metrics", nlohmann::json()).items())
-                if (name.ends_with(".spills")) {
-                    EXPECT_EQ(metric["median"], 0) << name;
-                }
+        expectNoSpills("shaders.json", scene);
     }
     const fs::path committed = fs::path(HAIRBENCH_SOURCE_DIR) / "results" /
                                ("shaders-" + std::string(GetParam()) + ".txt");
@@ -86,22 +103,15 @@ TEST_P(NullGpu, CompilesShadersToTheCostsOfTheCommittedTable) {
     EXPECT_EQ(tables, expected.str()) << committed;
 }
 
-// A minute or more for each driver: scripts/test --device radv or nvk.
+// Three minutes for each driver: scripts/test --device radv or nvk.
 TEST_P(NullGpu, CompilesEveryShippedSceneWithoutSpills) {
     if (!std::getenv("HAIRBENCH_EVERY_SCENE")) GTEST_SKIP() << "HAIRBENCH_EVERY_SCENE is not set";
-    int compiled = 0;
     for (const std::string& scene : benchmarks::scene::shippedScenes()) {
         const Outcome outcome =
             run("shaders " + scene + " --out '" + file("shaders.json").string() + "'");
         ASSERT_EQ(outcome.status, 0) << scene << '\n' << outcome.output;
-        for (const auto& each : nlohmann::json::parse(std::ifstream(file("shaders.json")))["cases"])
-            for (const auto& [name, metric] : each.value("metrics", nlohmann::json()).items()) {
-                ++compiled;
-                if (!name.ends_with(".spills")) continue;
-                EXPECT_EQ(metric["median"], 0) << scene << ' ' << each["name"] << ' ' << name;
-            }
+        expectNoSpills("shaders.json", scene);
     }
-    EXPECT_GT(compiled, 0);
 }
 
 // Two queues, where the driver has them.
@@ -114,8 +124,9 @@ TEST_P(NullGpu, RecordsFramesThatValidationAccepts) {
             "--frames 2 --max-time 0 --validate --out '" + file("run.json").string() + "'");
     EXPECT_THAT(outcome.output, HasSubstr("the device did not write a timestamp"));
     // A failed case has this member only for its warnings.
-    for (const auto& each : nlohmann::json::parse(std::ifstream(file("run.json")))["cases"])
-        EXPECT_FALSE(each.contains("trust")) << each["trust"];
+    const nlohmann::json cases = casesOf("run.json");
+    EXPECT_FALSE(cases.empty());
+    for (const nlohmann::json& each : cases) EXPECT_FALSE(each.contains("trust")) << each["trust"];
 }
 
 // A shading model that keeps more numbers than there are registers.
