@@ -57,34 +57,24 @@ struct ClassAccess {
     bool writes;
 };
 
-ClassAccess classesOf(Access access) {
-    switch (access) {
-    case Access::compute_read:
-        return {kCompute, false};
-    case Access::compute_write:
-        return {kCompute, true};
-    case Access::graphics_read:
-        return {kVertex | kFragment, false};
-    case Access::indirect_read:
-        return {kIndirect, false};
-    case Access::vertex_read:
-        return {kVertex, false};
-    case Access::fragment_read:
-        return {kFragment, false};
-    case Access::shading_read:
-        return {kFragment | kCompute, false};
-    case Access::fragment_write:
-        return {kFragment, true};
-    case Access::attachment:
-        return {kAttachment, true};
-    case Access::transfer_read:
-        return {kTransfer, false};
-    case Access::transfer_write:
-        return {kTransfer, true};
-    case Access::host_read:
-        break;
-    }
-    return {kHost, false};
+// In the order of the enumerators.
+constexpr std::array<ClassAccess, 12> kAccesses{{
+    {kCompute, false},  // compute_read
+    {kCompute, true},  // compute_write
+    {kVertex | kFragment, false},  // graphics_read
+    {kIndirect, false},  // indirect_read
+    {kVertex, false},  // vertex_read
+    {kFragment, false},  // fragment_read
+    {kFragment | kCompute, false},  // shading_read
+    {kFragment, true},  // fragment_write
+    {kAttachment, true},  // attachment
+    {kTransfer, false},  // transfer_read
+    {kTransfer, true},  // transfer_write
+    {kHost, false},  // host_read
+}};
+
+constexpr const ClassAccess& classesOf(Access access) {
+    return kAccesses[static_cast<std::size_t>(access)];
 }
 
 // Returns the classes that read or write an image in this layout.
@@ -308,6 +298,7 @@ void BarrierPlan::forgetNeeds() { shaders_ = drawing_ = layouts_ = {}; }
 // A barrier after a barrier forms a chain with it if the first one's later stages are among the
 // second one's earlier stages. `ordered`: by the barriers before this one.
 void BarrierPlan::order(const Times& ordered, Pair pair, Memory memory) {
+    if (pair.before == 0) return;
     const Classes waited_for = classesWithEarlier(pair.before);
     const Classes waiting = classesWithLater(pair.after);
     if (memory == Memory::all)

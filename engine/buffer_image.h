@@ -46,6 +46,7 @@ public:
 
     VkBuffer get() const { return buffer_; }
     VkDeviceAddress address() const { return address_; }
+    TrackedResources::Id tracked() const { return tracked_.id(); }
     std::size_t size() const { return size_; }
 
     // Mapped bytes of an upload or readback buffer.

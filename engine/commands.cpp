@@ -156,7 +156,7 @@ void Commands::uses(std::initializer_list<Use> uses, const std::source_location&
     for (const Use& use : uses) {
         if (!use.image && use.address == 0) continue;
         const std::optional<TrackedResources::Id> id =
-            use.image ? use.image->tracked() : sets_.device().resources().bufferAt(use.address);
+            use.resource ? use.resource : sets_.device().resources().bufferAt(use.address);
         if (!id) {
             if (hazards_) hazards_->complain(pass_, "declares an address outside all buffers");
             continue;

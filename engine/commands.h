@@ -23,11 +23,14 @@ class GraphicsPipeline;
 // A buffer, given by any address in it, or an image, and how a command touches it.
 struct Use {
     Use(std::uint64_t buffer, Access touched) : address(buffer), access(touched) {}
-    Use(const Buffer& buffer, Access touched) : Use(buffer.address(), touched) {}
-    Use(const Image& touched_image, Access touched) : image(&touched_image), access(touched) {}
+    Use(const Buffer& buffer, Access touched)
+        : address(buffer.address()), resource(buffer.tracked()), access(touched) {}
+    Use(const Image& touched_image, Access touched)
+        : image(&touched_image), resource(touched_image.tracked()), access(touched) {}
 
     std::uint64_t address = 0;
     const Image* image = nullptr;
+    std::optional<TrackedResources::Id> resource;  // absent: found by the address
     Access access;
 };
 

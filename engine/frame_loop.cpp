@@ -44,7 +44,7 @@ void* RecordingMemory::allocateAlone(std::size_t size, std::size_t alignment) {
 
 bool RecordingMemory::addBlocks(std::size_t kind) {
     try {
-        slabs_.push_back(std::make_unique<std::byte[]>(kSlabBytes));
+        slabs_.push_back(std::make_unique_for_overwrite<std::byte[]>(kSlabBytes));
     } catch (const std::bad_alloc&) {
         return false;
     }
