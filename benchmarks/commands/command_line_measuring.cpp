@@ -448,6 +448,22 @@ void addProgramCommands(const CommandLine& line) {
         printScenes, [](CLI::App& command, ScenesOptions& options) {
             command.add_flag("--names", options.names, "print only their names");
         });
+    addCommand<NewOptions>(
+        line, line.app,
+        {.name = "new",
+         .description = "makes a folder for a scene of one's own, based on a shipped scene",
+         .examples =
+             {"hairbench new my_hair --from wavy_bob", "hairbench view my_hair/my_hair.json"}},
+        makeScene, [](CLI::App& command, NewOptions& options) {
+            command.add_option("folder", options.folder, "folder to make; the scene gets its name")
+                ->required()
+                ->type_name("FOLDER");
+            command
+                .add_option(
+                    "--from", options.from,
+                    "name of the shipped scene whose values it changes (default thesis)")
+                ->type_name("SCENE");
+        });
     addCommand<CompletionOptions>(
         line, line.app,
         {.name = "completion",

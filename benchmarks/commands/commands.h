@@ -291,6 +291,14 @@ struct ScenesOptions {
 };
 int printScenes(const ScenesOptions& options);
 
+struct NewOptions {
+    std::filesystem::path folder;
+    std::string from = "thesis";  // a shipped scene
+};
+// Makes a folder with a scene based on a shipped one, the schema and a README. Throws engine::Error
+// "<path>: <reason>" if something is there, or if there is no such scene.
+int makeScene(const NewOptions& options);
+
 struct CompletionOptions {
     std::string shell;
 };

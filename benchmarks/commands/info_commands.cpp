@@ -18,6 +18,7 @@
 #include "benchmarks/scene/schema.h"
 #include "benchmarks/scene/sweep.h"
 #include "engine/error.h"
+#include "engine/files.h"
 #include "engine/process.h"
 #include "hair/groom/files.h"
 
@@ -108,6 +109,58 @@ int printScenes(const ScenesOptions& options) {
         }
         std::cout << '\n';
     }
+    return report::kOk;
+}
+
+namespace {
+
+// The README of a new scene. `name` is that of its file.
+std::string readmeOf(const std::string& name, const std::string& base) {
+    return "# " + std::filesystem::path(name).stem().string() + "\n\n`" + name +
+           "` changes the scene `" + base +
+           "` of hairbench. It names only what differs; `hairbench schema --markdown .` lists "
+           "every\n"
+           "field with its range, unit and meaning, and an editor completes fields from "
+           "scene.schema.json.\n\n"
+           "In this folder:\n\n```sh\n"
+           "hairbench validate " +
+           name +
+           "            # checks it and the files that it names\n"
+           "hairbench render " +
+           name +
+           " -o out.png   # draws it; `hairbench view` opens it in a window\n"
+           "hairbench run " +
+           name +
+           " -o out.json     # measures it, and every case of its \"sweep\"\n"
+           "```\n";
+}
+
+}  // namespace
+
+int makeScene(const NewOptions& options) {
+    namespace fs = std::filesystem;
+    const std::vector<std::string> names = scene::shippedScenes();
+    if (std::ranges::find(names, options.from) == names.end())
+        throw engine::Error(
+            "--from",
+            '\'' + options.from + "' is not a shipped scene; \"hairbench scenes\" lists them");
+    if (scene::isSuite(scene::sceneNamed(options.from)))
+        throw engine::Error(
+            "--from", '\'' + options.from + "' is a suite of scenes; expected a single scene");
+    const fs::path folder =
+        options.folder.has_filename() ? options.folder : options.folder.parent_path();
+    if (std::error_code error; fs::exists(fs::symlink_status(folder, error)))
+        throw engine::Error(folder.string(), "exists; expected the name of a new folder");
+    const std::string name = folder.filename().string() + ".json";
+    const fs::path file = folder / name;
+    const scene::Json document = {
+        {"$schema", "scene.schema.json"},
+        {"base", options.from},
+        {"description", "what differs from " + options.from}};
+    engine::writeFileAtomically(file, document.dump(2) + '\n');
+    engine::writeFileAtomically(folder / "scene.schema.json", scene::sceneSchema());
+    engine::writeFileAtomically(folder / "README.md", readmeOf(name, options.from));
+    std::cout << engine::shownText(file.string()) << '\n';
     return report::kOk;
 }
 

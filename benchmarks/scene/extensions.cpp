@@ -53,18 +53,19 @@ fs::path folderOfScenes(const fs::path& opened) {
 
 // ---- The program's own scenes -------------------------------------------------------------------
 
-fs::path sceneNamed(const fs::path& name) {
+fs::path sceneNamed(const fs::path& name, const fs::path& folder) {
+    const fs::path own = folder / name;
     std::error_code error;
-    const bool is_file = fs::exists(name, error) && !fs::is_directory(name, error);
-    if (is_file || name.empty() || name.is_absolute()) return name;
+    const bool is_file = fs::exists(own, error) && !fs::is_directory(own, error);
+    if (is_file || name.empty() || name.is_absolute()) return own;
     fs::path below = name.lexically_normal();
     if (*below.begin() == "scenes") below = below.lexically_relative("scenes");
-    if (*below.begin() == "..") return name;
+    if (*below.begin() == "..") return own;
     for (const char* extension : {"", ".json"}) {
         const fs::path shipped = engine::programFile("scenes") / (below.string() + extension);
         if (fs::is_regular_file(shipped, error)) return shipped;
     }
-    return name;
+    return own;
 }
 
 std::vector<std::string> shippedScenes() {

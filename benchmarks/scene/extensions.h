@@ -14,10 +14,11 @@
 
 namespace benchmarks::scene {
 
-// Returns the file for a scene's name: the file of that name if it exists, otherwise the scene of
-// that name that comes with the program: "thesis", "scenes/thesis.json", "portraits/braid". Returns
-// the name unchanged if neither exists.
-std::filesystem::path sceneNamed(const std::filesystem::path& name);
+// Returns the file for a scene's name: the file of that name in `folder` (empty: the current one)
+// if it exists, otherwise the scene of that name that comes with the program: "thesis",
+// "scenes/thesis.json", "portraits/braid". Returns the name in the folder if neither exists.
+std::filesystem::path
+sceneNamed(const std::filesystem::path& name, const std::filesystem::path& folder = {});
 
 // Returns the names of the scenes that come with the program, as sceneNamed() takes them, in
 // alphabetical order: "thesis", "portraits/braid".

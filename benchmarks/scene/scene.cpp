@@ -165,7 +165,7 @@ Loaded load(const fs::path& path, const Reach& reach, std::vector<fs::path> open
             throw engine::Error("/suite", "is a suite of scenes; expected a single scene");
         stringMember(document, "$schema");
         if (const std::string* const base = stringMember(document, "base")) {
-            const fs::path base_path = path.parent_path() / *base;
+            const fs::path base_path = sceneNamed(*base, path.parent_path());
             opened.push_back(fs::weakly_canonical(path));
             if (opened.size() > kMostBases)
                 throw engine::Error(
@@ -182,8 +182,9 @@ Loaded load(const fs::path& path, const Reach& reach, std::vector<fs::path> open
                 throw engine::Error("/base", error.what());
             }
             Json& merged = loaded.document;
-            if (const fs::path folder = fs::path(*base).parent_path(); !folder.empty())
-                moveFileNames(merged, folder, loaded.scene.settings);
+            const bool is_own = base_path == path.parent_path() / *base;
+            const fs::path folder = (is_own ? fs::path(*base) : base_path).parent_path();
+            if (!folder.empty()) moveFileNames(merged, folder, loaded.scene.settings);
             document.erase("base");
             mergePatch(merged, document, everyMember());
             document = std::move(merged);

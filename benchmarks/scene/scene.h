@@ -26,8 +26,9 @@ inline constexpr std::size_t kLargestSceneFile = std::size_t{256} << 20;
 
 // A scene file of at most 16 MiB, checked: hair::Settings members and
 //   "$schema"  a string for editors, ignored
-//   "base"     another scene file, relative to this one; this document is applied to it as a JSON
-//              merge patch (RFC 7386), so null removes a member of the base; at most 16 in a chain
+//   "base"     another scene file, relative to this one, or the name of a shipped scene; this
+//              document is applied to it as a JSON merge patch (RFC 7386), so null removes a member
+//              of the base; at most 16 in a chain
 //   "sweep"    JSON pointer -> array of values, and the members in axis.h; one case for each
 //              combination, in the written order
 // A screenshot of the viewer also works: a PNG that contains the text of a scene file.

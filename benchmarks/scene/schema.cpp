@@ -481,13 +481,14 @@ std::string sceneSchema() {
     members["$schema"] = {{"description", "this schema, for editors"}, {"type", "string"}};
     members["base"] = {
         {"description",
-         "scene file, relative to this one, to which this document is applied as a JSON merge "
-         "patch (RFC 7386): null removes a member of the base"},
+         "scene file, relative to this one, or the name of a shipped scene, to which this "
+         "document is applied as a JSON merge patch (RFC 7386): null removes a member of the base"},
         {"type", "string"}};
     members["sweep"] = std::move(sweep);
     members["suite"] = {
-        {"description", "scene files, relative to this one, that are run one after another; only "
-                        "$schema and description may stand beside it"},
+        {"description",
+         "scene files, relative to this one, or names of shipped scenes, that are run "
+         "one after another; only $schema and description may stand beside it"},
         {"type", "array"},
         {"minItems", 1},
         {"items", {{"type", "string"}}}};

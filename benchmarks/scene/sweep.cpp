@@ -63,7 +63,8 @@ std::vector<Scene> loadScenes(const std::filesystem::path& path, Outside outside
     try {
         checkMembers(document);
         for (const Json& file : document["suite"]) {
-            const std::filesystem::path member = path.parent_path() / file.get<std::string>();
+            const std::filesystem::path member =
+                sceneNamed(file.get<std::string>(), path.parent_path());
             reach.check(member);
             if (isSuite(member))
                 throw engine::Error("/suite", member.string() + " is a suite itself");

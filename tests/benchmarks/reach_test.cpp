@@ -219,6 +219,40 @@ TEST(ShippedScenes, GiveWayToTheUsersFiles) {
     fs::current_path(before);
 }
 
+// A scene anywhere names a shipped one as its base, whose files are found, unless a file of its own
+// has the name. A suite does the same.
+TEST(ShippedScenes, AreBasesByTheirNames) {
+    const TemporaryFolder folder;
+    const hair::Settings thesis = scene::loadScene(HAIRBENCH_SCENES_DIR "/thesis.json").settings;
+    for (const char* name : {"thesis", "thesis.json", "scenes/thesis"}) {
+        const scene::Scene own = scene::loadScene(
+            folder.write("own.json", R"({"base": ")" + std::string(name) + R"(", "seed": 7})"));
+        EXPECT_EQ(own.settings.seed, 7u);
+        EXPECT_EQ(own.settings.strands.density, thesis.strands.density);
+    }
+    const scene::Scene braid =
+        scene::loadScene(folder.write("braid.json", R"({"base": "portraits/layers"})"));
+    hair::Settings named = braid.settings;
+    std::size_t files = 0;
+    scene::forEachFileName(named, [&](const std::string& pointer, const std::string& file) {
+        EXPECT_TRUE(fs::is_regular_file(braid.directory / file)) << pointer << ": " << file;
+        ++files;
+    });
+    EXPECT_GT(files, 0u);
+
+    folder.write("smoke.json", R"({"seed": 11})");
+    EXPECT_EQ(
+        scene::loadScene(folder.write("own.json", R"({"base": "smoke.json"})")).settings.seed, 11u);
+    const std::vector<scene::Scene> suite =
+        scene::loadScenes(folder.write("suite.json", R"({"suite": ["rest", "own.json"]})"));
+    ASSERT_EQ(suite.size(), 2u);
+    EXPECT_EQ(suite[0].path, scene::sceneNamed("rest"));
+    EXPECT_EQ(suite[1].settings.seed, 11u);
+    EXPECT_THAT(
+        errorText([&] { scene::loadScene(folder.write("own.json", R"({"base": "no_such"})")); }),
+        testing::HasSubstr("/base: " + folder.file("no_such").string()));
+}
+
 TEST(ShippedScenes, NameFilesOfTheirFolderAlone) {
     for (const auto& entry : fs::recursive_directory_iterator(HAIRBENCH_SCENES_DIR)) {
         const fs::path& path = entry.path();

@@ -292,6 +292,33 @@ TEST(Cli, ValidateWarnsOfABodyThatIsNotClosed) {
     EXPECT_THAT(outcome.output, HasSubstr("open.json: ok, 2 cases"));
 }
 
+// A new folder's README can be followed from the folder, and its editor's schema is the program's.
+TEST(Cli, MakesAFolderForAScene) {
+    const TemporaryFolder folder;
+    const std::string made = "'" + folder.file("my_hair").string() + "'";
+    const Outcome outcome = hairbench("new " + made + " --from rest");
+    ASSERT_EQ(outcome.status, 0) << outcome.output;
+    EXPECT_EQ(outcome.output, folder.file("my_hair/my_hair.json").string() + '\n');
+    const std::string readme = textOf(folder.file("my_hair/README.md"));
+    const std::string in = "cd " + made + " && ";
+    for (const char* command : {"validate my_hair.json", "render my_hair.json", "run my_hair.json"})
+        EXPECT_THAT(readme, HasSubstr(std::string("\nhairbench ") + command + ' '));
+    EXPECT_THAT(hairbench("validate my_hair.json", in).output, HasSubstr("my_hair.json: ok, "));
+    const Outcome drawn = hairbench(
+        "render my_hair.json -o out.png --set /render/width=32 --set /render/height=32"
+        " --set /strands/density=1",
+        in);
+    EXPECT_EQ(drawn.status, 0) << drawn.output;
+    EXPECT_EQ(textOf(folder.file("my_hair/scene.schema.json")), hairbench("schema").output);
+
+    EXPECT_THAT(hairbench("new " + made).output, HasSubstr("my_hair: exists"));
+    const std::string other = "new '" + folder.file("other").string() + "' --from ";
+    for (const char* from : {"no_such", "full", "../scenes/thesis"}) {
+        EXPECT_EQ(hairbench(other + from).status, 2) << from;
+        EXPECT_FALSE(fs::exists(folder.file("other"))) << from;
+    }
+}
+
 TEST(Cli, PhysicsRefusesWhatItDoesNotKnow) {
     const Outcome solver = hairbench("physics --solver jelly");
     EXPECT_EQ(solver.status, 2);
