@@ -5,7 +5,6 @@
 #include <cstdint>
 #include <iterator>
 #include <limits>
-#include <map>
 #include <memory>
 #include <numbers>
 #include <utility>
@@ -51,26 +50,43 @@ struct Ties {
     double spread = 0.0;  // t (t - 1) (2 t + 5)
 };
 
-Ties tiesOf(std::span<const double> samples) {
-    std::map<double, double> sizes;
-    for (const double sample : samples) ++sizes[sample];
+Ties tiesOf(std::span<const double> sorted) {
     Ties ties;
-    for (const auto& [value, t] : sizes) {
+    for (auto first = sorted.begin(); first != sorted.end();) {
+        const auto next = std::upper_bound(first, sorted.end(), *first);
+        const auto t = static_cast<double>(next - first);
         ties.pairs += t * (t - 1.0);
         ties.spread += t * (t - 1.0) * (2.0 * t + 5.0);
+        first = next;
     }
     return ties;
+}
+
+// Sorts values and returns the number of pairs of which the later one was less than the earlier.
+double sortCountingDescents(std::span<double> values) {
+    if (values.size() < 2) return 0.0;
+    const std::span<double> first = values.first(values.size() / 2);
+    const std::span<double> second = values.subspan(first.size());
+    double descents = sortCountingDescents(first) + sortCountingDescents(second);
+    std::size_t passed = 0;
+    for (const double value : second) {
+        while (passed < first.size() && first[passed] <= value) ++passed;
+        descents += static_cast<double>(first.size() - passed);
+    }
+    std::ranges::inplace_merge(values, second.begin());
+    return descents;
 }
 
 }  // namespace
 
 Trend trend(std::span<const double> samples) {
-    double score = 0.0;
-    for (std::size_t i = 0; i < samples.size(); ++i)
-        for (std::size_t j = i + 1; j < samples.size(); ++j)
-            score += samples[j] > samples[i] ? 1.0 : samples[j] < samples[i] ? -1.0 : 0.0;
-    const Ties ties = tiesOf(samples);
+    // Pairs that ascend, less those that descend. Knight 1966, A computer method for calculating
+    // Kendall's tau with ungrouped data.
+    std::vector<double> sorted(samples.begin(), samples.end());
+    const double descents = sortCountingDescents(sorted);
+    const Ties ties = tiesOf(sorted);
     const auto n = static_cast<double>(samples.size());
+    const double score = 0.5 * (n * (n - 1.0) - ties.pairs) - 2.0 * descents;
     if (samples.size() < 2 || ties.pairs == n * (n - 1.0)) return {score, 1.0};
     if (samples.size() <= kMostExact && ties.pairs == 0.0)
         return {score, exactP(samples.size(), score)};

@@ -1,7 +1,9 @@
 #include "benchmarks/report/statistics.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
+#include <cstdint>
 #include <functional>
 #include <limits>
 #include <numbers>
@@ -264,24 +266,59 @@ MedianInterval medianInterval(std::span<const double> samples, double alpha) {
     return medianInterval(samples, alpha, static_cast<double>(samples.size()));
 }
 
+namespace {
+
+// The sides of the median on which samples lie, as bits.
+class Sides {
+public:
+    Sides(std::span<const double> samples, double median)
+        : off_(words(samples.size())), above_(off_.size()) {
+        for (std::size_t i = 0; i < samples.size(); ++i) {
+            off_[i / kBits] |= std::uint64_t{samples[i] != median} << i % kBits;
+            above_[i / kBits] |= std::uint64_t{samples[i] > median} << i % kBits;
+        }
+    }
+
+    // Returns the sum of the products of sides (-1, 0 or 1) that are `lag` samples apart.
+    std::int64_t products(std::size_t lag) const {
+        const std::size_t words = lag / kBits;
+        const std::size_t bits = lag % kBits;
+        const auto later = [&](const std::vector<std::uint64_t>& all, std::size_t i) {
+            const std::uint64_t next = bits == 0 ? 0 : all[i + words + 1] << (kBits - bits);
+            return all[i + words] >> bits | next;
+        };
+        std::int64_t sum = 0;
+        for (std::size_t i = 0; i + words + 1 < off_.size(); ++i) {
+            const std::uint64_t both = off_[i] & later(off_, i);
+            sum += std::popcount(both) - 2 * std::popcount(both & (above_[i] ^ later(above_, i)));
+        }
+        return sum;
+    }
+
+private:
+    static constexpr std::size_t kBits = 64;
+    // One more than there are samples for, so that shifts need no end of their own.
+    static std::size_t words(std::size_t samples) { return (samples + kBits - 1) / kBits + 1; }
+
+    std::vector<std::uint64_t> off_;  // not equal to the median
+    std::vector<std::uint64_t> above_;
+};
+
+}  // namespace
+
 double effectiveSamples(std::span<const double> samples) {
     constexpr double kCaution = 5.0;
     const std::size_t n = samples.size();
-    const double median = quantile(samples, 0.5);
     // A median splits evenly, so the mean of the sides is about 0. Sums of whole numbers are exact,
-    // and several times as fast as those of floating-point numbers: a series that drifts needs as
-    // many of them as it has samples.
-    std::vector<int> side;
-    for (const double value : samples) side.push_back((value > median) - (value < median));
-    const auto products = [&](std::size_t lag) {
-        return std::inner_product(
-            side.begin() + static_cast<std::ptrdiff_t>(lag), side.end(), side.begin(), 0);
-    };
-    const int variance = products(0);
+    // and those of 64 sides at once fast: a series that drifts needs as many of them as it has
+    // samples.
+    const Sides sides(samples, quantile(samples, 0.5));
+    const auto products = [&](std::size_t lag) { return sides.products(lag); };
+    const std::int64_t variance = products(0);
     const auto size = static_cast<double>(n);
     if (variance == 0) return size;  // all equal: no dependence
     const auto correlation = [&](std::size_t lag) {
-        return static_cast<double>(products(lag)) / variance;
+        return static_cast<double>(products(lag)) / static_cast<double>(variance);
     };
     // For a reversible process, sums of two neighbours are positive and decreasing. The sum stops
     // where noise breaks that.

@@ -101,6 +101,21 @@ TEST(EffectiveSamples, AddNoCorrelationThatRisesAgain) {
         effectiveSamples(values), 16.0 / (time * (1.0 + 5.0 * std::sqrt((time - 1.0) / 16.0))));
 }
 
+// A rising series lies below its median and then above it, so of n - lag pairs, lag <= n / 2, `lag`
+// lie on different sides and the others on the same: the sum of products is n - 3 lag.
+TEST(EffectiveSamples, OfARiseAreThoseOfTheory) {
+    for (const int n : {100, 128, 1000}) {
+        std::vector<double> rise;
+        for (int i = 0; i < n; ++i) rise.push_back(0.5 * i);
+        double time = -1.0;
+        for (int lag = 0; 2 * n - 6 * lag - 3 > 0; lag += 2)
+            time += 2.0 * (2.0 * n - 6.0 * lag - 3.0) / n;
+        EXPECT_DOUBLE_EQ(
+            effectiveSamples(rise),
+            std::max(1.0, n / (time * (1.0 + 5.0 * std::sqrt((time - 1.0) / n)))));
+    }
+}
+
 TEST(EffectiveSamples, OfAlternatingOrEqualOnesAreAll) {
     std::vector<double> alternating;
     for (int i = 0; i < 100; ++i) alternating.push_back(i % 2);

@@ -22,6 +22,20 @@ TEST(Trend, IsScipys) {
     }
 }
 
+// Times of a clock with few steps, pair by pair.
+TEST(Trend, CountsEveryPair) {
+    Noise noise(11);
+    for (const std::size_t n : {2u, 3u, 64u, 257u, 1000u}) {
+        std::vector<double> values;
+        for (std::size_t i = 0; i < n; ++i) values.push_back(std::round(5.0 * noise.normal()));
+        double score = 0.0;
+        for (std::size_t i = 0; i < n; ++i)
+            for (std::size_t j = i + 1; j < n; ++j)
+                score += (values[j] > values[i]) - (values[j] < values[i]);
+        EXPECT_EQ(measure::trend(values).score, score) << n;
+    }
+}
+
 TEST(Trend, OfNothingIsNone) {
     EXPECT_EQ(measure::trend({}).p, 1.0);
     EXPECT_EQ(measure::trend(std::vector{1.0}).p, 1.0);

@@ -38,39 +38,79 @@ using testing::HasSubstr;
 
 const fs::path kSceneFolder = HAIRBENCH_SCENES_DIR;
 
-// ---- Need against what is allocated -------------------------------------------------------------
+// ---- Need and rows against what is allocated
+// -----------------------------------------------------
+
+// Allocations with sizes that depend on the contents of files other than the groom.
+bool isOfFile(const std::string& name) {
+    constexpr std::string_view kNames[] = {"body lines", "environment", "mesh ", "strand texture"};
+    return std::ranges::any_of(kNames, [&](std::string_view each) {
+        return each.ends_with(' ') ? name.starts_with(each) : name == each;
+    });
+}
 
 class MemoryNeedTest : public GpuTest {
 protected:
-    // Compares a case's need with its live allocations after it is made. `name` is the case's.
-    void check(const std::string& name, const hair::Settings& settings, const fs::path& directory) {
+    // Compares a case's need and rows with its live allocations after it is made. `name` is the
+    // case's.
+    void check(const std::string& name, const hair::Settings& settings) {
         SCOPED_TRACE(name);
         HairCache cache;
         const std::uint64_t before = device().allocatedBytes();
+        const auto bytes_before = device().resources().bytes();
         try {
-            const MemoryNeed unread = caseMemory(device(), settings, directory).need;
-            cache.assets().groom(settings, directory);
-            const MemoryNeed need = caseMemory(device(), settings, directory, &cache).need;
-            const Case test_case(device(), settings, directory, &cache);
+            const MemoryNeed unread = caseMemory(device(), settings, kSceneFolder).need;
+            cache.assets().groom(settings, kSceneFolder);
+            const CaseMemory memory = caseMemory(device(), settings, kSceneFolder, &cache);
+            const Case test_case(device(), settings, kSceneFolder, &cache);
             const std::uint64_t held = device().allocatedBytes() - before;
-            EXPECT_GE(need.device, held);
+            EXPECT_GE(memory.need.device, held);
             EXPECT_GE(unread.device, held);
             // The assumed small buffers are at most half a MiB.
-            EXPECT_LE(need.device, 3 * held + (512u << 10));
+            EXPECT_LE(memory.need.device, 3 * held + (512u << 10));
+            checkRows(memory.rows, bytes_before, settings);
             ++checked_;
         } catch (const engine::Unsupported&) {
             // There is no promise for a device that lacks a needed feature.
         }
     }
 
+    // Every buffer and image of a case has a row of its name, of its size or, if its contents
+    // decide, of at most that.
+    void checkRows(
+        const engine::MemoryRows& rows, const std::map<std::string, std::uint64_t>& before,
+        const hair::Settings& settings) {
+        std::map<std::string, std::uint64_t> expected;
+        std::set<std::string> at_most;
+        for (const auto& [row, purpose] : rows.all()) {
+            expected[row.name] += std::uint64_t{row.copies} * row.size;
+            if (row.at_most) at_most.insert(row.name);
+        }
+        // An environment may have fewer lights than the settings ask for.
+        const bool has_fewer = settings.shading.environment_lights > 0;
+        std::set<std::string> found;
+        for (auto [name_of, bytes] : device().resources().bytes()) {
+            if (const auto old = before.find(name_of); old != before.end()) bytes -= old->second;
+            if (bytes == 0) continue;
+            found.insert(name_of);
+            if (isOfFile(name_of)) continue;
+            if (has_fewer || at_most.contains(name_of))
+                EXPECT_LE(bytes, expected[name_of]) << name_of;
+            else
+                EXPECT_EQ(bytes, expected[name_of]) << name_of;
+        }
+        for (const auto& [name_of, bytes] : expected)
+            EXPECT_TRUE(found.contains(name_of) || isOfFile(name_of)) << name_of;
+    }
+
     std::size_t checked_ = 0;
 };
 
-TEST_F(MemoryNeedTest, IsNoLessThanWhatFeaturesAllocateAndNotFarMore) {
+TEST_F(MemoryNeedTest, IsThatOfWhatFeaturesAllocateAndNotFarMore) {
     for (const hair::Feature& feature : hair::features()) {
         hair::Settings settings = hair::plainSettings();
         feature.show(settings);
-        check(feature.name, settings, kSceneFolder);
+        check(feature.name, settings);
     }
     EXPECT_GT(checked_, hair::features().size() / 2);
 }
@@ -85,9 +125,9 @@ TEST_F(MemoryNeedTest, KnowsEveryBackEnd) {
             settings.strands.backend = backend;
             settings.strands.density = 200;
             settings.render.msaa = msaa;
-            check(std::to_string(int(backend)), settings, kSceneFolder);
+            check(std::to_string(int(backend)), settings);
             hair::lit(settings);
-            check(std::to_string(int(backend)) + " lit", settings, kSceneFolder);
+            check(std::to_string(int(backend)) + " lit", settings);
         }
     }
     EXPECT_GT(checked_, 8u);
@@ -102,16 +142,20 @@ TEST_F(MemoryNeedTest, KnowsEverySolver) {
         settings.simulation.solver = solver;
         settings.groom.guides = 3000;
         settings.groom.grow.vertices = 24;
-        check(std::to_string(int(solver)), settings, kSceneFolder);
+        check(std::to_string(int(solver)), settings);
         settings.simulation.hair_hair.friction = 0.5f;
         settings.simulation.wind.mode = hair::WindMode::drag;
-        check(std::to_string(int(solver)) + " with hair and air", settings, kSceneFolder);
+        check(std::to_string(int(solver)) + " with hair and air", settings);
+        settings.simulation.rod.integrator = hair::RodIntegrator::generalized_alpha;
+        settings.simulation.colliders = {{.radius = 0.05f}};
+        settings.simulation.pulls = {{.path = {{.time = 0.0f}, {.time = 1.0f}}}};
+        check(std::to_string(int(solver)) + " with bodies and hands", settings);
     }
-    EXPECT_GT(checked_, 8u);
+    EXPECT_GT(checked_, 12u);
 }
 
 // The first case of each shipped scene, made small.
-TEST_F(MemoryNeedTest, IsNoLessThanWhatShippedScenesAllocate) {
+TEST_F(MemoryNeedTest, IsThatOfWhatShippedScenesAllocate) {
     for (const auto& entry : fs::directory_iterator(kSceneFolder)) {
         const fs::path path = entry.path();
         if (path.extension() != ".json" || path.stem().extension() == ".schema" ||
@@ -120,114 +164,9 @@ TEST_F(MemoryNeedTest, IsNoLessThanWhatShippedScenesAllocate) {
         const scene::Scene loaded = scene::loadScene(path);
         hair::Settings settings = scene::expand(loaded).front().settings;
         settings.run.compare_backends = false;  // its pictures are drawn after the case's
-        check(path.filename().string(), run::smaller(settings), kSceneFolder);
+        check(path.filename().string(), run::smaller(settings));
     }
     EXPECT_GT(checked_, 10u);
-}
-
-// ---- Rows against what is allocated -------------------------------------------------------------
-
-// Allocations with sizes that depend on the contents of files other than the groom.
-bool isOfFile(const std::string& name) {
-    constexpr std::string_view kNames[] = {"body lines", "environment", "mesh ", "strand texture"};
-    return std::ranges::any_of(kNames, [&](std::string_view each) {
-        return each.ends_with(' ') ? name.starts_with(each) : name == each;
-    });
-}
-
-class MemoryRowsTest : public GpuTest {
-protected:
-    // Every buffer and image of a case has a row of its name, of its size or, if its contents
-    // decide, of at most that.
-    void check(const std::string& name, const hair::Settings& settings) {
-        SCOPED_TRACE(name);
-        HairCache cache;
-        const auto before = device().resources().bytes();
-        try {
-            cache.assets().groom(settings, kSceneFolder);
-            const engine::MemoryRows rows =
-                caseMemory(device(), settings, kSceneFolder, &cache).rows;
-            const Case test_case(device(), settings, kSceneFolder, &cache);
-            std::map<std::string, std::uint64_t> expected;
-            std::set<std::string> at_most;
-            for (const auto& [row, purpose] : rows.all()) {
-                expected[row.name] += std::uint64_t{row.copies} * row.size;
-                if (row.at_most) at_most.insert(row.name);
-            }
-            // An environment may have fewer lights than the settings ask for.
-            const bool has_fewer = settings.shading.environment_lights > 0;
-            std::set<std::string> found;
-            for (auto [name_of, bytes] : device().resources().bytes()) {
-                if (const auto old = before.find(name_of); old != before.end())
-                    bytes -= old->second;
-                if (bytes == 0) continue;
-                found.insert(name_of);
-                if (isOfFile(name_of)) continue;
-                if (has_fewer || at_most.contains(name_of))
-                    EXPECT_LE(bytes, expected[name_of]) << name_of;
-                else
-                    EXPECT_EQ(bytes, expected[name_of]) << name_of;
-            }
-            for (const auto& [name_of, bytes] : expected)
-                EXPECT_TRUE(found.contains(name_of) || isOfFile(name_of)) << name_of;
-            ++checked_;
-        } catch (const engine::Unsupported&) {
-        }
-    }
-
-    std::size_t checked_ = 0;
-};
-
-TEST_F(MemoryRowsTest, AreWhatShippedScenesAllocate) {
-    for (const auto& entry : fs::directory_iterator(kSceneFolder)) {
-        const fs::path path = entry.path();
-        if (path.extension() != ".json" || path.stem().extension() == ".schema" ||
-            scene::isSuite(path))
-            continue;
-        check(
-            path.filename().string(),
-            run::smaller(scene::expand(scene::loadScene(path)).front().settings));
-    }
-    EXPECT_GT(checked_, 10u);
-}
-
-TEST_F(MemoryRowsTest, AreWhatFeaturesAllocate) {
-    for (const hair::Feature& feature : hair::features()) {
-        hair::Settings settings = hair::plainSettings();
-        feature.show(settings);
-        check(feature.name, settings);
-    }
-    EXPECT_GT(checked_, hair::features().size() / 2);
-}
-
-TEST_F(MemoryRowsTest, AreWhatBackEndsAllocate) {
-    using hair::Backend;
-    for (const Backend backend :
-         {Backend::tessellation, Backend::pulling_geometry, Backend::lines, Backend::pulling,
-          Backend::expanded, Backend::mesh, Backend::software}) {
-        hair::Settings settings = hair::plainSettings();
-        settings.strands.backend = backend;
-        hair::lit(settings);
-        check(std::to_string(int(backend)), settings);
-    }
-    EXPECT_GT(checked_, 4u);
-}
-
-TEST_F(MemoryRowsTest, AreWhatSolversAllocate) {
-    using hair::Solver;
-    for (const Solver solver :
-         {Solver::none, Solver::shape, Solver::ftl, Solver::rod, Solver::stable_cosserat,
-          Solver::position_based_rod, Solver::augmented_mass_spring}) {
-        hair::Settings settings = hair::plainSettings();
-        settings.simulation.solver = solver;
-        settings.simulation.rod.integrator = hair::RodIntegrator::generalized_alpha;
-        settings.simulation.hair_hair.friction = 0.5f;
-        settings.simulation.wind.mode = hair::WindMode::drag;
-        settings.simulation.colliders = {{.radius = 0.05f}};
-        settings.simulation.pulls = {{.path = {{.time = 0.0f}, {.time = 1.0f}}}};
-        check(std::to_string(int(solver)), settings);
-    }
-    EXPECT_GT(checked_, 6u);
 }
 
 // A picture's own images, computed by hand: 8-bit colour and 32-bit depth of each sample, and the
