@@ -41,12 +41,13 @@ vec3 planeOf(vec3 a, vec3 b) {
     return sine < kStraight ? vec3(0.0) : normal / sine;
 }
 
-float elasticEnergy(GuideParameters guides, uint strand) {
+float elasticEnergy(GuideParameters guides, uint strand, RigidFrame carried) {
     if (push.rods == Address(0)) return 0.0;
     RodParameters rod = RodReference(push.rods).parameters;
     uint strands = guides.strand_count;
     float sum = 0.0;
-    vec4 above = loadMotion(rod.motion, 0, strands, strand).orientation;
+    vec4 above = multiply(
+        carried.rotation, segmentRow(rod.segments, 0, kRodHalfRotation, strands, strand));
     for (uint i = 1; i < guides.vertices_per_strand; ++i) {
         RodSegment segment = loadSegment(rod.segments, i, strands, strand);
         vec4 orientation = loadMotion(rod.motion, i, strands, strand).orientation;
@@ -131,7 +132,7 @@ void main() {
     rows[kProbeMostStrain] = most_strain;
     rows[kProbeKinetic] = kinetic;
     rows[kProbeGravitational] = gravitational;
-    rows[kProbeElastic] = wants(kProbesElastic) ? elasticEnergy(guides, strand) : 0.0;
+    rows[kProbeElastic] = wants(kProbesElastic) ? elasticEnergy(guides, strand, carried) : 0.0;
     rows[kProbeContacts] = contacts;
     rows[kProbeDepth] = depth;
     rows[kProbeSpeed] = sqrt(fastest);
