@@ -290,6 +290,30 @@ const Table& tableOf(const RenderSettings*) {
 
 // ---- Run ----------------------------------------------------------------------------------------
 
+const Table& tableOf(const ProbeSettings*) {
+    using S = ProbeSettings;
+    static const Table table = tableWith<S>(
+        {toggle(
+             "tip_displacement", &S::tip_displacement,
+             "distance of tips from where the head would carry them rigidly"),
+         toggle("length_error", &S::length_error, "strain of segments, without its sign"),
+         toggle(
+             "energy", &S::energy,
+             "kinetic and gravitational energy, and with `rod` elastic energy"),
+         toggle(
+             "contact", &S::contact,
+             "vertices that touch bodies, and the greatest depth of a vertex in a body"),
+         toggle("speed", &S::speed, "greatest speed of a vertex"),
+         toggle("bending", &S::bending, "angle between successive segments"),
+         toggle("torsion", &S::torsion, "angle between successive planes of two segments"),
+         toggle("momentum", &S::momentum, "momentum along x, y and z"),
+         number("first_guide", &S::first_guide, 0, 4294967295.0, "1", "first guide that counts"),
+         number(
+             "guides", &S::guides, 0, 4294967295.0, "count",
+             "guides that count, from first_guide on; 0: all of them")});
+    return table;
+}
+
 const Table& tableOf(const RunSettings*) {
     using S = RunSettings;
     static const Table table = tableWith<S>(
@@ -355,7 +379,10 @@ const Table& tableOf(const RunSettings*) {
              "compare_backends", &S::compare_backends,
              "also measure figures that compare strand back ends: errors of the picture against "
              "tessellation's and against 64 samples per pixel, times per point and per sample, and "
-             "the least time that the device could take")});
+             "the least time that the device could take"),
+         group(
+             "probes", &S::probes,
+             "quantities of guides in every frame, measured in a round of their own")});
     return table;
 }
 

@@ -175,6 +175,22 @@ const Table& tableOf(const RenderSettings*);
 
 enum class Clocks { as_found, locked, free };
 
+// Quantities of guides over time: hair/simulation/probes.h.
+struct ProbeSettings {
+    bool tip_displacement = false;
+    bool length_error = false;
+    bool energy = false;
+    bool contact = false;
+    bool speed = false;
+    bool bending = false;
+    bool torsion = false;
+    bool momentum = false;
+    std::uint32_t first_guide = 0;
+    std::uint32_t guides = 0;
+};
+
+const Table& tableOf(const ProbeSettings*);
+
 struct RunSettings {
     std::uint32_t warmup = 3;
     std::uint32_t frames = 10;
@@ -193,6 +209,7 @@ struct RunSettings {
     std::uint32_t busy_work = 0;
     std::string reference;
     bool compare_backends = false;
+    ProbeSettings probes;
 };
 
 const Table& tableOf(const RunSettings*);

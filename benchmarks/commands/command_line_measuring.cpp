@@ -151,6 +151,12 @@ void addGateOptions(CLI::App& command, gate::GateOptions& options) {
         "compare what the driver's compiler made of the shaders ('hairbench shaders') instead of "
         "times: one process each, no noise; their reports are left beside --out, as .a.json and "
         ".b.json");
+    command
+        .add_flag(
+            "--probes", options.verdict.probes,
+            "compare what guides did (/run/probes, set for both) instead of times: one process "
+            "each, no noise; states and pictures may differ; reports are left as with --shaders")
+        ->excludes("--shaders");
     command.add_option("--pairs", options.pairs, "pairs before the first verdict (default 12)")
         ->check(CLI::IsMember({12, 24, 48}));
     command
@@ -301,6 +307,9 @@ void addCompareOptions(CLI::App& command, report::CompareOptions& options) {
             "take the report that 'run --save-baseline' kept under this name as A")
         ->type_name("NAME");
     command.add_flag("--all", options.all, "also list metrics that stayed the same");
+    command.add_flag(
+        "--probes", options.verdict.probes,
+        "compare what guides did (/run/probes) instead of times; states and pictures may differ");
     command.add_flag("--json", options.json, "print JSON");
     addVerdictOptions(command, options.verdict);
     addFailOnInconclusive(command, options.verdict);

@@ -161,8 +161,8 @@ void printEnd(const gate::GateRun& run) {
         std::cout << "verdict: " << report::verdictName(gate::overallVerdict(run)) << '\n';
 }
 
-// Figures of compiled shaders have no noise: one process of each build decides.
-int gateShaders(const gate::GateOptions& options, const std::filesystem::path& out) {
+// Figures of compiled shaders and probes have no noise: one process of each build decides.
+int gateExactly(const gate::GateOptions& options, const std::filesystem::path& out) {
     gate::BlockRunner runner(options.scene.scene);
     const std::filesystem::path stem = out.parent_path() / out.stem();
     std::filesystem::path reports[2];
@@ -189,7 +189,7 @@ int gateShaders(const gate::GateOptions& options, const std::filesystem::path& o
 int gateBuilds(const gate::GateOptions& options) {
     const std::filesystem::path out = reportFile(options);
     engine::checkWritable(out);
-    if (options.shaders) return gateShaders(options, out);
+    if (options.shaders || options.verdict.probes) return gateExactly(options, out);
     const gate::GateRun run = gate::runGate(options);
     // Texts from drivers and the command line need not be UTF-8.
     engine::writeFileAtomically(

@@ -70,7 +70,7 @@ void print(
         std::cout << "; " << comparison.too_short.size() << " shorter than 0.05 ms, not judged";
     std::cout << '\n';
     const bool has_times = std::ranges::any_of(comparison.changes, [](const report::Change& each) {
-        return each.metric.of != report::MetricOf::shader;
+        return each.metric.of != report::MetricOf::shader && !report::isProbe(each.metric);
     });
     if (has_times) std::cout << report::kOneProcessCaveat << '\n';
 }
@@ -120,7 +120,9 @@ int compareReports(const report::CompareOptions& options) {
     if (comparison.changes.empty() && comparison.mismatches.empty()) {
         std::cerr << "hairbench: "
                   << (comparison.common_cases == 0 ? "the reports have no case in common\n"
-                                                   : "the reports have no time in common\n");
+                      : options.verdict.probes
+                          ? "the reports have no probe in common: see /run/probes\n"
+                          : "the reports have no time in common\n");
         return with_baseline ? report::kNoBaseline : report::kNothingRan;
     }
     if (options.json)

@@ -334,7 +334,9 @@ Side parseSide(char name, const GateOptions& options) {
     }
     side.shaders = options.shaders;
     if (!options.scene.max_time && !options.shaders)
-        addRepeated(side.options, "--max-time", {scene::decimalText(kBlockSeconds)});
+        addRepeated(
+            side.options, "--max-time",
+            {scene::decimalText(options.verdict.probes ? 0.0 : kBlockSeconds)});
     std::error_code ignored;
     if (fs::is_directory(side.text, ignored))
         side.program = {runnable(programOfBuild(side.text, context))};

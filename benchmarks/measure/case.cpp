@@ -135,6 +135,12 @@ void Case::simulate(engine::Passes& passes) {
         });
 }
 
+void Case::probe(engine::Passes& passes, hair::simulation::Probes& probes) {
+    passes.pass("probe", engine::PassKind::compute, [&](engine::Commands& commands) {
+        probes.record(commands, simulation_.recordProbed(commands));
+    });
+}
+
 // Drawing reads one of two copies of the guides, so the next step may write the other meanwhile.
 // There is only one copy of interpolated guides.
 void Case::frame(engine::Passes& passes) {

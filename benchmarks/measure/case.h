@@ -19,6 +19,7 @@
 #include "hair/rendering/renderer.h"
 #include "hair/settings.h"
 #include "hair/simulation/head_motion.h"
+#include "hair/simulation/probes.h"
 #include "hair/simulation/simulation.h"
 
 // A case: one set of settings, ready to play.
@@ -42,6 +43,11 @@ public:
 
     // Records only the simulation of the next frame: the first part of frame().
     void simulate(engine::Passes& passes);
+
+    // Records the pass `probe` of the current frame.
+    void probe(engine::Passes& passes, hair::simulation::Probes& probes);
+    // Simulated time of the current frame, s.
+    double time() const { return simulation_.time(); }
 
     // Records only a picture of the current frame: the last part of frame().
     void draw(engine::Passes& passes);

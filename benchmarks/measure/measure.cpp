@@ -243,6 +243,40 @@ std::vector<std::uint8_t> measureFrames(
     return std::move(overlapped.end.picture);
 }
 
+void addProbes(
+    const engine::Device& device, Case& test_case, const hair::RunSettings& run,
+    const MeasureHooks& hooks, report::CaseResult& result) {
+    if (!hair::simulation::hasProbes(run.probes)) return;
+    const hair::SimulationSettings& simulation = test_case.settings().simulation;
+    const std::uint32_t frames = run.warmup + run.frames + 1;  // RoundPlayer::play()
+    hair::simulation::Probes probes(device, test_case.groom(), simulation, run.probes, frames + 1);
+    test_case.reset();
+    engine::FrameLoop loop(device, Timing::isolated);
+    std::vector<double> times;  // s
+    for (std::uint32_t frame = 0; frame <= frames; ++frame) {
+        if (hooks.stop()) throw engine::Interrupted();
+        loop.frame([&](engine::Passes& passes) {
+            if (frame > 0) test_case.simulate(passes);
+            test_case.probe(passes, probes);
+        });
+        times.push_back(test_case.time());
+    }
+    const std::vector<FrameRecord> records = loop.finish();
+    const std::vector<std::string> names =
+        hair::simulation::Probes::names(run.probes, simulation.solver);
+    const std::vector<std::vector<double>> values = probes.read();
+    result.metrics.push_back(
+        {{report::MetricOf::probe, report::Measured::simulated_time}, std::move(times)});
+    for (std::size_t i = 0; i < names.size(); ++i)
+        result.metrics.push_back({report::metricNamed("probe." + names[i]), values[i]});
+    result.metrics.push_back(
+        {{report::MetricOf::probe, report::Measured::time},
+         passTimes(records, "probe"),
+         report::Mode::isolated});
+    if (!result.state_hash.empty() && test_case.stateHash() != result.state_hash)
+        result.trust.warnings.push_back("frames with probes made other states");
+}
+
 std::vector<std::uint8_t> measure(
     const engine::Device& device, Case& test_case, const hair::RunSettings& run,
     const MeasureHooks& hooks, report::CaseResult& result) {
@@ -263,6 +297,7 @@ std::vector<std::uint8_t> measure(
         {report::ofMemory(report::Measured::allocated),
          {static_cast<double>(device.allocatedBytes())}});
     std::ranges::move(memoryMetrics(device.memory()), std::back_inserter(result.metrics));
+    addProbes(device, test_case, run, hooks, result);
     return picture;
 }
 

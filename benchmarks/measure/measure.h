@@ -42,6 +42,14 @@ std::vector<std::uint8_t> measure(
     const engine::Device& device, Case& test_case, const hair::RunSettings& run,
     const MeasureHooks& hooks, report::CaseResult& result);
 
+// Plays the frames of a round again, without drawing, from the start of the hair to the state that
+// was hashed, with the pass `probe`. Adds probe.*; warns if the state differs
+// from result.state_hash. Does nothing without /run/probes. Throws like measure(), and
+// engine::Error for guides that do not exist.
+void addProbes(
+    const engine::Device& device, Case& test_case, const hair::RunSettings& run,
+    const MeasureHooks& hooks, report::CaseResult& result);
+
 // Measures the part that needs no case, on any stage: metrics of frames and passes, sampling,
 // conditions, trust and hashes.
 std::vector<std::uint8_t> measureFrames(

@@ -177,11 +177,15 @@ std::string verdictCounts(std::span<const Change> changes) {
          {Verdict::regressed, Verdict::improved, Verdict::same, Verdict::inconclusive})
         text += (text.empty() ? "" : ", ") + std::to_string(countOf(changes, verdict)) + ' ' +
                 verdictName(verdict);
+    // Only probes have this verdict.
+    if (const std::size_t otherwise = countOf(changes, Verdict::mismatch))
+        text = std::to_string(otherwise) + " mismatch, " + text;
     return text;
 }
 
 Verdict overallVerdict(std::span<const Change> changes) {
-    for (const Verdict verdict : {Verdict::regressed, Verdict::inconclusive, Verdict::improved})
+    for (const Verdict verdict :
+         {Verdict::regressed, Verdict::mismatch, Verdict::inconclusive, Verdict::improved})
         if (countOf(changes, verdict) > 0) return verdict;
     return Verdict::same;
 }

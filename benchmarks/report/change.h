@@ -18,6 +18,8 @@ struct VerdictOptions {
     bool fail_on_inconclusive = false;
     bool pass_without_verdicts = false;  // a gate that is out of time before the first ones passes
     std::string metrics;  // regex of the metrics that count; empty: all times
+    // What guides did counts instead of times. States and pictures may then differ.
+    bool probes = false;
     // A pass with a smaller share of its frame than this is shown but decides nothing (gate).
     double smallest_share = 0.02;
 };
@@ -68,7 +70,7 @@ struct Change {
     std::string case_name;
     MetricId metric;
     std::string unit;
-    double a = 0.0;  // medians, in the unit
+    double a = 0.0;  // medians, in the unit; of a probe, values where they differ most
     double b = 0.0;
     // Compares the cost: a time itself, or 1 / rate for a rate. A positive change is worse.
     Comparison comparison;
@@ -89,8 +91,8 @@ std::string changesTable(std::span<const Change> changes, ShowCases show_cases);
 // "1 regressed, 0 improved, 7 same, 2 inconclusive". Counts only the changes that decide.
 std::string verdictCounts(std::span<const Change> changes);
 
-// Returns "regressed" if any change that decides is, otherwise "inconclusive" if any is, otherwise
-// "improved" if any is, otherwise "same".
+// Returns "regressed" if any change that decides is, otherwise "mismatch" if hair moves otherwise,
+// otherwise "inconclusive" if any is, otherwise "improved" if any is, otherwise "same".
 Verdict overallVerdict(std::span<const Change> changes);
 
 // Returns the exit status for a verdict.

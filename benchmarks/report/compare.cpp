@@ -96,8 +96,8 @@ MetricChoice timesBy(Clock clock) {
 
 Judgement judgementOf(
     const MetricChoice& chosen, const MetricReading& a, const MetricReading& b, double shortest) {
-    if (!chosen(a.id) || a.better == Better::neither || a.unit != b.unit)
-        return Judgement::not_wanted;
+    const bool judgeable = a.better != Better::neither || isProbe(a.id);
+    if (!chosen(a.id) || !judgeable || a.unit != b.unit) return Judgement::not_wanted;
     if (a.unit == "ms" && std::max(a.median, b.median) < shortest) return Judgement::too_short;
     return Judgement::judged;
 }
@@ -176,15 +176,52 @@ std::vector<double> costs(const MetricReading& metric) {
     return values;
 }
 
+MetricChoice probesAmong(MetricChoice chosen) {
+    return [chosen = std::move(chosen)](const MetricId& id) {
+        return isProbe(id) && (!chosen || chosen(id));
+    };
+}
+
+// The largest absolute value of a probe. Components of a vector share that of the whole vector.
+double scaleOf(const MetricReading& probe, std::span<const MetricReading> all) {
+    double scale = 0.0;
+    for (const MetricReading& each : all)
+        if (each.id == probe.id || (isProbe(each.id) && probe.id.what == Measured::momentum &&
+                                    each.id.what == probe.id.what))
+            for (const double sample : each.samples) scale = std::max(scale, std::abs(sample));
+    return scale;
+}
+
+// The frame in which two series of a probe differ most. Throws if they have unequal numbers of
+// frames.
+std::size_t farthestApart(const MetricReading& a, const MetricReading& b) {
+    if (a.samples.size() != b.samples.size() || a.samples.empty())
+        throw engine::Error(
+            "the reports can't be compared", a.name() + " has " + std::to_string(a.samples.size()) +
+                                                 " frames in A and " +
+                                                 std::to_string(b.samples.size()) + " in B");
+    std::size_t farthest = 0;
+    const auto apart = [&](std::size_t i) { return std::abs(b.samples[i] - a.samples[i]); };
+    for (std::size_t i = 1; i < a.samples.size(); ++i)
+        if (apart(i) > apart(farthest)) farthest = i;
+    return farthest;
+}
+
 // Counts of bytes and figures of compiled code are the same in each run of a build.
 bool isExact(const MetricReading& reading) {
     return reading.unit == "B" || reading.id.of == MetricOf::shader;
 }
 
-// Compares costs without noise. Any cost is infinitely more than none.
-Comparison exactComparison(double a, double b, double decisive_change) {
+// A difference as a share of a value. Anything is infinitely more than none.
+double changeOf(double difference, double value) {
     constexpr double kInfinite = std::numeric_limits<double>::infinity();
-    const double change = a > 0.0 ? b / a - 1.0 : b > 0.0 ? kInfinite : 0.0;
+    if (value > 0.0) return difference / value;
+    return difference > 0.0 ? kInfinite : difference < 0.0 ? -kInfinite : 0.0;
+}
+
+// Compares costs without noise.
+Comparison exactComparison(double a, double b, double decisive_change) {
+    const double change = changeOf(b - a, a);
     const bool outside = std::abs(std::log1p(change)) > std::log1p(decisive_change);
     return {
         .verdict = Verdict::inconclusive,
@@ -211,6 +248,7 @@ class Comparer {
 public:
     Comparer(const scene::Json& a, const scene::Json& b, const VerdictOptions& options)
         : options_(options), judged_(metricsNamed(options.metrics)) {
+        if (options.probes) judged_ = probesAmong(std::move(judged_));
         if (!judged_) judged_ = timesBy(clockFor(a, b));
         const bool software =
             isSoftwareDevice(a.at("environment")) || isSoftwareDevice(b.at("environment"));
@@ -219,7 +257,9 @@ public:
 
     void addCase(const scene::Json& a, const scene::Json& b) {
         ++found_.common_cases;
-        const std::vector<Mismatch> differing = mismatches(caseOutcome(a), caseOutcome(b));
+        std::vector<Mismatch> differing = mismatches(caseOutcome(a), caseOutcome(b));
+        if (options_.probes)
+            std::erase_if(differing, [](const Mismatch& each) { return each.what != "status"; });
         found_.mismatches.insert(found_.mismatches.end(), differing.begin(), differing.end());
         if (!differing.empty() || a.at("status") != "ok") return;
         const std::string name = a.at("name");
@@ -227,7 +267,7 @@ public:
         const std::vector<MetricReading> metrics_of_a = readMetrics(a);
         for (const MetricReading& of_a : metrics_of_a)
             if (const MetricReading* const of_b = findMetric(metrics_of_b, of_a.id))
-                addMetric(name, of_a, *of_b);
+                addMetric(name, of_a, *of_b, metrics_of_a);
         countPassesOf("A", metrics_of_a, metrics_of_b);
         countPassesOf("B", metrics_of_b, metrics_of_a);
     }
@@ -236,8 +276,11 @@ public:
         std::vector<Comparison> comparisons;
         for (const Change& each : found_.changes) comparisons.push_back(each.comparison);
         passVerdicts(comparisons, kLevel);
-        for (std::size_t i = 0; i < comparisons.size(); ++i)
+        for (std::size_t i = 0; i < comparisons.size(); ++i) {
             found_.changes[i].comparison = comparisons[i];
+            if (const auto found = probes_.find(i); found != probes_.end())
+                found_.changes[i].comparison.verdict = found->second;
+        }
         for (const auto& [metric, cases] : only_)
             found_.unmatched.push_back(
                 "only in " + metric + ", of " + std::to_string(cases) +
@@ -259,7 +302,32 @@ private:
                 ++only_[std::string(which) + ": " + each.name()];
     }
 
-    void addMetric(const std::string& case_name, const MetricReading& a, const MetricReading& b) {
+    // The change of a probe is the largest difference between frames of the same number, as a share
+    // of its largest value in A.
+    void addProbe(Change change, const MetricReading& a, const MetricReading& b, double scale) {
+        const std::size_t frame = farthestApart(a, b);
+        change.a = a.samples[frame];
+        change.b = b.samples[frame];
+        const double share = changeOf(change.b - change.a, scale);
+        const bool counts = std::abs(share) > options_.threshold;
+        change.comparison = {
+            .verdict = Verdict::inconclusive,
+            .change = share,
+            .lower = share,
+            .upper = share,
+            .decisive_change = options_.threshold,
+            .p = counts ? 0.0 : 1.0};
+        // Hair that moves otherwise is neither better nor worse.
+        Verdict verdict = a.better == Better::neither ? Verdict::mismatch
+                          : share > 0.0               ? Verdict::regressed
+                                                      : Verdict::improved;
+        probes_[found_.changes.size()] = counts ? verdict : Verdict::same;
+        found_.changes.push_back(std::move(change));
+    }
+
+    void addMetric(
+        const std::string& case_name, const MetricReading& a, const MetricReading& b,
+        std::span<const MetricReading> all_of_a) {
         const Judgement judgement = judgementOf(judged_, a, b, shortest_);
         if (judgement == Judgement::not_wanted) return;
         Change change{case_name, a.id, a.unit, a.median, b.median, {}};
@@ -267,6 +335,7 @@ private:
             found_.too_short.push_back(std::move(change));
             return;
         }
+        if (isProbe(a.id)) return addProbe(std::move(change), a, b, scaleOf(a, all_of_a));
         if (!a.isTimedAs(b)) {
             found_.warnings.push_back(
                 case_name + ": " + a.name() + " is timed in two ways, and not compared: " +
@@ -284,6 +353,7 @@ private:
     MetricChoice judged_;
     double shortest_ = kShortestTime;  // ms
     ReportComparison found_;
+    std::map<std::size_t, Verdict> probes_;  // by the index of their change
     std::map<std::string, std::size_t> only_;  // "A: pass.wind.time" -> number of cases
 };
 

@@ -81,6 +81,20 @@ constexpr MetricKind kKinds[] = {
     {Of::shader, What::shared_memory, "shader.*.shared_memory", "B", lower},
     {Of::shader, What::latency, "shader.*.latency", "cycles", lower},
     {Of::shader, What::inverse_throughput, "shader.*.inverse_throughput", "cycles", lower},
+    // Samples are of successive frames.
+    {Of::probe, What::time, "probe.pass.time", "ms", lower},
+    {Of::probe, What::simulated_time, "probe.time", "s", neither},
+    {Of::probe, What::tip_displacement, "probe.tip_displacement.*", "m", neither},
+    {Of::probe, What::length_error, "probe.length_error.*", "1", lower},
+    {Of::probe, What::kinetic_energy, "probe.kinetic_energy", "J", neither},
+    {Of::probe, What::gravitational_energy, "probe.gravitational_energy", "J", neither},
+    {Of::probe, What::elastic_energy, "probe.elastic_energy", "J", neither},
+    {Of::probe, What::contacts, "probe.contacts", "count", neither},
+    {Of::probe, What::penetration, "probe.penetration", "m", lower},
+    {Of::probe, What::speed, "probe.speed", "m/s", neither},
+    {Of::probe, What::bending, "probe.bending.*", "deg", neither},
+    {Of::probe, What::torsion, "probe.torsion.*", "deg", neither},
+    {Of::probe, What::momentum, "probe.momentum.*", "kg m/s", neither},
 };
 
 // Returns null for MetricOf::other.
@@ -139,6 +153,8 @@ MetricId metricNamed(std::string_view name) {
             return {kind.of, kind.what, std::move(*part)};
     return {Of::other, What::other, std::string(name)};
 }
+
+bool isProbe(const MetricId& id) { return id.of == Of::probe && id.what != What::time; }
 
 bool isPassTime(const MetricId& id) { return id.of == Of::pass && id.what == What::time; }
 

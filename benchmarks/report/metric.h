@@ -23,6 +23,7 @@ enum class MetricOf {
     strands,  // the passes points and strands together
     device,  // the device's speed, from a separate measurement
     shader,  // the code that the driver's compiler made of a shader
+    probe,  // what guides did, by frame
     other,  // unknown here: from another program's report
 };
 
@@ -82,6 +83,18 @@ enum class Measured {
     shared_memory,
     latency,
     inverse_throughput,
+    simulated_time,
+    tip_displacement,
+    length_error,
+    kinetic_energy,
+    gravitational_energy,
+    elastic_energy,
+    contacts,
+    penetration,
+    speed,
+    bending,
+    torsion,
+    momentum,
     other,
 };
 
@@ -147,6 +160,9 @@ inline MetricId ofMemory(Measured what, std::string part = {}) {
 
 // Returns the metric of that name in a report; MetricOf::other for an unknown name.
 MetricId metricNamed(std::string_view name);
+
+// Whether it is what guides did in each frame. It has no noise.
+bool isProbe(const MetricId& id);
 
 // Whether it is the time of a pass, by the wall clock or by timestamps.
 bool isPassTime(const MetricId& id);

@@ -113,6 +113,8 @@ scene::Json toJson(const Metric& metric) {
         put(object, "percentile_5", quantile(samples, 0.05));
         put(object, "percentile_95", quantile(samples, 0.95));
         put(object, "percentile_99", quantile(samples, 0.99));
+    }
+    if (samples.size() > 1 && !isProbe(metric.id)) {
         put(object, "effective_samples", effectiveSamples(samples));
         const MedianInterval interval = medianInterval(samples, 0.05, effectiveSamples(samples));
         if (std::isfinite(interval.lower) && std::isfinite(interval.upper))

@@ -36,6 +36,22 @@ struct GuideView {
     std::uint32_t vertices_per_strand = 0;
 };
 
+// Rods whose joints store the energy of shaders/simulation/rod/joint.glsl.
+struct ElasticRods {
+    std::uint64_t parameters = 0;  // device address of gpu::RodParameters; 0: there are none
+    std::uint64_t motion = 0;  // device address of their motion
+};
+
+// The guides on the device, for probes. Valid until the next step.
+struct ProbedGuides {
+    std::uint64_t parameters = 0;  // gpu::GuideParameters, including the next two
+    std::uint64_t positions = 0;
+    std::uint64_t previous = 0;
+    gpu::RigidFrame frame;  // of the head
+    std::uint64_t roots = 0;  // gpu::RigidFrame [strand], if an animation deforms the head
+    ElasticRods rods;
+};
+
 // The interface of solvers. The list of all solvers, which includes them, is solvers.h.
 
 // Result of /simulation/rest: balanced.
@@ -88,6 +104,9 @@ public:
     // The solver's own target positions, vec4 [strand][vertex], groom axes, m, that a cache of the
     // guides' motion moves; null: there are none.
     virtual const engine::Buffer* goals() const { return nullptr; }
+
+    // For the probe of elastic energy.
+    virtual ElasticRods elasticRods() const { return {}; }
 
     // The solver's own state, to save and restore. Its rows have a "settled state" for each.
     virtual std::vector<const engine::Buffer*> state() const { return {}; }

@@ -419,6 +419,18 @@ GuideView Simulation::guides() const {
         .vertices_per_strand = vertices_per_strand_};
 }
 
+ProbedGuides Simulation::recordProbed(engine::Commands& commands) const {
+    if (roots_) roots_->record(commands, motion_, 1, time(), time());
+    const GuideAddresses now = addresses();
+    return {
+        .parameters = now.parameters,
+        .positions = now.positions,
+        .previous = now.previous,
+        .frame = toGpu(pose()),
+        .roots = roots_ ? roots_->address(0) : 0,
+        .rods = solver_ ? solver_->elasticRods() : ElasticRods()};
+}
+
 // Records the first `count` substeps of a step. The head's frames divide the step's time evenly.
 // The first substep takes the guides from one copy to the current one; later substeps stay there.
 void Simulation::recordSubsteps(

@@ -202,6 +202,9 @@ public:
     // Returns the part of pose() by /simulation/motion, applied after the animation.
     RigidMotion carried() const { return motion_.at(time()); }
     GuideView guides() const;
+    // Records the present frames of roots that an animation moves, and returns the present guides,
+    // also if guides() are between two steps.
+    ProbedGuides recordProbed(engine::Commands& commands) const;
 
 private:
     RigidMotion poseAt(double time) const;

@@ -251,7 +251,8 @@ RodSolver::RodSolver(
 RodSolver::RodSolver(
     const engine::Device& device, const groom::Groom& groom, const SimulationSettings& settings,
     const gpu::Step& step, const RodMethod& method, const RodRest& rest)
-    : balance_(rest.balance), strand_count_(groom.strand_count),
+    : balance_(rest.balance), stretches_(method.stretching > 0.0),
+      strand_count_(groom.strand_count),
       most_strands_(strandsInDispatch(device.info(), sizeOf(groom), method.scratch_rows)),
       step_(
           device,
@@ -312,6 +313,12 @@ std::vector<const engine::Buffer*> RodSolver::state() const {
     std::vector<const engine::Buffer*> state{&motion_};
     if (accelerations_) state.push_back(&*accelerations_);
     return state;
+}
+
+// Rods that stretch have another energy.
+ElasticRods RodSolver::elasticRods() const {
+    if (stretches_) return {};
+    return {.parameters = parameters_.address(), .motion = motion_.address()};
 }
 
 void RodSolver::recordAdopt(engine::Commands& commands, gpu::SubstepPush push) const {

@@ -54,6 +54,7 @@ public:
     void recordAdopt(engine::Commands& commands, gpu::SubstepPush push) const override;
     const RestBalance* balance() const override { return balance_ ? &*balance_ : nullptr; }
     std::vector<const engine::Buffer*> state() const override;
+    ElasticRods elasticRods() const override;
 
 private:
     RodSolver(
@@ -61,6 +62,7 @@ private:
         const gpu::Step& step, const RodMethod& method, const RodRest& rest);
 
     std::optional<RestBalance> balance_;
+    bool stretches_;
     std::uint32_t strand_count_;
     std::uint32_t most_strands_;  // per dispatch
     engine::Buffer segments_;

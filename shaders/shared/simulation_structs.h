@@ -204,6 +204,70 @@ struct ConditionPush {
     RigidFrame frame;  // of the head now
 };
 
+// Quantities that simulation/probe.comp computes, as bits of ProbePush::quantities.
+const uint kProbesTip = 1u;
+const uint kProbesLength = 2u;
+const uint kProbesMotion = 4u;  // energy, momentum and speed
+const uint kProbesContact = 8u;
+const uint kProbesBending = 16u;
+const uint kProbesTorsion = 32u;
+const uint kProbesElastic = 64u;
+
+// Rows of a guide's quantities.
+const uint kProbeTip = 0u;  // m
+const uint kProbeStrain = 1u;  // mean and greatest
+const uint kProbeMostStrain = 2u;
+const uint kProbeKinetic = 3u;  // J, and the next two
+const uint kProbeGravitational = 4u;
+const uint kProbeElastic = 5u;
+const uint kProbeContacts = 6u;  // vertices
+const uint kProbeDepth = 7u;  // m
+const uint kProbeSpeed = 8u;  // m/s
+const uint kProbeBending = 9u;  // mean and greatest, rad
+const uint kProbeMostBending = 10u;
+const uint kProbeTorsion = 11u;  // mean and greatest, rad
+const uint kProbeMostTorsion = 12u;
+const uint kProbeMomentum = 13u;  // along x, y and z, kg m/s
+const uint kProbeRows = 16u;
+
+// Push constants of simulation/probe.comp.
+struct ProbePush {
+    Address guides;  // GuideParameters
+    Address rest;  // vec4 [strand][vertex]: the groom, m; w = mass of a vertex, kg
+    Address rows;  // float [row][guide], written
+    Address roots;  // RigidFrame [strand] now; read if kSkinnedRoots
+    Address rods;  // RodParameters of `rod`; address 0: no elastic energy
+    RigidFrame frame;  // of the head now
+    uint first_guide;
+    uint guide_count;
+    uint quantities;
+    float line_density;  // kg/m
+};
+
+// How simulation/probe_reduce.comp combines a row of all guides.
+const uint kProbeSum = 0u;
+const uint kProbeMean = 1u;
+const uint kProbeGreatest = 2u;
+const uint kProbeRank = 3u;  // the value at a rank of the sorted ones
+
+struct ProbeResult {
+    uint row;
+    uint combined;
+    uint rank;  // from 0
+    float factor;  // on the result
+};
+
+// Invocations in a work group of simulation/probe_reduce.comp, and values of a digit.
+const uint kProbeGroupSize = 256u;
+
+// Push constants of simulation/probe_reduce.comp.
+struct ProbeReducePush {
+    Address rows;  // float [row][guide]
+    Address wanted;  // ProbeResult [result]
+    Address results;  // float [result], written
+    uint guide_count;
+};
+
 // Parameters of simulation/shape.comp.
 struct ShapeParameters {
     Address rest_positions;  // target positions of the global constraint, m

@@ -11,17 +11,6 @@ layout(push_constant, scalar) uniform Push { ConditionPush push; };
 
 layout(buffer_reference, scalar) writeonly buffer Conditions { VertexCondition at[]; };
 
-float gapToBodies(vec3 position, Bodies bodies) {
-    float nearest = uintBitsToFloat(0x7f800000u);
-    vec3 on_head = fromWorld(push.frame, position);
-    vec3 normal;
-    for (uint i = 0; i < bodyCount(bodies); ++i)
-        nearest = min(
-            nearest,
-            gapToBody(bodies, i, 0.0, isOnHead(bodies, i) ? on_head : position, normal));
-    return nearest;
-}
-
 void main() {
     GuideParameters guides = GuideReference(push.guides).parameters;
     uint index = workgroupIndex() * gl_WorkGroupSize.x + gl_LocalInvocationID.x;
@@ -37,7 +26,7 @@ void main() {
         float rest_length = distance(rest.at[index].xyz, rest.at[index - 1].xyz);
         if (rest_length >= kShortestSegment)
             condition.stretch = distance(position, positions.at[index - 1].xyz) / rest_length;
-        condition.gap = gapToBodies(position, guides.bodies);
+        condition.gap = gapToBodies(position, guides.bodies, push.frame);
     }
     Conditions(push.conditions).at[index] = condition;
 }

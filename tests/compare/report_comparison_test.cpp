@@ -219,5 +219,81 @@ TEST(ReportComparison, JudgesFiguresOfShadersWithoutNoise) {
     EXPECT_EQ(overallVerdict(better), Verdict::improved);
 }
 
+scene::Json probedCase(const std::vector<MadeMetric>& probes, const std::string& state_hash) {
+    return madeCase("x", probes, "00000000000000aa", state_hash);
+}
+
+ReportComparison probesCompared(const MadeMetric& a, const MadeMetric& b) {
+    return compareReports(
+        reportOf({probedCase({a}, "aa")}), reportOf({probedCase({b}, "bb")}),
+        {.threshold = 0.03, .probes = true});
+}
+
+MadeMetric tips(const std::vector<double>& samples) {
+    return {"probe.tip_displacement.mean", samples, "m", "", ""};
+}
+
+// The largest difference is 3 of 100: at the threshold, not above it.
+TEST(ReportComparison, ComparesProbesFrameByFrame) {
+    ReportComparison found = probesCompared(tips({0, -50, 100}), tips({2, -53, 98}));
+    EXPECT_THAT(found.mismatches, IsEmpty());  // states differ, as they may
+    ASSERT_EQ(found.changes.size(), 1u);
+    EXPECT_EQ(found.changes[0].comparison.verdict, Verdict::same);
+    EXPECT_DOUBLE_EQ(found.changes[0].comparison.change, -0.03);
+    EXPECT_EQ(found.changes[0].a, -50.0);
+    EXPECT_EQ(found.changes[0].b, -53.0);
+    for (const double other : {-54.0, -46.0, 300.0, -1000.0}) {
+        found = probesCompared(tips({0, -50, 100}), tips({0, other, 100}));
+        EXPECT_EQ(found.changes[0].comparison.verdict, Verdict::mismatch) << other;
+        EXPECT_EQ(overallVerdict(found), Verdict::mismatch);
+    }
+}
+
+TEST(ReportComparison, GivesProbesTheirDirection) {
+    const auto depth = [](double value) {
+        return MadeMetric{"probe.penetration", {0.0, value}, "m", "lower", ""};
+    };
+    const auto verdict = [&](double a, double b) {
+        return probesCompared(depth(a), depth(b)).changes.at(0).comparison.verdict;
+    };
+    EXPECT_EQ(verdict(1.0, 1.1), Verdict::regressed);
+    EXPECT_EQ(verdict(1.0, 0.9), Verdict::improved);
+    EXPECT_EQ(verdict(1.0, 1.01), Verdict::same);
+    EXPECT_EQ(verdict(0.0, 1e-9), Verdict::regressed);  // from none
+    EXPECT_EQ(verdict(0.0, 0.0), Verdict::same);
+}
+
+// A hair that swings along x has a momentum along z that is noise.
+TEST(ReportComparison, ComparesComponentsWithTheirVector) {
+    const auto swing = [](double noise, const char* hash) {
+        return reportOf({probedCase(
+            {{"probe.momentum.x", {1.0, -1.0}, "kg m/s", "", ""},
+             {"probe.momentum.z", {noise, -noise}, "kg m/s", "", ""}},
+            hash)});
+    };
+    const ReportComparison found =
+        compareReports(swing(1e-9, "aa"), swing(-1e-9, "bb"), {.probes = true});
+    ASSERT_EQ(found.changes.size(), 2u);
+    for (const Change& each : found.changes)
+        EXPECT_EQ(each.comparison.verdict, Verdict::same) << each.metric.name();
+}
+
+TEST(ReportComparison, JudgesProbesOnlyOnRequest) {
+    const scene::Json a = reportOf({probedCase({tips({1.0}), {"frame.time", about(1.0)}}, "aa")});
+    const scene::Json b = reportOf({probedCase({tips({2.0}), {"frame.time", about(1.0)}}, "aa")});
+    const ReportComparison times = compareReports(a, b, {});
+    ASSERT_EQ(times.changes.size(), 1u);
+    EXPECT_EQ(times.changes[0].metric.name(), "frame.time");
+    const ReportComparison probes = compareReports(a, b, {.probes = true});
+    ASSERT_EQ(probes.changes.size(), 1u);
+    EXPECT_EQ(probes.changes[0].metric.name(), "probe.tip_displacement.mean");
+}
+
+TEST(ReportComparison, RefusesProbesOfOtherFrames) {
+    EXPECT_EQ(
+        errorText([] { probesCompared(tips({1, 2}), tips({1, 2, 3})); }),
+        "the reports can't be compared: probe.tip_displacement.mean has 2 frames in A and 3 in B");
+}
+
 }  // namespace
 }  // namespace benchmarks::report

@@ -6,6 +6,7 @@
 #include <set>
 #include <span>
 
+#include <glm/geometric.hpp>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -366,6 +367,51 @@ TEST_F(RoundPlayerTest, HashesEveryRowAndEveryGuide) {
         guides.size(),
         std::size_t{test_case.groom().strand_count} * test_case.groom().vertices_per_strand);
     EXPECT_EQ(end.state_hash, report::hashBytes(std::as_bytes(std::span(guides))));
+}
+
+// A round has two frames of warm-up, five that are measured and one more; the start comes before
+// them. Times and hashes belong to frames without probes.
+TEST_F(MeasureTest, PlaysProbesApartFromTheFrames) {
+    hair::Settings settings = smallCase();
+    const report::CaseResult without = measured(settings);
+    settings.run.probes = {.tip_displacement = true, .energy = true};
+    const report::CaseResult with = measured(settings);
+    EXPECT_EQ(with.state_hash, without.state_hash);
+    EXPECT_EQ(with.image_hash, without.image_hash);
+    EXPECT_THAT(with.trust.warnings, IsEmpty());
+    std::set<std::string> added;
+    for (const report::Metric& each : with.metrics) added.insert(each.name());
+    for (const report::Metric& each : without.metrics) added.erase(each.name());
+    EXPECT_THAT(
+        added, testing::UnorderedElementsAre(
+                   "probe.time", "probe.tip_displacement.mean", "probe.tip_displacement.median",
+                   "probe.tip_displacement.percentile_90", "probe.tip_displacement.maximum",
+                   "probe.kinetic_energy", "probe.gravitational_energy", "probe.pass.time"));
+    for (const std::string& name : added) EXPECT_EQ(samplesOf(with, name), 9u) << name;
+    const std::vector<double>& times = find(with, "probe.time")->samples;
+    for (std::size_t frame = 0; frame < times.size(); ++frame)
+        EXPECT_NEAR(times[frame], static_cast<double>(frame) / 60.0, 1e-6);
+    EXPECT_EQ(find(with, "memory.device")->samples, find(without, "memory.device")->samples);
+}
+
+// The last sample is of the state that is hashed: the tips of a case that played the same frames.
+TEST_F(MeasureTest, ProbesEndWithTheHashedState) {
+    hair::Settings settings = smallCase();
+    settings.run.probes.tip_displacement = true;
+    const report::CaseResult result = measured(settings);
+    Case again(device(), settings, HAIRBENCH_SOURCE_DIR "/scenes");
+    const std::uint32_t vertices = again.groom().vertices_per_strand;
+    engine::FrameLoop loop(device(), engine::Timing::isolated);
+    for (int i = 0; i < 8; ++i) loop.frame([&](engine::Passes& passes) { again.simulate(passes); });
+    loop.finish();
+    ASSERT_EQ(again.stateHash(), result.state_hash);
+    const std::vector<glm::vec3> guides = again.guides();
+    double sum = 0.0;
+    for (std::size_t tip = vertices - 1; tip < guides.size(); tip += vertices)
+        sum += glm::distance(glm::dvec3(guides[tip]), glm::dvec3(again.groom().points[tip]));
+    const double mean = sum / again.groom().strand_count;
+    // Distances of 32-bit positions.
+    EXPECT_NEAR(find(result, "probe.tip_displacement.mean")->samples.back(), mean, 1e-7);
 }
 
 }  // namespace

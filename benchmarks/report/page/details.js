@@ -472,7 +472,7 @@ function buildEnvironment() {
 
 function buildContents() {
     const sections = [["devices", "Devices"], ["scaling", "Scaling"], ["passes", "Passes"], ["distributions", "Samples"],
-        ["quality", "Quality"], ["backends", "Back ends"], ["shaders", "Shaders"],
+        ["probes", "Probes"], ["quality", "Quality"], ["backends", "Back ends"], ["shaders", "Shaders"],
         ["comparison", "Comparison"],
         ["pictures", "Pictures"], ["cases", "Cases"], ["environment", "Environment"]];
     showOnly(byId("contents"), ...sections.filter(([id]) => byId(id)).map(
@@ -486,6 +486,7 @@ buildDevices();
 buildScaling();
 buildPasses();
 buildSamples();
+buildProbes();
 buildQuality();
 buildBackends();
 buildShaders();

@@ -591,6 +591,86 @@ function drawSamples() {
         (samples.kind === "box" ? " Box: the quartiles; whiskers: 5th and 95th percentile." : "");
 }
 
+// ---- Probes: what guides did, over simulated time -----------------------------------------------
+
+const probes = {color: "", limit: 16};
+const kFigureOf = (name) => `probes-${name.replaceAll(".", "-")}`;
+
+function probeRows() {
+    return filteredOk().filter((row) => row.metrics["probe.time"]?.samples?.length > 1);
+}
+
+function probeNames() {
+    return metricNames.filter((name) => name.startsWith("probe.") && name !== "probe.time" &&
+        name !== "probe.pass.time");
+}
+
+// Lines with one value of the coloured axis have its colour, and differ in their dashes.
+function probeTraces(name, found) {
+    const axis = axisOf.get(probes.color), rest = axes.filter((each) => each !== axis);
+    const dashes = new Map();
+    return found.filter((row) => row.metrics[name]?.samples).map((row, place) => {
+        const value = axis ? valueText(row.values[axis.pointer]) : "";
+        const index = axis ? axis.values.findIndex((each) => valueText(each) === value) : place;
+        const text = rest.map((each) => valueText(row.values[each.pointer])).join(" \u00b7 ");
+        if (!dashes.has(text)) dashes.set(text, dashes.size);
+        const size = shownUnit(metricUnits.get(name)).size;
+        return {
+            type: "scatter", mode: "lines", name: plain(caseValues(row)),
+            x: row.metrics["probe.time"].samples,
+            y: row.metrics[name].samples.map((each) => each / size),
+            line: {color: seriesColor(index), width: 2,
+                dash: axis ? seriesDash(dashes.get(text)) : "solid"},
+            hovertemplate: `%{x:.4~g} s: %{y:.4~g}<br>${plain(caseLabel(row))}<extra></extra>`,
+        };
+    });
+}
+
+function drawProbes() {
+    const all = probeRows(), found = all.slice(0, probes.limit);
+    for (const name of probeNames()) {
+        const div = byId(kFigureOf(name)), traces = probeTraces(name, found);
+        div.hidden = !traces.length;
+        if (traces.length) drawFigure(div, traces, {
+            height: 300, showlegend: traces.length > 1,
+            legend: legendStyle(div, caseValuesTitle()),
+            xaxis: axisStyle({title: "simulated time (s)"}),
+            yaxis: axisStyle({title: plain(metricTitle(name.replace("probe.", ""),
+                metricUnits.get(name)))}),
+        });
+    }
+    byId("probes-note").textContent = [
+        "Of each frame from the start of the hair. Click a line of the legend to hide it.",
+        all.length > found.length ? `${found.length} of ${counted(all.length, "case")}: filter ` +
+            "the cases, or show more." : ""].filter(Boolean).join(" ");
+}
+
+function buildProbes() {
+    const section = byId("probes");
+    if (!probeRows().length) {
+        showOnly(section, heading("Probes"), note(
+            "Nothing was asked of the guides in any case (/run/probes)."));
+        return;
+    }
+    probes.color = severalReports ? kReportAxis : axes[0]?.pointer ?? "";
+    const change = (key, convert) => (value) => {
+        probes[key] = convert(value);
+        drawProbes();
+    };
+    showOnly(section, heading("Probes"),
+        element("div", {class: "controls"},
+            choice("colour", "probes-color", [["", "by case"], ...axisChoices(axes)], probes.color,
+                change("color", String)),
+            choice("cases", "probes-limit", [[8, "8"], [16, "16"], [64, "64"], [1e9, "all"]],
+                probes.limit, change("limit", Number))),
+        element("p", {class: "note", id: "probes-note"}),
+        element("div", {class: "probes"}, probeNames().map((name) =>
+            figure(kFigureOf(name), `${name} over simulated time, a line for each case.`))));
+    drawProbes();
+    onFilterChange(drawProbes);
+    onThemeChange(drawProbes);
+}
+
 // ---- Quality and cost: error against time -------------------------------------------------------
 
 const quality = {};

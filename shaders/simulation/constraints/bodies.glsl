@@ -107,6 +107,19 @@ Bodies bodiesAt(GuideParameters guides, uint vertex) {
     return bodies;
 }
 
+// Distance of a point from the nearest body without its margin, negative inside; infinite if there
+// is no body.
+float gapToBodies(vec3 position, Bodies bodies, RigidFrame frame) {
+    float nearest = uintBitsToFloat(0x7f800000u);
+    vec3 on_head = fromWorld(frame, position);
+    vec3 normal;
+    for (uint i = 0; i < bodyCount(bodies); ++i)
+        nearest = min(
+            nearest,
+            gapToBody(bodies, i, 0.0, isOnHead(bodies, i) ? on_head : position, normal));
+    return nearest;
+}
+
 // Moves a vertex out of every body in turn. `before` is its position at the start of the substep.
 // Returns its new position.
 vec3 pushOutOfBodies(

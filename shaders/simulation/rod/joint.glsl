@@ -43,6 +43,27 @@ float logarithmOver(float x) {
     return 2.0 / (2.0 - x) * series;
 }
 
+// The energy of a joint, in units of the stiffness. The first axes coincide at rest.
+float jointEnergy(
+    vec4 first, vec4 second, float bend_stiffness, float twist_stiffness, float ellipticity,
+    bool at_follicle) {
+    vec4 r = multiply(conjugate(first), second);
+    if (r.w < 0.0) r = -r;
+    float cosine2 = max(r.w * r.w + r.z * r.z, 1.0e-12);  // of half the bend, squared
+    float sine2 = r.x * r.x + r.y * r.y;
+    float n = at_follicle ? 2.0 : 1.0;
+    float bend = 2.0 * sine2 * logarithmOver(min(at_follicle ? 2.0 * sine2 : sine2, 0.75));
+    if (at_follicle ? cosine2 - sine2 < 0.5 : cosine2 < 0.25) {
+        float beyond = 2.0 * atan(sqrt(sine2), sqrt(cosine2)) - 2.0943951 / n;
+        bend = 2.7725887 / (n * n) + beyond * (3.4641016 / n + 2.0 * beyond);
+    }
+    if (kEllipticSection)
+        bend *= (ellipticity * r.x * r.x + r.y * r.y / ellipticity) / max(sine2, 1.0e-30);
+    float twist = twistAngle(r.z, r.w, sqrt(cosine2));
+    float fade = cosine2 < 0.25 ? 16.0 * cosine2 * cosine2 : 1.0;
+    return bend_stiffness * bend + 0.5 * twist_stiffness * fade * twist * twist;
+}
+
 RodJoint bendAndTwist(
     vec4 first, vec4 second, float bend_stiffness, float twist_stiffness, float ellipticity,
     bool at_follicle) {
