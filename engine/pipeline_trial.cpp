@@ -16,6 +16,7 @@
 #include "engine/error.h"
 #include "engine/pipeline.h"
 #include "engine/system/child.h"
+#include "engine/system/process.h"
 #include "engine/transfer.h"
 
 namespace engine {
@@ -68,6 +69,7 @@ void run(const std::string& name, const std::string& file) {
 
 // Arguments: the device's name, and a file with the description of the pipeline.
 int main(int argc, char** argv) {
+    engine::system::prepareStreams();
     try {
         if (argc != 3) throw engine::Error("expected two arguments: a device and a file");
         engine::run(argv[1], argv[2]);

@@ -141,7 +141,8 @@ void forgetSteps();
 // empty: none. Set it only while no step is under way.
 void onceStepsEnd(std::function<void()> ended);
 
-// ---- Scratch folders and CPU use -----------------------------------------------------------------
+// ---- Scratch folders and CPU use
+// -----------------------------------------------------------------
 
 // A folder for temporary files, removed in any case.
 class ScratchFolder {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <ctime>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -19,6 +20,9 @@ std::string processorName();
 
 // Installed memory, bytes; absent if the system does not tell.
 std::optional<std::uint64_t> memoryBytes();
+
+// Breaks a time down to the calendar and clock of this place.
+std::tm localTime(std::time_t time);
 
 // ---- Load and energy ----------------------------------------------------------------------------
 

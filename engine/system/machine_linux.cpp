@@ -49,6 +49,12 @@ std::optional<std::uint64_t> memoryBytes() {
     return static_cast<std::uint64_t>(pages) * static_cast<std::uint64_t>(page_size);
 }
 
+std::tm localTime(std::time_t time) {
+    std::tm local{};
+    localtime_r(&time, &local);
+    return local;
+}
+
 // ---- Load and energy ----------------------------------------------------------------------------
 
 std::optional<ProcessorTicks> readProcessorTicks(const fs::path& path) {

@@ -57,6 +57,12 @@ std::optional<std::uint64_t> memoryBytes() {
     return status.ullTotalPhys;
 }
 
+std::tm localTime(std::time_t time) {
+    std::tm local{};
+    localtime_s(&local, &time);
+    return local;
+}
+
 // ---- Load and energy ----------------------------------------------------------------------------
 
 std::optional<ProcessorTicks> readProcessorTicks(const fs::path&) {
