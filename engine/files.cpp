@@ -353,11 +353,11 @@ std::string pythonInterpreter(const std::string& name, const char* override) {
 std::string makesPythonEnvironment(const std::string& name) {
     std::error_code error;
     const fs::path folder = prefix() / "libexec/hairbench";
-    const fs::path maker = folder / "python-environment";
-    if (!fs::exists(maker, error)) return "scripts/setup --" + name;
-    const std::string requirements =
-        name == "python" ? "requirements.txt" : "requirements-" + name + ".txt";
-    return system::pythonEnvironmentCommand(pythonEnvironment(name), folder / requirements, maker);
+    const fs::path requirements =
+        folder / (name == "python" ? "requirements.txt" : "requirements-" + name + ".txt");
+    if (!fs::exists(requirements, error)) return "scripts/setup --" + name;
+    return system::pythonEnvironmentCommand(
+        pythonEnvironment(name), requirements, folder / "python-environment");
 }
 
 }  // namespace engine

@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <codecvt>
 #include <cstdio>
 #include <cstdlib>
+#include <locale>
 #include <random>
 #include <system_error>
 
@@ -14,6 +16,46 @@
 #include <windows.h>
 
 #include "engine/error.h"
+
+#ifdef __GLIBCXX__
+
+// ---- Paths as UTF-8 -----------------------------------------------------------------------------
+
+// libstdc++'s paths convert their texts by this facet, and the facet by the C library, whose
+// locales on Windows lack UTF-8. These definitions take the place of the library's.
+namespace std {
+namespace {
+
+const codecvt_utf8_utf16<wchar_t>& utf8() {
+    static const codecvt_utf8_utf16<wchar_t> conversion;
+    return conversion;
+}
+
+}  // namespace
+
+using WidePaths = codecvt<wchar_t, char, mbstate_t>;
+
+codecvt_base::result WidePaths::do_out(
+    state_type& state, const wchar_t* from, const wchar_t* from_end, const wchar_t*& from_next,
+    char* to, char* to_end, char*& to_next) const {
+    return utf8().out(state, from, from_end, from_next, to, to_end, to_next);
+}
+
+codecvt_base::result WidePaths::do_in(
+    state_type& state, const char* from, const char* from_end, const char*& from_next, wchar_t* to,
+    wchar_t* to_end, wchar_t*& to_next) const {
+    return utf8().in(state, from, from_end, from_next, to, to_end, to_next);
+}
+
+int WidePaths::do_encoding() const throw() { return utf8().encoding(); }
+int WidePaths::do_max_length() const throw() { return utf8().max_length(); }
+int WidePaths::do_length(state_type& state, const char* from, const char* end, size_t most) const {
+    return utf8().length(state, from, end, most);
+}
+
+}  // namespace std
+
+#endif
 
 namespace engine::system {
 
