@@ -7,27 +7,17 @@
 #include <string_view>
 #include <system_error>
 
-#include <fcntl.h>
-#include <unistd.h>
-
 #include "benchmarks/commands/command_line.h"
 #include "benchmarks/commands/commands.h"
 #include "benchmarks/report/change.h"
 #include "engine/error.h"
 #include "engine/files.h"
 #include "engine/instance.h"
+#include "engine/system/process.h"
 
 using namespace benchmarks;
 
 namespace {
-
-// Opens missing standard streams. Otherwise the next opened file, a report or a device, would take
-// the number of a closed stream. Writing to a closed standard output then fails, as on a full disk.
-void openMissingStreams() {
-    for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO})
-        if (fcntl(stream, F_GETFD) < 0)
-            open(stream == STDOUT_FILENO ? "/dev/full" : "/dev/null", O_RDWR);
-}
 
 int fail(std::string_view kind, const std::string& reason, int status) {
     std::cerr << "hairbench: " << kind << reason << '\n';
@@ -64,7 +54,7 @@ int statusOf(int argc, char** argv) {
 }  // namespace
 
 int main(int argc, char** argv) {
-    openMissingStreams();
+    engine::system::prepareStreams();
     const int status = statusOf(argc, argv);
     std::cout.flush();
     // Another thread's flush may have failed; then only the file has the error.

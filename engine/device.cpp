@@ -13,10 +13,10 @@
 #include <type_traits>
 #include <vector>
 
-#include <sys/resource.h>
 #include <zlib.h>
 
 #include "engine/files.h"
+#include "engine/system/process.h"
 #include "engine/memory.h"
 #include "engine/shaders.h"
 
@@ -86,24 +86,23 @@ struct ByVolk<kPlace, Result (*)(Arguments...)> {
 
 // Returns the most bytes that each heap may take, if a limit on the size of files also limits
 // device memory. Lavapipe of Mesa 23 and later keeps all of it in one file and ignores that the
-// file cannot grow, so memory past RLIMIT_FSIZE ends the process by SIGBUS. Half of the limit is
+// file cannot grow, so memory past that limit ends the process by SIGBUS. Half of the limit is
 // left for the gaps between blocks and for what the driver takes itself. Throws Error if the rest
 // is too little.
 std::optional<VkDeviceSize> fileMemoryLimit(const DeviceInfo& info) {
     if (info.driver_id != VK_DRIVER_ID_MESA_LLVMPIPE || info.driver_version.starts_with("Mesa 22"))
         return std::nullopt;
-    rlimit limit{};
-    if (getrlimit(RLIMIT_FSIZE, &limit) != 0 || limit.rlim_cur == RLIM_INFINITY)
-        return std::nullopt;
-    constexpr rlim_t kKibibyte = 1024;  // as ulimit counts
-    constexpr rlim_t kLeast = 256 * 1024 * kKibibyte;
-    if (limit.rlim_cur < kLeast)
+    const std::optional<std::uint64_t> limit = system::largestFile();
+    if (!limit) return std::nullopt;
+    constexpr std::uint64_t kKibibyte = 1024;  // as ulimit counts
+    constexpr std::uint64_t kLeast = 256 * 1024 * kKibibyte;
+    if (*limit < kLeast)
         throw Error(
             info.name, "this driver keeps its memory in a file, but files may have at most " +
-                           std::to_string(limit.rlim_cur / kKibibyte) +
+                           std::to_string(*limit / kKibibyte) +
                            " KiB here: raise the limit to 256 MiB or more (ulimit -f " +
                            std::to_string(kLeast / kKibibyte) + ")");
-    return limit.rlim_cur / 2;
+    return *limit / 2;
 }
 
 VmaAllocator createAllocator(VkInstance instance, const DeviceInfo& info, VkDevice device) {

@@ -1,25 +1,19 @@
 #include "engine/files.h"
 
-#include <fcntl.h>
-#include <sys/random.h>
-#include <unistd.h>
-
 #include <algorithm>
 #include <array>
-#include <cerrno>
 #include <chrono>
 #include <cstdio>
 #include <cstdlib>
-#include <cstring>
-#include <limits>
 #include <optional>
+#include <random>
+#include <streambuf>
 #include <system_error>
 #include <utility>
 #include <vector>
 
-#include <ext/stdio_filebuf.h>
-
 #include "engine/process.h"
+#include "engine/system/files.h"
 
 namespace engine {
 
@@ -40,64 +34,84 @@ std::ifstream opened(const fs::path& path) {
 
 using Writer = std::function<void(std::ostream&)>;
 
-// An open file that calls `poll` before every piece written, keeps the error of a failed write, and
-// is closed at the end.
-class PolledFile : public __gnu_cxx::stdio_filebuf<char> {
+// A buffer of an open file that calls `poll` before every piece written and keeps the error of a
+// failed write.
+class PolledFile : public std::streambuf {
 public:
-    PolledFile(int descriptor, const WritePoll& poll)
-        : stdio_filebuf(descriptor, std::ios::out | std::ios::binary), poll_(poll) {}
+    PolledFile(system::File file, const WritePoll& poll) : file_(std::move(file)), poll_(poll) {
+        setp(buffer_.data(), buffer_.data() + buffer_.size());
+    }
 
     int error() const { return error_; }  // errno value; 0: none
 
+    // Returns whether the system took everything.
+    bool close() {
+        const bool flushed = sync() == 0;
+        keep(file_.close());
+        return flushed && error_ == 0;
+    }
+
 protected:
     int_type overflow(int_type byte) override {
-        if (poll_) poll_();
-        const int_type result = std::filebuf::overflow(byte);
-        keepError(result == traits_type::eof());
-        return result;
+        if (sync() != 0) return traits_type::eof();
+        if (!traits_type::eq_int_type(byte, traits_type::eof()))
+            sputc(traits_type::to_char_type(byte));
+        return traits_type::not_eof(byte);
     }
 
     std::streamsize xsputn(const char* bytes, std::streamsize count) override {
-        constexpr std::streamsize kPiece = 1 << 20;
-        std::streamsize done = 0;
-        while (done < count) {
-            if (poll_) poll_();
-            const std::streamsize piece = std::min(kPiece, count - done);
-            const std::streamsize taken = std::filebuf::xsputn(bytes + done, piece);
-            done += taken;
-            keepError(taken < piece);
-            if (taken < piece) break;
+        if (count < epptr() - pptr()) {
+            std::copy_n(bytes, count, pptr());
+            pbump(static_cast<int>(count));
+            return count;
         }
-        return done;
+        constexpr std::size_t kPiece = std::size_t{1} << 20;
+        if (sync() != 0) return 0;
+        std::string_view rest(bytes, static_cast<std::size_t>(count));
+        for (; !rest.empty(); rest.remove_prefix(std::min(kPiece, rest.size())))
+            if (!write(rest.substr(0, kPiece)))
+                return count - static_cast<std::streamsize>(rest.size());
+        return count;
     }
 
     int sync() override {
-        const int result = std::filebuf::sync();
-        keepError(result != 0);
-        return result;
+        const std::string_view kept(pbase(), static_cast<std::size_t>(pptr() - pbase()));
+        setp(buffer_.data(), buffer_.data() + buffer_.size());
+        return kept.empty() || write(kept) ? 0 : -1;
     }
 
 private:
-    void keepError(bool failed) {
-        if (failed && error_ == 0) error_ = errno;
+    bool write(std::string_view bytes) {
+        if (poll_) poll_();
+        const int error = file_.write(bytes);
+        keep(error);
+        return error == 0;
     }
 
+    void keep(int error) {
+        if (error_ == 0) error_ = error;
+    }
+
+    system::File file_;
     const WritePoll& poll_;
+    std::array<char, 1 << 14> buffer_;
     int error_ = 0;
 };
 
 // `error` is an errno value.
 [[noreturn]] void fail(const fs::path& path, int error) {
     const std::string reason =
-        std::string("cannot be written: ") + (error == 0 ? "unknown reason" : std::strerror(error));
-    if (error == 0 || error == ENOSPC || error == EDQUOT || error == EFBIG || error == EIO)
-        throw WriteFailed(path.string(), reason);
+        "cannot be written: " +
+        (error == 0 ? "unknown reason" : std::generic_category().message(error));
+    if (error == 0 || system::isWriteFailure(error)) throw WriteFailed(path.string(), reason);
     throw Error(path.string(), reason);
 }
 
 // Writes an open file and closes it. `name` is the file's name in errors.
-void writeFile(int descriptor, const fs::path& name, const Writer& write, const WritePoll& poll) {
-    PolledFile file(descriptor, poll);
+void writeFile(
+    system::Opened opened, const fs::path& name, const Writer& write, const WritePoll& poll) {
+    if (!opened.file.isOpen()) fail(name, opened.error);
+    PolledFile file(std::move(opened.file), poll);
     const auto fail_here = [&] { fail(name, file.error()); };
     std::ostream stream(&file);
     stream.exceptions(std::ios::badbit);  // to stop at the first failure
@@ -116,8 +130,8 @@ constexpr std::size_t kLongestSuffix = 8;  // ".journal"
 
 // Returns a random name beside the target, so that nobody can guess it and put a link there.
 fs::path partialName(const fs::path& target) {
-    std::uint64_t number = 0;
-    if (getrandom(&number, sizeof number, 0) != sizeof number) fail(target, errno);
+    std::random_device device;
+    const std::uint64_t number = std::uint64_t{device()} << 32 | device();
     char suffix[32];
     const int size = std::snprintf(
         suffix, sizeof suffix, ".%016llx.partial", static_cast<unsigned long long>(number));
@@ -126,58 +140,31 @@ fs::path partialName(const fs::path& target) {
            (name.substr(0, kLongestName - static_cast<std::size_t>(size)) + suffix);
 }
 
-// Creates a file and fails if the path exists, even as a link. `name` is the file's name in errors.
-int makeFile(const fs::path& path, const fs::path& name) {
-    const int descriptor = open(path.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
-    if (descriptor < 0) fail(name, errno);
-    return descriptor;
-}
-
 // `name` is the file's name in errors.
 void replaceFile(
     const fs::path& target, const fs::path& name, const Writer& write, const WritePoll& poll) {
     const fs::path partial = partialName(target);
     const Leftover leftover(partial);
-    const int descriptor = makeFile(partial, name);
+    system::Opened opened = system::createFile(partial);
+    if (!opened.file.isOpen()) fail(name, opened.error);
     std::error_code error;
     try {
-        writeFile(descriptor, name, write, poll);
+        writeFile(std::move(opened), name, write, poll);
         if (const fs::file_status there = fs::symlink_status(target, error);
             fs::is_regular_file(there))
             fs::permissions(partial, there.permissions(), error);
-        fs::rename(partial, target, error);
-        if (error) fail(name, error.value());
+        if (const int refused = system::replaceFile(partial, target)) fail(name, refused);
     } catch (...) {
         fs::remove(partial, error);
         throw;
     }
 }
 
-// Returns the descriptor if the path is an open file of the program, like /dev/stdout and the
-// shell's >(command), or a link to one.
-std::optional<int> openAlready(fs::path path) {
-    constexpr int kMostLinks = 40;  // Linux follows as many
-    for (int i = 0; i < kMostLinks; ++i) {
-        if (path == "/dev/stdout") return STDOUT_FILENO;
-        if (path == "/dev/stderr") return STDERR_FILENO;
-        const fs::path folder = path.parent_path();
-        const std::string name = path.filename().string();
-        if ((folder == "/dev/fd" || folder == "/proc/self/fd") && !name.empty() &&
-            name.size() < 8 && name.find_first_not_of("0123456789") == std::string::npos)
-            return std::stoi(name);
-        std::error_code error;
-        const fs::path to = fs::read_symlink(path, error);
-        if (error) break;
-        path = (folder / to).lexically_normal();
-    }
-    return std::nullopt;
-}
-
 // Creates the folder of the file.
 void makePlaceFor(const fs::path& path) {
     std::error_code error;
     const fs::file_type type = fs::status(path, error).type();
-    if ((type == fs::file_type::fifo || type == fs::file_type::socket) && !openAlready(path))
+    if ((type == fs::file_type::fifo || type == fs::file_type::socket) && !system::openStream(path))
         throw Error(path.string(), "is a pipe or a socket, which waits for its reader");
     if (type == fs::file_type::block) throw Error(path.string(), "is a disk, not a file to write");
     error.clear();
@@ -243,24 +230,19 @@ void writeFileAtomically(const fs::path& path, std::string_view text) {
 
 bool isReplaceable(const fs::path& path) {
     std::error_code error;
-    return !openAlready(path) && (!fs::exists(path, error) || fs::is_regular_file(path, error));
+    return !system::openStream(path) &&
+           (!fs::exists(path, error) || fs::is_regular_file(path, error));
 }
 
 void writeFileAtomically(const fs::path& path, const Writer& write, const WritePoll& poll) {
     makePlaceFor(path);
-    if (const auto known = openAlready(path)) {
-        const int descriptor = fcntl(*known, F_DUPFD_CLOEXEC, 0);
-        if (descriptor < 0) fail(path, errno);
-        return writeFile(descriptor, path, write, poll);
-    }
+    if (const auto known = system::openStream(path))
+        return writeFile(system::openAgain(*known), path, write, poll);
     std::error_code error;
     const bool there = fs::exists(path, error);
     if (error) fail(path, error.value());  // circular links, or a name that is too long
-    if (there && !fs::is_regular_file(path, error)) {
-        const int descriptor = open(path.c_str(), O_WRONLY | O_CLOEXEC);
-        if (descriptor < 0) fail(path, errno);
-        return writeFile(descriptor, path, write, poll);
-    }
+    if (there && !fs::is_regular_file(path, error))
+        return writeFile(system::openToWrite(path), path, write, poll);
     const fs::path target = there ? fs::canonical(path, error) : path;
     replaceFile(target, path, write, poll);
 }
@@ -290,9 +272,9 @@ void trimCache(
         if (gone) continue;
         const fs::path name = entry.path.filename();
         if (name.extension() == ".partial") {  // partialName()
-            if (now - entry.used > kStale && is_entry(name.stem().stem().native()))
+            if (now - entry.used > kStale && is_entry(name.stem().stem().string()))
                 fs::remove(entry.path, gone);
-        } else if (is_entry(name.native())) {
+        } else if (is_entry(name.string())) {
             bytes += entry.size;
             entries.push_back(entry);
         }
@@ -305,24 +287,28 @@ void trimCache(
     }
 }
 
-fs::path userCacheFolder() {
-    if (const char* cache = std::getenv("XDG_CACHE_HOME"); cache && *cache)
-        return fs::path(cache) / "hairbench";
-    if (const char* home = std::getenv("HOME"); home && *home)
-        return fs::path(home) / ".cache" / "hairbench";
-    return {};
+namespace {
+
+fs::path ownFolder(system::UserFiles kind) {
+    const fs::path folder = system::userFolder(kind);
+    return folder.empty() ? folder : folder / "hairbench";
 }
+
+}  // namespace
+
+fs::path userCacheFolder() { return ownFolder(system::UserFiles::cache); }
 
 void checkWritable(const fs::path& path) {
     makePlaceFor(path);
     std::error_code error;
     const fs::path folder = path.has_parent_path() ? path.parent_path() : fs::path(".");
     const fs::path probe = fs::exists(path, error) ? path : folder;
-    if (access(probe.c_str(), W_OK) != 0) fail(path, errno);
+    if (const int refused = system::checkWriteAccess(probe)) fail(path, refused);
     // A name that is too long, by itself or with the longest suffix, or broken links.
     error.clear();
     if (!fs::status_known(fs::status(path, error))) fail(path, error.value());
-    if (path.filename().string().size() > kLongestName - kLongestSuffix) fail(path, ENAMETOOLONG);
+    if (path.filename().string().size() > kLongestName - kLongestSuffix)
+        fail(path, static_cast<int>(std::errc::filename_too_long));
 }
 
 // ---- The program's own files --------------------------------------------------------------------
@@ -331,23 +317,13 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Returns the parent of the program's folder.
+// Returns the parent of the program's folder, or that folder itself in an archive that is unpacked
+// anywhere.
 fs::path prefix() {
     std::error_code error;
-    const fs::path program = fs::read_symlink("/proc/self/exe", error);
-    return program.parent_path().parent_path();
+    const fs::path folder = system::thisProgram().parent_path();
+    return fs::is_directory(folder / "share/hairbench", error) ? folder : folder.parent_path();
 }
-
-fs::path userDataFolder() {
-    if (const char* data = std::getenv("XDG_DATA_HOME"); data && *data)
-        return fs::path(data) / "hairbench";
-    if (const char* home = std::getenv("HOME"); home && *home)
-        return fs::path(home) / ".local/share/hairbench";
-    return {};
-}
-
-// A script that is installed with the program; in the source tree, scripts/setup runs it.
-constexpr const char* kMaker = "python-environment";
 
 }  // namespace
 
@@ -358,24 +334,30 @@ fs::path programFile(std::string_view name) {
     return error ? file : place;
 }
 
-fs::path helperProgram(std::string_view name) { return prefix() / "libexec/hairbench" / name; }
+fs::path helperProgram(std::string_view name) {
+    return (prefix() / "libexec/hairbench" / name) += system::kProgramEnding;
+}
 
 fs::path pythonEnvironment(const std::string& name) {
     std::error_code error;
     const fs::path made = programFile(".deps") / name;
-    const fs::path users = userDataFolder();
+    const fs::path users = ownFolder(system::UserFiles::data);
     return users.empty() || fs::exists(made, error) ? made : users / name;
 }
 
 std::string pythonInterpreter(const std::string& name, const char* override) {
     const char* const wanted = std::getenv(override);
-    return wanted && *wanted ? wanted : (pythonEnvironment(name) / "bin/python").string();
+    return wanted && *wanted ? wanted : (pythonEnvironment(name) / system::kPythonProgram).string();
 }
 
 std::string makesPythonEnvironment(const std::string& name) {
     std::error_code error;
-    const fs::path maker = helperProgram(kMaker);
-    return fs::exists(maker, error) ? maker.string() + ' ' + name : "scripts/setup --" + name;
+    const fs::path folder = prefix() / "libexec/hairbench";
+    const fs::path requirements =
+        folder / (name == "python" ? "requirements.txt" : "requirements-" + name + ".txt");
+    if (!fs::exists(requirements, error)) return "scripts/setup --" + name;
+    return system::pythonEnvironmentCommand(
+        pythonEnvironment(name), requirements, folder / "python-environment");
 }
 
 }  // namespace engine

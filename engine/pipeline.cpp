@@ -10,12 +10,10 @@
 #include <type_traits>
 #include <utility>
 
-#include <sys/mman.h>
-#include <unistd.h>
-
 #include "engine/files.h"
 #include "engine/process.h"
 #include "engine/run_tool.h"
+#include "engine/system/files.h"
 #include "engine/shaders.h"
 
 namespace engine {
@@ -515,34 +513,12 @@ std::string keyOf(const Device& device, const Description& description) {
 
 // ---- Pipelines made by a child first ------------------------------------------------------------
 
-// A file in memory, which a child inherits.
-class MemoryFile {
-public:
-    explicit MemoryFile(std::string_view bytes) : descriptor_(memfd_create("pipeline", 0)) {
-        for (std::size_t done = 0; descriptor_ >= 0 && done < bytes.size();) {
-            const ssize_t count = write(descriptor_, bytes.data() + done, bytes.size() - done);
-            if (count <= 0) break;  // the child reports that it is cut off
-            done += static_cast<std::size_t>(count);
-        }
-        if (descriptor_ < 0)
-            throw Error("the system has no file for the description of a pipeline");
-    }
-    MemoryFile(const MemoryFile&) = delete;
-    MemoryFile& operator=(const MemoryFile&) = delete;
-    ~MemoryFile() { close(descriptor_); }
-
-    std::string name() const { return "/proc/self/fd/" + std::to_string(descriptor_); }
-
-private:
-    int descriptor_;
-};
-
 // Lets a child make the pipeline if it contains functions of a scene. Throws Error if that fails.
 template <class Description>
 void tryApart(const Device& device, const Description& description) {
     if (description.extensions.empty()) return;
     const bool is_compute = std::is_same_v<Description, ComputeDescription>;
-    const MemoryFile file(
+    const system::SharedFile file(
         (is_compute ? 'C' : 'G') +
         described(device, description, [](DescriptionWriter& writer, std::string_view code) {
             writer(code);

@@ -1,6 +1,5 @@
 // A helper program that makes a pipeline with functions of a scene before its parent does. It
 // limits its own time and memory, so that the driver's compiler can't harm the parent.
-#include <csignal>
 #include <cstddef>
 #include <exception>
 #include <fstream>
@@ -12,13 +11,12 @@
 #include <string_view>
 #include <variant>
 
-#include <unistd.h>
-
 #include "engine/commands.h"
 #include "engine/device.h"
 #include "engine/error.h"
 #include "engine/pipeline.h"
-#include "engine/run_tool.h"
+#include "engine/system/child.h"
+#include "engine/system/process.h"
 #include "engine/transfer.h"
 
 namespace engine {
@@ -26,14 +24,10 @@ namespace {
 
 // Limits in addition to the device's own use.
 constexpr unsigned kSeconds = 30;  // of CPU time
-const ChildLimits kLimits{.seconds = kSeconds, .bytes = std::size_t{2} << 30};
+const system::ChildLimits kLimits{.seconds = kSeconds, .bytes = std::size_t{2} << 30};
 
-[[noreturn]] void sayOutOfTime(int) {
-    constexpr std::string_view kText = "needed more than 30 s of CPU time\n";
-    static_assert(kSeconds == 30);
-    const auto written = write(STDERR_FILENO, kText.data(), kText.size());
-    _exit(written > 0 ? 1 : 2);
-}
+constexpr const char* kOutOfTime = "needed more than 30 s of CPU time\n";
+static_assert(kSeconds == 30);
 
 // Returns null if there is no such device: then nothing is tried, and the parent continues.
 std::unique_ptr<Device> deviceNamed(const std::string& name) {
@@ -66,8 +60,7 @@ void run(const std::string& name, const std::string& file) {
     const std::string description{std::istreambuf_iterator<char>(stream), {}};
     const std::unique_ptr<Device> device = deviceNamed(name);
     if (!device) return;
-    std::signal(SIGXCPU, sayOutOfTime);
-    limitSelf(kLimits);
+    system::limitSelf(kLimits, kOutOfTime);
     make(*device, readTrial(*device, description));
 }
 
@@ -76,6 +69,7 @@ void run(const std::string& name, const std::string& file) {
 
 // Arguments: the device's name, and a file with the description of the pipeline.
 int main(int argc, char** argv) {
+    engine::system::prepareStreams();
     try {
         if (argc != 3) throw engine::Error("expected two arguments: a device and a file");
         engine::run(argv[1], argv[2]);

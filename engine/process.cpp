@@ -3,10 +3,8 @@
 #include <algorithm>
 #include <atomic>
 #include <chrono>
-#include <csignal>
 #include <cstdio>
 #include <cstdlib>
-#include <ctime>
 #include <exception>
 #include <functional>
 #include <iostream>
@@ -20,27 +18,11 @@
 #include <utility>
 #include <vector>
 
-#include <linux/perf_event.h>
-#include <semaphore.h>
-#include <sys/resource.h>
-#include <sys/syscall.h>
-#include <unistd.h>
-
-#include "engine/error.h"
+#include "engine/system/files.h"
+#include "engine/system/process.h"
 
 namespace engine {
 namespace {
-
-// Share of the time that a counter may miss: threads can switch counters between two reads of the
-// clock.
-constexpr double kMissedShare = 1e-3;
-
-// Data of a counter with PERF_FORMAT_TOTAL_TIME_ENABLED and _RUNNING.
-struct Reading {
-    std::uint64_t count;
-    std::uint64_t enabled;  // ns that the counter was enabled, over all threads
-    std::uint64_t running;  // ns of these in which it counted
-};
 
 template <class Operation>
 std::optional<double>
@@ -60,7 +42,6 @@ using namespace std::chrono_literals;
 
 // The interrupt state is global, because a signal handler can reach nothing else.
 std::atomic<bool> interrupt_came = false;
-sem_t interrupt_signal;  // posted by the handler, for watchInterrupts()
 
 static_assert(std::atomic<bool>::is_always_lock_free);  // otherwise a handler must not touch it
 
@@ -72,12 +53,6 @@ std::atomic<Heeded> heeded = Heeded::not_yet;
 constexpr auto kPatience = 1200ms;
 // Time for a device to finish its submitted work.
 constexpr auto kDevicePatience = 700ms;
-
-extern "C" void onInterrupt(int signal) {
-    interrupt_came = true;
-    sem_post(&interrupt_signal);
-    std::signal(signal, SIG_DFL);
-}
 
 // Last actions of endInterrupted(): files to remove and InterruptMessages to call.
 struct Ending {
@@ -112,34 +87,27 @@ void sayInterrupted() {
     }
     std::error_code ignored;
     for (const std::filesystem::path& each : leftovers) std::filesystem::remove_all(each, ignored);
-    _exit(status);
+    system::endNow(status);
 }
 
-// Runs on a thread of its own.
-[[noreturn]] void watchInterrupts() {
-    while (sem_wait(&interrupt_signal) != 0) {
-    }
+[[noreturn]] void waitForEver() {
+    for (;;) std::this_thread::sleep_for(1h);
+}
+
+// Runs on a thread of its own after an interrupt.
+void endUnheeded() {
     std::this_thread::sleep_for(kPatience);
     Heeded now = Heeded::not_yet;
     if (heeded.compare_exchange_strong(now, Heeded::by_end)) {
         sayInterrupted();
         leave(kInterruptedStatus);
     }
-    for (;;) pause();
 }
 
 }  // namespace
 
 void catchInterrupts() {
-    static std::once_flag once;
-    std::call_once(once, [] {
-        sem_init(&interrupt_signal, 0, 0);
-        std::thread(watchInterrupts).detach();
-    });
-    std::signal(SIGINT, onInterrupt);
-    std::signal(SIGTERM, onInterrupt);
-    std::signal(SIGHUP, onInterrupt);
-    std::signal(SIGXFSZ, SIG_IGN);
+    system::watchInterrupts([] { interrupt_came = true; }, endUnheeded);
 }
 
 bool interrupted() {
@@ -181,7 +149,7 @@ InterruptMessage::~InterruptMessage() {
 
 void endInterrupted() {
     if (heeded.exchange(Heeded::by_end) == Heeded::by_end)
-        for (;;) pause();  // another thread ends the program
+        waitForEver();  // another thread ends the program
     const InterruptMessage* words{};
     {
         const std::lock_guard lock(ending().mutex);
@@ -308,56 +276,14 @@ void onceStepsEnd(std::function<void()> ended) {
 
 // ---- Scratch folders ----------------------------------------------------------------------------
 
-ScratchFolder::ScratchFolder() {
-    std::string path = (std::filesystem::temp_directory_path() / "hairbench-XXXXXX").string();
-    if (!mkdtemp(path.data())) throw engine::Error(path, "can't be made");
-    path_ = path;
-    leftover_.emplace(path_);
-}
+ScratchFolder::ScratchFolder() : path_(system::makeTemporaryFolder()) { leftover_.emplace(path_); }
 
 ScratchFolder::~ScratchFolder() {
     std::error_code ignored;
     std::filesystem::remove_all(path_, ignored);
 }
 
-// ---- Counters of the kernel ---------------------------------------------------------------------
-
-PerfCounter::PerfCounter(std::uint32_t type, std::uint64_t config) {
-    perf_event_attr attributes{};
-    attributes.size = sizeof attributes;
-    attributes.type = type;
-    attributes.config = config;
-    attributes.inherit = 1;
-    attributes.exclude_kernel = 1;  // the most that kernel.perf_event_paranoid 2 allows
-    attributes.exclude_hv = 1;
-    attributes.read_format = PERF_FORMAT_TOTAL_TIME_ENABLED | PERF_FORMAT_TOTAL_TIME_RUNNING;
-    file_ = static_cast<int>(
-        syscall(SYS_perf_event_open, &attributes, 0, -1, -1, PERF_FLAG_FD_CLOEXEC));
-}
-
-PerfCounter::~PerfCounter() {
-    if (file_ >= 0) close(file_);
-}
-
-std::optional<double> PerfCounter::read() const {
-    Reading reading{};
-    if (file_ < 0 || ::read(file_, &reading, sizeof reading) != sizeof reading) return std::nullopt;
-    const auto wanted = static_cast<double>(reading.enabled);
-    if (static_cast<double>(reading.running) < (1.0 - kMissedShare) * wanted) return std::nullopt;
-    return static_cast<double>(reading.count);
-}
-
 // ---- Use of the CPU -----------------------------------------------------------------------------
-
-namespace {
-
-double millisecondsOf(clockid_t clock) {
-    timespec time{};
-    clock_gettime(clock, &time);
-    return static_cast<double>(time.tv_sec) * 1e3 + static_cast<double>(time.tv_nsec) * 1e-6;
-}
-
-}  // namespace
 
 ProcessUse operator-(const ProcessUse& to, const ProcessUse& from) {
     return {to.cpu - from.cpu, both(to.instructions, from.instructions, std::minus<>())};
@@ -367,18 +293,13 @@ ProcessUse operator+(const ProcessUse& a, const ProcessUse& b) {
     return {a.cpu + b.cpu, both(a.instructions, b.instructions, std::plus<>())};
 }
 
-double threadTime() { return millisecondsOf(CLOCK_THREAD_CPUTIME_ID); }
+double threadTime() { return system::threadTime(); }
 
 ProcessUse processUse() {
-    static const PerfCounter instructions(PERF_TYPE_HARDWARE, PERF_COUNT_HW_INSTRUCTIONS);
-    return {millisecondsOf(CLOCK_PROCESS_CPUTIME_ID), instructions.read()};
+    static const system::PerfCounter instructions(system::kInstructions);
+    return {system::processTime(), instructions.read()};
 }
 
-void lowerPriority() {
-    // Linux sets it per thread. The thread gets about a third of a normal thread's share.
-    constexpr int kNice = 5;
-    const auto thread = static_cast<id_t>(syscall(SYS_gettid));
-    setpriority(PRIO_PROCESS, thread, getpriority(PRIO_PROCESS, thread) + kNice);
-}
+void lowerPriority() { system::lowerPriority(); }
 
 }  // namespace engine

@@ -141,7 +141,8 @@ void forgetSteps();
 // empty: none. Set it only while no step is under way.
 void onceStepsEnd(std::function<void()> ended);
 
-// ---- Scratch folders and counters ---------------------------------------------------------------
+// ---- Scratch folders and CPU use
+// -----------------------------------------------------------------
 
 // A folder for temporary files, removed in any case.
 class ScratchFolder {
@@ -156,25 +157,6 @@ public:
 private:
     std::filesystem::path path_;
     std::optional<Leftover> leftover_;
-};
-
-// A kernel counter (perf_event_open(2) with `inherit`) of user-mode events in the thread that makes
-// it and in all threads later started under it. Threads that already run are not counted.
-class PerfCounter {
-public:
-    // `type`, `config`: PERF_TYPE_* and PERF_COUNT_* of <linux/perf_event.h>. If the kernel, the
-    // container or the machine offers no counter, read() is empty; this is no error.
-    PerfCounter(std::uint32_t type, std::uint64_t config);
-    ~PerfCounter();
-    PerfCounter(const PerfCounter&) = delete;
-    PerfCounter& operator=(const PerfCounter&) = delete;
-
-    // Returns the events so far, of running and ended threads. Also empty if the counter shared the
-    // processor's counters with others, so that the kernel missed some events.
-    std::optional<double> read() const;
-
-private:
-    int file_;  // -1: none
 };
 
 // CPU time of the calling thread since some moment in the past, ms.

@@ -3,33 +3,16 @@
 #include <cstddef>
 #include <filesystem>
 #include <functional>
-#include <limits>
-#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "engine/system/child.h"
+
 // Runs other programs, and parts of this one, as child processes.
 namespace engine {
 
-// Limits on a child's resources. Children are in process groups of their own. They end when the
-// thread that started them ends, even by a signal.
-struct ChildLimits {
-    // Limit of CPU time; 0: none. The limit of wall-clock time is ten times as long plus a minute.
-    unsigned seconds = 0;
-    // Limit of memory; 0: none. A fork of this process gets it in addition to this process's
-    // memory.
-    std::size_t bytes = 0;
-    std::size_t output = std::numeric_limits<std::size_t>::max();  // bytes on stdout
-    // The only files and folders that a program may read, apart from the system's. It may write
-    // none, and gets only the environment variables in kToolVariables. It may call neither the
-    // network nor other processes. Without Landlock (Linux 5.13) the kernel does not enforce the
-    // files. Absent: any file, variable and call.
-    std::optional<std::vector<std::filesystem::path>> reads{};
-};
-
-// Sets the limits on CPU time and memory for this process from now on.
-void limitSelf(const ChildLimits& limits);
+using system::ChildLimits;
 
 // Runs a program without a shell and with empty input, and returns its stdout. Throws Error if it
 // fails, with the first 300 bytes of its last line on stderr, or without such a line with its name
@@ -43,7 +26,8 @@ runTool(const std::vector<std::string>& arguments, const ChildLimits& limits = {
 // end, exhaust memory or crash. The fork has only the calling thread, so `work` must wait for no
 // other thread, and can open no file. It must not throw. If the child does not return, throws an
 // Error that says how it ended. An interrupt, or the end of a TimeLimit, ends the child and throws
-// as checkInterrupted() does.
+// as checkInterrupted() does. On Windows, which has no forks, `work` runs in this process, without
+// limits.
 std::string runApart(const std::function<std::string()>& work, const ChildLimits& limits);
 
 // Runs a program as the function above does, except for interrupts. Passes each line of its stdout

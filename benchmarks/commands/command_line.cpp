@@ -48,6 +48,7 @@ void addFirstExamples(Declared& declared, CLI::App& app, std::vector<std::string
 Declared::Declared(const std::vector<std::string>& arguments) {
     app.set_version_flag("--version", report::versionText());
     app.require_subcommand(1);
+    app.allow_windows_style_options(false);  // "/strands/density" is a value
     const CommandLine line{.app = app, .chosen = chosen, .arguments = arguments, .texts = texts};
     addMeasuringCommands(line);
     addReportCommands(line);

@@ -316,7 +316,7 @@ filesOf(const GroomSheetOptions& options, const fs::path& scratch) {
         for (const auto& entry : fs::recursive_directory_iterator(options.folder, skip))
             if (entry.is_regular_file() && isOfHair(entry.path()))
                 files.emplace_back(
-                    entry.path(), entry.path().lexically_relative(options.folder).string());
+                    entry.path(), entry.path().lexically_relative(options.folder).generic_string());
     } else if (fs::is_regular_file(options.folder)) {
         files = unpacked(options.folder, scratch);
     } else {

@@ -393,7 +393,7 @@ int walkLod(const LodOptions& options) {
         .environment = report::describeEnvironment(
             device, options.command, scene.settings.seed, options.scene.device.validation),
         .scene =
-            {.path = scene.path.string(),
+            {.path = scene.path.generic_string(),
              .hash = report::hashText(scene.resolved.text()),
              .document = scene.resolved},
         .frame = options.frame};

@@ -10,7 +10,6 @@
 #include <set>
 #include <thread>
 
-#include <link.h>
 #include <nlohmann/json.hpp>
 
 #include "benchmarks/measure/machine_watch.h"
@@ -182,13 +181,6 @@ std::string_view fileName(std::string_view path) {
     return slash == std::string_view::npos ? path : path.substr(slash + 1);
 }
 
-int collect(dl_phdr_info* library, std::size_t, void* data) {
-    if (isLayerLibrary(library->dlpi_name)) {
-        static_cast<std::vector<std::string>*>(data)->emplace_back(fileName(library->dlpi_name));
-    }
-    return 0;
-}
-
 }  // namespace
 
 bool isLayerLibrary(std::string_view path) {
@@ -199,70 +191,9 @@ bool isLayerLibrary(std::string_view path) {
 
 std::vector<std::string> loadedLayers() {
     std::vector<std::string> layers;
-    dl_iterate_phdr(collect, &layers);
+    for (const std::string& library : engine::system::loadedLibraries())
+        if (isLayerLibrary(library)) layers.emplace_back(fileName(library));
     return layers;
-}
-
-namespace {
-
-// ---- How Linux runs the processors --------------------------------------------------------------
-
-// Returns the first word; empty if there is no such file.
-std::string wordIn(const fs::path& path) {
-    std::string word;
-    std::ifstream(path) >> word;
-    return word;
-}
-
-// Returns the entries of a folder; empty if the folder is missing.
-std::vector<fs::path> entriesOf(const fs::path& folder) {
-    std::vector<fs::path> entries;
-    std::error_code missing;
-    for (const auto& entry : fs::directory_iterator(folder, missing))
-        entries.push_back(entry.path());
-    return entries;
-}
-
-std::optional<double> ratio(double quota, double period) {
-    if (quota <= 0.0 || period <= 0.0) return std::nullopt;
-    return quota / period;
-}
-
-}  // namespace
-
-std::vector<std::string> scalingGovernors(const fs::path& root) {
-    std::set<std::string> governors;
-    for (const fs::path& processor : entriesOf(root / "sys/devices/system/cpu")) {
-        const std::string governor = wordIn(processor / "cpufreq/scaling_governor");
-        if (!governor.empty()) governors.insert(governor);
-    }
-    return {governors.begin(), governors.end()};
-}
-
-std::optional<double> processorQuota(const fs::path& root) {
-    // Version 2: "max 100000" or "150000 100000", both in microseconds.
-    const fs::path groups = root / "sys/fs/cgroup";
-    double quota = 0.0, period = 0.0;
-    if (std::ifstream file(groups / "cpu.max"); file >> quota >> period)
-        return ratio(quota, period);
-    // Version 1: a quota of -1 means no quota.
-    std::ifstream(groups / "cpu/cpu.cfs_quota_us") >> quota;
-    std::ifstream(groups / "cpu/cpu.cfs_period_us") >> period;
-    return ratio(quota, period);
-}
-
-std::optional<bool> onBattery(const fs::path& root) {
-    std::optional<bool> battery;
-    for (const fs::path& supply : entriesOf(root / "sys/class/power_supply")) {
-        const std::string type = wordIn(supply / "type");
-        if (type == "Mains" || type.starts_with("USB")) {
-            if (wordIn(supply / "online") == "1") return false;
-        } else if (type == "Battery" && wordIn(supply / "scope") != "Device") {
-            // A scope of Device is the battery of a mouse or keyboard.
-            battery = battery.value_or(false) || wordIn(supply / "status") == "Discharging";
-        }
-    }
-    return battery;
 }
 
 // ---- Resolution of timestamps -------------------------------------------------------------------

@@ -12,6 +12,7 @@
 #include "benchmarks/measure/trust.h"
 #include "benchmarks/report/report.h"
 #include "engine/device.h"
+#include "engine/system/machine.h"
 #include "hair/groom/groom.h"
 #include "hair/settings.h"
 
@@ -122,17 +123,9 @@ bool isLayerLibrary(std::string_view path);
 // report the active ones, but it loads only their libraries.
 std::vector<std::string> loadedLayers();
 
-// Linux's settings for the processors. `root` is the root of its file systems.
-
-// Frequency scaling governors of all processors, sorted and without repetition; empty if there is
-// none, as in most virtual machines.
-std::vector<std::string> scalingGovernors(const std::filesystem::path& root = "/");
-
-// Processor time that the control group may use, in processors; absent without a limit.
-std::optional<double> processorQuota(const std::filesystem::path& root = "/");
-
-// True if the machine runs on battery; absent if no power supply is listed.
-std::optional<bool> onBattery(const std::filesystem::path& root = "/");
+using engine::system::onBattery;
+using engine::system::processorQuota;
+using engine::system::scalingGovernors;
 
 // Resolution of timestamps, in ticks.
 struct TimestampSteps {

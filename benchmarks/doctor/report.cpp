@@ -16,6 +16,7 @@
 #include "benchmarks/report/text.h"
 #include "engine/error.h"
 #include "engine/process.h"
+#include "engine/system/files.h"
 
 namespace benchmarks::doctor {
 namespace {
@@ -37,15 +38,12 @@ private:
     std::filesystem::path scene_;
 };
 
-// This program, even if its file was replaced since its start.
-constexpr const char* kThisProgram = "/proc/self/exe";
-
 OwnGate::OwnGate(const engine::DeviceOptions& device)
     : device_(device), scene_(writeDoctorScene(folder_.path())) {}
 
 gate::GateOptions OwnGate::options(std::vector<std::string> b_sets) const {
     gate::GateOptions options;
-    options.a = options.b = kThisProgram;
+    options.a = options.b = engine::system::thisProgramAsStarted();
     options.scene.scene = scene_;
     options.scene.device = device_;
     options.scene.max_time = 0.0;

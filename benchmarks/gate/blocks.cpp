@@ -17,6 +17,8 @@
 #include "engine/error.h"
 #include "engine/files.h"
 #include "engine/run_tool.h"
+#include "engine/system/child.h"
+#include "engine/system/files.h"
 
 namespace benchmarks::gate {
 
@@ -262,7 +264,8 @@ bool isProgram(const fs::path& path) {
 
 fs::path programOfBuild(const fs::path& folder, const std::string& context) {
     for (const char* each : {"benchmarks/hairbench", "bin/hairbench", "hairbench"})
-        if (isProgram(folder / each)) return folder / each;
+        if (fs::path program = folder / each; isProgram(program += engine::system::kProgramEnding))
+            return program;
     throw engine::Error(context, "holds no benchmarks/hairbench, bin/hairbench or hairbench");
 }
 
@@ -273,7 +276,9 @@ std::string runnable(const fs::path& program) {
 
 // A shell command line that accepts arguments after its own.
 std::vector<std::string> shellProgram(const std::string& text) {
-    return {"/bin/sh", "-c", text + " \"$@\"", "hairbench gate"};
+    std::vector<std::string> command = engine::system::shellCommand(text + " \"$@\"");
+    command.emplace_back("hairbench gate");
+    return command;
 }
 
 void addRepeated(
@@ -354,7 +359,7 @@ blockCommand(const Side& side, const fs::path& scene, const fs::path& out, std::
         replaceAll(command, "{scene}", quoted(scene.string()));
         replaceAll(command, "{out}", quoted(out.string()));
         replaceAll(command, "{seed}", std::to_string(seed));
-        return {"/bin/sh", "-c", command};
+        return engine::system::shellCommand(command);
     }
     std::vector<std::string> command = side.program;
     command.insert(

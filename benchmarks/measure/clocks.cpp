@@ -7,8 +7,6 @@
 #include <string>
 #include <vector>
 
-#include <dlfcn.h>
-
 #include "benchmarks/report/verdict.h"
 
 namespace benchmarks::measure {
@@ -330,30 +328,6 @@ constexpr Reason kReasons[] = {
     {0x100, "display clock setting"},
 };
 
-class Library {
-public:
-    explicit Library(const std::string& name) : handle_(dlopen(name.c_str(), RTLD_NOW)) {}
-    Library(const Library&) = delete;
-    Library& operator=(const Library&) = delete;
-    ~Library() {
-        if (handle_) dlclose(handle_);
-    }
-
-    // Returns null if the library lacks the function.
-    template <class Function>
-    Function find(const char* name) const {
-        return handle_ ? reinterpret_cast<Function>(dlsym(handle_, name)) : nullptr;
-    }
-    template <class Function>
-    Function find(const char* name, const char* older_name) const {
-        const auto found = find<Function>(name);
-        return found ? found : find<Function>(older_name);
-    }
-
-private:
-    void* handle_;
-};
-
 class Nvml : public ClockSource {
 public:
     Nvml(const PciAddress& address, const std::string& library)
@@ -453,7 +427,7 @@ private:
         return number;
     }
 
-    Library library_;
+    engine::system::Library library_;
     std::string address_;
     Shutdown shutdown_ = nullptr;
     bool started_ = false;

@@ -8,6 +8,8 @@
 #include <vector>
 
 #include "engine/instance.h"
+#include "engine/system/files.h"
+#include "engine/system/machine.h"
 
 // Clocks and temperature of a device as its driver reports them, and locking of the clocks.
 namespace benchmarks::measure {
@@ -74,7 +76,7 @@ std::optional<PciAddress> pciAddress(const engine::DeviceInfo& device);
 // base clock is that of the highest level. lock() sets power_dpm_force_performance_level to
 // "profile_standard"; unlock() restores the previous value.
 std::unique_ptr<ClockSource> openAmdgpu(
-    const PciAddress& address, const std::filesystem::path& devices = "/sys/bus/pci/devices");
+    const PciAddress& address, const std::filesystem::path& devices = engine::system::pciDevices());
 
 // Reads the sysfs files of the Linux drivers i915 (gt/gt0 of the card, with rps_act_freq_mhz) and
 // xe (tile0/gt0/freq0): Linux documentation, "Intel GPU sysfs", sysfs-driver-intel-i915-hwmon and
@@ -82,8 +84,8 @@ std::unique_ptr<ClockSource> openAmdgpu(
 // sleeps. The base clock is RP0, the greatest that the hardware allows. Neither driver reports the
 // load, nor power other than by an energy counter. Returns null for a device without these files.
 // Locks nothing, because no file has the clock that a board sustains.
-std::unique_ptr<ClockSource>
-openIntel(const PciAddress& address, const std::filesystem::path& devices = "/sys/bus/pci/devices");
+std::unique_ptr<ClockSource> openIntel(
+    const PciAddress& address, const std::filesystem::path& devices = engine::system::pciDevices());
 
 // Uses the NVIDIA Management Library of the installed driver, which is loaded at run time and not
 // needed to build. Returns null if the library is missing or unusable, or does not know the device.
@@ -93,6 +95,6 @@ openIntel(const PciAddress& address, const std::filesystem::path& devices = "/sy
 // clock of the board's design power (NVML_CLOCK_LIMIT_ID_TDP), as nvbench does. unlock() is a
 // reset, which also removes an administrator's lock.
 std::unique_ptr<ClockSource>
-openNvml(const PciAddress& address, const std::string& library = "libnvidia-ml.so.1");
+openNvml(const PciAddress& address, const std::string& library = engine::system::kNvmlLibrary);
 
 }  // namespace benchmarks::measure

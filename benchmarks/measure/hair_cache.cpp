@@ -293,7 +293,7 @@ std::size_t sizeOf(const SettledState& state) {
 std::string HairCache::program(const engine::Device& device) {
     if (program_.empty() && disk_.isOn()) {
         try {
-            program_ = report::hashText(engine::readFile("/proc/self/exe"));
+            program_ = report::hashText(engine::readFile(engine::system::thisProgramAsStarted()));
         } catch (const engine::Error&) {
             disk_ = DiskCache({});
         }

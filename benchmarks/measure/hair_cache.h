@@ -12,6 +12,8 @@
 #include "benchmarks/report/environment.h"
 #include "benchmarks/scene/assets.h"
 #include "engine/device.h"
+#include "engine/system/files.h"
+#include "engine/system/machine.h"
 #include "hair/groom/groom.h"
 #include "hair/groom/mesh/deforming_mesh.h"
 #include "hair/groom/mesh/mesh.h"
@@ -76,7 +78,7 @@ class HairCache {
 public:
     // `processor` is that of software devices.
     explicit HairCache(
-        DiskCache disk = DiskCache({}), std::string processor = report::processorName())
+        DiskCache disk = DiskCache({}), std::string processor = engine::system::processorName())
         : disk_(std::move(disk)), processor_(std::move(processor)) {}
 
     // Meshes and grooms.

@@ -1,7 +1,5 @@
 #include "benchmarks/measure/machine_watch.h"
 
-#include <unistd.h>
-
 #include <algorithm>
 #include <array>
 #include <fstream>
@@ -153,27 +151,6 @@ void addClocks(const std::vector<ClockReading>& readings, report::Conditions& co
 
 // ---- Load of the processors ---------------------------------------------------------------------
 
-std::optional<ProcessorTicks> readProcessorTicks(const std::filesystem::path& path) {
-    std::ifstream file(path);
-    std::string line;
-    if (!std::getline(file, line)) return std::nullopt;
-    std::istringstream words(line);
-    std::string name;
-    words >> name;
-    if (name != "cpu") return std::nullopt;
-    enum { user, nice, system, idle, waiting, interrupts, soft_interrupts, steal, fields };
-    std::array<std::uint64_t, fields> ticks{};
-    for (std::uint64_t& each : ticks)
-        if (!(words >> each)) return std::nullopt;
-    // The guest time that follows is already part of user and nice.
-    const std::uint64_t busy =
-        ticks[user] + ticks[nice] + ticks[system] + ticks[interrupts] + ticks[soft_interrupts];
-    return ProcessorTicks{
-        .busy = busy,
-        .steal = ticks[steal],
-        .total = busy + ticks[idle] + ticks[waiting] + ticks[steal]};
-}
-
 std::optional<ProcessorLoad>
 loadBetween(const ProcessorTicks& before, const ProcessorTicks& after, double own) {
     // The idle time is known to step back by a tick sometimes.
@@ -182,7 +159,7 @@ loadBetween(const ProcessorTicks& before, const ProcessorTicks& after, double ow
         return to > from ? static_cast<double>(to - from) : 0.0;
     };
     const double total = between(before.total, after.total);
-    const double own_ticks = own * 1e-3 * static_cast<double>(sysconf(_SC_CLK_TCK));
+    const double own_ticks = own * 1e-3 * engine::system::ticksPerSecond();
     const double others = between(before.busy, after.busy) - own_ticks;
     return ProcessorLoad{
         .steal = std::min(between(before.steal, after.steal) / total, 1.0),
@@ -308,23 +285,6 @@ void MachineWatch::begin() {
     sources_->energySince();
     sources_->energy_time = std::chrono::steady_clock::now();
     if (sources_->clocks) sources_->clocks->begin();
-}
-
-std::vector<EnergyCounter> readEnergyCounters(const std::filesystem::path& folder) {
-    const auto read = [](const std::filesystem::path& path) {
-        std::ifstream file(path);
-        std::uint64_t number = 0;
-        return file >> number ? std::optional(number) : std::nullopt;
-    };
-    std::vector<EnergyCounter> counters;
-    // Packages only: a second number, as in intel-rapl:0:1, denotes a part of a package.
-    for (int package = 0;; ++package) {
-        const std::filesystem::path place = folder / ("intel-rapl:" + std::to_string(package));
-        const auto now = read(place / "energy_uj");
-        const auto range = read(place / "max_energy_range_uj");
-        if (!now || !range) return counters;
-        counters.push_back({*now, *range});
-    }
 }
 
 std::optional<double>

@@ -16,6 +16,7 @@
 #include "benchmarks/measure/clocks.h"
 #include "benchmarks/report/report.h"
 #include "engine/device.h"
+#include "engine/system/machine.h"
 #include "hair/settings.h"
 
 // Conditions of a measurement: clocks, throttling, steal time, load by other processes.
@@ -129,27 +130,10 @@ struct MeanPower {
 // second. Absent if both are unknown.
 std::optional<MeanPower> meanPower(const std::vector<report::Conditions>& rounds);
 
-// Processor time since the machine started, in ticks (10 ms on most machines), from the first line
-// of Linux's /proc/stat (proc_stat(5)).
-struct ProcessorTicks {
-    std::uint64_t busy = 0;  // in processes and in the kernel
-    std::uint64_t steal = 0;  // given to others by a hypervisor
-    std::uint64_t total = 0;  // including idle time
-};
-
-// Absent if the file is missing or not understood.
-std::optional<ProcessorTicks> readProcessorTicks(const std::filesystem::path& path = "/proc/stat");
-
-// Energy that a processor package has used since some moment (Linux, powercap's intel-rapl; often
-// readable only by the administrator).
-struct EnergyCounter {
-    std::uint64_t microjoules = 0;
-    std::uint64_t range = 0;  // the counter wraps at this value
-};
-
-// Reads the counters of all packages; empty if they are unreadable.
-std::vector<EnergyCounter>
-readEnergyCounters(const std::filesystem::path& folder = "/sys/class/powercap");
+using engine::system::EnergyCounter;
+using engine::system::ProcessorTicks;
+using engine::system::readEnergyCounters;
+using engine::system::readProcessorTicks;
 
 // Energy in J; absent if a counter is unknown. A counter may have wrapped once.
 std::optional<double>

@@ -5,12 +5,10 @@
 #include <iostream>
 #include <utility>
 
-#include <sys/ioctl.h>
-#include <unistd.h>
-
 #include "benchmarks/measure/measure.h"
 #include "benchmarks/report/text.h"
 #include "engine/error.h"
+#include "engine/system/process.h"
 
 namespace benchmarks::measure {
 namespace {
@@ -34,10 +32,8 @@ std::string clockText(double seconds) {
 
 // Cuts the line to the terminal's width, because a wrapped line could not be rewritten.
 std::string fitting(std::string line) {
-    winsize size{};
-    if (ioctl(STDERR_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 1 &&
-        line.size() >= size.ws_col)
-        line.resize(size.ws_col - 1u);
+    const std::size_t width = engine::system::terminalWidth();
+    if (width > 1 && line.size() >= width) line.resize(width - 1);
     return line;
 }
 
@@ -60,7 +56,7 @@ std::string progressText(std::size_t number, std::size_t total, std::size_t done
 
 // ---- The line -----------------------------------------------------------------------------------
 
-ProgressLine::ProgressLine() : terminal_(isatty(STDERR_FILENO) != 0) {
+ProgressLine::ProgressLine() : terminal_(engine::system::hasTerminal()) {
     engine::onceStepsEnd([this] { clear(); });
     thread_ = std::thread([this] { run(); });
 }

@@ -6,16 +6,12 @@
 #include <cmath>
 #include <cstdint>
 #include <cstdio>
-#include <ctime>
-#include <fstream>
 #include <limits>
 #include <thread>
 #include <utility>
 
-#include <sys/utsname.h>
-#include <unistd.h>
-
 #include "build_info.h"
+#include "engine/system/machine.h"
 
 namespace benchmarks::report {
 namespace {
@@ -73,56 +69,31 @@ DeviceRecord describeDevice(const engine::Device& of) {
     return record;
 }
 
-std::string processorName() {
-    std::ifstream file("/proc/cpuinfo");
-    for (std::string line; std::getline(file, line);) {
-        const std::size_t colon = line.find(':');
-        if (line.starts_with("model name") && colon + 2 < line.size())
-            return line.substr(colon + 2);
-    }
-    return {};
-}
-
 namespace {
 
 // ---- Host, build, command -----------------------------------------------------------------------
 
-std::string systemName() {
-    std::string name;
-    std::ifstream file("/etc/os-release");
-    for (std::string line; std::getline(file, line);) {
-        constexpr std::string_view kKey = "PRETTY_NAME=\"";
-        if (line.starts_with(kKey)) name = line.substr(kKey.size(), line.size() - kKey.size() - 1);
-    }
-    utsname system{};
-    if (uname(&system) == 0) {
-        const std::string kernel = std::string(system.sysname) + " " + system.release;
-        name += name.empty() ? kernel : ", " + kernel;
-    }
-    return name;
-}
-
 std::string utcNow() {
-    const std::time_t now = std::chrono::system_clock::to_time_t(std::chrono::system_clock::now());
-    std::tm parts{};
-    gmtime_r(&now, &parts);
-    char text[32];
-    std::strftime(text, sizeof text, "%Y-%m-%dT%H:%M:%SZ", &parts);
+    using namespace std::chrono;
+    const auto now = floor<seconds>(system_clock::now());
+    const auto today = floor<days>(now);
+    const year_month_day date(today);
+    const hh_mm_ss time(now - today);
+    char text[64];
+    std::snprintf(
+        text, sizeof text, "%04d-%02u-%02uT%02d:%02d:%02dZ", static_cast<int>(date.year()),
+        static_cast<unsigned>(date.month()), static_cast<unsigned>(date.day()),
+        static_cast<int>(time.hours().count()), static_cast<int>(time.minutes().count()),
+        static_cast<int>(time.seconds().count()));
     return text;
 }
 
 HostRecord describeHost() {
-    HostRecord host{
-        .system = systemName(),
-        .processor = processorName(),
-        .processor_count = std::thread::hardware_concurrency()};
-    const long pages = sysconf(_SC_PHYS_PAGES);
-    const long page_size = sysconf(_SC_PAGE_SIZE);
-    if (pages > 0 && page_size > 0) {
-        host.memory_bytes =
-            static_cast<std::uint64_t>(pages) * static_cast<std::uint64_t>(page_size);
-    }
-    return host;
+    return {
+        .system = engine::system::systemName(),
+        .processor = engine::system::processorName(),
+        .processor_count = std::thread::hardware_concurrency(),
+        .memory_bytes = engine::system::memoryBytes()};
 }
 
 }  // namespace

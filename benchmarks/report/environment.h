@@ -22,9 +22,6 @@ std::string versionText();
 // The version and the device: "hairbench 0.1.0 (abc) on llvmpipe (llvmpipe 22.3.6)".
 std::string versionOnDevice(const engine::Device& device);
 
-// Returns the processor's model from /proc/cpuinfo; empty if it is unknown.
-std::string processorName();
-
 // Returns the source version, compiler and flags of this build.
 BuildRecord describeBuild();
 

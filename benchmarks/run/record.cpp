@@ -1,8 +1,6 @@
 #include "benchmarks/run/record.h"
 
 #include <algorithm>
-#include <cerrno>
-#include <cstring>
 #include <iostream>
 #include <map>
 #include <optional>
@@ -10,12 +8,8 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <system_error>
 #include <utility>
-
-#include <fcntl.h>
-#include <sys/file.h>
-#include <sys/stat.h>
-#include <unistd.h>
 
 #include <nlohmann/json.hpp>
 
@@ -75,41 +69,6 @@ namespace {
 
 // ---- Journal ------------------------------------------------------------------------------------
 
-// Syncs the folder. Without that, a new file may be missing from it after a crash.
-void syncFolderOf(const std::filesystem::path& path) {
-    const std::filesystem::path folder = path.has_parent_path() ? path.parent_path() : ".";
-    const int file = open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
-    if (file < 0) return;  // the folder may be writable but not readable
-    fsync(file);
-    close(file);
-}
-
-// Returns errno; 0: everything is written.
-int writeAt(int file, std::string_view text, std::uintmax_t offset) {
-    while (!text.empty()) {
-        const ssize_t taken = pwrite(file, text.data(), text.size(), static_cast<off_t>(offset));
-        if (taken < 0 && errno == EINTR) continue;
-        if (taken < 0) return errno;
-        if (taken == 0) return ENOSPC;
-        text.remove_prefix(static_cast<std::size_t>(taken));
-        offset += static_cast<std::uintmax_t>(taken);
-    }
-    return 0;
-}
-
-// Reads up to the end of the file or of `bytes`. Returns the number of bytes read.
-std::size_t readAt(int file, std::span<char> bytes, std::uintmax_t offset) {
-    std::size_t done = 0;
-    while (done < bytes.size()) {
-        const ssize_t taken = pread(
-            file, bytes.data() + done, bytes.size() - done, static_cast<off_t>(offset + done));
-        if (taken < 0 && errno == EINTR) continue;
-        if (taken <= 0) break;
-        done += static_cast<std::size_t>(taken);
-    }
-    return done;
-}
-
 constexpr std::size_t kPiece = std::size_t{1} << 20;  // B per read
 // B, far more than a case needs: a file without line breaks is not a journal.
 constexpr std::size_t kLongestLine = std::size_t{1} << 28;
@@ -117,6 +76,8 @@ constexpr std::size_t kLongestLine = std::size_t{1} << 28;
 constexpr std::string_view kBeforeHash = R"({"hash":")";
 constexpr std::string_view kBeforeValue = R"(","line":)";
 constexpr std::size_t kHashSize = 16;
+
+std::string reasonOf(int error) { return std::generic_category().message(error); }
 
 std::string lineOf(const scene::Json& value) {
     // Texts from drivers and the command line need not be UTF-8.
@@ -148,26 +109,25 @@ std::optional<scene::Json> valueIn(std::string_view line) {
 Journal::Journal(std::filesystem::path path, Lasts lasts) : path_(std::move(path)), lasts_(lasts) {
     std::error_code error;
     if (path_.has_parent_path()) std::filesystem::create_directories(path_.parent_path(), error);
-    file_ = open(path_.c_str(), O_RDWR | O_CREAT | O_NOFOLLOW | O_CLOEXEC, 0666);
-    if (file_ < 0 && errno == ELOOP)
-        throw engine::Error(path_.string(), "is a link, but the journal must be written there");
-    if (file_ < 0) throw engine::Error(path_.string(), std::strerror(errno));
-    struct stat status{};
-    if (fstat(file_, &status) == 0 && !S_ISREG(status.st_mode)) {
-        close(file_);
-        throw engine::Error(path_.string(), "is not a file, but the journal must be written there");
-    }
-    // Some file systems have no locks; continues without one there.
-    if (flock(file_, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK) {
-        close(file_);
+    engine::system::Locked locked = engine::system::openLocked(path_);
+    using enum engine::system::Lock;
+    switch (locked.lock) {
+    case held:
+        break;
+    case by_another:
         throw engine::Error(path_.string(), "another run is writing it");
+    case is_link:
+        throw engine::Error(path_.string(), "is a link, but the journal must be written there");
+    case is_no_file:
+        throw engine::Error(path_.string(), "is not a file, but the journal must be written there");
+    case failed:
+        throw engine::Error(path_.string(), reasonOf(locked.opened.error));
     }
+    file_ = std::move(locked.opened.file);
 }
 
 Journal::~Journal() {
-    if (file_ < 0) return;
-    if (lseek(file_, 0, SEEK_END) == 0) unlink(path_.c_str());
-    close(file_);
+    if (file_.isOpen() && file_.size() == 0) remove();
 }
 
 void Journal::read(const std::function<void(scene::Json value, const Place& place)>& visit) {
@@ -189,7 +149,7 @@ void Journal::read(const std::function<void(scene::Json value, const Place& plac
     std::string text;  // read after the last whole line
     std::vector<char> piece(kPiece);
     while (true) {
-        const std::size_t taken = readAt(file_, piece, size_ + text.size());
+        const std::size_t taken = file_.readAt(piece, size_ + text.size());
         if (taken == 0) return;
         const std::size_t known = text.size();  // contains no line break
         text.append(piece.data(), taken);
@@ -207,7 +167,7 @@ void Journal::read(const std::function<void(scene::Json value, const Place& plac
 
 scene::Json Journal::at(const Place& place) const {
     std::string line(place.size, '\0');
-    const bool is_there = readAt(file_, line, place.begin) == line.size();
+    const bool is_there = file_.readAt(line, place.begin) == line.size();
     auto value = is_there ? valueIn(line) : std::nullopt;
     if (!value) throw engine::Error(path_.string(), "was changed during the run");
     return *std::move(value);
@@ -215,17 +175,16 @@ scene::Json Journal::at(const Place& place) const {
 
 Journal::Place Journal::append(const scene::Json& line) {
     const std::string text = lineOf(line);
-    int error = 0;
-    if (!std::exchange(ends_there_, false) && ftruncate(file_, static_cast<off_t>(size_)) != 0)
-        error = errno;
-    if (error == 0) error = writeAt(file_, text, size_);
-    if (error == 0 && lasts_ == Lasts::crash && fsync(file_) != 0) error = errno;
+    int error = std::exchange(ends_there_, false) ? 0 : file_.cut(size_);
+    if (error == 0) error = file_.writeAt(text, size_);
+    if (error == 0 && lasts_ == Lasts::crash) error = file_.sync();
     if (error != 0) {
-        // If this fails too, the next reader skips the rest.
-        [[maybe_unused]] const int ignored = ftruncate(file_, static_cast<off_t>(size_));
-        throw engine::WriteFailed(path_.string() + ": cannot be written: " + std::strerror(error));
+        file_.cut(size_);  // if this fails too, the next reader skips the rest
+        throw engine::WriteFailed(path_.string() + ": cannot be written: " + reasonOf(error));
     }
-    if (size_ == 0 && lasts_ == Lasts::crash) syncFolderOf(path_);
+    // Without that, a new file may be missing from its folder after a crash.
+    if (size_ == 0 && lasts_ == Lasts::crash)
+        engine::system::syncFolder(path_.has_parent_path() ? path_.parent_path() : ".");
     const Place place{.begin = size_, .size = text.size() - 1};
     size_ += text.size();
     ends_there_ = true;
@@ -237,10 +196,7 @@ void Journal::clear() {
     ends_there_ = false;
 }
 
-void Journal::remove() {
-    unlink(path_.c_str());
-    close(std::exchange(file_, -1));
-}
+void Journal::remove() { engine::system::removeOpen(std::move(file_), path_); }
 
 namespace {
 

@@ -13,6 +13,7 @@
 #include "benchmarks/run/plan.h"
 #include "benchmarks/scene/json.h"
 #include "engine/process.h"
+#include "engine/system/files.h"
 
 // Journal of a run, from which an interrupted run is resumed.
 namespace benchmarks::run {
@@ -71,7 +72,7 @@ public:
 private:
     std::filesystem::path path_;
     Lasts lasts_;
-    int file_;
+    engine::system::File file_;
     std::uintmax_t size_ = 0;  // B of whole lines
     bool ends_there_ = false;  // false: the file may have more bytes after them
     std::vector<std::size_t> damaged_;

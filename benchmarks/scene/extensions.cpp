@@ -74,7 +74,7 @@ std::vector<std::string> shippedScenes() {
     std::error_code error;
     for (fs::recursive_directory_iterator each(folder, error), end; !error && each != end;
          each.increment(error)) {
-        const std::string name = each->path().lexically_relative(folder).string();
+        const std::string name = each->path().lexically_relative(folder).generic_string();
         if (name.ends_with(".json") && !name.ends_with(".schema.json") &&
             !name.starts_with("assets/"))
             names.push_back(name.substr(0, name.size() - std::string_view(".json").size()));

@@ -50,7 +50,7 @@ void tooltip(const ListedScene& scene, const fs::path& path) {
         !ImGui::BeginTooltip())
         return;
     ImGui::PushTextWrapPos(30.0f * ImGui::GetFontSize());
-    ImGui::TextUnformatted(path.c_str());
+    ImGui::TextUnformatted(path.string().c_str());
     if (!scene.description.empty()) ImGui::TextUnformatted(scene.description.c_str());
     if (!scene.problem.empty()) ImGui::TextUnformatted(scene.problem.c_str());
     ImGui::PopTextWrapPos();
@@ -128,7 +128,7 @@ std::optional<fs::path> SceneList::show(const fs::path& open) {
     ImGui::InputTextWithHint("##filter", "Filter by name", filter_.data(), filter_.size());
     ImGui::SameLine();
     if (ImGui::Button("Refresh")) refresh();
-    ImGui::SetItemTooltip("Read the folder again: %s", sameName(folder_).c_str());
+    ImGui::SetItemTooltip("Read the folder again: %s", sameName(folder_).string().c_str());
 
     std::vector<std::size_t> shown;
     for (std::size_t i = 0; i < files_.size(); ++i)
@@ -163,10 +163,11 @@ std::optional<fs::path> recentScenes(std::span<const fs::path> scenes) {
     ImGui::SetNextItemWidth(-1.0f);
     if (!ImGui::BeginCombo("##recent", "Recent scenes", ImGuiComboFlags_HeightLarge)) return chosen;
     for (const fs::path& scene : scenes) {
-        ImGui::PushID(scene.c_str());
-        if (ImGui::Selectable(scene.filename().c_str())) chosen = scene;
+        const std::string path = scene.string();
+        ImGui::PushID(path.c_str());
+        if (ImGui::Selectable(scene.filename().string().c_str())) chosen = scene;
         if (ImGui::IsItemHovered(ImGuiHoveredFlags_DelayShort))
-            ImGui::SetTooltip("%s", scene.c_str());
+            ImGui::SetTooltip("%s", path.c_str());
         ImGui::PopID();
     }
     ImGui::EndCombo();

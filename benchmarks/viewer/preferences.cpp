@@ -13,6 +13,7 @@
 #include "benchmarks/scene/json.h"
 #include "engine/error.h"
 #include "engine/files.h"
+#include "engine/system/files.h"
 
 namespace benchmarks::viewer {
 namespace {
@@ -132,11 +133,6 @@ constexpr std::array kThemes{Theme::dark, Theme::light};
 
 constexpr float kWidestColumn = 200.0f;
 
-std::filesystem::path folderFrom(const char* variable) {
-    const char* const value = std::getenv(variable);
-    return value ? value : "";
-}
-
 // Reads a member if it is a number in this range.
 template <class Number>
 void readNumber(
@@ -247,13 +243,9 @@ ImGuiStyle styleOf(Theme theme, float scale) {
 // ---- Preferences --------------------------------------------------------------------------------
 
 std::optional<std::filesystem::path> usersPreferences() {
-    std::filesystem::path folder = folderFrom("XDG_CONFIG_HOME");
-    // The XDG specification says to ignore relative paths.
-    if (!folder.is_absolute()) {
-        folder = folderFrom("HOME");
-        if (!folder.is_absolute()) return std::nullopt;
-        folder /= ".config";
-    }
+    const std::filesystem::path folder =
+        engine::system::userFolder(engine::system::UserFiles::settings);
+    if (folder.empty()) return std::nullopt;
     return folder / "hairbench" / "viewer.json";
 }
 

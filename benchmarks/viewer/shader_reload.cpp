@@ -17,6 +17,7 @@
 #include "benchmarks/report/text.h"
 #include "engine/pipeline.h"
 #include "engine/shaders.h"
+#include "engine/system/machine.h"
 
 namespace benchmarks::viewer {
 namespace {
@@ -87,9 +88,7 @@ ImVec4 problemColor() {
 }
 
 std::string timeOfDay(std::chrono::system_clock::time_point when) {
-    const std::time_t time = std::chrono::system_clock::to_time_t(when);
-    std::tm local{};
-    localtime_r(&time, &local);
+    const std::tm local = engine::system::localTime(std::chrono::system_clock::to_time_t(when));
     char text[16];
     return {text, std::strftime(text, sizeof text, "%H:%M:%S", &local)};
 }

@@ -10,12 +10,12 @@
 #include <utility>
 
 #include <imgui.h>
-#include <unistd.h>
 
 #include "benchmarks/viewer/settings_panel.h"
 #include "engine/error.h"
 #include "engine/files.h"
 #include "engine/process.h"
+#include "engine/system/files.h"
 #include "engine/transfer.h"
 
 namespace benchmarks::viewer {
@@ -437,7 +437,7 @@ std::filesystem::path Shell::suggestedPath() const {
     if (scene.wasSaved()) return file.path;
     // The user cannot write scenes of an installed program.
     const std::filesystem::path beside = file.path.parent_path();
-    const bool is_users = access(beside.empty() ? "." : beside.c_str(), W_OK) == 0;
+    const bool is_users = engine::system::checkWriteAccess(beside.empty() ? "." : beside) == 0;
     return freeName(is_users ? beside : std::filesystem::current_path(), file.name, ".json");
 }
 

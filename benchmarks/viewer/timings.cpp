@@ -358,7 +358,7 @@ report::Report viewerReport(
     report::Report report;
     report.environment =
         report::describeEnvironment(device, origin.command, settings.seed, origin.validation);
-    report.scene.path = origin.scene.string();
+    report.scene.path = origin.scene.generic_string();
     report.scene.hash = report::hashText(document.text());
     report.scene.document = std::move(document);
     report.case_count = 1;

@@ -116,18 +116,24 @@ find_package(OpenEXR CONFIG REQUIRED)
 find_package(Threads REQUIRED)
 find_package(ZLIB REQUIRED)
 
-# Linked statically if that is packaged: it is small, and makes one library fewer to ship.
-find_path(SECCOMP_INCLUDE_DIR seccomp.h)
-find_library(SECCOMP_LIBRARY NAMES libseccomp.a seccomp)
-mark_as_advanced(SECCOMP_INCLUDE_DIR SECCOMP_LIBRARY)
-if(NOT SECCOMP_INCLUDE_DIR OR NOT SECCOMP_LIBRARY)
-    message(FATAL_ERROR "libseccomp was not found: run scripts/setup, or set SECCOMP_INCLUDE_DIR and "
-        "SECCOMP_LIBRARY")
+# What engine/system links.
+add_library(hairbench::system INTERFACE IMPORTED GLOBAL)
+if(WIN32)
+    target_link_libraries(hairbench::system INTERFACE psapi)
+else()
+    # libseccomp is linked statically if that is packaged: it is small, and makes one library fewer
+    # to ship.
+    find_path(SECCOMP_INCLUDE_DIR seccomp.h)
+    find_library(SECCOMP_LIBRARY NAMES libseccomp.a seccomp)
+    mark_as_advanced(SECCOMP_INCLUDE_DIR SECCOMP_LIBRARY)
+    if(NOT SECCOMP_INCLUDE_DIR OR NOT SECCOMP_LIBRARY)
+        message(FATAL_ERROR "libseccomp was not found: run scripts/setup, or set "
+            "SECCOMP_INCLUDE_DIR and SECCOMP_LIBRARY")
+    endif()
+    target_include_directories(hairbench::system INTERFACE "${SECCOMP_INCLUDE_DIR}")
+    target_link_libraries(hairbench::system INTERFACE "${SECCOMP_LIBRARY}" ${CMAKE_DL_LIBS})
 endif()
-add_library(hairbench::seccomp UNKNOWN IMPORTED GLOBAL)
-set_target_properties(hairbench::seccomp PROPERTIES
-    IMPORTED_LOCATION "${SECCOMP_LIBRARY}"
-    INTERFACE_INCLUDE_DIRECTORIES "${SECCOMP_INCLUDE_DIR}")
+
 # Debian 12's and Ubuntu 24.04's packages have no CMake files.
 find_package(re2 CONFIG QUIET)
 add_library(hairbench::re2 INTERFACE IMPORTED GLOBAL)

@@ -1,10 +1,17 @@
 # `cmake --install` and `cpack`. An installed tree can be moved, because programs find their files
 # relative to themselves (engine/files.h). So these folders have no variables.
 
-install(TARGETS hairbench RUNTIME DESTINATION bin)
+# Windows' archive has the program at its top, to be run where it is unpacked.
+if(WIN32)
+    install(TARGETS hairbench RUNTIME DESTINATION .)
+else()
+    install(TARGETS hairbench RUNTIME DESTINATION bin)
+endif()
 install(TARGETS hairbench_mesh_reader hairbench_pipeline_trial RUNTIME DESTINATION libexec/hairbench)
 # Users make the Python environments themselves, from pinned requirements.
-install(PROGRAMS scripts/python-environment DESTINATION libexec/hairbench)
+if(NOT WIN32)
+    install(PROGRAMS scripts/python-environment DESTINATION libexec/hairbench)
+endif()
 install(FILES scripts/requirements.txt scripts/requirements-module.txt
     scripts/requirements-reference.txt
     DESTINATION libexec/hairbench)
@@ -23,14 +30,16 @@ install(DIRECTORY benchmarks/reference DESTINATION share/hairbench/benchmarks
 install(DIRECTORY hair/groom/formats DESTINATION share/hairbench/hair/groom
     FILES_MATCHING PATTERN "*.py" PATTERN "__pycache__" EXCLUDE)
 
-set(help_dir "${PROJECT_BINARY_DIR}/help")  # benchmarks/CMakeLists.txt
-install(FILES "${help_dir}/hairbench" DESTINATION share/bash-completion/completions)
-# zsh searches the first folder under /usr/local; Debian's searches the second under /usr.
-foreach(folder site-functions vendor-completions)
-    install(FILES "${help_dir}/_hairbench" DESTINATION share/zsh/${folder})
-endforeach()
-install(FILES "${help_dir}/hairbench.fish" DESTINATION share/fish/vendor_completions.d)
-install(DIRECTORY "${help_dir}/man1" DESTINATION share/man)
+if(TARGET help_files)
+    set(help_dir "${PROJECT_BINARY_DIR}/help")  # benchmarks/CMakeLists.txt
+    install(FILES "${help_dir}/hairbench" DESTINATION share/bash-completion/completions)
+    # zsh searches the first folder under /usr/local; Debian's searches the second under /usr.
+    foreach(folder site-functions vendor-completions)
+        install(FILES "${help_dir}/_hairbench" DESTINATION share/zsh/${folder})
+    endforeach()
+    install(FILES "${help_dir}/hairbench.fish" DESTINATION share/fish/vendor_completions.d)
+    install(DIRECTORY "${help_dir}/man1" DESTINATION share/man)
+endif()
 install(FILES README.md DESTINATION share/doc/hairbench)
 install(FILES LICENSE DESTINATION share/doc/hairbench RENAME copyright)
 install(DIRECTORY docs DESTINATION share/doc/hairbench)

@@ -6,6 +6,7 @@
 #include <optional>
 #include <regex>
 #include <set>
+#include <sstream>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -77,6 +78,40 @@ constexpr Rule kRules[] = {
     {"", "gtest/", "tests/"},
     {"", "gmock/", "tests/"},
 };
+
+// The only folder that knows which system the program runs on.
+constexpr std::string_view kSystemFolder = "engine/system/";
+
+// Beginnings of headers that POSIX, Linux or Windows have and other systems lack. Error numbers
+// (<cerrno>) and signals (<csignal>) have headers of C, but other values on each system.
+constexpr std::string_view kSystemHeaders[] = {
+    "sys/",     "linux/",    "asm/",    "arpa/",     "net/",        "netinet/",  "unistd.h",
+    "fcntl.h",  "signal.h",  "csignal", "errno.h",   "cerrno",      "dlfcn.h",   "link.h",
+    "dirent.h", "poll.h",    "sched.h", "spawn.h",   "semaphore.h", "termios.h", "pthread.h",
+    "pwd.h",    "grp.h",     "glob.h",  "fnmatch.h", "execinfo.h",  "mach/",     "seccomp.h",
+    "ext/",     "win",       "Win",     "psapi.h",   "io.h",        "process.h", "direct.h",
+    "shlobj",   "tlhelp32.h"};
+
+// Beginnings of paths that only Linux has. Texts that a program prints begin otherwise.
+constexpr std::string_view kSystemPaths[] = {"/proc", "/sys/", "/dev/fd", "/etc/", "/bin/sh"};
+
+// Returns the system headers and paths in a file's text.
+std::vector<std::string> systemThingsIn(const std::string& text) {
+    static const std::regex include(R"(^\s*#\s*include\s*<([^>]+)>.*)");
+    std::vector<std::string> found;
+    std::istringstream stream(text);
+    std::smatch match;
+    for (std::string line; std::getline(stream, line);) {
+        if (std::regex_match(line, match, include) &&
+            std::ranges::any_of(kSystemHeaders, [&](std::string_view each) {
+                return match[1].str().starts_with(each);
+            }))
+            found.push_back(match[1]);
+        for (const std::string_view each : kSystemPaths)
+            if (line.find('"' + std::string(each)) != std::string::npos) found.emplace_back(each);
+    }
+    return found;
+}
 
 constexpr std::string_view kFolders[] = {"engine", "hair", "benchmarks", "tests", "shaders"};
 
@@ -191,6 +226,41 @@ TEST(IncludeDirection, PointsDownWithinBenchmarks) {
             EXPECT_LE(below.value_or(0), *layer) << file << " includes " << include;
         }
     }
+}
+
+TEST(IncludeDirection, LeavesTheSystemToOneFolder) {
+    const std::filesystem::path root = HAIRBENCH_SOURCE_DIR;
+    for (const std::string_view folder : {"engine", "hair", "benchmarks", "shaders"}) {
+        for (const std::string& file : sources(root, folder)) {
+            if (file.starts_with(kSystemFolder)) continue;
+            std::ifstream stream(root / file);
+            const std::string text{std::istreambuf_iterator<char>(stream), {}};
+            EXPECT_THAT(systemThingsIn(text), testing::IsEmpty()) << file;
+        }
+    }
+}
+
+TEST(IncludeDirection, FindsTheSystemInAText) {
+    using testing::ElementsAre;
+    EXPECT_THAT(
+        systemThingsIn(
+            "#include <vector>\n  # include <unistd.h>  // close\n#include <sys/stat.h>"),
+        ElementsAre("unistd.h", "sys/stat.h"));
+    EXPECT_THAT(
+        systemThingsIn("#include <windows.h>\n#include <linux/perf_event.h>\n#include <winbase.h>"),
+        ElementsAre("windows.h", "linux/perf_event.h", "winbase.h"));
+    EXPECT_THAT(
+        systemThingsIn("std::ifstream file(\"/proc/cpuinfo\");\nopen(\"/sys/class/powercap\")"),
+        ElementsAre("/proc", "/sys/"));
+    EXPECT_THAT(
+        systemThingsIn("#include \"engine/system/process.h\"\n#include <system_error>\n"
+                       "return \"/simulation/substeps\";  // as /proc/stat has it\n"),
+        testing::IsEmpty());
+    // The folder has what the rule keeps out of others. A rename would switch the rule off.
+    const std::filesystem::path root = HAIRBENCH_SOURCE_DIR;
+    std::ifstream stream(root / kSystemFolder / "files_linux.cpp");
+    const std::string text{std::istreambuf_iterator<char>(stream), {}};
+    EXPECT_THAT(systemThingsIn(text), testing::IsSupersetOf({"unistd.h", "sys/stat.h", "/proc"}));
 }
 
 // Relative includes would escape the rules.

@@ -467,13 +467,38 @@ std::vector<File> sources() {
 }
 
 // Includes the tests, which link most of the program and put helpers into its namespaces. Each file
-// with a main() is a separate program.
+// with a main() is a separate program. Each system compiles its own files of engine/system.
 TEST(OneDefinition, HoldsInEverySource) {
-    std::vector<std::string> doubles = doubleDefinitions(sources());
-    std::erase_if(doubles, [](const std::string& definition) {
-        return definition.starts_with("function main(int,char**): ");
-    });
-    EXPECT_THAT(doubles, IsEmpty());
+    for (const std::string_view other : {"_windows.cpp", "_linux.cpp"}) {
+        std::vector<File> files = sources();
+        const auto left_out = std::erase_if(files, [&](const File& file) {
+            return file.name.starts_with("engine/system/") && file.name.ends_with(other);
+        });
+        EXPECT_GT(left_out, 0u) << other;
+        std::vector<std::string> doubles = doubleDefinitions(files);
+        std::erase_if(doubles, [](const std::string& definition) {
+            return definition.starts_with("function main(int,char**): ");
+        });
+        EXPECT_THAT(doubles, IsEmpty());
+    }
+}
+
+// Both systems' files of a unit define the same functions. A destructor may be defaulted.
+TEST(OneDefinition, SystemsOfferTheSame) {
+    std::map<std::string, std::vector<std::string>> systems;
+    for (const File& file : sources()) {
+        if (!file.name.starts_with("engine/system/") || !file.name.ends_with(".cpp")) continue;
+        Definitions definitions;
+        EXPECT_TRUE(Reader(file.text, file.name, definitions).read());
+        const std::string system = file.name.substr(file.name.rfind('_'));
+        for (const auto& [definition, holders] : definitions)
+            if (definition.starts_with("function engine::system::") && definition.find("::~") == std::string::npos)
+                systems[system].push_back(definition);
+    }
+    EXPECT_THAT(systems, testing::SizeIs(2));
+    for (auto& [system, functions] : systems) std::ranges::sort(functions);
+    EXPECT_GT(systems["_linux.cpp"].size(), 40u);
+    EXPECT_EQ(systems["_linux.cpp"], systems["_windows.cpp"]);
 }
 
 // The reader must know all types that a pattern finds at the beginning of headers' lines.

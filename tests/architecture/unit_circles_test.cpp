@@ -183,9 +183,9 @@ TEST(Units, AreAsFewAsTheyWere) {
         std::size_t count, most;  // 0: no bound
     };
     const Row rows[] = {
-        {"C++ files", files.size(), 447},
-        {"translation units", sources, 224},
-        {"headers for at most one unit of the product", for_code.size(), 51},
+        {"C++ files", files.size(), 458},
+        {"translation units", sources, 232},
+        {"headers for at most one unit of the product", for_code.size(), 50},
         {"headers for at most one unit or test", for_all.size(), 8},
         {"files of shaders", shaders, 203},
         {"lines of C++", lines, 0},

@@ -11,6 +11,8 @@
 
 #include <gtest/gtest.h>
 
+#include "engine/system/process.h"
+
 namespace engine {
 namespace {
 
@@ -65,7 +67,7 @@ protected:
     }
     double count() const { return counter_.read().value_or(-1.0); }
 
-    PerfCounter counter_{PERF_TYPE_SOFTWARE, PERF_COUNT_SW_PAGE_FAULTS};
+    system::PerfCounter counter_{{PERF_TYPE_SOFTWARE, PERF_COUNT_SW_PAGE_FAULTS}};
 };
 
 TEST_F(PerfCounterTest, CountsTheThreadThatMadeIt) {
@@ -115,7 +117,7 @@ TEST(GiveWay, IsForAThreadAndThoseThatItStarts) {
 }
 
 TEST(PerfCounter, IsNoneWhereTheKernelHasNone) {
-    const PerfCounter none(PERF_TYPE_SOFTWARE, 0xffffff);
+    const system::PerfCounter none({PERF_TYPE_SOFTWARE, 0xffffff});
     EXPECT_EQ(none.read(), std::nullopt);
 }
 

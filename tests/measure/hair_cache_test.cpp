@@ -49,7 +49,7 @@ struct Shown {
 
 class HairCacheTest : public GpuTest {
 protected:
-    HairCache onDisk(std::string processor = report::processorName()) {
+    HairCache onDisk(std::string processor = engine::system::processorName()) {
         return HairCache(
             DiskCache(
                 {.folder = folder_.path(),

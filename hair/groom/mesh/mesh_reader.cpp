@@ -19,6 +19,7 @@
 #include <assimp/scene.h>
 
 #include "engine/error.h"
+#include "engine/system/process.h"
 #include "hair/groom/mesh/mesh_stream.h"
 
 namespace hair::groom {
@@ -278,6 +279,7 @@ read(const std::filesystem::path& path, const std::vector<std::filesystem::path>
 // be; without folders they may be anywhere. The mesh goes to standard output in the format of
 // mesh_stream.h, and an error goes to standard error in one line.
 int main(int argc, char** argv) {
+    engine::system::prepareStreams();
     try {
         if (argc < 2) throw engine::Error("arguments: a file of a mesh, and folders");
         const std::vector<std::filesystem::path> folders(argv + 2, argv + argc);
