@@ -12,7 +12,7 @@
 #include "benchmarks/measure/sampling.h"
 #include "benchmarks/measure/trust.h"
 #include "benchmarks/report/statistics.h"
-#include "hair/simulation/condition.h"
+#include "hair/simulation/probes.h"
 #include "hair/simulation/solvers.h"
 
 namespace benchmarks::measure {

@@ -20,7 +20,7 @@
 #include "hair/settings.h"
 #include "hair/simulation/bodies.h"
 #include "hair/simulation/cache.h"
-#include "hair/simulation/condition.h"
+#include "hair/simulation/probes.h"
 #include "hair/simulation/forces.h"
 #include "hair/simulation/guide_solver.h"
 #include "hair/simulation/hair_hair.h"

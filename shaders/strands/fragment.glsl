@@ -6,9 +6,17 @@
 #include "shading/strand_shading.glsl"
 #include "strands/coverage.glsl"
 #include "strands/merged_coverage.glsl"
-#include "strands/texture.glsl"
 
 layout(push_constant, scalar) uniform Push { StrandPush push; };
+
+// The texture on strands, thesis 2.2.
+layout(binding = 0) uniform sampler2D strand_texture;
+
+// Factors on colour and opacity. across: -1 to 1; along: 0 at the root, 1 at the tip.
+vec4 strandTexel(float across, float along) {
+    if (kStrandTexture == 0u) return vec4(1.0);
+    return texture(strand_texture, vec2(0.5 + 0.5 * across, along));
+}
 
 // With several samples per pixel, a pixel's centre may lie outside the quad that covers some of its
 // samples. `across` would be beyond -1 or 1 there, and shading too dark. HAIRBENCH_CENTROID takes a

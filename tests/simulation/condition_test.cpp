@@ -1,4 +1,4 @@
-#include "hair/simulation/condition.h"
+#include "hair/simulation/probes.h"
 
 #include <cmath>
 #include <limits>
