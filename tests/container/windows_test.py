@@ -192,14 +192,14 @@ def wait_for(condition, seconds=60):
 
 def check_interrupts(programs):
     journal = programs.windows / "long.json.journal"
-    arguments = ("run", "smoke", "--out", "long.json", "--set", "/run/precision=0", "--max-time", "4")
+    arguments = ("run", "smoke", "--set", "/run/precision=0", "--max-time", "4", "--out")
 
     def has_a_case():
         return journal.is_file() and journal.read_bytes().count(b"\n") >= 2
 
-    process = programs.start("windows", *arguments)
+    process = programs.start("windows", *arguments, "long.json")
     check(wait_for(has_a_case), "a run keeps a journal")
-    status, said = programs.run("windows", *arguments)
+    status, said = programs.run("windows", *arguments, "long.json")
     check(status == 2 and "another run is writing it" in said, "another run can't write the same journal")
     for pid in pids(programs):
         os.kill(pid, signal.SIGINT)  # Wine makes it an event of the console
@@ -207,17 +207,17 @@ def check_interrupts(programs):
     check(process.returncode == INTERRUPTED and "interrupted after 1 of 2 cases" in output + errors,
           f"Ctrl-C ends it with what is done: {errors.strip()[-120:]}")
     first = hashes(programs.windows / "long.json")
-    status, _ = programs.run("windows", *arguments, "--resume")
+    status, _ = programs.run("windows", *arguments, "long.json", "--resume")
     check(status == 0 and first[0] in hashes(programs.windows / "long.json") and not journal.exists(),
           "--resume ends the run")
-    process = programs.start("windows", *arguments, "--out", "killed.json")
+    process = programs.start("windows", *arguments, "killed.json")
     journal = programs.windows / "killed.json.journal"
     wait_for(has_a_case)
     for pid in pids(programs):
         os.kill(pid, signal.SIGKILL)
     process.communicate(timeout=60)
     time.sleep(5)  # until Wine notices, and closes the journal
-    status, said = programs.run("windows", *arguments, "--out", "killed.json", "--resume")
+    status, said = programs.run("windows", *arguments, "killed.json", "--resume")
     check(status == 0 and len(hashes(programs.windows / "killed.json")) == 2,
           f"a killed run resumes: {said.strip()[-160:]}")
 
