@@ -272,6 +272,32 @@ TEST_F(PageInBrowser, ShowsTheSamplesOfTheCaseThatIsAskedFor) {
 }
 
 // Names, values, reasons and descriptions are plain text, whatever they contain.
+// A figure for each probe, with a line for each case that has it.
+TEST_F(PageInBrowser, PlotsProbesOverSimulatedTime) {
+    const auto caseOf = [](const char* name, std::vector<double> time, std::vector<double> speed) {
+        CaseResult result = oneCaseReport(name, {}).cases.front();
+        result.metrics.push_back({metricNamed("probe.time"), std::move(time)});
+        result.metrics.push_back({metricNamed("probe.speed"), std::move(speed)});
+        return result;
+    };
+    Report probed = oneCaseReport("without", {});
+    probed.cases.push_back(caseOf("a", {0.0, 0.5, 1.0}, {0.0, 1.0, 3.0}));
+    probed.cases.push_back(caseOf("b", {0.0, 0.25}, {2.0, 1.5}));
+    const char* const kSay = R"(
+        const plot = document.getElementById("probes-probe-speed");
+        say("lines", plot && figure(plot.id).map((each) => [[...each.x], [...each.y]]));
+        say("axes", plot && [plot.layout.title.text, plot.layout.yaxis.title.text]);
+        say("figures", document.querySelectorAll("#probes .probes > *").length);
+    )";
+    const Json said = open({folder_.write("probed.json", reportJson(probed).dump())}, kSay, 1280);
+    EXPECT_EQ(said.at("lines"), Json::parse("[[[0,0.5,1],[0,1,3]], [[0,0.25],[2,1.5]]]"));
+    EXPECT_EQ(said.at("axes"), (Json{"speed", "m/s"}));
+    EXPECT_EQ(said.at("figures"), 1);
+    const Json without =
+        open({folder_.write("not.json", reportJson(oneCaseReport("a", {})).dump())}, kSay, 1280);
+    EXPECT_EQ(without.at("figures"), 0);
+}
+
 TEST_F(PageInBrowser, RunsNothingThatIsInAReport) {
     const std::string evil = "</script><img src=x onerror=window.pwned=1><b>\"\u6f22\u00fc\"</b>";
     Report report = oneCaseReport(evil, {{"/a<i>/" + evil, scene::Document(evil)}});

@@ -591,7 +591,7 @@ function drawSamples() {
         (samples.kind === "box" ? " Box: the quartiles; whiskers: 5th and 95th percentile." : "");
 }
 
-// ---- Probes: what guides did, over simulated time -----------------------------------------------
+// ---- Probes of guides over simulated time -------------------------------------------------------
 
 const probes = {color: "", limit: 16};
 const kFigureOf = (name) => `probes-${name.replaceAll(".", "-")}`;
@@ -634,9 +634,11 @@ function drawProbes() {
         if (traces.length) drawFigure(div, traces, {
             height: 300, showlegend: traces.length > 1,
             legend: legendStyle(div, caseValuesTitle()),
+            title: {text: plain(name.replace("probe.", "")), font: {size: 14}, x: 0, xref: "paper",
+                xanchor: "left", y: 0.97, yanchor: "top"},
+            margin: {l: 56, r: 16, t: 36, b: 48},
             xaxis: axisStyle({title: "simulated time (s)"}),
-            yaxis: axisStyle({title: plain(metricTitle(name.replace("probe.", ""),
-                metricUnits.get(name)))}),
+            yaxis: axisStyle({title: plain(shownUnit(metricUnits.get(name)).text)}),
         });
     }
     byId("probes-note").textContent = [
