@@ -22,6 +22,7 @@
 #include "hair/rendering/renderer.h"
 #include "hair/rendering/scene_meshes.h"
 #include "hair/rendering/strand_plan.h"
+#include "hair/simulation/probes.h"
 #include "hair/simulation/simulation.h"
 
 namespace benchmarks::measure {
@@ -192,6 +193,11 @@ CaseMemory caseMemory(
 
     std::uint64_t all = rows.bytes() + assets;
     if (settings.run.compare_backends) all += comparedBytes(device, drawn, plan, size);
+    if (hasProbes(settings.run.probes))
+        all += Probes::rows(
+                   size, settings.simulation.solver, settings.run.probes,
+                   settings.run.warmup + settings.run.frames + 2)
+                   .bytes();
     // Fields are baked before anything else is allocated.
     all = std::max(all + std::max(stagingBytes(rows, settings.render), head), fields + baking);
     report::MemoryNeed& need = memory.need;

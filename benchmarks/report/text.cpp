@@ -63,11 +63,12 @@ std::string columnsText(const std::vector<Column>& columns) {
 
 std::string shortNumber(double number) {
     const double size = std::abs(number);
+    const bool small = size > 0.0 && size < 1e-4;
     int decimals = 0;
     if (size > 0.0 && size < 100.0)
-        decimals = std::min(6, 2 - static_cast<int>(std::floor(std::log10(size))));
+        decimals = small ? 2 : 2 - static_cast<int>(std::floor(std::log10(size)));
     char text[64];
-    std::snprintf(text, sizeof text, "%.*f", decimals, number);
+    std::snprintf(text, sizeof text, small ? "%.*e" : "%.*f", decimals, number);
     return text;
 }
 

@@ -50,7 +50,8 @@ std::string sizeText(std::uint64_t bytes);
 // "12.3 %" for a share of 0.123.
 std::string shareText(double share);
 
-// About three significant digits without an exponent: "1234", "123", "12.3", "1.23", "0.0123".
+// About three significant digits, without an exponent from 0.0001 on: "1234", "12.3", "0.0123",
+// "2.35e-09".
 std::string shortNumber(double number);
 
 }  // namespace benchmarks::report

@@ -27,6 +27,7 @@
 #include "engine/process.h"
 #include "hair/groom/growth/roots.h"
 #include "hair/rendering/strand_plan.h"
+#include "hair/simulation/probes.h"
 #include "hair/simulation/solvers.h"
 
 namespace benchmarks::run {
@@ -344,7 +345,8 @@ double mostSeconds(const hair::RunSettings& run, double frame_ms) {
     // A round may start until max_time and is then finished.
     const double mode = double{run.max_time} + round;
     const double compared = run.compare_backends ? round + kComparisonFrames * frame_ms / 1e3 : 0.0;
-    return kModes * mode + kCheckShare * double{run.max_time} + compared;
+    const double probed = hair::simulation::hasProbes(run.probes) ? round : 0.0;
+    return kModes * mode + kCheckShare * double{run.max_time} + compared + probed;
 }
 
 class Trials {

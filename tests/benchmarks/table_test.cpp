@@ -16,6 +16,8 @@ TEST(ShortNumber, HasThreeSignificantDigits) {
     EXPECT_EQ(report::shortNumber(1.234), "1.23");
     EXPECT_EQ(report::shortNumber(0.1234), "0.123");
     EXPECT_EQ(report::shortNumber(0.01234), "0.0123");
+    EXPECT_EQ(report::shortNumber(0.00012345), "0.000123");
+    EXPECT_EQ(report::shortNumber(-2.3456e-9), "-2.35e-09");
     EXPECT_EQ(report::shortNumber(0.0), "0");
     EXPECT_EQ(report::shortNumber(-1.5), "-1.50");
 }
