@@ -18,7 +18,7 @@ struct VerdictOptions {
     bool fail_on_inconclusive = false;
     bool pass_without_verdicts = false;  // a gate that is out of time before the first ones passes
     std::string metrics;  // regex of the metrics that count; empty: all times
-    // What guides did counts instead of times. States and pictures may then differ.
+    // Only probes count. States and pictures may then differ.
     bool probes = false;
     // A pass with a smaller share of its frame than this is shown but decides nothing (gate).
     double smallest_share = 0.02;

@@ -161,7 +161,7 @@ inline MetricId ofMemory(Measured what, std::string part = {}) {
 // Returns the metric of that name in a report; MetricOf::other for an unknown name.
 MetricId metricNamed(std::string_view name);
 
-// Whether it is what guides did in each frame. It has no noise.
+// Whether it is a probe: a quantity of guides in each frame, without noise.
 bool isProbe(const MetricId& id);
 
 // Whether it is the time of a pass, by the wall clock or by timestamps.

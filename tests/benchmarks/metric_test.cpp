@@ -118,7 +118,7 @@ TEST(Metric, KnowsWhatIsBetter) {
         if (name == "frame.overlap" || name.ends_with(".wait.time") || name == "strands.bytes" ||
             name.ends_with(".operations") || name == "strands.limit" || name.starts_with("device."))
             expected = report::Better::neither;
-        // What guides do is neither good nor bad, but lengths that change and hair in bodies are.
+        // A motion of guides is neither good nor bad, except for wrong lengths and hair in bodies.
         if (name.starts_with("probe.") && name != "probe.length_error.*" &&
             name != "probe.penetration" && name != "probe.pass.time")
             expected = report::Better::neither;

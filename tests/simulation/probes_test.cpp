@@ -73,7 +73,7 @@ protected:
         return lastOf(probes, Probes::names(wanted, settings.solver));
     }
 
-    // Of guides that are at `points` and were at `before` a substep earlier.
+    // Probes guides that are at `points` and were at `before` a substep earlier.
     static Frame probedAt(
         const groom::Groom& groom, const SimulationSettings& settings,
         const std::vector<glm::vec3>& points, const std::vector<glm::vec3>& before,

@@ -632,15 +632,15 @@ function drawProbes() {
         const div = byId(kFigureOf(name)), traces = probeTraces(name, found);
         div.hidden = !traces.length;
         if (traces.length) drawFigure(div, traces, {
-            height: 300, showlegend: traces.length > 1,
-            legend: legendStyle(div, caseValuesTitle()),
+            height: 340, showlegend: traces.length > 1, legend: legendStyle(div),
+            title: {text: plain(name), font: {size: 14}}, margin: {l: 56, r: 16, t: 48, b: 48},
             xaxis: axisStyle({title: "simulated time (s)"}),
-            yaxis: axisStyle({title: plain(metricTitle(name.replace("probe.", ""),
-                metricUnits.get(name)))}),
+            yaxis: axisStyle({title: plain(shownUnit(metricUnits.get(name)).text)}),
         });
     }
     byId("probes-note").textContent = [
         "Of each frame from the start of the hair. Click a line of the legend to hide it.",
+        found.length > 1 ? `Lines: ${caseValuesTitle()}.` : "",
         all.length > found.length ? `${found.length} of ${counted(all.length, "case")}: filter ` +
             "the cases, or show more." : ""].filter(Boolean).join(" ");
 }
