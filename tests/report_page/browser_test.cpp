@@ -47,6 +47,29 @@ TEST_F(PageInBrowser, PlotsTheReportsFigures) {
         Json::parse(R"([["markers",2],["markers",2],["markers",1],["lines",2]])"));
 }
 
+// Two cases have a probe; a third has none, and no line. The axis is in simulated seconds.
+TEST_F(PageInBrowser, PlotsProbesOverTime) {
+    Report report = knownReport();
+    for (std::size_t i = 0; i < 2; ++i) {
+        const double depth = 0.001 * static_cast<double>(i + 1);
+        report.cases[i].metrics.push_back({metricNamed("probe.time"), {0.0, 0.5, 1.0}});
+        report.cases[i].metrics.push_back(
+            {metricNamed("probe.penetration"), {0.0, depth, 2.0 * depth}});
+    }
+    const Json said = open({writeWithPictures(report, folder_.file("a.json"), 200)}, R"(
+        say("lines", figure("probes-probe-penetration").map((each) => [[...each.x], [...each.y]]));
+        const layout = document.getElementById("probes-probe-penetration").layout;
+        say("titles", [layout.title.text, layout.xaxis.title.text, layout.yaxis.title.text]);
+        say("note", document.getElementById("probes-note").textContent);
+    )");
+    EXPECT_EQ(
+        said.at("lines"),
+        Json::parse("[[[0.0,0.5,1.0],[0.0,0.001,0.002]],[[0.0,0.5,1.0],[0.0,0.002,0.004]]]"));
+    EXPECT_EQ(
+        said.at("titles"), Json::parse(R"(["probe.penetration","simulated time (s)","m"])"));
+    EXPECT_THAT(said.at("note").get<std::string>(), HasSubstr("Lines: density"));
+}
+
 TEST_F(PageInBrowser, SortsByNumberAndByText) {
     const Json said = one(R"(
         const titles = [...document.querySelectorAll("#cases-table thead button")];
