@@ -151,7 +151,7 @@ const BadScene kBadFields[] = {
      ": /run/a~1b?~0: unknown key; known: warmup, frames, precision, "
      "max_time, case_timeout, warmup_time, round_time, frame_time, interpolate, frames_in_flight, "
      "overlapped_stamps, "
-     "async_compute, clocks, busy_pass, busy_work, reference, compare_backends"},
+     "async_compute, clocks, busy_pass, busy_work, reference, compare_backends, probes"},
     {R"({"strands": 3})", ": /strands: expected an object, found 3"},
     {R"({"strands": {"density": "64"}})",
      ": /strands/density: expected an integer, found the string \"64\""},

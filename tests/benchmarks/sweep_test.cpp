@@ -113,7 +113,7 @@ TEST_F(Sweep, RefusesBadOverrides) {
         "precision, max_time, case_timeout, warmup_time, round_time, frame_time, interpolate, "
         "frames_in_flight, "
         "overlapped_stamps, async_compute, clocks, busy_pass, busy_work, "
-        "reference, compare_backends");
+        "reference, compare_backends, probes");
     EXPECT_EQ(error("{}", {scene::parseAxis("/seed=1,1")}), "-a: /seed: 1 appears twice");
 }
 

@@ -36,6 +36,29 @@ protected:
     TemporaryFolder folder_;
 };
 
+// The same program with stiffer hair moves it otherwise: by how much is seen, not only that hashes
+// differ. With a threshold above the change, it passes.
+TEST_F(SimulateCli, GateFindsHairThatMovesOtherwise) {
+    const std::string program = "'" HAIRBENCH_PROGRAM "'";
+    const std::string gate = "gate --probes --a " + program + " --b " + program + " --scene " +
+                             shippedScene("smoke.json") + "--axis /render/msaa=1 --out " +
+                             quoted("gate.json") +
+                             " --set /run/probes/tip_displacement=true --set /run/frames=20";
+    const Outcome same = hairbench(gate);
+    EXPECT_EQ(same.status, 0) << same.output;
+    EXPECT_THAT(same.output, HasSubstr("0 regressed, 0 improved, 5 same, 0 inconclusive"));
+    const std::string stiffer = " --set-b /simulation/local/stiffness=0.2";
+    const Outcome other = hairbench(gate + stiffer + " --threshold 1%");
+    EXPECT_EQ(other.status, 12) << other.output;
+    EXPECT_THAT(other.output, testing::ContainsRegex("probe.tip_displacement.mean .* mismatch"));
+    EXPECT_EQ(hairbench(gate + stiffer + " --threshold 90%").status, 0);
+    const Outcome none = hairbench(
+        "gate --probes --a " + program + " --b " + program + " --scene " +
+        shippedScene("smoke.json") + "--axis /render/msaa=1 --out " + quoted("gate.json"));
+    EXPECT_EQ(none.status, 14) << none.output;
+    EXPECT_THAT(none.output, HasSubstr("no probe in common: see /run/probes"));
+}
+
 // There are 136 root triangles with 16 strands each, and 7 segments with 2 pieces each.
 TEST_F(SimulateCli, WritesTheSameStrandsInEveryFormat) {
     const Outcome moving = simulate("hair.usda", "--frames 3");

@@ -47,6 +47,29 @@ TEST_F(PageInBrowser, PlotsTheReportsFigures) {
         Json::parse(R"([["markers",2],["markers",2],["markers",1],["lines",2]])"));
 }
 
+// Two cases have a probe; a third has none, and no line. The axis is in simulated seconds.
+TEST_F(PageInBrowser, PlotsProbesOverTime) {
+    Report report = knownReport();
+    for (std::size_t i = 0; i < 2; ++i) {
+        const double depth = 0.001 * static_cast<double>(i + 1);
+        report.cases[i].metrics.push_back({metricNamed("probe.time"), {0.0, 0.5, 1.0}});
+        report.cases[i].metrics.push_back(
+            {metricNamed("probe.penetration"), {0.0, depth, 2.0 * depth}});
+    }
+    const Json said = open({writeWithPictures(report, folder_.file("a.json"), 200)}, R"(
+        say("lines", figure("probes-probe-penetration").map((each) => [[...each.x], [...each.y]]));
+        const layout = document.getElementById("probes-probe-penetration").layout;
+        say("titles", [layout.title.text, layout.xaxis.title.text, layout.yaxis.title.text]);
+        say("note", document.getElementById("probes-note").textContent);
+    )");
+    EXPECT_EQ(
+        said.at("lines"),
+        Json::parse("[[[0.0,0.5,1.0],[0.0,0.001,0.002]],[[0.0,0.5,1.0],[0.0,0.002,0.004]]]"));
+    EXPECT_EQ(
+        said.at("titles"), Json::parse(R"(["probe.penetration","simulated time (s)","m"])"));
+    EXPECT_THAT(said.at("note").get<std::string>(), HasSubstr("Lines: density"));
+}
+
 TEST_F(PageInBrowser, SortsByNumberAndByText) {
     const Json said = one(R"(
         const titles = [...document.querySelectorAll("#cases-table thead button")];
@@ -272,32 +295,6 @@ TEST_F(PageInBrowser, ShowsTheSamplesOfTheCaseThatIsAskedFor) {
 }
 
 // Names, values, reasons and descriptions are plain text, whatever they contain.
-// A figure for each probe, with a line for each case that has it.
-TEST_F(PageInBrowser, PlotsProbesOverSimulatedTime) {
-    const auto caseOf = [](const char* name, std::vector<double> time, std::vector<double> speed) {
-        CaseResult result = oneCaseReport(name, {}).cases.front();
-        result.metrics.push_back({metricNamed("probe.time"), std::move(time)});
-        result.metrics.push_back({metricNamed("probe.speed"), std::move(speed)});
-        return result;
-    };
-    Report probed = oneCaseReport("without", {});
-    probed.cases.push_back(caseOf("a", {0.0, 0.5, 1.0}, {0.0, 1.0, 3.0}));
-    probed.cases.push_back(caseOf("b", {0.0, 0.25}, {2.0, 1.5}));
-    const char* const kSay = R"(
-        const plot = document.getElementById("probes-probe-speed");
-        say("lines", plot && figure(plot.id).map((each) => [[...each.x], [...each.y]]));
-        say("axes", plot && [plot.layout.title.text, plot.layout.yaxis.title.text]);
-        say("figures", document.querySelectorAll("#probes .probes > *").length);
-    )";
-    const Json said = open({folder_.write("probed.json", reportJson(probed).dump())}, kSay, 1280);
-    EXPECT_EQ(said.at("lines"), Json::parse("[[[0,0.5,1],[0,1,3]], [[0,0.25],[2,1.5]]]"));
-    EXPECT_EQ(said.at("axes"), (Json{"speed", "m/s"}));
-    EXPECT_EQ(said.at("figures"), 1);
-    const Json without =
-        open({folder_.write("not.json", reportJson(oneCaseReport("a", {})).dump())}, kSay, 1280);
-    EXPECT_EQ(without.at("figures"), 0);
-}
-
 TEST_F(PageInBrowser, RunsNothingThatIsInAReport) {
     const std::string evil = "</script><img src=x onerror=window.pwned=1><b>\"\u6f22\u00fc\"</b>";
     Report report = oneCaseReport(evil, {{"/a<i>/" + evil, scene::Document(evil)}});

@@ -2,9 +2,9 @@
 
 from .groom import Groom, read_groom, write_groom
 from .program import GateResult, ProgramError, RunResult, gate, program, run, scenes
-from .report import read_report
+from .report import read_probes, read_report
 
 __all__ = [
     "GateResult", "Groom", "ProgramError", "RunResult", "gate", "program", "read_groom",
-    "read_report", "run", "scenes", "write_groom",
+    "read_probes", "read_report", "run", "scenes", "write_groom",
 ]

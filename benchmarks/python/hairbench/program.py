@@ -188,6 +188,10 @@ class RunResult:
         from .report import read_report
         return read_report(self.path)
 
+    def probes(self) -> pandas.DataFrame:
+        from .report import read_probes
+        return read_probes(self.path)
+
 
 @dataclass(frozen=True)
 class GateResult:

@@ -51,6 +51,65 @@ def metric_columns(name: str, metric: dict[str, Any]) -> dict[str, Any]:
     return columns | {figure: metric.get(figure) for figure in OTHER_FIGURES}
 
 
+def parsed(path: str | os.PathLike[str]) -> dict[str, Any]:
+    """Raises ValueError "path: reason" if the file is not a report."""
+    try:
+        report = json.loads(Path(path).read_text(encoding="utf-8"))
+    except ValueError as error:
+        raise ValueError(f"{path}: is not JSON: {error}") from None
+    schema = report.get("schema", "") if isinstance(report, dict) else ""
+    if not isinstance(schema, str) or not schema.startswith(SCHEMA):
+        raise ValueError(f"{path}: /schema: {schema!r} is not {SCHEMA}*, a report of hairbench run")
+    return report
+
+
+def samples_of(path: Path, case: str, metric: str, entry: dict[str, Any]) -> list[float]:
+    """Returns the samples of a metric, from the file beside the report if they are many."""
+    if "samples_file" not in entry:
+        return entry["samples"]
+    with open(path.parent / entry["samples_file"], encoding="utf-8") as lines:
+        for line in map(json.loads, lines):
+            if (line["case"], line["metric"]) == (case, metric):
+                return line["samples"]
+    raise ValueError(f"{path}: {entry['samples_file']} lacks {metric} of {case}")
+
+
+def read_probes(path: str | os.PathLike[str]) -> pandas.DataFrame:
+    """Returns a row per probe (/run/probes), frame and case: what the guides did over time.
+
+    Columns: `case`, the value on each axis under its JSON pointer, `frame` (from 0, the start of
+    the hair), `time` (simulated s), `probe` ("tip_displacement.mean"), `unit`, `value`. No rows
+    without probes.
+
+    Raises ValueError "path: reason" if the file is not a report.
+    """
+    import pandas
+
+    report = parsed(path)
+    frames = []
+    axes = dict.fromkeys(pointer for case in report["cases"] for pointer in case["axes"])
+    columns = ["case", *axes, "frame", "time", "probe", "unit", "value"]
+    for case in report["cases"]:
+        probes = {
+            name: metric for name, metric in (case.get("metrics") or {}).items()
+            if name.startswith("probe.") and name != "probe.pass.time"}
+        if "probe.time" not in probes:
+            continue
+        times = samples_of(Path(path), case["name"], "probe.time", probes.pop("probe.time"))
+        common = {"case": case["name"]}
+        common |= {pointer: axis_value(value) for pointer, value in case["axes"].items()}
+        for name, metric in probes.items():
+            frame = pandas.DataFrame({
+                "frame": range(len(times)), "time": times, "probe": name.removeprefix("probe."),
+                "unit": metric["unit"],
+                "value": samples_of(Path(path), case["name"], name, metric)})
+            for column, value in common.items():
+                frame[column] = pandas.Series([value] * len(frame))
+            frames.append(frame)
+    joined = pandas.concat(frames, ignore_index=True) if frames else pandas.DataFrame()
+    return joined.reindex(columns=columns)
+
+
 def read_report(path: str | os.PathLike[str]) -> pandas.DataFrame:
     """Returns a row per metric of each case, and one without metrics for a skipped or failed case.
 
@@ -65,14 +124,7 @@ def read_report(path: str | os.PathLike[str]) -> pandas.DataFrame:
     """
     import pandas
 
-    try:
-        report = json.loads(Path(path).read_text(encoding="utf-8"))
-    except ValueError as error:
-        raise ValueError(f"{path}: is not JSON: {error}") from None
-    schema = report.get("schema", "") if isinstance(report, dict) else ""
-    if not isinstance(schema, str) or not schema.startswith(SCHEMA):
-        raise ValueError(f"{path}: /schema: {schema!r} is not {SCHEMA}*, a report of hairbench run")
-
+    report = parsed(path)
     rows = []
     for case in report["cases"]:
         common = case_columns(case)
@@ -91,6 +143,6 @@ def read_report(path: str | os.PathLike[str]) -> pandas.DataFrame:
     for name in columns[columns.index("median"):]:
         frame[name] = pandas.to_numeric(frame[name])
     frame.attrs = {
-        "path": str(path), "schema": schema, "scene": report["scene"]["path"],
+        "path": str(path), "schema": report["schema"], "scene": report["scene"]["path"],
         "environment": report["environment"], "interrupted": report.get("interrupted", False)}
     return frame

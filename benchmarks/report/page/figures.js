@@ -591,7 +591,7 @@ function drawSamples() {
         (samples.kind === "box" ? " Box: the quartiles; whiskers: 5th and 95th percentile." : "");
 }
 
-// ---- Probes of guides over simulated time -------------------------------------------------------
+// ---- Probes: what guides did, over simulated time -----------------------------------------------
 
 const probes = {color: "", limit: 16};
 const kFigureOf = (name) => `probes-${name.replaceAll(".", "-")}`;
@@ -632,17 +632,15 @@ function drawProbes() {
         const div = byId(kFigureOf(name)), traces = probeTraces(name, found);
         div.hidden = !traces.length;
         if (traces.length) drawFigure(div, traces, {
-            height: 300, showlegend: traces.length > 1,
-            legend: legendStyle(div, caseValuesTitle()),
-            title: {text: plain(name.replace("probe.", "")), font: {size: 14}, x: 0, xref: "paper",
-                xanchor: "left", y: 0.97, yanchor: "top"},
-            margin: {l: 56, r: 16, t: 36, b: 48},
+            height: 340, showlegend: traces.length > 1, legend: legendStyle(div),
+            title: {text: plain(name), font: {size: 14}}, margin: {l: 56, r: 16, t: 48, b: 48},
             xaxis: axisStyle({title: "simulated time (s)"}),
             yaxis: axisStyle({title: plain(shownUnit(metricUnits.get(name)).text)}),
         });
     }
     byId("probes-note").textContent = [
         "Of each frame from the start of the hair. Click a line of the legend to hide it.",
+        found.length > 1 ? `Lines: ${caseValuesTitle()}.` : "",
         all.length > found.length ? `${found.length} of ${counted(all.length, "case")}: filter ` +
             "the cases, or show more." : ""].filter(Boolean).join(" ");
 }
