@@ -2,6 +2,10 @@
 #include <functional>
 #include <iostream>
 #include <optional>
+#include <set>
+#include <string>
+#include <string_view>
+#include <vector>
 
 #include <nlohmann/json.hpp>
 
@@ -223,22 +227,29 @@ int diffPictures(const DiffOptions& options) {
 
 // ---- hairbench simulate -------------------------------------------------------------------------
 
-int simulateScene(const SimulateOptions& options) {
-    const groom::RecordingOptions& recording = options.recording;
-    scene::Scene scene = scene::loadScene(options.scene.scene, options.scene.outside);
-    measure::HairCache cache = measure::userHairCache(options.scene.cache);
-    const scene::CaseSpec spec = scene::singleCase(scene, options.scene, &cache.assets());
-    hair::groom::strandExporterOf(recording.out);  // throws early for an unknown format
-    engine::checkWritable(recording.out);
+namespace {
 
-    const engine::Device device(options.scene.device);
-    groom::Recorded recorded;
-    try {
-        recorded = groom::recordStrands(device, scene, spec.settings, recording, cache);
-    } catch (const engine::Interrupted&) {
-        std::cerr << "interrupted: nothing is written\n";
-        return report::kInterrupted;
+constexpr std::string_view kCasePlace = "{case}";
+
+// The name of a case's file: "{case}" stands for its values of axes, "msaa-1_stiffness-0.1".
+std::filesystem::path
+fileOf(const std::filesystem::path& pattern, const scene::Scene& scene, const std::string& name) {
+    std::string text = name == scene.name ? name : name.substr(scene.name.size() + 1);
+    for (char& each : text) {
+        if (each == '/') each = '_';
+        if (std::string_view(":\\\"*?<>|").find(each) != std::string_view::npos) each = '-';
     }
+    std::string file = pattern.string();
+    for (std::size_t at = 0; (at = file.find(kCasePlace, at)) != file.npos; at += text.size())
+        file.replace(at, kCasePlace.size(), text);
+    return file;
+}
+
+void recordCase(
+    const engine::Device& device, const scene::Scene& scene, const scene::CaseSpec& spec,
+    const groom::RecordingOptions& recording, measure::HairCache& cache) {
+    const groom::Recorded recorded =
+        groom::recordStrands(device, scene, spec.settings, recording, cache);
     for (const std::string& message : device.messages().take()) std::cerr << message << '\n';
     for (const std::string& warning : recorded.warnings)
         std::cerr << engine::shownText(warning) << '\n';
@@ -249,7 +260,45 @@ int simulateScene(const SimulateOptions& options) {
               << " strands, " << recorded.strands.points.size() << " points, "
               << (groom::holdsFrames(recording.out) ? "frames 0 to " + last
                                                     : "frame " + last + ", the last,")
-              << " of " << scene.name << (no_size ? "" : ", " + report::sizeText(size)) << '\n';
+              << " of " << engine::shownText(spec.name)
+              << (no_size ? "" : ", " + report::sizeText(size)) << '\n';
+}
+
+}  // namespace
+
+int simulateScene(const SimulateOptions& options) {
+    const std::filesystem::path& out = options.recording.out;
+    scene::Scene scene = scene::loadScene(options.scene.scene, options.scene.outside);
+    measure::HairCache cache = measure::userHairCache(options.scene.cache);
+    // Throws early for an unknown format.
+    if (!groom::isArray(out)) hair::groom::strandExporterOf(out);
+    std::vector<scene::CaseSpec> specs;
+    if (out.string().find(kCasePlace) != std::string::npos) {
+        specs = scene::selectCases(scene, options.scene, &cache.assets());
+    } else {
+        specs.push_back(scene::singleCase(scene, options.scene, &cache.assets()));
+        specs.front().name = scene.name;
+    }
+    std::vector<groom::RecordingOptions> recordings;
+    std::set<std::filesystem::path> files;
+    for (const scene::CaseSpec& spec : specs) {
+        groom::RecordingOptions& recording = recordings.emplace_back(options.recording);
+        recording.out = fileOf(out, scene, spec.name);
+        engine::checkWritable(recording.out);
+        if (!files.insert(recording.out).second)
+            throw engine::Error(recording.out.string(), "is the file of two cases");
+    }
+
+    const engine::Device device(options.scene.device);
+    try {
+        for (std::size_t i = 0; i < specs.size(); ++i)
+            recordCase(device, scene, specs[i], recordings[i], cache);
+    } catch (const engine::Interrupted&) {
+        std::cerr
+            << (specs.size() == 1 ? "interrupted: nothing is written\n"
+                                  : "interrupted: only finished cases are written\n");
+        return report::kInterrupted;
+    }
     return report::kOk;
 }
 
