@@ -98,7 +98,12 @@ void addPictureCommands(const CommandLine& line) {
                     "file to write; .usda and .npy (NumPy's, float32 [frame, strand, point, 3], m) "
                     "hold every frame, other formats (see 'groom convert') the last; with {case} "
                     "in its name, all cases of the sweep are played, each into its file")
-                ->required()
+                ->type_name("FILE");
+            command
+                .add_option(
+                    "--probes", options.probes,
+                    "table (.csv) of the scene's /run/probes to write, with a row for each frame "
+                    "of all cases of the sweep")
                 ->type_name("FILE");
             command.add_flag(
                 "--guides", options.recording.guides,

@@ -1,8 +1,11 @@
+#include <algorithm>
 #include <cstdio>
 #include <functional>
+#include <iomanip>
 #include <iostream>
 #include <optional>
 #include <set>
+#include <sstream>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -26,6 +29,7 @@
 #include "engine/pictures.h"
 #include "engine/process.h"
 #include "hair/groom/files.h"
+#include "hair/simulation/probes.h"
 
 namespace benchmarks::commands {
 
@@ -264,16 +268,63 @@ void recordCase(
               << (no_size ? "" : ", " + report::sizeText(size)) << '\n';
 }
 
+// Writes a table with a row for each frame of each case, and a column for each probe of any case,
+// as RFC 4180 has it.
+void writeProbes(
+    const engine::Device& device, const scene::Scene& scene,
+    const std::vector<scene::CaseSpec>& specs, const SimulateOptions& options,
+    measure::HairCache& cache) {
+    std::vector<measure::PlayedProbes> played;
+    std::vector<std::string> names;
+    for (const scene::CaseSpec& spec : specs) {
+        if (!hair::simulation::hasProbes(spec.settings.run.probes))
+            throw engine::Error("--probes", spec.name + " asks for none: see /run/probes");
+        measure::Case test_case(device, spec.settings, scene.directory, &cache);
+        played.push_back(measure::playProbes(device, test_case, options.recording.frames, [] {
+            engine::checkInterrupted();
+            return false;
+        }));
+        for (const std::string& name : played.back().names)
+            if (std::ranges::find(names, name) == names.end()) names.push_back(name);
+    }
+    std::ostringstream table;
+    table.precision(9);  // enough for 32 bits
+    table << "case,frame,probe.time";
+    for (const std::string& name : names) table << ',' << name;
+    table << '\n';
+    for (std::size_t i = 0; i < specs.size(); ++i) {
+        const measure::PlayedProbes& probes = played[i];
+        for (std::size_t frame = 0; frame < probes.times.size(); ++frame) {
+            table << std::quoted(specs[i].name, '"', '"') << ',' << frame << ','
+                  << probes.times[frame];
+            for (const std::string& name : names) {
+                table << ',';
+                const auto found = std::ranges::find(probes.names, name);
+                if (found != probes.names.end())
+                    table << probes.values[static_cast<std::size_t>(found - probes.names.begin())]
+                                          [frame];
+            }
+            table << '\n';
+        }
+    }
+    engine::writeFileAtomically(options.probes, table.str());
+    std::cout << engine::shownText(options.probes.string()) << ": " << names.size()
+              << " probes, frames 0 to " << options.recording.frames << " of " << specs.size()
+              << (specs.size() == 1 ? " case\n" : " cases\n");
+}
+
 }  // namespace
 
 int simulateScene(const SimulateOptions& options) {
     const std::filesystem::path& out = options.recording.out;
+    if (out.empty() && options.probes.empty())
+        throw engine::Error("simulate", "needs --export or --probes");
     scene::Scene scene = scene::loadScene(options.scene.scene, options.scene.outside);
     measure::HairCache cache = measure::userHairCache(options.scene.cache);
     // Throws early for an unknown format.
-    if (!groom::isArray(out)) hair::groom::strandExporterOf(out);
+    if (!out.empty() && !groom::isArray(out)) hair::groom::strandExporterOf(out);
     std::vector<scene::CaseSpec> specs;
-    if (out.string().find(kCasePlace) != std::string::npos) {
+    if (out.empty() || out.string().find(kCasePlace) != std::string::npos) {
         specs = scene::selectCases(scene, options.scene, &cache.assets());
     } else {
         specs.push_back(scene::singleCase(scene, options.scene, &cache.assets()));
@@ -282,6 +333,7 @@ int simulateScene(const SimulateOptions& options) {
     std::vector<groom::RecordingOptions> recordings;
     std::set<std::filesystem::path> files;
     for (const scene::CaseSpec& spec : specs) {
+        if (out.empty()) break;
         groom::RecordingOptions& recording = recordings.emplace_back(options.recording);
         recording.out = fileOf(out, scene, spec.name);
         engine::checkWritable(recording.out);
@@ -289,10 +341,13 @@ int simulateScene(const SimulateOptions& options) {
             throw engine::Error(recording.out.string(), "is the file of two cases");
     }
 
+    if (!options.probes.empty()) engine::checkWritable(options.probes);
+
     const engine::Device device(options.scene.device);
     try {
-        for (std::size_t i = 0; i < specs.size(); ++i)
+        for (std::size_t i = 0; i < recordings.size(); ++i)
             recordCase(device, scene, specs[i], recordings[i], cache);
+        if (!options.probes.empty()) writeProbes(device, scene, specs, options, cache);
     } catch (const engine::Interrupted&) {
         std::cerr
             << (specs.size() == 1 ? "interrupted: nothing is written\n"

@@ -113,6 +113,35 @@ TEST_F(SimulateCli, WritesAnArrayForEachCase) {
     EXPECT_EQ(read, points.size());
 }
 
+// The table has the start of the hair and each frame of both cases.
+TEST_F(SimulateCli, WritesProbesOfASweep) {
+    const std::string probes = "simulate " + shippedScene("smoke.json") +
+                               "--frames 4 --axis /render/msaa=1 "
+                               "--axis /simulation/wind/strength=0,20 --probes " +
+                               quoted("probes.csv");
+    const Outcome swept =
+        hairbench(probes + " --set /run/probes/speed=true --set /run/probes/tip_displacement=true");
+    EXPECT_EQ(swept.status, 0) << swept.output;
+    EXPECT_THAT(swept.output, HasSubstr("5 probes, frames 0 to 4 of 2 cases"));
+    std::istringstream table(textOf(folder_.file("probes.csv")));
+    std::vector<std::string> lines;
+    for (std::string line; std::getline(table, line);) lines.push_back(line);
+    ASSERT_EQ(lines.size(), 1u + 2 * 5);
+    EXPECT_EQ(
+        lines[0],
+        "case,frame,probe.time,probe.tip_displacement.mean,probe.tip_displacement.median,"
+        "probe.tip_displacement.percentile_90,probe.tip_displacement.maximum,probe.speed");
+    EXPECT_TRUE(lines[1].starts_with("\"smoke/msaa:1/strength:0\",0,0,")) << lines[1];
+    EXPECT_TRUE(lines[6].starts_with("\"smoke/msaa:1/strength:20\",0,0,")) << lines[6];
+    // Both cases settle without wind, so that they start alike.
+    EXPECT_EQ(lines[1].substr(lines[1].find(",0,0,")), lines[6].substr(lines[6].find(",0,0,")));
+    EXPECT_NE(lines[5].substr(lines[5].find(",4,")), lines[10].substr(lines[10].find(",4,")));
+    const Outcome none = hairbench(probes);
+    EXPECT_EQ(none.status, 2) << none.output;
+    EXPECT_THAT(none.output, HasSubstr("asks for none: see /run/probes"));
+    EXPECT_EQ(hairbench("simulate " + shippedScene("smoke.json")).status, 2);
+}
+
 TEST_F(SimulateCli, WritesTheGuides) {
     const Outcome outcome = simulate("guides.usda", "--frames 1 --guides -a /groom/guides=86");
     EXPECT_EQ(outcome.status, 0) << outcome.output;

@@ -162,7 +162,8 @@ class Simulate(InFolder):
         need_device(self)
         axes = {"/render/msaa": [1], "/simulation/wind/strength": numpy.array([0, 20])}
         played = hairbench.simulate(
-            SMOKE, out=self.folder / "played", axes=axes, frames=6, progress=None)
+            SMOKE, out=self.folder / "played", axes=axes, frames=6, progress=None,
+            sets={"/run/probes/speed": True})
         self.assertEqual(
             list(played.positions), ["smoke/msaa:1/strength:0", "smoke/msaa:1/strength:20"])
         still, blown = played.positions.values()
@@ -181,6 +182,10 @@ class Simulate(InFolder):
             ["case", "/render/msaa", "/simulation/wind/strength", "frame", "time", "probe", "unit",
              "value"])
         self.assertEqual(len(probes), 2 * 7)
+        same = played.probes()  # of the same frames, in nine digits
+        self.assertEqual(list(same.columns), ["case", "frame", "time", "probe", "value"])
+        self.assertEqual(list(same["case"]), list(probes["case"]))
+        self.assertTrue(numpy.allclose(same["value"], probes["value"], rtol=1e-8, atol=0.0))
         for case, positions in played.positions.items():
             speeds = numpy.linalg.norm(numpy.diff(positions.astype(float), axis=0), axis=-1) * 60
             probed = probes[(probes["case"] == case) & (probes["frame"] > 1)]

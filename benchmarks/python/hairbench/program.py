@@ -263,6 +263,22 @@ class Simulation:
 
     positions: dict[str, numpy.ndarray]
     text: str  # that the program printed
+    table: Path | None = None  # of probes; None: none were asked for
+
+    def probes(self) -> pandas.DataFrame:
+        """Returns a row per case, frame and probe: `case`, `frame` (from 0, the start of the hair),
+        `time` (simulated s), `probe`, `value`.
+
+        Raises ValueError if none were asked for.
+        """
+        import pandas
+
+        if self.table is None:
+            raise ValueError("no probes were asked for: sets={'/run/probes/speed': True}")
+        wide = pandas.read_csv(self.table).rename(columns={"probe.time": "time"})
+        tidy = wide.melt(["case", "frame", "time"], var_name="probe")
+        tidy["probe"] = tidy["probe"].str.removeprefix("probe.")
+        return tidy.dropna(subset="value", ignore_index=True)
 
 
 def simulate(
@@ -271,7 +287,7 @@ def simulate(
         frames: int = 60, progress: Progress | None = to_stderr, **options: Option) -> Simulation:
     """`hairbench simulate --guides`: plays every case of a scene, without pictures.
 
-    out      folder for a file CASE.npy of each case
+    out      folder for a file CASE.npy of each case, and probes.csv if axes or sets ask for probes
     axes     pointer -> values: replaces or adds axes of the sweep
     sets     pointer -> value for every case
     frames   frames of each case
@@ -285,12 +301,17 @@ def simulate(
         "simulate", os.fspath(scene), "--guides", "--frames", str(frames),
         "--export", str(Path(out) / "{case}.npy"), *scene_arguments(axes, sets),
         *option_arguments(options)]
+    asks = any(pointer.startswith("/run/probes") for pointer in (*(axes or ()), *(sets or ())))
+    table = Path(out) / "probes.csv" if asks else None
+    if table:
+        arguments += ["--probes", str(table)]
     finished = succeed(arguments, progress)
     written = re.findall(
         r"^(.*\.npy): \d+ strands, \d+ points, frames 0 to \d+ of (.+), [\d.]+ \w+$", finished.text,
         re.MULTILINE)
     return Simulation(
-        {case: numpy.load(path, mmap_mode="r") for path, case in written}, finished.text)
+        {case: numpy.load(path, mmap_mode="r") for path, case in written}, finished.text,
+        table)
 
 
 def gate(
