@@ -84,7 +84,10 @@ void addPictureCommands(const CommandLine& line) {
         line, line.app,
         {.name = "simulate",
          .description = "plays a scene and writes its strands, without a picture",
-         .examples = {"hairbench simulate nod --frames 60 --export nod.usda"}},
+         .examples =
+             {"hairbench simulate nod --frames 60 --export nod.usda",
+              "hairbench simulate smoke --guides --export 'sim_{case}.npy' -a "
+              "/simulation/wind/strength=0,5"}},
         simulateScene, [](CLI::App& command, SimulateOptions& options) {
             addSceneOptions(command, options.scene);
             command.add_option("--frames", options.recording.frames, "frames to play (default 60)")
@@ -92,9 +95,15 @@ void addPictureCommands(const CommandLine& line) {
             command
                 .add_option(
                     "--export", options.recording.out,
-                    "file to write; .usda holds every frame, other formats (see 'groom convert') "
-                    "the last")
-                ->required()
+                    "file to write; .usda and .npy (NumPy's, float32 [frame, strand, point, 3], m) "
+                    "hold every frame, other formats (see 'groom convert') the last; with {case} "
+                    "in its name, all cases of the sweep are played, each into its file")
+                ->type_name("FILE");
+            command
+                .add_option(
+                    "--probes", options.probes,
+                    "table (.csv) of the scene's /run/probes to write, with a row for each frame "
+                    "of all cases of the sweep")
                 ->type_name("FILE");
             command.add_flag(
                 "--guides", options.recording.guides,

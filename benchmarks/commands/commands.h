@@ -229,7 +229,8 @@ int compareGrooms(const CompareGroomsOptions& options);
 
 struct SimulateOptions {
     scene::SceneOptions scene;
-    groom::RecordingOptions recording;
+    groom::RecordingOptions recording;  // without a file if only `probes` is written
+    std::filesystem::path probes;  // table of /run/probes; may be empty
 };
 int simulateScene(const SimulateOptions& options);
 

@@ -1,7 +1,14 @@
+#include <algorithm>
 #include <cstdio>
 #include <functional>
+#include <iomanip>
 #include <iostream>
 #include <optional>
+#include <set>
+#include <sstream>
+#include <string>
+#include <string_view>
+#include <vector>
 
 #include <nlohmann/json.hpp>
 
@@ -22,6 +29,7 @@
 #include "engine/pictures.h"
 #include "engine/process.h"
 #include "hair/groom/files.h"
+#include "hair/simulation/probes.h"
 
 namespace benchmarks::commands {
 
@@ -223,22 +231,29 @@ int diffPictures(const DiffOptions& options) {
 
 // ---- hairbench simulate -------------------------------------------------------------------------
 
-int simulateScene(const SimulateOptions& options) {
-    const groom::RecordingOptions& recording = options.recording;
-    scene::Scene scene = scene::loadScene(options.scene.scene, options.scene.outside);
-    measure::HairCache cache = measure::userHairCache(options.scene.cache);
-    const scene::CaseSpec spec = scene::singleCase(scene, options.scene, &cache.assets());
-    hair::groom::strandExporterOf(recording.out);  // throws early for an unknown format
-    engine::checkWritable(recording.out);
+namespace {
 
-    const engine::Device device(options.scene.device);
-    groom::Recorded recorded;
-    try {
-        recorded = groom::recordStrands(device, scene, spec.settings, recording, cache);
-    } catch (const engine::Interrupted&) {
-        std::cerr << "interrupted: nothing is written\n";
-        return report::kInterrupted;
+constexpr std::string_view kCasePlace = "{case}";
+
+// The name of a case's file: "{case}" stands for its values of axes, "msaa-1_stiffness-0.1".
+std::filesystem::path
+fileOf(const std::filesystem::path& pattern, const scene::Scene& scene, const std::string& name) {
+    std::string text = name == scene.name ? name : name.substr(scene.name.size() + 1);
+    for (char& each : text) {
+        if (each == '/') each = '_';
+        if (std::string_view(":\\\"*?<>|").find(each) != std::string_view::npos) each = '-';
     }
+    std::string file = pattern.string();
+    for (std::size_t at = 0; (at = file.find(kCasePlace, at)) != file.npos; at += text.size())
+        file.replace(at, kCasePlace.size(), text);
+    return file;
+}
+
+void recordCase(
+    const engine::Device& device, const scene::Scene& scene, const scene::CaseSpec& spec,
+    const groom::RecordingOptions& recording, measure::HairCache& cache) {
+    const groom::Recorded recorded =
+        groom::recordStrands(device, scene, spec.settings, recording, cache);
     for (const std::string& message : device.messages().take()) std::cerr << message << '\n';
     for (const std::string& warning : recorded.warnings)
         std::cerr << engine::shownText(warning) << '\n';
@@ -249,7 +264,96 @@ int simulateScene(const SimulateOptions& options) {
               << " strands, " << recorded.strands.points.size() << " points, "
               << (groom::holdsFrames(recording.out) ? "frames 0 to " + last
                                                     : "frame " + last + ", the last,")
-              << " of " << scene.name << (no_size ? "" : ", " + report::sizeText(size)) << '\n';
+              << " of " << engine::shownText(spec.name)
+              << (no_size ? "" : ", " + report::sizeText(size)) << '\n';
+}
+
+// Writes a table with a row for each frame of each case, and a column for each probe of any case,
+// as RFC 4180 has it.
+void writeProbes(
+    const engine::Device& device, const scene::Scene& scene,
+    const std::vector<scene::CaseSpec>& specs, const SimulateOptions& options,
+    measure::HairCache& cache) {
+    std::vector<measure::PlayedProbes> played;
+    std::vector<std::string> names;
+    for (const scene::CaseSpec& spec : specs) {
+        if (!hair::simulation::hasProbes(spec.settings.run.probes))
+            throw engine::Error("--probes", spec.name + " asks for none: see /run/probes");
+        measure::Case test_case(device, spec.settings, scene.directory, &cache);
+        played.push_back(measure::playProbes(device, test_case, options.recording.frames, [] {
+            engine::checkInterrupted();
+            return false;
+        }));
+        for (const std::string& name : played.back().names)
+            if (std::ranges::find(names, name) == names.end()) names.push_back(name);
+    }
+    std::ostringstream table;
+    table.precision(9);  // enough for 32 bits
+    table << "case,frame,probe.time";
+    for (const std::string& name : names) table << ',' << name;
+    table << '\n';
+    for (std::size_t i = 0; i < specs.size(); ++i) {
+        const measure::PlayedProbes& probes = played[i];
+        for (std::size_t frame = 0; frame < probes.times.size(); ++frame) {
+            table << std::quoted(specs[i].name, '"', '"') << ',' << frame << ','
+                  << probes.times[frame];
+            for (const std::string& name : names) {
+                table << ',';
+                const auto found = std::ranges::find(probes.names, name);
+                if (found != probes.names.end())
+                    table << probes.values[static_cast<std::size_t>(found - probes.names.begin())]
+                                          [frame];
+            }
+            table << '\n';
+        }
+    }
+    engine::writeFileAtomically(options.probes, table.str());
+    std::cout << engine::shownText(options.probes.string()) << ": " << names.size()
+              << " probes, frames 0 to " << options.recording.frames << " of " << specs.size()
+              << (specs.size() == 1 ? " case\n" : " cases\n");
+}
+
+}  // namespace
+
+int simulateScene(const SimulateOptions& options) {
+    const std::filesystem::path& out = options.recording.out;
+    if (out.empty() && options.probes.empty())
+        throw engine::Error("simulate", "needs --export or --probes");
+    scene::Scene scene = scene::loadScene(options.scene.scene, options.scene.outside);
+    measure::HairCache cache = measure::userHairCache(options.scene.cache);
+    // Throws early for an unknown format.
+    if (!out.empty() && !groom::isArray(out)) hair::groom::strandExporterOf(out);
+    std::vector<scene::CaseSpec> specs;
+    if (out.empty() || out.string().find(kCasePlace) != std::string::npos) {
+        specs = scene::selectCases(scene, options.scene, &cache.assets());
+    } else {
+        specs.push_back(scene::singleCase(scene, options.scene, &cache.assets()));
+        specs.front().name = scene.name;
+    }
+    std::vector<groom::RecordingOptions> recordings;
+    std::set<std::filesystem::path> files;
+    for (const scene::CaseSpec& spec : specs) {
+        if (out.empty()) break;
+        groom::RecordingOptions& recording = recordings.emplace_back(options.recording);
+        recording.out = fileOf(out, scene, spec.name);
+        engine::checkWritable(recording.out);
+        if (!files.insert(recording.out).second)
+            throw engine::Error(recording.out.string(), "is the file of two cases");
+    }
+
+    if (!options.probes.empty()) engine::checkWritable(options.probes);
+
+    const engine::Device device(options.scene.device);
+    try {
+        for (std::size_t i = 0; i < recordings.size(); ++i)
+            recordCase(device, scene, specs[i], recordings[i], cache);
+        if (!options.probes.empty()) writeProbes(device, scene, specs, options, cache);
+    } catch (const engine::Interrupted&) {
+        std::cerr
+            << (specs.size() == 1 ? "interrupted: nothing is written\n"
+                                  : "interrupted: only finished cases are written\n");
+        return report::kInterrupted;
+    }
     return report::kOk;
 }
 

@@ -1,7 +1,11 @@
 #include "benchmarks/groom/recording.h"
 
+#include <bit>
+#include <cstddef>
 #include <functional>
 #include <optional>
+#include <ostream>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -26,6 +30,7 @@ public:
           case_(device, settings, scene.directory, &cache) {}
 
     Recorded everyFrame();
+    Recorded array();
     Recorded lastFrame();
     std::vector<std::string> warnings() const { return case_.warnings(); }
 
@@ -33,6 +38,10 @@ private:
     // Plays the frames without drawing them. Calls `after` with the index of each.
     void play(const std::function<void(std::uint32_t)>& after);
     hair::groom::StrandSet strands() const;
+    // Throws unless a frame draws the same strands as the first.
+    void checkEqual(
+        std::uint32_t frame, const hair::groom::StrandSet& now,
+        const hair::groom::StrandSet& first) const;
 
     const engine::Device& device_;
     const scene::Scene& scene_;
@@ -69,6 +78,17 @@ hair::groom::StrandSet Recording::strands() const {
     return strands;
 }
 
+void Recording::checkEqual(
+    std::uint32_t frame, const hair::groom::StrandSet& now,
+    const hair::groom::StrandSet& first) const {
+    if (now.ends == first.ends && now.widths.values == first.widths.values) return;
+    throw engine::Error(
+        "/lod/mode", "frame " + std::to_string(frame) +
+                         " draws different strands from frame 0, and " +
+                         hair::groom::lowerCaseExtension(options_.out) +
+                         " holds one set: 'forced' draws the same in all");
+}
+
 Recorded Recording::everyFrame() {
     Recorded recorded;
     engine::writeFileAtomically(options_.out, [&](std::ostream& file) {
@@ -81,17 +101,52 @@ Recorded Recording::everyFrame() {
                     hair::groom::UsdaTiming{options_.frames, double{settings_.run.frame_time}});
                 recorded = {now, animation->warnings()};
             }
-            if (now.ends != recorded.strands.ends ||
-                now.widths.values != recorded.strands.widths.values) {
-                throw engine::Error(
-                    "/lod/mode",
-                    "frame " + std::to_string(frame) +
-                        " draws different strands from frame 0, and .usda holds one set: "
-                        "'forced' draws the same in all");
-            }
+            checkEqual(frame, now, recorded.strands);
             animation->frame(now.points);
         });
         animation->end();
+    });
+    return recorded;
+}
+
+// Returns the beginning of a file of NumPy's format 1.0 for float32 [frame][strand][point][3]: the
+// array begins at a multiple of 64 bytes, so that it can be mapped. numpy.lib.format describes it.
+std::string arrayHeader(std::uint32_t frames, std::size_t strands, std::size_t points) {
+    static_assert(std::endian::native == std::endian::little);
+    constexpr std::size_t kFixed = 10, kAlignment = 64;
+    std::string text = "{'descr': '<f4', 'fortran_order': False, 'shape': (" +
+                       std::to_string(frames) + ", " + std::to_string(strands) + ", " +
+                       std::to_string(points) + ", 3), }";
+    text.resize((kFixed + text.size() + kAlignment) / kAlignment * kAlignment - kFixed - 1, ' ');
+    text += '\n';
+    const auto size = static_cast<std::uint16_t>(text.size());
+    std::string header("\x93NUMPY\x01\0", 8);
+    header += static_cast<char>(size & 0xff);
+    header += static_cast<char>(size >> 8);
+    return header + text;
+}
+
+Recorded Recording::array() {
+    Recorded recorded;
+    engine::writeFileAtomically(options_.out, [&](std::ostream& file) {
+        play([&](std::uint32_t frame) {
+            hair::groom::StrandSet now = strands();
+            if (frame == 0) {
+                const std::size_t points = now.ends.front();
+                for (std::size_t i = 0; i < now.ends.size(); ++i)
+                    if (now.ends[i] != (i + 1) * points)
+                        throw engine::Error(
+                            options_.out.string(),
+                            "strands have different numbers of points: --guides writes guides");
+                file << arrayHeader(options_.frames, now.ends.size(), points);
+                recorded.strands = now;
+            }
+            checkEqual(frame, now, recorded.strands);
+            const auto bytes = std::as_bytes(std::span(now.points));
+            file.write(
+                reinterpret_cast<const char*>(bytes.data()),
+                static_cast<std::streamsize>(bytes.size()));
+        });
     });
     return recorded;
 }
@@ -106,15 +161,21 @@ Recorded Recording::lastFrame() {
 
 }  // namespace
 
+bool isArray(const std::filesystem::path& file) {
+    return hair::groom::lowerCaseExtension(file) == ".npy";
+}
+
 bool holdsFrames(const std::filesystem::path& file) {
-    return hair::groom::lowerCaseExtension(file) == ".usda";
+    return hair::groom::lowerCaseExtension(file) == ".usda" || isArray(file);
 }
 
 Recorded recordStrands(
     const engine::Device& device, const scene::Scene& scene, const hair::Settings& settings,
     const RecordingOptions& options, measure::HairCache& cache) {
     Recording recording(device, scene, settings, options, cache);
-    Recorded recorded = holdsFrames(options.out) ? recording.everyFrame() : recording.lastFrame();
+    Recorded recorded = isArray(options.out)       ? recording.array()
+                        : holdsFrames(options.out) ? recording.everyFrame()
+                                                   : recording.lastFrame();
     const std::vector<std::string> warnings = recording.warnings();
     recorded.warnings.insert(recorded.warnings.begin(), warnings.begin(), warnings.end());
     return recorded;

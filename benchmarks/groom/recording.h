@@ -23,6 +23,9 @@ struct RecordingOptions {
     bool guides = false;  // simulated guides instead of the drawn strands
 };
 
+// Whether the file is an array of NumPy, which also holds every frame.
+bool isArray(const std::filesystem::path& file);
+
 // Whether the file's format holds every frame of a simulation; other formats hold only the last.
 bool holdsFrames(const std::filesystem::path& file);
 

@@ -243,35 +243,44 @@ std::vector<std::uint8_t> measureFrames(
     return std::move(overlapped.end.picture);
 }
 
-void addProbes(
-    const engine::Device& device, Case& test_case, const hair::RunSettings& run,
-    const MeasureHooks& hooks, report::CaseResult& result) {
-    if (!hair::simulation::hasProbes(run.probes)) return;
+PlayedProbes playProbes(
+    const engine::Device& device, Case& test_case, std::uint32_t frames,
+    const std::function<bool()>& stop) {
     const hair::SimulationSettings& simulation = test_case.settings().simulation;
-    const std::uint32_t frames = run.warmup + run.frames + 1;  // RoundPlayer::play()
-    hair::simulation::Probes probes(device, test_case.groom(), simulation, run.probes, frames + 1);
+    const hair::ProbeSettings& wanted = test_case.settings().run.probes;
+    hair::simulation::Probes probes(device, test_case.groom(), simulation, wanted, frames + 1);
     test_case.reset();
+    PlayedProbes played;
     engine::FrameLoop loop(device, Timing::isolated);
-    std::vector<double> times;  // s
     for (std::uint32_t frame = 0; frame <= frames; ++frame) {
-        if (hooks.stop()) throw engine::Interrupted();
+        if (stop()) throw engine::Interrupted();
         loop.frame([&](engine::Passes& passes) {
             if (frame > 0) test_case.simulate(passes);
             test_case.probe(passes, probes);
         });
-        times.push_back(test_case.time());
+        played.times.push_back(test_case.time());
     }
-    const std::vector<FrameRecord> records = loop.finish();
-    const std::vector<std::string> names =
-        hair::simulation::Probes::names(run.probes, simulation.solver);
-    const std::vector<std::vector<double>> values = probes.read();
+    played.pass_times = passTimes(loop.finish(), "probe");
+    for (const std::string& name : hair::simulation::Probes::names(wanted, simulation.solver))
+        played.names.push_back("probe." + name);
+    played.values = probes.read();
+    return played;
+}
+
+void addProbes(
+    const engine::Device& device, Case& test_case, const hair::RunSettings& run,
+    const MeasureHooks& hooks, report::CaseResult& result) {
+    if (!hair::simulation::hasProbes(run.probes)) return;
+    PlayedProbes played =
+        playProbes(device, test_case, run.warmup + run.frames + 1, hooks.stop);  // as RoundPlayer
     result.metrics.push_back(
-        {{report::MetricOf::probe, report::Measured::simulated_time}, std::move(times)});
-    for (std::size_t i = 0; i < names.size(); ++i)
-        result.metrics.push_back({report::metricNamed("probe." + names[i]), values[i]});
+        {{report::MetricOf::probe, report::Measured::simulated_time}, std::move(played.times)});
+    for (std::size_t i = 0; i < played.names.size(); ++i)
+        result.metrics.push_back(
+            {report::metricNamed(played.names[i]), std::move(played.values[i])});
     result.metrics.push_back(
         {{report::MetricOf::probe, report::Measured::time},
-         passTimes(records, "probe"),
+         std::move(played.pass_times),
          report::Mode::isolated});
     if (!result.state_hash.empty() && test_case.stateHash() != result.state_hash)
         result.trust.warnings.push_back("frames with probes made other states");

@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -41,6 +42,21 @@ StartInspection judgeStart(
 std::vector<std::uint8_t> measure(
     const engine::Device& device, Case& test_case, const hair::RunSettings& run,
     const MeasureHooks& hooks, report::CaseResult& result);
+
+// Probes of the start of the hair and of some frames, which play without drawing.
+struct PlayedProbes {
+    std::vector<std::string> names;  // of metrics: "probe.speed"
+    std::vector<double> times;  // [frame], simulated s
+    std::vector<std::vector<double>> values;  // [name][frame]
+    std::vector<double> pass_times;  // [frame], ms; empty without timestamps
+};
+
+// Plays the case from its start with the pass `probe` of /run/probes, which must ask for some.
+// Throws Interrupted if `stop` returns true before a frame, engine::Error for guides that do not
+// exist.
+PlayedProbes playProbes(
+    const engine::Device& device, Case& test_case, std::uint32_t frames,
+    const std::function<bool()>& stop);
 
 // Plays the frames of a round again, without drawing, from the start of the hair to the state that
 // was hashed, with the pass `probe`. Adds probe.*; warns if the state differs

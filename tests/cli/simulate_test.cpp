@@ -1,5 +1,6 @@
 // Tests `hairbench simulate` as a user runs it.
 #include <algorithm>
+#include <cstring>
 #include <filesystem>
 #include <sstream>
 #include <string>
@@ -74,6 +75,71 @@ TEST_F(SimulateCli, WritesTheSameStrandsInEveryFormat) {
         "tests/cli/compare_frames.py",
         "3 " + quoted("hair.usda") + ' ' + quoted("hair.hair") + ' ' + quoted("hair.obj"));
     EXPECT_EQ(compared.output, "2176 strands, 32640 points are equal\n");
+}
+
+// Each case of a sweep has an array of its own, as numpy.load() maps it: as many frames as were
+// played, and the same guides as in the formats of hair.
+TEST_F(SimulateCli, WritesAnArrayForEachCase) {
+    const std::string options = "--frames 3 --guides --axis /render/msaa=1 "
+                                "--axis /simulation/wind/strength=0,20 ";
+    const Outcome swept = simulate("sim_{case}.npy", options);
+    EXPECT_EQ(swept.status, 0) << swept.output;
+    EXPECT_THAT(swept.output, HasSubstr("86 strands, 688 points, frames 0 to 2 of smoke/msaa:1"));
+    const Outcome last = simulate(
+        "last.obj", "--frames 3 --guides --set /render/msaa=1 --set /simulation/wind/strength=20");
+    EXPECT_EQ(last.status, 0) << last.output;
+    const std::string array = textOf(folder_.file("sim_msaa-1_strength-20.npy"));
+    const std::string still = textOf(folder_.file("sim_msaa-1_strength-0.npy"));
+    // Format 1.0: 128 bytes of header, in which the version and the length are binary.
+    ASSERT_EQ(array.size(), 128 + 3 * 688 * 3 * sizeof(float));
+    ASSERT_EQ(still.size(), array.size());
+    EXPECT_EQ(array.substr(0, 10), std::string("\x93NUMPY\x01\x00\x76\x00", 10));
+    EXPECT_THAT(
+        array, HasSubstr("{'descr': '<f4', 'fortran_order': False, 'shape': (3, 86, 8, 3), }"));
+    EXPECT_EQ(array[127], '\n');
+    EXPECT_NE(array.substr(128), still.substr(128));
+    std::vector<float> points(688 * 3);
+    std::memcpy(points.data(), array.data() + array.size() - points.size() * 4, points.size() * 4);
+    std::istringstream obj(textOf(folder_.file("last.obj")));
+    std::size_t read = 0;
+    for (std::string line; std::getline(obj, line);) {
+        if (!line.starts_with("v ")) continue;
+        std::istringstream numbers(line.substr(2));
+        for (float number; numbers >> number; ++read) {
+            ASSERT_LT(read, points.size());
+            EXPECT_EQ(number, points[read]);  // .obj holds floats exactly
+        }
+    }
+    EXPECT_EQ(read, points.size());
+}
+
+// The table has the start of the hair and each frame of both cases.
+TEST_F(SimulateCli, WritesProbesOfASweep) {
+    const std::string probes = "simulate " + shippedScene("smoke.json") +
+                               "--frames 4 --axis /render/msaa=1 "
+                               "--axis /simulation/wind/strength=0,20 --probes " +
+                               quoted("probes.csv");
+    const Outcome swept =
+        hairbench(probes + " --set /run/probes/speed=true --set /run/probes/tip_displacement=true");
+    EXPECT_EQ(swept.status, 0) << swept.output;
+    EXPECT_THAT(swept.output, HasSubstr("5 probes, frames 0 to 4 of 2 cases"));
+    std::istringstream table(textOf(folder_.file("probes.csv")));
+    std::vector<std::string> lines;
+    for (std::string line; std::getline(table, line);) lines.push_back(line);
+    ASSERT_EQ(lines.size(), 1u + 2 * 5);
+    EXPECT_EQ(
+        lines[0],
+        "case,frame,probe.time,probe.tip_displacement.mean,probe.tip_displacement.median,"
+        "probe.tip_displacement.percentile_90,probe.tip_displacement.maximum,probe.speed");
+    EXPECT_TRUE(lines[1].starts_with("\"smoke/msaa:1/strength:0\",0,0,")) << lines[1];
+    EXPECT_TRUE(lines[6].starts_with("\"smoke/msaa:1/strength:20\",0,0,")) << lines[6];
+    // Both cases settle without wind, so that they start alike.
+    EXPECT_EQ(lines[1].substr(lines[1].find(",0,0,")), lines[6].substr(lines[6].find(",0,0,")));
+    EXPECT_NE(lines[5].substr(lines[5].find(",4,")), lines[10].substr(lines[10].find(",4,")));
+    const Outcome none = hairbench(probes);
+    EXPECT_EQ(none.status, 2) << none.output;
+    EXPECT_THAT(none.output, HasSubstr("asks for none: see /run/probes"));
+    EXPECT_EQ(hairbench("simulate " + shippedScene("smoke.json")).status, 2);
 }
 
 TEST_F(SimulateCli, WritesTheGuides) {

@@ -7,6 +7,8 @@ import unittest
 from pathlib import Path
 from unittest import mock
 
+import numpy
+
 from report_test import made_report
 from support import REPOSITORY, hairbench, need_device
 from hairbench.program import option_arguments, scene_arguments
@@ -153,6 +155,48 @@ class Run(InFolder):
                 hairbench.run(SMOKE, out=self.folder / "r.json", progress=None, **arguments)
             self.assertEqual(raised.exception.status, 2)
             self.assertIn(reason, str(raised.exception))
+
+
+class Simulate(InFolder):
+    def test_maps_the_guides_of_each_case(self):
+        need_device(self)
+        axes = {"/render/msaa": [1], "/simulation/wind/strength": numpy.array([0, 20])}
+        played = hairbench.simulate(
+            SMOKE, out=self.folder / "played", axes=axes, frames=6, progress=None,
+            sets={"/run/probes/speed": True})
+        self.assertEqual(
+            list(played.positions), ["smoke/msaa:1/strength:0", "smoke/msaa:1/strength:20"])
+        still, blown = played.positions.values()
+        self.assertEqual(blown.shape, (6, 86, 8, 3))
+        self.assertIsInstance(blown, numpy.memmap)
+        self.assertTrue((still[:, :, 0] == blown[:, :, 0]).all())  # roots
+        self.assertFalse((still[-1] == blown[-1]).all())
+        # A probe of the same frames, of which the first follows the start of the hair. The greatest
+        # speed of a vertex over a step of 1/60 s, in positions of 32 bits up to 0.3 m.
+        run = hairbench.run(
+            SMOKE, out=self.folder / "probed.json", axes=axes, no_pictures=True, progress=None,
+            sets={"/run/frames": 3, "/run/warmup": 2, "/run/probes/speed": True})
+        probes = run.probes()
+        self.assertEqual(
+            list(probes.columns),
+            ["case", "/render/msaa", "/simulation/wind/strength", "frame", "time", "probe", "unit",
+             "value"])
+        self.assertEqual(len(probes), 2 * 7)
+        same = played.probes()  # of the same frames, in nine digits
+        self.assertEqual(list(same.columns), ["case", "frame", "time", "probe", "value"])
+        self.assertEqual(list(same["case"]), list(probes["case"]))
+        self.assertTrue(numpy.allclose(same["value"], probes["value"], rtol=1e-8, atol=0.0))
+        for case, positions in played.positions.items():
+            speeds = numpy.linalg.norm(numpy.diff(positions.astype(float), axis=0), axis=-1) * 60
+            probed = probes[(probes["case"] == case) & (probes["frame"] > 1)]
+            self.assertTrue(numpy.allclose(probed["value"], speeds.max(axis=(1, 2)), atol=5e-6))
+            self.assertTrue(numpy.allclose(probed["time"], numpy.arange(2, 7) / 60, atol=1e-6))
+
+    def test_says_what_is_wrong(self):
+        with self.assertRaises(hairbench.ProgramError) as raised:
+            hairbench.simulate(
+                SMOKE, out=self.folder, sets={"/simulation/solvers": 1}, progress=None)
+        self.assertIn("/simulation/solvers", str(raised.exception))
 
 
 class Gate(InFolder):

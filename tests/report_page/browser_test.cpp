@@ -65,8 +65,7 @@ TEST_F(PageInBrowser, PlotsProbesOverTime) {
     EXPECT_EQ(
         said.at("lines"),
         Json::parse("[[[0.0,0.5,1.0],[0.0,0.001,0.002]],[[0.0,0.5,1.0],[0.0,0.002,0.004]]]"));
-    EXPECT_EQ(
-        said.at("titles"), Json::parse(R"(["probe.penetration","simulated time (s)","m"])"));
+    EXPECT_EQ(said.at("titles"), Json({"probe.penetration", "simulated time (s)", "m"}));
     EXPECT_THAT(said.at("note").get<std::string>(), HasSubstr("Lines: density"));
 }
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import os
+import re
 import shutil
 import signal
 import subprocess
@@ -15,6 +16,7 @@ from pathlib import Path
 from typing import IO, TYPE_CHECKING, Any, Union
 
 if TYPE_CHECKING:
+    import numpy
     import pandas
 
 Value = Union[str, int, float, bool, "os.PathLike[str]"]
@@ -87,8 +89,14 @@ def option_arguments(options: Mapping[str, Option]) -> list[str]:
     return arguments
 
 
+def plain(value: Any) -> Any:
+    """Returns numpy's arrays and scalars as lists and numbers."""
+    return value.tolist() if hasattr(value, "tolist") else value
+
+
 def json_text(value: object) -> str:
     """Returns a scene's value for the command line: "rod" without quotes, other types as JSON."""
+    value = plain(value)
     return value if isinstance(value, str) else json.dumps(value)
 
 
@@ -97,6 +105,7 @@ def scene_arguments(
     """`axes`: pointer -> values, or a range such as "pow2:6:12"; `sets`: pointer -> value."""
     arguments: list[str] = []
     for pointer, values in (axes or {}).items():
+        values = plain(values)
         if not isinstance(values, str):
             if not isinstance(values, Sequence):
                 raise TypeError(f"axes: {pointer}: {values!r} is not a list of values")
@@ -243,6 +252,66 @@ def run(
         *option_arguments(options)]
     finished = compared(arguments, progress)
     return RunResult(path, finished.status, finished.text)
+
+
+@dataclass(frozen=True)
+class Simulation:
+    """Guides of every case: case's name -> float32 [frame, guide, vertex, 3], m, root first.
+
+    Arrays are mapped from their files, so only what is read is in memory.
+    """
+
+    positions: dict[str, numpy.ndarray]
+    text: str  # that the program printed
+    table: Path | None = None  # of probes; None: none were asked for
+
+    def probes(self) -> pandas.DataFrame:
+        """Returns a row per case, frame and probe: `case`, `frame` (from 0, the start of the hair),
+        `time` (simulated s), `probe`, `value`.
+
+        Raises ValueError if none were asked for.
+        """
+        import pandas
+
+        if self.table is None:
+            raise ValueError("no probes were asked for: sets={'/run/probes/speed': True}")
+        wide = pandas.read_csv(self.table).rename(columns={"probe.time": "time"})
+        tidy = wide.melt(["case", "frame", "time"], var_name="probe")
+        tidy["probe"] = tidy["probe"].str.removeprefix("probe.")
+        return tidy.dropna(subset="value", ignore_index=True)
+
+
+def simulate(
+        scene: str | os.PathLike[str], *, out: str | os.PathLike[str],
+        axes: Mapping[str, object] | None = None, sets: Mapping[str, object] | None = None,
+        frames: int = 60, progress: Progress | None = to_stderr, **options: Option) -> Simulation:
+    """`hairbench simulate --guides`: plays every case of a scene, without pictures.
+
+    out      folder for a file CASE.npy of each case, and probes.csv if axes or sets ask for probes
+    axes     pointer -> values: replaces or adds axes of the sweep
+    sets     pointer -> value for every case
+    frames   frames of each case
+    options  as in `hairbench simulate --help`, with _ for -
+
+    Raises ProgramError if the program fails or is interrupted.
+    """
+    import numpy
+
+    arguments = [
+        "simulate", os.fspath(scene), "--guides", "--frames", str(frames),
+        "--export", str(Path(out) / "{case}.npy"), *scene_arguments(axes, sets),
+        *option_arguments(options)]
+    asks = any(pointer.startswith("/run/probes") for pointer in (*(axes or ()), *(sets or ())))
+    table = Path(out) / "probes.csv" if asks else None
+    if table:
+        arguments += ["--probes", str(table)]
+    finished = succeed(arguments, progress)
+    written = re.findall(
+        r"^(.*\.npy): \d+ strands, \d+ points, frames 0 to \d+ of (.+), [\d.]+ \w+$", finished.text,
+        re.MULTILINE)
+    return Simulation(
+        {case: numpy.load(path, mmap_mode="r") for path, case in written}, finished.text,
+        table)
 
 
 def gate(
