@@ -36,7 +36,8 @@ namespace {
 
 report::SceneRecord recordOf(const std::filesystem::path& path, scene::Document document) {
     std::string hash = report::hashText(document.text());
-    return {.path = path.generic_string(), .hash = std::move(hash), .document = std::move(document)};
+    return {
+        .path = path.generic_string(), .hash = std::move(hash), .document = std::move(document)};
 }
 
 bool readNumber(std::string_view text, std::uint32_t& number) {

@@ -129,7 +129,8 @@ Scene makeScene(const fs::path& path, const Json& document, const Reach& reach) 
 void moveFileNames(Json& document, const fs::path& folder, hair::Settings settings) {
     forEachFileName(settings, [&](const std::string& pointer, const fs::path& file) {
         if (file.is_relative())
-            document[Json::json_pointer(pointer)] = (folder / file).lexically_normal().generic_string();
+            document[Json::json_pointer(pointer)] =
+                (folder / file).lexically_normal().generic_string();
     });
 }
 

@@ -492,7 +492,8 @@ TEST(OneDefinition, SystemsOfferTheSame) {
         EXPECT_TRUE(Reader(file.text, file.name, definitions).read());
         const std::string system = file.name.substr(file.name.rfind('_'));
         for (const auto& [definition, holders] : definitions)
-            if (definition.starts_with("function engine::system::") && definition.find("::~") == std::string::npos)
+            if (definition.starts_with("function engine::system::") &&
+                definition.find("::~") == std::string::npos)
                 systems[system].push_back(definition);
     }
     EXPECT_THAT(systems, testing::SizeIs(2));
