@@ -81,6 +81,24 @@ TEST(ImportPly, ReadsBothByteOrders) {
     }
 }
 
+TEST(ImportPly, ReadsNegativeIntegers) {
+    for (const bool big_endian : {false, true}) {
+        std::string bytes = std::string("ply\nformat binary_") + (big_endian ? "big" : "little") +
+                            "_endian 1.0\nelement vertex 2\nproperty char x\nproperty short y\n"
+                            "property int z\nelement edge 1\nproperty uchar vertex1\n"
+                            "property uchar vertex2\nend_header\n";
+        for (const int sign : {1, -1}) {
+            put(bytes, static_cast<std::int8_t>(sign * 5), big_endian);
+            put(bytes, static_cast<std::int16_t>(sign * 300), big_endian);
+            put(bytes, static_cast<std::int32_t>(sign * 70000), big_endian);
+        }
+        bytes += std::string("\0\1", 2);
+        EXPECT_THAT(
+            readText(importPly, bytes).points,
+            ElementsAre(glm::vec3(5, 300, 70000), glm::vec3(-5, -300, -70000)));
+    }
+}
+
 TEST(ImportPly, ReadsWidthsAndColours) {
     const std::string vertices =
         "0 0 0 0.25 255 0 51 0.75\n0 1 0 0.5 0 0 0 1\n0 2 0.5 1 0 0 0 1\n4 0 0 1 0 0 0 1\n"
