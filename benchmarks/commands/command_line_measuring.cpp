@@ -462,7 +462,8 @@ void addProgramCommands(const CommandLine& line) {
         {.name = "new",
          .description = "makes a folder for a scene of one's own, based on a shipped scene",
          .examples =
-             {"hairbench new my_hair --from wavy_bob", "hairbench view my_hair/my_hair.json"}},
+             {"hairbench new my_hair --from wavy_bob",
+              "hairbench new braids --from portraits/braid"}},
         makeScene, [](CLI::App& command, NewOptions& options) {
             command.add_option("folder", options.folder, "folder to make; the scene gets its name")
                 ->required()
