@@ -154,7 +154,7 @@ void addGateOptions(CLI::App& command, gate::GateOptions& options) {
     command
         .add_flag(
             "--probes", options.verdict.probes,
-            "compare what guides did (/run/probes, set for both) instead of times: one process "
+            "compare probes of guides (/run/probes, set for both) instead of times: one process "
             "each, no noise; states and pictures may differ; reports are left as with --shaders")
         ->excludes("--shaders");
     command.add_option("--pairs", options.pairs, "pairs before the first verdict (default 12)")
@@ -309,7 +309,7 @@ void addCompareOptions(CLI::App& command, report::CompareOptions& options) {
     command.add_flag("--all", options.all, "also list metrics that stayed the same");
     command.add_flag(
         "--probes", options.verdict.probes,
-        "compare what guides did (/run/probes) instead of times; states and pictures may differ");
+        "compare probes of guides (/run/probes) instead of times; states and pictures may differ");
     command.add_flag("--json", options.json, "print JSON");
     addVerdictOptions(command, options.verdict);
     addFailOnInconclusive(command, options.verdict);

@@ -1,7 +1,7 @@
 #include "benchmarks/groom/recording.h"
 
-#include <bit>
 #include <cstddef>
+#include <cstdint>
 #include <functional>
 #include <optional>
 #include <ostream>
@@ -16,6 +16,7 @@
 #include "engine/frame_loop.h"
 #include "engine/process.h"
 #include "hair/groom/files.h"
+#include "hair/groom/formats/npy.h"
 #include "hair/groom/formats/usd_export.h"
 
 namespace benchmarks::groom {
@@ -109,23 +110,6 @@ Recorded Recording::everyFrame() {
     return recorded;
 }
 
-// Returns the beginning of a file of NumPy's format 1.0 for float32 [frame][strand][point][3]: the
-// array begins at a multiple of 64 bytes, so that it can be mapped. numpy.lib.format describes it.
-std::string arrayHeader(std::uint32_t frames, std::size_t strands, std::size_t points) {
-    static_assert(std::endian::native == std::endian::little);
-    constexpr std::size_t kFixed = 10, kAlignment = 64;
-    std::string text = "{'descr': '<f4', 'fortran_order': False, 'shape': (" +
-                       std::to_string(frames) + ", " + std::to_string(strands) + ", " +
-                       std::to_string(points) + ", 3), }";
-    text.resize((kFixed + text.size() + kAlignment) / kAlignment * kAlignment - kFixed - 1, ' ');
-    text += '\n';
-    const auto size = static_cast<std::uint16_t>(text.size());
-    std::string header("\x93NUMPY\x01\0", 8);
-    header += static_cast<char>(size & 0xff);
-    header += static_cast<char>(size >> 8);
-    return header + text;
-}
-
 Recorded Recording::array() {
     Recorded recorded;
     engine::writeFileAtomically(options_.out, [&](std::ostream& file) {
@@ -138,7 +122,8 @@ Recorded Recording::array() {
                         throw engine::Error(
                             options_.out.string(),
                             "strands have different numbers of points: --guides writes guides");
-                file << arrayHeader(options_.frames, now.ends.size(), points);
+                const std::uint64_t shape[]{options_.frames, now.ends.size(), points, 3};
+                file << hair::groom::npyHeader(shape);
                 recorded.strands = now;
             }
             checkEqual(frame, now, recorded.strands);

@@ -59,9 +59,9 @@ PlayedProbes playProbes(
     const std::function<bool()>& stop);
 
 // Plays the frames of a round again, without drawing, from the start of the hair to the state that
-// was hashed, with the pass `probe`. Adds probe.*; warns if the state differs
-// from result.state_hash. Does nothing without /run/probes. Throws like measure(), and
-// engine::Error for guides that do not exist.
+// was hashed, with the pass `probe`. Adds probe.*; warns if the state differs from
+// result.state_hash. Does nothing without /run/probes. Throws like measure(), and engine::Error for
+// guides that do not exist.
 void addProbes(
     const engine::Device& device, Case& test_case, const hair::RunSettings& run,
     const MeasureHooks& hooks, report::CaseResult& result);

@@ -192,8 +192,8 @@ double scaleOf(const MetricReading& probe, std::span<const MetricReading> all) {
     return scale;
 }
 
-// The frame in which two series of a probe differ most. Throws if they have unequal numbers of
-// frames.
+// The frame in which two series of a probe differ most: the first in which one is not a number, if
+// there is one. Throws if they have unequal numbers of frames.
 std::size_t farthestApart(const MetricReading& a, const MetricReading& b) {
     if (a.samples.size() != b.samples.size() || a.samples.empty())
         throw engine::Error(
@@ -202,8 +202,10 @@ std::size_t farthestApart(const MetricReading& a, const MetricReading& b) {
                                                  std::to_string(b.samples.size()) + " in B");
     std::size_t farthest = 0;
     const auto apart = [&](std::size_t i) { return std::abs(b.samples[i] - a.samples[i]); };
-    for (std::size_t i = 1; i < a.samples.size(); ++i)
+    for (std::size_t i = 0; i < a.samples.size(); ++i) {
+        if (!std::isfinite(apart(i))) return i;
         if (apart(i) > apart(farthest)) farthest = i;
+    }
     return farthest;
 }
 
@@ -308,8 +310,10 @@ private:
         const std::size_t frame = farthestApart(a, b);
         change.a = a.samples[frame];
         change.b = b.samples[frame];
-        const double share = changeOf(change.b - change.a, scale);
-        const bool counts = std::abs(share) > options_.threshold;
+        const double difference = change.b - change.a;
+        const bool is_number = std::isfinite(difference);
+        const double share = is_number ? changeOf(difference, scale) : difference;
+        const bool counts = !is_number || std::abs(share) > options_.threshold;
         change.comparison = {
             .verdict = Verdict::inconclusive,
             .change = share,
@@ -318,9 +322,9 @@ private:
             .decisive_change = options_.threshold,
             .p = counts ? 0.0 : 1.0};
         // Hair that moves otherwise is neither better nor worse.
-        Verdict verdict = a.better == Better::neither ? Verdict::mismatch
-                          : share > 0.0               ? Verdict::regressed
-                                                      : Verdict::improved;
+        const Verdict verdict = a.better == Better::neither || !is_number ? Verdict::mismatch
+                                : share > 0.0                             ? Verdict::regressed
+                                                                          : Verdict::improved;
         probes_[found_.changes.size()] = counts ? verdict : Verdict::same;
         found_.changes.push_back(std::move(change));
     }

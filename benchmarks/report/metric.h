@@ -23,7 +23,7 @@ enum class MetricOf {
     strands,  // the passes points and strands together
     device,  // the device's speed, from a separate measurement
     shader,  // the code that the driver's compiler made of a shader
-    probe,  // what guides did, by frame
+    probe,  // a quantity of the guides in each frame
     other,  // unknown here: from another program's report
 };
 

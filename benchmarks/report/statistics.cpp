@@ -309,9 +309,8 @@ private:
 double effectiveSamples(std::span<const double> samples) {
     constexpr double kCaution = 5.0;
     const std::size_t n = samples.size();
-    // A median splits evenly, so the mean of the sides is about 0. Sums of whole numbers are exact,
-    // and those of 64 sides at once fast: a series that drifts needs as many of them as it has
-    // samples.
+    // A median splits evenly, so the mean of the sides is about 0. A series that drifts needs as
+    // many sums as it has samples.
     const Sides sides(samples, quantile(samples, 0.5));
     const auto products = [&](std::size_t lag) { return sides.products(lag); };
     const std::int64_t variance = products(0);

@@ -1,5 +1,9 @@
 #include "benchmarks/report/compare.h"
 
+#include <limits>
+#include <string>
+#include <vector>
+
 #include <gmock/gmock.h>
 
 #include "tests/compare/made_report.h"
@@ -247,6 +251,20 @@ TEST(ReportComparison, ComparesProbesFrameByFrame) {
         EXPECT_EQ(found.changes[0].comparison.verdict, Verdict::mismatch) << other;
         EXPECT_EQ(overallVerdict(found), Verdict::mismatch);
     }
+}
+
+// Hair that is no longer anywhere is not the same, wherever the others are.
+TEST(ReportComparison, NeverTakesNoNumberForTheSameProbe) {
+    const double kNone = std::numeric_limits<double>::quiet_NaN();
+    for (const std::string name : {"probe.speed", "probe.penetration"})
+        for (const std::vector<double>& samples :
+             {std::vector{kNone, 1.0, 2.0}, {0.0, kNone, 2.0}, {0.0, 1.0, kNone}}) {
+            const MadeMetric broken{name, samples, "m", "lower", ""};
+            const MadeMetric whole{name, {0.0, 1.0, 2.0}, "m", "lower", ""};
+            for (const ReportComparison& found :
+                 {probesCompared(whole, broken), probesCompared(broken, whole)})
+                EXPECT_EQ(overallVerdict(found), Verdict::mismatch) << name;
+        }
 }
 
 TEST(ReportComparison, GivesProbesTheirDirection) {

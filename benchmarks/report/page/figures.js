@@ -591,7 +591,7 @@ function drawSamples() {
         (samples.kind === "box" ? " Box: the quartiles; whiskers: 5th and 95th percentile." : "");
 }
 
-// ---- Probes: what guides did, over simulated time -----------------------------------------------
+// ---- Probes of guides over simulated time -------------------------------------------------------
 
 const probes = {color: "", limit: 16};
 const kFigureOf = (name) => `probes-${name.replaceAll(".", "-")}`;

@@ -682,6 +682,10 @@ std::span<const std::byte> bytesOf(const std::vector<Element>& elements) {
 
 }  // namespace
 
+std::string npyHeader(std::span<const std::uint64_t> shape) {
+    return npyHeader(NpyType::float32, shape);
+}
+
 std::vector<std::string> exportNpy(const StrandSet& strands, std::ostream& out) {
     std::vector<std::string> warnings = leftOut(strands, {});
     const UniformStrands uniform = uniformStrandsOf(strands, warnings);

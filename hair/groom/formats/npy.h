@@ -1,6 +1,8 @@
 #pragma once
 
+#include <cstdint>
 #include <ostream>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -18,6 +20,10 @@
 // Numbers are little-endian: float32 or float64, groups int32 or int64, guides uint8 or bool.
 // Arrays are in C's order or in Fortran's.
 namespace hair::groom {
+
+// Returns the beginning of a .npy file of float32 numbers in C's order, which follow. It has a
+// multiple of 64 bytes, so that the numbers can be mapped.
+std::string npyHeader(std::span<const std::uint64_t> shape);
 
 // Strands with differing numbers of points are resampled to the greatest of them, with a warning.
 // Numbers are float32, int32 and uint8, in C's order; nothing is deflated. Both return what is
