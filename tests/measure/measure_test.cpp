@@ -20,7 +20,9 @@
 namespace benchmarks::measure {
 namespace {
 
-using testing::IsEmpty;
+using testing::ContainsRegex;
+using testing::Each;
+using testing::Not;
 
 // A little of the thesis's hair in the wind, in a small picture.
 hair::Settings smallCase() {
@@ -378,7 +380,9 @@ TEST_F(MeasureTest, PlaysProbesApartFromTheFrames) {
     const report::CaseResult with = measured(settings);
     EXPECT_EQ(with.state_hash, without.state_hash);
     EXPECT_EQ(with.image_hash, without.image_hash);
-    EXPECT_THAT(with.trust.warnings, IsEmpty());
+    // "... made different states", "frames with probes made other states". A busy machine may earn
+    // other warnings, which are about times.
+    EXPECT_THAT(with.trust.warnings, Each(Not(ContainsRegex("made (different|other)"))));
     std::set<std::string> added;
     for (const report::Metric& each : with.metrics) added.insert(each.name());
     for (const report::Metric& each : without.metrics) added.erase(each.name());
