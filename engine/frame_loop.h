@@ -168,8 +168,9 @@ public:
     // compute passes and the first of their frame.
     virtual void asyncCompute(std::uint32_t frames, FunctionRef<void()> record);
 
-    // Whether passes may share a rendering scope that one begins and another ends. False if each
-    // pass is measured by itself or something is added to a pass.
+    // Whether a pass may be recorded in parts, and passes may share a rendering scope that one
+    // begins and another ends. False if each pass is measured by itself or something is added to a
+    // pass.
     virtual bool joins() const { return false; }
 
     // Index of the frame in flight, below FrameLoop::kMaxSlots. For buffers that the CPU writes

@@ -256,10 +256,11 @@ PointsPass::PointsPass(
         texels_.emplace(device, points_, VK_FORMAT_R32G32B32A32_UINT);
 }
 
+void PointsPass::clear(engine::Commands& commands) const { commands.fill(bounds_, 0); }
+
 void PointsPass::record(
     engine::Commands& commands, std::uint64_t picture,
     const gpu::PictureParameters& parameters) const {
-    commands.fill(bounds_, 0);
     gpu::PointsPush push = push_;
     push.picture = picture;
     push.points = commands.writes(points_);

@@ -84,6 +84,8 @@ public:
 
     static engine::MemoryRows rows(const StrandSettings& strands, const StrandPlan& plan);
 
+    // Clears the bounds, in front of record().
+    void clear(engine::Commands& commands) const;
     // `picture` is the device address of `parameters`, which are the camera's.
     void record(
         engine::Commands& commands, std::uint64_t picture,

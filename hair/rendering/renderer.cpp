@@ -357,19 +357,16 @@ void Renderer::record(engine::Passes& passes, const StrandView& view) {
             skin_->record(commands, picture, picture_parameters, passes.slot());
         });
     }
-    if (points_) {
-        passes.pass("points", engine::PassKind::compute, [&](engine::Commands& commands) {
-            points_->record(commands, picture, picture_parameters);
-        });
-    }
-    shadows_.record(passes, meshes_, view, picture_parameters);
     const StrandPicture drawn{
         .address = picture, .parameters = picture_parameters, .images = strand_images_};
     const bool joined = passes.joins() && strands_.joinsScene();
+    const bool shadows_need_points = shadows_.drawsHair();
+    if (shadows_need_points || joined) recordPoints(passes, drawn);
+    shadows_.record(passes, meshes_, view, picture_parameters);
     if (joined)
         recordJoined(passes, view, drawn);
     else
-        recordApart(passes, view, drawn);
+        recordApart(passes, view, drawn, shadows_need_points ? Points::recorded : Points::needed);
     const engine::Resolve resolve = target_.resolve();
     if (resolve == engine::Resolve::compute || (resolve == engine::Resolve::attachment && !joined))
         passes.pass("resolve", resolve_.kind(), [&](engine::Commands& commands) {
@@ -380,6 +377,14 @@ void Renderer::record(engine::Passes& passes, const StrandView& view) {
 std::array<float, 3> Renderer::background() const {
     const glm::vec3 color = workingColor(settings_.render, settings_.render.background);
     return {color.r, color.g, color.b};
+}
+
+void Renderer::recordPoints(engine::Passes& passes, const StrandPicture& picture) const {
+    if (!points_) return;
+    passes.pass("points", engine::PassKind::compute, [&](engine::Commands& commands) {
+        points_->clear(commands);
+        points_->record(commands, picture.address, picture.parameters);
+    });
 }
 
 void Renderer::drawScene(engine::Commands& commands, const StrandPicture& picture) const {
@@ -408,15 +413,30 @@ void Renderer::recordJoined(
 }
 
 void Renderer::recordApart(
-    engine::Passes& passes, const StrandView& view, const StrandPicture& picture) const {
+    engine::Passes& passes, const StrandView& view, const StrandPicture& picture,
+    Points points) const {
     const bool resolves = target_.resolve() != engine::Resolve::none;
     const Last after_strands = resolves || !overlay_.empty() ? Last::no : Last::yes;
     const Last after_scene = settings_.render.hair ? Last::no : after_strands;
+    // The scene and the points wait for the simulation alone: one barrier in front of the scene is
+    // enough for both if the points' bounds are cleared before it. A GPU can then work on both at
+    // once.
+    const bool evaluates_late = points == Points::needed && points_;
+    const bool clears_early = evaluates_late && passes.joins();
+    if (clears_early)
+        passes.pass("points", engine::PassKind::compute, [&](engine::Commands& commands) {
+            points_->clear(commands);
+        });
     passes.pass("scene", engine::PassKind::graphics, [&](engine::Commands& commands) {
         target_.beginRendering(commands, engine::Load::clear, background(), after_scene);
         drawScene(commands, picture);
         target_.endRendering(commands, after_scene);
     });
+    if (evaluates_late)
+        passes.pass("points", engine::PassKind::compute, [&](engine::Commands& commands) {
+            if (!clears_early) points_->clear(commands);
+            points_->record(commands, picture.address, picture.parameters);
+        });
     if (settings_.render.hair) strands_.record(passes, target_, picture, after_strands);
     if (!overlay_.empty()) {
         const Last last = resolves ? Last::no : Last::yes;

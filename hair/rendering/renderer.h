@@ -120,11 +120,14 @@ public:
 
 private:
     std::array<float, 3> background() const;
+    enum class Points { recorded, needed };  // in this frame
+    void recordPoints(engine::Passes& passes, const StrandPicture& picture) const;
     void drawScene(engine::Commands& commands, const StrandPicture& picture) const;
     void recordJoined(
         engine::Passes& passes, const StrandView& view, const StrandPicture& picture) const;
-    void
-    recordApart(engine::Passes& passes, const StrandView& view, const StrandPicture& picture) const;
+    void recordApart(
+        engine::Passes& passes, const StrandView& view, const StrandPicture& picture,
+        Points points) const;
 
     StrandPlan plan_;
     BackendChoice backend_;

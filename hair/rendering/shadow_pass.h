@@ -99,6 +99,9 @@ public:
     // Without those of the back ends that draw hair. `settings` have the lights of an environment.
     static engine::MemoryRows rows(const Settings& settings, const StrandPlan& plan);
 
+    // Whether record() draws hair, so that points must be recorded before.
+    bool drawsHair() const { return hair_maps_; }
+
     // Records the passes "mesh_shadow" and "hair_shadow", if asked for. `picture` is the camera's:
     // levels of detail are those of its lod_eye.
     void record(

@@ -246,7 +246,6 @@ void SoftwareBackend::clear(engine::Commands& commands, const StrandPicture& pic
     const engine::Image* const depth = &target_.depth();
     commands.images(clear_, std::span(&depth, 1), {});
     commands.dispatch(constants.height);
-    target_.endDepthRead(commands);
 }
 
 gpu::SoftwarePush SoftwareBackend::ofPart(gpu::SoftwarePush constants, std::uint32_t part) const {
@@ -363,6 +362,8 @@ void SoftwareBackend::prepare(engine::Commands& commands, const StrandPicture& p
     clear(commands, picture);
     rasterize(commands, picture);
     shade(commands, picture);
+    // Only the drawing needs the depth again, so its barrier changes the layout, too.
+    target_.endDepthRead(commands);
 }
 
 void SoftwareBackend::draw(engine::Commands& commands, const StrandPicture& picture) const {

@@ -62,7 +62,7 @@ TEST_F(DoctorSceneTest, ShowsMovingHairInEveryPassOfTheFrame) {
     std::vector<std::string> passes{"wind", "simulate", "scene", "strands"};
     hair::Settings drawn = doctorSettings();
     drawn.strands.backend = test_case.backend().value().backend;
-    if (hair::rendering::readsPoints(drawn)) passes.insert(passes.begin() + 2, "points");
+    if (hair::rendering::readsPoints(drawn)) passes.insert(passes.begin() + 3, "points");
     EXPECT_EQ(measure::passNames(frames), passes);
     const std::string state = test_case.stateHash();
 
