@@ -130,9 +130,9 @@ Player::Player(
     const engine::Device& device, const hair::Settings& settings,
     const std::filesystem::path& directory, measure::HairCache* cache, unsigned level)
     : device_(device), directory_(directory), cache_(cache), settings_(settings),
-      case_(caseOf(settings)), isolated_(device, engine::Timing::isolated),
-      overlapped_(device, engine::Timing::overlapped), level_(level),
-      files_(directory.empty() ? std::filesystem::path(".") : directory) {
+      case_(caseOf(settings)), probes_(probesOf(*case_, settings)),
+      isolated_(device, engine::Timing::isolated), overlapped_(device, engine::Timing::overlapped),
+      level_(level), files_(directory.empty() ? std::filesystem::path(".") : directory) {
     watch();
     seek(0);
 }
@@ -145,6 +145,30 @@ void Player::watch() {
 
 std::unique_ptr<measure::Case> Player::caseOf(const hair::Settings& settings) const {
     return std::make_unique<measure::Case>(device_, settings, directory_, cache_);
+}
+
+std::unique_ptr<hair::simulation::Probes>
+Player::probesOf(const measure::Case& probed, const hair::Settings& settings) const {
+    const hair::ProbeSettings& wanted = settings.run.probes;
+    if (!hair::simulation::hasProbes(wanted)) return nullptr;
+    return std::make_unique<hair::simulation::Probes>(
+        device_, probed.groom(), settings.simulation, wanted, 1);
+}
+
+// Adds the values of the state. The frame's own times are known by then.
+void Player::probe() {
+    if (!probes_) return;
+    probes_->restart();
+    isolated_.frame([&](engine::Passes& passes) { case_->probe(passes, *probes_); });
+    isolated_.finish();
+    const auto append = [](std::vector<double>& history, double value) {
+        if (history.size() == kMostProbed) history.erase(history.begin());
+        history.push_back(value);
+    };
+    append(probed_.times, case_->time());
+    const std::vector<std::vector<double>> values = probes_->read();
+    for (std::size_t i = 0; i < values.size(); ++i)
+        for (const double value : values[i]) append(probed_.values[i], value);
 }
 
 double Player::time() const {
@@ -207,8 +231,10 @@ bool Player::reread() {
 }
 
 void Player::replace(std::unique_ptr<measure::Case> other, const hair::Settings& settings) {
+    std::unique_ptr<hair::simulation::Probes> probes = probesOf(*other, settings);
     coarse_ = {};
     case_ = std::move(other);
+    probes_ = std::move(probes);
     settings_ = settings;
     // Everything is new and starts again, so the picture is no longer a preview.
     previews_ = false;
@@ -250,11 +276,13 @@ void Player::next(engine::Timing timing) {
     // Keeps earlier submissions out of the frame's times.
     runOnce(device_, [](engine::Commands&) {});
     drawFrame(timing, [&](engine::Passes& passes) { case_->simulate(passes); });
+    probe();
     ++frame_;
 }
 
 void Player::skip() {
     play(engine::Timing::isolated, [&](engine::Passes& passes) { case_->simulate(passes); });
+    probe();
     ++frame_;
 }
 
@@ -270,12 +298,21 @@ void Player::seek(std::uint32_t frame, const std::function<bool()>& stop) {
     } else {
         case_->reset();
     }
+    probed_ = {};
+    if (probes_) {
+        for (const std::string& name :
+             hair::simulation::Probes::names(settings_.run.probes, settings_.simulation.solver))
+            probed_.names.push_back("probe." + name);
+        probed_.values.resize(probed_.names.size());
+    }
+    probe();  // the start
     frame_ = 0;
     while (frame_ < frame) {
         if (stop && stop()) throw engine::Interrupted();
         skip();
     }
     drawFrame(engine::Timing::isolated, [&](engine::Passes& passes) { case_->simulate(passes); });
+    probe();
 }
 
 Shown Player::shown(Guides guides) const {
@@ -301,6 +338,7 @@ Shown Player::shown(Guides guides) const {
         .rest = sphereRound(groom.points),
         .head = case_->head(),
         .counts = case_->counts()};
+    shown.probes = probed_;
     if (const auto backend = case_->backend())
         shown.backend = {hair::backendName(backend->backend), backend->variant, backend->reason};
     if (target) {

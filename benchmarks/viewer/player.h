@@ -14,10 +14,12 @@
 #include <glm/vec3.hpp>
 
 #include "benchmarks/measure/case.h"
+#include "benchmarks/measure/measure.h"
 #include "benchmarks/report/report.h"
 #include "benchmarks/viewer/gizmo.h"
 #include "benchmarks/viewer/shader_reload.h"
 #include "engine/frame_loop.h"
+#include "hair/simulation/probes.h"
 
 // Plays frames by the window's clock: a case that follows its settings, what is shown of it, and
 // coarser pictures during motion, if whole pictures take too long.
@@ -88,6 +90,7 @@ struct Shown {
     std::vector<std::pair<std::string, std::uint64_t>> counts;  // Case::counts()
     report::BackendRecord backend;  // back end for whole pictures, and why
     report::CaseResult transparency;  // measure::addTransparency()
+    measure::PlayedProbes probes;  // of the last Player::kMostProbed frames; without pass times
 
     bool isThere() const { return !picture.empty(); }
     // Whether this is the runner's picture with these settings.
@@ -107,6 +110,8 @@ Sphere groomNow(const Shown& shown);
 // affects the simulation, it is replayed up to the current frame. Only a preview differs.
 class Player {
 public:
+    static constexpr std::size_t kMostProbed = 3600;  // a minute at 1/60 s
+
     // Draws frame 0 at this level of preview. Throws like Case. The cache may be null.
     Player(
         const engine::Device& device, const hair::Settings& settings,
@@ -167,6 +172,9 @@ private:
     hair::rendering::Renderer& coarse();
     std::unique_ptr<measure::Case> caseOf(const hair::Settings& settings) const;
     void replace(std::unique_ptr<measure::Case> other, const hair::Settings& settings);
+    std::unique_ptr<hair::simulation::Probes>
+    probesOf(const measure::Case& probed, const hair::Settings& settings) const;
+    void probe();
 
     void watch();
 
@@ -175,6 +183,8 @@ private:
     measure::HairCache* cache_;
     hair::Settings settings_;
     std::unique_ptr<measure::Case> case_;
+    std::unique_ptr<hair::simulation::Probes> probes_;  // of one frame; null: none are wanted
+    measure::PlayedProbes probed_;
     // For levels from 1; created when first drawn with these settings.
     std::array<std::unique_ptr<hair::rendering::Renderer>, kPreviewLevels.size()> coarse_;
     engine::FrameLoop isolated_;

@@ -247,34 +247,51 @@ void countTable(const report::CaseResult& shown, const report::CaseResult* compa
 
 // ---- Line of a history --------------------------------------------------------------------------
 
-// Draws a line through non-negative values as a Dear ImGui item, from 0 at the bottom to their
-// maximum. Returns the index of the value under the mouse.
+// Draws a line through values as a Dear ImGui item, over the range of 0 and the values. Values that
+// are not finite leave gaps. Returns the index of the value under the mouse.
 std::optional<std::size_t>
 sparkline(const char* id, std::span<const double> values, ImVec2 size, ImU32 color) {
     const ImVec2 corner = ImGui::GetCursorScreenPos();
     ImGui::InvisibleButton(id, size);
     if (values.empty()) return std::nullopt;
-    const double most = std::max(std::ranges::max(values), 1e-9);
+    double least = 0.0, most = 1e-9;
+    for (const double value : values) {
+        if (!std::isfinite(value)) continue;
+        least = std::min(least, value);
+        most = std::max(most, value);
+    }
     const float line = std::max(1.0f, ImGui::GetFontSize() / 15.0f);
     const float step =
         values.size() > 1 ? (size.x - line) / static_cast<float>(values.size() - 1) : 0.0f;
     const auto point = [&](std::size_t i) {
-        const float height = static_cast<float>(values[i] / most) * (size.y - 2.0f * line);
+        const double share = (values[i] - least) / (most - least);
+        const float height = static_cast<float>(share) * (size.y - 2.0f * line);
         return ImVec2(
             corner.x + 0.5f * line + step * static_cast<float>(i),
             corner.y + size.y - line - height);
     };
     ImDrawList& draw = *ImGui::GetWindowDrawList();
     std::vector<ImVec2> points;
-    for (std::size_t i = 0; i < values.size(); ++i) points.push_back(point(i));
-    draw.AddPolyline(points.data(), static_cast<int>(points.size()), color, ImDrawFlags_None, line);
-    if (points.size() == 1) draw.AddCircleFilled(points.front(), line, color);
+    const auto end = [&] {
+        draw.AddPolyline(
+            points.data(), static_cast<int>(points.size()), color, ImDrawFlags_None, line);
+        if (points.size() == 1) draw.AddCircleFilled(points.front(), line, color);
+        points.clear();
+    };
+    for (std::size_t i = 0; i < values.size(); ++i) {
+        if (std::isfinite(values[i]))
+            points.push_back(point(i));
+        else
+            end();
+    }
+    end();
     if (!ImGui::IsItemHovered()) return std::nullopt;
 
     const float place = step > 0.0f ? (ImGui::GetIO().MousePos.x - corner.x) / step : 0.0f;
     const auto last = static_cast<float>(values.size() - 1);
     const auto index = static_cast<std::size_t>(std::clamp(std::round(place), 0.0f, last));
-    draw.AddCircleFilled(points[index], 2.5f * line, ImGui::GetColorU32(ImGuiCol_Text));
+    if (std::isfinite(values[index]))
+        draw.AddCircleFilled(point(index), 2.5f * line, ImGui::GetColorU32(ImGuiCol_Text));
     return index;
 }
 
@@ -437,6 +454,48 @@ void passTable(const PassRows& rows, const PassRows* compared, const TimeSeries*
     ImGui::EndTable();
 }
 
+// ---- Probes -------------------------------------------------------------------------------------
+
+std::string_view unitOf(const report::MetricId& metric) {
+    for (const report::MetricKind& kind : report::metricKinds())
+        if (kind.of == metric.of && kind.what == metric.what) return kind.unit;
+    return {};
+}
+
+// Shows each probe's last value, beside the other side's when comparing, and below it its values
+// over time.
+void probePlots(const measure::PlayedProbes& probes, const measure::PlayedProbes* compared) {
+    if (probes.names.empty()) ImGui::TextDisabled("none: search the settings for probes");
+    constexpr std::string_view kPrefix = "probe.";
+    const auto last = [](const measure::PlayedProbes& played, const std::string& name) {
+        const auto place = std::ranges::find(played.names, name);
+        if (place == played.names.end()) return std::string("-");
+        const std::vector<double>& values =
+            played.values[static_cast<std::size_t>(place - played.names.begin())];
+        return values.empty() ? std::string("-") : report::shortNumber(values.back());
+    };
+    for (std::size_t i = 0; i < probes.names.size(); ++i) {
+        const std::string& name = probes.names[i];
+        const std::vector<double>& values = probes.values[i];
+        const std::string unit(unitOf(report::metricNamed(name)));
+        std::string text = last(probes, name);
+        if (compared) text = "A " + text + "  B " + last(*compared, name);
+        if (unit != "1") text += " " + unit;
+        const char* const shown = name.c_str() + kPrefix.size();
+        const float room = ImGui::GetContentRegionAvail().x - ImGui::GetStyle().ItemSpacing.x;
+        const bool fits = ImGui::CalcTextSize(shown).x + ImGui::CalcTextSize(text.c_str()).x < room;
+        ImGui::TextUnformatted(shown);
+        if (fits) ImGui::SameLine();
+        rightText(text);
+        const ImVec2 size(
+            std::max(ImGui::GetContentRegionAvail().x, 1.0f), ImGui::GetTextLineHeight() * 2.0f);
+        if (const auto at = sparkline(("##" + name).c_str(), values, size, seriesColor(i)))
+            ImGui::SetTooltip(
+                "%s at %s s: %s %s", name.c_str(), report::shortNumber(probes.times[*at]).c_str(),
+                report::shortNumber(values[*at]).c_str(), unit.c_str());
+    }
+}
+
 // ---- Pipeline statistics ------------------------------------------------------------------------
 
 // Colours that are readable on dark and light backgrounds.
@@ -524,6 +583,8 @@ void TimingsPanel::show(
         passTable(
             *a.passes, other && other->passes ? &*other->passes : nullptr, ui ? &*ui : nullptr);
     }
+    if (section("Probes"))
+        probePlots(side.shown().probes, compared ? &compared->shown().probes : nullptr);
     if (section("CPU and device")) {
         splitFigures(a, other);
         FigureTable table("##window", FigureTable::Columns::one);

@@ -96,6 +96,9 @@ public:
     // Records the values of the next frame. Equal guides give equal bits.
     void record(engine::Commands& commands, const ProbedGuides& guides);
 
+    // Forgets the recorded frames.
+    void restart() { frames_ = 0; }
+
     // Returns the values of all recorded frames, [value][frame], in the units of docs/physics.md.
     // Waits for the device.
     std::vector<std::vector<double>> read() const;

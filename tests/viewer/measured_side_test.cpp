@@ -105,6 +105,36 @@ TEST_F(MeasuredSide, IsNoneWhereTheUserCancels) {
     EXPECT_THROW(measured({.stop = [&] { return ++asked > 3; }}), engine::Interrupted);
 }
 
+// The window plots what `run` reports, and its frames are those without probes.
+TEST_F(MeasuredSide, HasTheRunnersProbes) {
+    hair::Settings settings = tinySettings();
+    Player without(device(), settings, HAIRBENCH_SCENES_DIR);
+    without.seek(3);
+    EXPECT_THAT(without.shown().probes.names, IsEmpty());
+    settings.run.probes = {.tip_displacement = true, .momentum = true};
+    measure::Case test_case(device(), settings, HAIRBENCH_SCENES_DIR);
+    const measure::PlayedProbes expected = measure::playProbes(device(), test_case, 4, goOn);
+    ASSERT_EQ(expected.times.size(), 5u);
+
+    Player player(device(), settings, HAIRBENCH_SCENES_DIR);
+    player.next();
+    player.skip();
+    player.next(engine::Timing::overlapped);
+    const Shown shown = player.shown();
+    EXPECT_EQ(shown.probes.names, expected.names);
+    EXPECT_EQ(shown.probes.times, expected.times);
+    EXPECT_EQ(shown.probes.values, expected.values);
+    EXPECT_EQ(shown.pictureHash(), without.shown().pictureHash());
+    EXPECT_EQ(shown.stateHash(), without.shown().stateHash());
+    player.seek(1);
+    EXPECT_EQ(player.shown().probes.times.size(), 3u);  // the start and two frames
+
+    settings.run.probes.first_guide = 1u << 20;
+    EXPECT_THROW(player.apply(settings), engine::Error);
+    EXPECT_EQ(player.frame(), 1u);
+    EXPECT_EQ(player.shown().probes.times.size(), 3u);
+}
+
 TEST_F(MeasuredSide, CountsWithoutTouchingTheFrame) {
     if (!device().hasPipelineStatistics()) GTEST_SKIP() << "no pipeline statistics";
     Player player(device(), tinySettings(), HAIRBENCH_SCENES_DIR);
