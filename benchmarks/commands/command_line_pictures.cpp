@@ -13,6 +13,19 @@ Coverage: share of a square round the hair that the hair covers, without the hea
 isolated frames. With --reference, whole levels are compared with the path-traced level 0, lit by one
 directional light at each angle from the camera; popping is the change over the last 0.05 of the level.)";
 
+void addSweepOptions(CLI::App& command, SweepOptions& options) {
+    addSceneOptions(command, options.scene);
+    command
+        .add_option("--filter", options.filter, "with {case}: play the cases whose name matches")
+        ->type_name("REGEX");
+    command
+        .add_option(
+            "--shard", options.shard,
+            "with {case}: play one part of the cases: 2/8 is the second of 8")
+        ->type_name("I/N");
+    command.add_flag("--json", options.json, "print what was written as JSON");
+}
+
 }  // namespace
 
 void addPictureCommands(const CommandLine& line) {
@@ -59,17 +72,22 @@ void addPictureCommands(const CommandLine& line) {
          .description = "writes pictures of one frame or several",
          .examples =
              {"hairbench render strong_wind -o wind.png --frame 60",
-              "hairbench render strong_wind -o out/%04d.png --frames 0:240"}},
+              "hairbench render strong_wind -o out/%04d.png --frames 0:240",
+              "hairbench render smoke -o 'out/{case}.png' -a /simulation/wind/strength=0,5"}},
         renderScene, [](CLI::App& command, RenderOptions& options) {
-            addSceneOptions(command, options.scene);
+            addSweepOptions(command, options.sweep);
             command
                 .add_option(
                     "-o,--out", options.out,
-                    "picture to write: .png as a display shows it, or .exr with linear radiance, "
-                    "before exposure and tone mapping; for several frames a name with their "
-                    "number, as in out/%04d.png")
+                    "picture to write: .png as a display shows it, .exr with linear radiance, "
+                    "before exposure and tone mapping, or .npy (NumPy's, uint8 [row, column, "
+                    "RGBA]); for several frames a name with their number, as in out/%04d.png; with "
+                    "{case} in its name, all cases of the sweep are drawn, each into its file")
                 ->required()
                 ->type_name("FILE");
+            command.add_flag(
+                "--linear", options.linear,
+                "write .npy as float32 [row, column, RGB]: linear radiance, as in .exr");
             CLI::Option* frame =
                 command.add_option("--frame", options.frame, "frame to draw, from 0 (default 0)")
                     ->check(CLI::Range(0, 1'000'000));
@@ -89,15 +107,16 @@ void addPictureCommands(const CommandLine& line) {
               "hairbench simulate smoke --guides --export 'sim_{case}.npy' -a "
               "/simulation/wind/strength=0,5"}},
         simulateScene, [](CLI::App& command, SimulateOptions& options) {
-            addSceneOptions(command, options.scene);
+            addSweepOptions(command, options.sweep);
             command.add_option("--frames", options.recording.frames, "frames to play (default 60)")
                 ->check(CLI::PositiveNumber);
             command
                 .add_option(
                     "--export", options.recording.out,
-                    "file to write; .usda and .npy (NumPy's, float32 [frame, strand, point, 3], m) "
-                    "hold every frame, other formats (see 'groom convert') the last; with {case} "
-                    "in its name, all cases of the sweep are played, each into its file")
+                    "file to write; .usda, .npy (NumPy's, float32 [frame, strand, point, 3], m) "
+                    "and .npz (positions, times, metadata) hold every frame, other formats (see "
+                    "'groom convert') the last; with {case} in its name, all cases of the sweep "
+                    "are played, each into its file")
                 ->type_name("FILE");
             command
                 .add_option(

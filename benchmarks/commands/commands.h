@@ -82,9 +82,19 @@ struct DoctorOptions {
 };
 int examineMachine(const DoctorOptions& options);
 
-struct RenderOptions {
+// The cases that a command plays if its file has a place for their names.
+struct SweepOptions {
     scene::SceneOptions scene;
-    std::filesystem::path out;  // .exr: linear light; otherwise PNG
+    std::string filter;
+    std::string shard;  // "2/8": the second of eight parts; empty: all
+    bool json = false;  // print what was written as JSON
+};
+
+struct RenderOptions {
+    SweepOptions sweep;
+    // .npy: an array of 8 bits, or with `linear` of floats; .exr: linear light; otherwise PNG
+    std::filesystem::path out;
+    bool linear = false;
     std::uint32_t frame = 0;
     std::string frames;  // "A:B" or "A:B:STEP", with `out` as a pattern; empty: only `frame`
 };
@@ -228,7 +238,7 @@ struct CompareGroomsOptions {
 int compareGrooms(const CompareGroomsOptions& options);
 
 struct SimulateOptions {
-    scene::SceneOptions scene;
+    SweepOptions sweep;
     groom::RecordingOptions recording;  // without a file if only `probes` is written
     std::filesystem::path probes;  // table of /run/probes; may be empty
 };

@@ -181,7 +181,8 @@ int gateExactly(const gate::GateOptions& options, const std::filesystem::path& o
          .b = reports[1],
          .baseline = {},
          .verdict = options.verdict,
-         .all = options.all});
+         .all = options.all,
+         .out = out});
 }
 
 }  // namespace

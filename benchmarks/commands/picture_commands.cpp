@@ -1,10 +1,12 @@
 #include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
 #include <cstdio>
 #include <functional>
 #include <iomanip>
 #include <iostream>
 #include <optional>
-#include <set>
 #include <sstream>
 #include <string>
 #include <string_view>
@@ -21,7 +23,10 @@
 #include "benchmarks/reference/mitsuba.h"
 #include "benchmarks/reference/picture_errors.h"
 #include "benchmarks/report/change.h"
+#include "benchmarks/report/environment.h"
+#include "benchmarks/report/metric.h"
 #include "benchmarks/report/text.h"
+#include "benchmarks/run/plan.h"
 #include "benchmarks/scene/pattern.h"
 #include "engine/error.h"
 #include "engine/files.h"
@@ -29,32 +34,102 @@
 #include "engine/pictures.h"
 #include "engine/process.h"
 #include "hair/groom/files.h"
+#include "hair/groom/formats/npy.h"
 #include "hair/simulation/probes.h"
 
 namespace benchmarks::commands {
+
+namespace {
+
+// ---- Cases of a sweep, each with its file -------------------------------------------------------
+
+// Returns all cases of the sweep that the options leave if `sweeps`, otherwise the scene itself.
+// Empty if --filter matches none.
+std::vector<run::PlannedCase>
+casesToPlay(const SweepOptions& options, bool sweeps, scene::AssetStore& assets) {
+    if (sweeps) return run::planRun(options.scene, options.filter, options.shard, &assets).cases;
+    if (!options.filter.empty() || !options.shard.empty())
+        throw engine::Error(
+            options.filter.empty() ? "--shard" : "--filter",
+            "needs {case} in the name of the file, which stands for that of each case");
+    scene::Scene scene = scene::loadScene(options.scene.scene, options.scene.outside);
+    run::PlannedCase only{
+        .spec = scene::singleCase(scene, options.scene, &assets), .directory = scene.directory};
+    only.spec.name = scene.name;
+    return {std::move(only)};
+}
+
+// Returns a file for each case, all of which can be written.
+std::vector<std::filesystem::path> filesOf(
+    const std::vector<run::PlannedCase>& cases, const std::filesystem::path& pattern,
+    const std::filesystem::path& scene) {
+    std::vector<std::filesystem::path> files;
+    for (const run::PlannedCase& each : cases) {
+        files.push_back(scene::caseFile(pattern, scene.stem().string(), each.spec.name));
+        if (std::ranges::count(files, files.back()) > 1)
+            throw engine::Error(files.back().string(), "is the file of two cases");
+    }
+    return files;
+}
+
+int sayNothingMatches(const SweepOptions& options) {
+    std::cerr << "hairbench: no case's name matches '" << options.filter << "'"
+              << (options.shard.empty() ? "" : " in part " + options.shard) << '\n';
+    return report::kNothingRan;
+}
+
+scene::Json toJson(const scene::CaseSpec& spec) {
+    scene::Json axes = scene::Json::object();
+    for (const scene::AxisValue& each : spec.axes) axes[each.pointer] = each.value.json();
+    return {{"name", spec.name}, {"axes", axes}};
+}
+
+std::string textOf(const scene::Json& json) {
+    return json.dump(2, ' ', false, scene::Json::error_handler_t::replace) + '\n';
+}
+
+}  // namespace
 
 // ---- hairbench render ---------------------------------------------------------------------------
 
 namespace {
 
-bool isLinear(const std::filesystem::path& file) {
-    return hair::groom::lowerCaseExtension(file) == ".exr";
+bool isNumPy(const std::filesystem::path& file) {
+    return hair::groom::lowerCaseExtension(file) == ".npy";
 }
 
-void checkFormat(const std::filesystem::path& file) {
+void checkFormat(const std::filesystem::path& file, bool linear) {
     const std::string extension = hair::groom::lowerCaseExtension(file);
-    if (extension.empty() || extension == ".png" || extension == ".exr") return;
-    throw engine::Error(file.string(), "is neither .png nor .exr");
+    if (!extension.empty() && extension != ".png" && extension != ".exr" && extension != ".npy")
+        throw engine::Error(file.string(), "is neither .png nor .exr nor .npy");
+    if (linear && !isNumPy(file)) throw engine::Error("--linear", "is for .npy");
 }
 
-void writePicture(
-    const measure::Case& picture, const hair::RenderSettings& render,
-    const std::filesystem::path& file) {
-    if (isLinear(file)) {
+template <class Number>
+void writeArray(
+    const std::filesystem::path& file, hair::groom::NpyType type,
+    const std::array<std::uint64_t, 3>& shape, const std::vector<Number>& numbers) {
+    engine::writeFileAtomically(file, [&](std::ostream& out) {
+        out << hair::groom::npyHeader(type, shape);
+        out.write(
+            reinterpret_cast<const char*>(numbers.data()),
+            static_cast<std::streamsize>(numbers.size() * sizeof(Number)));
+    });
+}
+
+void writePicture(const measure::Case& picture, bool linear, const std::filesystem::path& file) {
+    const hair::RenderSettings& render = picture.settings().render;
+    if (isNumPy(file) && linear)
+        writeArray(
+            file, hair::groom::NpyType::float32, {render.height, render.width, 3},
+            picture.radiance());
+    else if (isNumPy(file))
+        writeArray(
+            file, hair::groom::NpyType::uint8, {render.height, render.width, 4}, picture.picture());
+    else if (hair::groom::lowerCaseExtension(file) == ".exr")
         engine::writeExr(file, render.width, render.height, picture.radiance());
-    } else {
+    else
         engine::writePng(file, render.width, render.height, picture.picture());
-    }
 }
 
 // Plays a case from its first frame, one step of `progress` per frame, and draws the frames of the
@@ -74,65 +149,107 @@ void play(
     }
 }
 
-}  // namespace
+// Frames of a case, and the names of their files.
+struct PictureFiles {
+    scene::FrameRange range;
+    std::optional<scene::FramePaths> paths;  // with a number; absent: `only`
+    std::filesystem::path only;
 
-int renderScene(const RenderOptions& options) {
-    scene::FrameRange range{.first = options.frame, .end = options.frame + 1};
-    std::optional<scene::FramePaths> paths;
+    std::filesystem::path of(std::uint32_t frame) const { return paths ? paths->of(frame) : only; }
+};
+
+PictureFiles pictureFiles(const RenderOptions& options, const std::filesystem::path& file) {
+    PictureFiles files{
+        .range = {.first = options.frame, .end = options.frame + 1}, .paths = {}, .only = file};
     if (!options.frames.empty()) {
-        range = scene::parseFrameRange(options.frames);
-        paths.emplace(options.out);
-        if (!paths->hasNumber() && range.count() > 1)
+        files.range = scene::parseFrameRange(options.frames);
+        files.paths.emplace(file);
+        if (!files.paths->hasNumber() && files.range.count() > 1)
             throw engine::Error(
-                options.out.string(),
-                "needs a place for the number of the frame, as in out/%04d.png");
+                file.string(), "needs a place for the number of the frame, as in out/%04d.png");
     }
-    const auto file = [&](std::uint32_t frame) { return paths ? paths->of(frame) : options.out; };
-    checkFormat(file(range.first));
+    return files;
+}
 
-    scene::Scene scene = scene::loadScene(options.scene.scene, options.scene.outside);
-    measure::HairCache cache = measure::userHairCache(options.scene.cache);
-    const scene::CaseSpec spec = scene::singleCase(scene, options.scene, &cache.assets());
-    engine::checkWritable(file(range.first));
-    const hair::RenderSettings& render = spec.settings.render;
-
-    const engine::Device device(options.scene.device);
-    measure::Case picture(device, spec.settings, scene.directory, &cache);
+// Draws the frames of a case, and returns what it wrote. Adds it to `written` picture by picture.
+void renderCase(
+    const engine::Device& device, const run::PlannedCase& planned, const PictureFiles& files,
+    const RenderOptions& options, measure::HairCache& cache, measure::Progress& progress,
+    scene::Json& written) {
+    measure::Case picture(device, planned.spec.settings, planned.directory, &cache);
     for (const std::string& warning : measure::inspectStart(picture).warnings)
         std::cerr << "hairbench: " << engine::shownText(warning) << '\n';
-    measure::Progress progress(range.end);
-    std::uint32_t written = 0;
-    const auto say_interrupted = [&] {
-        std::cerr << "interrupted: " << written << " of " << range.count()
-                  << " pictures are written\n";
-    };
-    const engine::InterruptMessage last_words(say_interrupted);
-    try {
-        play(device, picture, range, progress, [&](std::uint32_t frame) {
-            writePicture(picture, render, file(frame));
-            ++written;
-        });
-    } catch (const engine::Interrupted&) {
-        progress.clear();
-        say_interrupted();
-        return report::kInterrupted;
-    }
+    const hair::RenderSettings& render = planned.spec.settings.render;
+    written = toJson(planned.spec);
+    written["width"] = render.width;
+    written["height"] = render.height;
+    scene::Json& pictures = written["pictures"] = scene::Json::array();
+    play(device, picture, files.range, progress, [&](std::uint32_t frame) {
+        writePicture(picture, options.linear, files.of(frame));
+        pictures.push_back({{"frame", frame}, {"file", files.of(frame).string()}});
+    });
     progress.clear();
+    written["image_hash"] = picture.pictureHash();
     for (const std::string& warning : picture.warnings())
         std::cerr << "hairbench: " << engine::shownText(warning) << '\n';
     for (const std::string& message : device.messages().take()) std::cerr << message << '\n';
     if (const std::string text = measure::droppedFragments(picture); !text.empty())
         std::cerr << "hairbench: " << text << '\n';
-    std::cout << engine::shownText(options.out.string()) << ": ";
+    if (options.sweep.json) return;
+    std::cout << engine::shownText(files.only.string()) << ": ";
+    const scene::FrameRange& range = files.range;
     if (range.count() > 1) {
         std::cout << range.count() << " pictures, frames " << range.first << " to "
                   << range.first + (range.count() - 1) * range.step;
     } else {
         std::cout << "frame " << range.first;
     }
-    std::cout << " of " << scene.name << ", " << render.width << " x " << render.height
-              << " px, image " << picture.pictureHash() << '\n';
-    return report::kOk;
+    std::cout << " of " << engine::shownText(planned.spec.name) << ", " << render.width << " x "
+              << render.height << " px, image " << picture.pictureHash() << '\n';
+}
+
+}  // namespace
+
+int renderScene(const RenderOptions& options) {
+    checkFormat(options.out, options.linear);
+    pictureFiles(options, options.out);  // before anything is read
+    const scene::SceneOptions& wanted = options.sweep.scene;
+    measure::HairCache cache = measure::userHairCache(wanted.cache);
+    const std::vector<run::PlannedCase> cases =
+        casesToPlay(options.sweep, scene::hasCasePlace(options.out), cache.assets());
+    if (cases.empty()) return sayNothingMatches(options.sweep);
+    std::vector<PictureFiles> files;
+    for (const std::filesystem::path& each : filesOf(cases, options.out, wanted.scene)) {
+        files.push_back(pictureFiles(options, each));
+        engine::checkWritable(files.back().of(files.back().range.first));
+    }
+
+    const engine::Device device(wanted.device);
+    measure::Progress progress(cases.size() * files.front().range.end);
+    scene::Json document = {
+        {"schema", "hairbench-pictures/1.0.0"}, {"scene", wanted.scene.string()}};
+    scene::Json written = scene::Json::array();
+    bool interrupted = false;
+    const auto say_interrupted = [&] {
+        std::size_t pictures = 0;
+        for (const scene::Json& each : written) pictures += each.at("pictures").size();
+        std::cerr << "interrupted: " << pictures << " of "
+                  << cases.size() * files.front().range.count() << " pictures are written\n";
+    };
+    const engine::InterruptMessage last_words(say_interrupted);
+    try {
+        for (std::size_t i = 0; i < cases.size(); ++i)
+            renderCase(
+                device, cases[i], files[i], options, cache, progress, written.emplace_back());
+    } catch (const engine::Interrupted&) {
+        progress.clear();
+        say_interrupted();
+        interrupted = true;
+    }
+    document["interrupted"] = interrupted;
+    document["cases"] = std::move(written);
+    if (options.sweep.json) std::cout << textOf(document);
+    return interrupted ? report::kInterrupted : report::kOk;
 }
 
 // ---- hairbench reference ------------------------------------------------------------------------
@@ -233,84 +350,129 @@ int diffPictures(const DiffOptions& options) {
 
 namespace {
 
-constexpr std::string_view kCasePlace = "{case}";
-
-// The name of a case's file: "{case}" stands for its values of axes, "msaa-1_stiffness-0.1".
-std::filesystem::path
-fileOf(const std::filesystem::path& pattern, const scene::Scene& scene, const std::string& name) {
-    std::string text = name == scene.name ? name : name.substr(scene.name.size() + 1);
-    for (char& each : text) {
-        if (each == '/') each = '_';
-        if (std::string_view(":\\\"*?<>|").find(each) != std::string_view::npos) each = '-';
-    }
-    std::string file = pattern.string();
-    for (std::size_t at = 0; (at = file.find(kCasePlace, at)) != file.npos; at += text.size())
-        file.replace(at, kCasePlace.size(), text);
-    return file;
+// A JSON text that stands in an archive with a case's positions.
+std::string metadataOf(const SimulateOptions& options, const scene::CaseSpec& spec) {
+    scene::Json metadata = toJson(spec);
+    metadata["scene"] = options.sweep.scene.scene.string();
+    metadata["version"] = report::versionText();
+    metadata["frames"] = options.recording.frames;
+    metadata["settings"] = run::documentOf(spec).json();
+    return metadata.dump(-1, ' ', false, scene::Json::error_handler_t::replace);
 }
 
-void recordCase(
-    const engine::Device& device, const scene::Scene& scene, const scene::CaseSpec& spec,
-    const groom::RecordingOptions& recording, measure::HairCache& cache) {
-    const groom::Recorded recorded =
-        groom::recordStrands(device, scene, spec.settings, recording, cache);
-    for (const std::string& message : device.messages().take()) std::cerr << message << '\n';
-    for (const std::string& warning : recorded.warnings)
-        std::cerr << engine::shownText(warning) << '\n';
-    const std::string last = std::to_string(recording.frames - 1);
+scene::Json describeFile(const groom::Recorded& recorded, const groom::RecordingOptions& options) {
+    const std::uint32_t last = options.frames - 1;
+    return {
+        {"file", options.out.string()},
+        {"strands", recorded.strands.strandCount()},
+        {"points", recorded.strands.points.size()},
+        {"first_frame", groom::holdsFrames(options.out) ? 0 : last},
+        {"last_frame", last}};
+}
+
+void printFile(const scene::Json& written) {
+    const std::filesystem::path file = written.at("file").get<std::string>();
     std::error_code no_size;  // for a pipe
-    const std::uintmax_t size = std::filesystem::file_size(recording.out, no_size);
-    std::cout << engine::shownText(recording.out.string()) << ": " << recorded.strands.strandCount()
-              << " strands, " << recorded.strands.points.size() << " points, "
-              << (groom::holdsFrames(recording.out) ? "frames 0 to " + last
-                                                    : "frame " + last + ", the last,")
-              << " of " << engine::shownText(spec.name)
+    const std::uintmax_t size = std::filesystem::file_size(file, no_size);
+    const std::string last = written.at("last_frame").dump();
+    std::cout << engine::shownText(file.string()) << ": " << written.at("strands") << " strands, "
+              << written.at("points") << " points, "
+              << (groom::holdsFrames(file) ? "frames 0 to " + last
+                                           : "frame " + last + ", the last,")
+              << " of " << engine::shownText(written.at("name").get<std::string>())
               << (no_size ? "" : ", " + report::sizeText(size)) << '\n';
 }
 
-// Writes a table with a row for each frame of each case, and a column for each probe of any case,
-// as RFC 4180 has it.
-void writeProbes(
-    const engine::Device& device, const scene::Scene& scene,
-    const std::vector<scene::CaseSpec>& specs, const SimulateOptions& options,
-    measure::HairCache& cache) {
+// Probes of the cases that were played.
+struct ProbeTable {
+    std::vector<std::string> cases;
     std::vector<measure::PlayedProbes> played;
-    std::vector<std::string> names;
-    for (const scene::CaseSpec& spec : specs) {
-        if (!hair::simulation::hasProbes(spec.settings.run.probes))
-            throw engine::Error("--probes", spec.name + " asks for none: see /run/probes");
-        measure::Case test_case(device, spec.settings, scene.directory, &cache);
-        played.push_back(measure::playProbes(device, test_case, options.recording.frames, [] {
-            engine::checkInterrupted();
-            return false;
-        }));
-        for (const std::string& name : played.back().names)
-            if (std::ranges::find(names, name) == names.end()) names.push_back(name);
+
+    // The probes of any case, each once.
+    std::vector<std::string> names() const {
+        std::vector<std::string> names;
+        for (const measure::PlayedProbes& each : played)
+            for (const std::string& name : each.names)
+                if (std::ranges::find(names, name) == names.end()) names.push_back(name);
+        return names;
     }
+};
+
+// Writes a row for each frame of each case, and a column for each probe, as RFC 4180 has it. A
+// probe that a case lacks, or that is not a number, is empty.
+void writeProbes(const ProbeTable& probes, const std::filesystem::path& file) {
+    const std::vector<std::string> names = probes.names();
     std::ostringstream table;
     table.precision(9);  // enough for 32 bits
     table << "case,frame,probe.time";
     for (const std::string& name : names) table << ',' << name;
     table << '\n';
-    for (std::size_t i = 0; i < specs.size(); ++i) {
-        const measure::PlayedProbes& probes = played[i];
-        for (std::size_t frame = 0; frame < probes.times.size(); ++frame) {
-            table << std::quoted(specs[i].name, '"', '"') << ',' << frame << ','
-                  << probes.times[frame];
+    for (std::size_t i = 0; i < probes.cases.size(); ++i) {
+        const measure::PlayedProbes& played = probes.played[i];
+        for (std::size_t frame = 0; frame < played.times.size(); ++frame) {
+            table << std::quoted(probes.cases[i], '"', '"') << ',' << frame << ','
+                  << played.times[frame];
             for (const std::string& name : names) {
                 table << ',';
-                const auto found = std::ranges::find(probes.names, name);
-                if (found != probes.names.end())
-                    table << probes.values[static_cast<std::size_t>(found - probes.names.begin())]
-                                          [frame];
+                const auto found = std::ranges::find(played.names, name);
+                if (found == played.names.end()) continue;
+                const double value =
+                    played.values[static_cast<std::size_t>(found - played.names.begin())][frame];
+                if (std::isfinite(value)) table << value;
             }
             table << '\n';
         }
     }
-    engine::writeFileAtomically(options.probes, table.str());
-    std::cout << engine::shownText(options.probes.string()) << ": " << names.size()
-              << " probes, frames 0 to " << options.recording.frames << " of " << specs.size()
-              << (specs.size() == 1 ? " case\n" : " cases\n");
+    engine::writeFileAtomically(file, table.str());
+}
+
+void checkProbes(const std::vector<run::PlannedCase>& cases) {
+    for (const run::PlannedCase& each : cases)
+        if (!hair::simulation::hasProbes(each.spec.settings.run.probes))
+            throw engine::Error("--probes", each.spec.name + " asks for none: see /run/probes");
+}
+
+// Plays a case once and writes its strands.
+void simulateCase(
+    const engine::Device& device, const run::PlannedCase& planned, const SimulateOptions& options,
+    const std::filesystem::path& file, measure::HairCache& cache, ProbeTable& probes,
+    scene::Json& written) {
+    groom::RecordingOptions recording = options.recording;
+    recording.out = file;
+    recording.probes = !options.probes.empty();
+    recording.metadata = metadataOf(options, planned.spec);
+    groom::Recorded recorded = groom::recordStrands(
+        device, planned.directory, planned.spec.name, planned.spec.settings, recording, cache);
+    for (const std::string& message : device.messages().take()) std::cerr << message << '\n';
+    for (const std::string& warning : recorded.warnings)
+        std::cerr << engine::shownText(warning) << '\n';
+    if (recorded.probes) {
+        probes.cases.push_back(planned.spec.name);
+        probes.played.push_back(std::move(*recorded.probes));
+    }
+    scene::Json& entry = written.emplace_back(toJson(planned.spec));
+    if (file.empty()) return;
+    entry.update(describeFile(recorded, recording));
+    if (!options.sweep.json) printFile(entry);
+}
+
+// Writes the table, and adds it to `document`.
+void finishProbes(const ProbeTable& probes, const SimulateOptions& options, scene::Json& document) {
+    if (probes.cases.empty()) return;
+    writeProbes(probes, options.probes);
+    const std::vector<std::string> names = probes.names();
+    scene::Json units = scene::Json::object();
+    for (const std::string& name : names)
+        units[name] = report::Metric(report::metricNamed(name), {}).unit;
+    document["probes"] = {
+        {"file", options.probes.string()},
+        {"first_frame", 0},
+        {"last_frame", options.recording.frames},
+        {"units", units}};
+    if (!options.sweep.json)
+        std::cout << engine::shownText(options.probes.string()) << ": " << names.size()
+                  << " probes, frames 0 to " << options.recording.frames << " of "
+                  << probes.cases.size() << (probes.cases.size() == 1 ? " case\n" : " cases\n");
 }
 
 }  // namespace
@@ -319,42 +481,42 @@ int simulateScene(const SimulateOptions& options) {
     const std::filesystem::path& out = options.recording.out;
     if (out.empty() && options.probes.empty())
         throw engine::Error("simulate", "needs --export or --probes");
-    scene::Scene scene = scene::loadScene(options.scene.scene, options.scene.outside);
-    measure::HairCache cache = measure::userHairCache(options.scene.cache);
+    const scene::SceneOptions& wanted = options.sweep.scene;
+    measure::HairCache cache = measure::userHairCache(wanted.cache);
     // Throws early for an unknown format.
     if (!out.empty() && !groom::isArray(out)) hair::groom::strandExporterOf(out);
-    std::vector<scene::CaseSpec> specs;
-    if (out.empty() || out.string().find(kCasePlace) != std::string::npos) {
-        specs = scene::selectCases(scene, options.scene, &cache.assets());
-    } else {
-        specs.push_back(scene::singleCase(scene, options.scene, &cache.assets()));
-        specs.front().name = scene.name;
-    }
-    std::vector<groom::RecordingOptions> recordings;
-    std::set<std::filesystem::path> files;
-    for (const scene::CaseSpec& spec : specs) {
-        if (out.empty()) break;
-        groom::RecordingOptions& recording = recordings.emplace_back(options.recording);
-        recording.out = fileOf(out, scene, spec.name);
-        engine::checkWritable(recording.out);
-        if (!files.insert(recording.out).second)
-            throw engine::Error(recording.out.string(), "is the file of two cases");
+    const std::vector<run::PlannedCase> cases =
+        casesToPlay(options.sweep, out.empty() || scene::hasCasePlace(out), cache.assets());
+    if (cases.empty()) return sayNothingMatches(options.sweep);
+    std::vector<std::filesystem::path> files(cases.size());
+    if (!out.empty()) files = filesOf(cases, out, wanted.scene);
+    if (!out.empty())
+        for (const std::filesystem::path& each : files) engine::checkWritable(each);
+    if (!options.probes.empty()) {
+        checkProbes(cases);
+        engine::checkWritable(options.probes);
     }
 
-    if (!options.probes.empty()) engine::checkWritable(options.probes);
-
-    const engine::Device device(options.scene.device);
+    const engine::Device device(wanted.device);
+    scene::Json document = {
+        {"schema", "hairbench-simulation/1.0.0"}, {"scene", wanted.scene.string()}};
+    scene::Json written = scene::Json::array();
+    ProbeTable probes;
+    bool interrupted = false;
     try {
-        for (std::size_t i = 0; i < recordings.size(); ++i)
-            recordCase(device, scene, specs[i], recordings[i], cache);
-        if (!options.probes.empty()) writeProbes(device, scene, specs, options, cache);
+        for (std::size_t i = 0; i < cases.size(); ++i)
+            simulateCase(device, cases[i], options, files[i], cache, probes, written);
     } catch (const engine::Interrupted&) {
+        interrupted = true;
         std::cerr
-            << (specs.size() == 1 ? "interrupted: nothing is written\n"
-                                  : "interrupted: only finished cases are written\n");
-        return report::kInterrupted;
+            << (written.empty() ? "interrupted: nothing is written\n"
+                                : "interrupted: only finished cases are written\n");
     }
-    return report::kOk;
+    document["interrupted"] = interrupted;
+    document["cases"] = std::move(written);
+    finishProbes(probes, options, document);
+    if (options.sweep.json) std::cout << textOf(document);
+    return interrupted ? report::kInterrupted : report::kOk;
 }
 
 }  // namespace benchmarks::commands

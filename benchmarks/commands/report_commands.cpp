@@ -125,10 +125,12 @@ int compareReports(const report::CompareOptions& options) {
                           : "the reports have no time in common\n");
         return with_baseline ? report::kNoBaseline : report::kNothingRan;
     }
+    const std::string json = report::comparisonJson(comparison, files.a.string(), files.b.string())
+                                 .dump(2, ' ', false, scene::Json::error_handler_t::replace) +
+                             '\n';
+    if (!options.out.empty()) engine::writeFileAtomically(options.out, json);
     if (options.json)
-        std::cout << report::comparisonJson(comparison, files.a.string(), files.b.string())
-                         .dump(2, ' ', false, scene::Json::error_handler_t::replace)
-                  << '\n';
+        std::cout << json;
     else
         print(
             comparison, files,

@@ -25,15 +25,22 @@ namespace {
 class Recording {
 public:
     Recording(
-        const engine::Device& device, const scene::Scene& scene, const hair::Settings& settings,
-        const RecordingOptions& options, measure::HairCache& cache)
-        : device_(device), scene_(scene), settings_(settings), options_(options),
-          case_(device, settings, scene.directory, &cache) {}
+        const engine::Device& device, const std::filesystem::path& directory,
+        const std::string& name, const hair::Settings& settings, const RecordingOptions& options,
+        measure::HairCache& cache)
+        : device_(device), name_(name), settings_(settings), options_(options),
+          case_(device, settings, directory, &cache) {
+        if (options.probes) probes_.emplace(device, case_, options.frames);
+    }
 
     Recorded everyFrame();
     Recorded array();
     Recorded lastFrame();
+    Recorded onlyProbes();
     std::vector<std::string> warnings() const { return case_.warnings(); }
+    std::optional<measure::PlayedProbes> takeProbes() {
+        return probes_ ? std::optional(probes_->take()) : std::nullopt;
+    }
 
 private:
     // Plays the frames without drawing them. Calls `after` with the index of each.
@@ -45,20 +52,29 @@ private:
         const hair::groom::StrandSet& first) const;
 
     const engine::Device& device_;
-    const scene::Scene& scene_;
+    const std::string& name_;
     const hair::Settings& settings_;
     const RecordingOptions& options_;
     measure::Case case_;
+    std::optional<measure::ProbeRecorder> probes_;
 };
 
 void Recording::play(const std::function<void(std::uint32_t)>& after) {
     engine::FrameLoop loop(device_, engine::Timing::statistics);
     measure::Progress progress(options_.frames);
+    if (probes_) {  // the start of the hair
+        loop.frame([&](engine::Passes& passes) { probes_->record(passes); });
+        probes_->frameDone();
+    }
     try {
         for (std::uint32_t i = 0; i < options_.frames; ++i) {
             engine::checkInterrupted();
             progress.begin("frame " + std::to_string(i));
-            loop.frame([&](engine::Passes& passes) { case_.simulate(passes); });
+            loop.frame([&](engine::Passes& passes) {
+                case_.simulate(passes);
+                if (probes_) probes_->record(passes);
+            });
+            if (probes_) probes_->frameDone();
             after(i);
         }
     } catch (...) {
@@ -73,9 +89,9 @@ hair::groom::StrandSet Recording::strands() const {
                                          ? measure::guideStrands(case_.groom(), case_.drawnGuides())
                                          : measure::drawnStrands(case_.strands());
     if (strands.ends.empty())
-        throw engine::Error(scene_.path.string(), "no strands are drawn: --guides writes guides");
+        throw engine::Error(name_, "no strands are drawn: --guides writes guides");
     strands.up = 1;
-    strands.comment = "hairbench simulate, " + scene_.name;
+    strands.comment = "hairbench simulate, " + name_;
     return strands;
 }
 
@@ -112,7 +128,10 @@ Recorded Recording::everyFrame() {
 
 Recorded Recording::array() {
     Recorded recorded;
+    const bool is_archive = hair::groom::lowerCaseExtension(options_.out) == ".npz";
     engine::writeFileAtomically(options_.out, [&](std::ostream& file) {
+        hair::groom::NpzStream archive(file);
+        std::vector<double> times;
         play([&](std::uint32_t frame) {
             hair::groom::StrandSet now = strands();
             if (frame == 0) {
@@ -123,15 +142,30 @@ Recorded Recording::array() {
                             options_.out.string(),
                             "strands have different numbers of points: --guides writes guides");
                 const std::uint64_t shape[]{options_.frames, now.ends.size(), points, 3};
-                file << hair::groom::npyHeader(shape);
+                if (is_archive)
+                    archive.begin("positions", hair::groom::NpyType::float32, shape);
+                else
+                    file << hair::groom::npyHeader(hair::groom::NpyType::float32, shape);
                 recorded.strands = now;
             }
             checkEqual(frame, now, recorded.strands);
+            times.push_back(case_.time());
             const auto bytes = std::as_bytes(std::span(now.points));
-            file.write(
-                reinterpret_cast<const char*>(bytes.data()),
-                static_cast<std::streamsize>(bytes.size()));
+            if (is_archive)
+                archive.append(bytes);
+            else
+                file.write(
+                    reinterpret_cast<const char*>(bytes.data()),
+                    static_cast<std::streamsize>(bytes.size()));
         });
+        if (!is_archive) return;
+        const std::uint64_t frames[]{times.size()};
+        archive.begin("times", hair::groom::NpyType::float64, frames);
+        archive.append(std::as_bytes(std::span(times)));
+        const std::uint64_t bytes[]{options_.metadata.size()};
+        archive.begin("metadata", hair::groom::NpyType::uint8, bytes);
+        archive.append(std::as_bytes(std::span(options_.metadata)));
+        archive.finish();
     });
     return recorded;
 }
@@ -144,10 +178,16 @@ Recorded Recording::lastFrame() {
     return recorded;
 }
 
+Recorded Recording::onlyProbes() {
+    play([](std::uint32_t) {});
+    return {};
+}
+
 }  // namespace
 
 bool isArray(const std::filesystem::path& file) {
-    return hair::groom::lowerCaseExtension(file) == ".npy";
+    const std::string extension = hair::groom::lowerCaseExtension(file);
+    return extension == ".npy" || extension == ".npz";
 }
 
 bool holdsFrames(const std::filesystem::path& file) {
@@ -155,12 +195,14 @@ bool holdsFrames(const std::filesystem::path& file) {
 }
 
 Recorded recordStrands(
-    const engine::Device& device, const scene::Scene& scene, const hair::Settings& settings,
-    const RecordingOptions& options, measure::HairCache& cache) {
-    Recording recording(device, scene, settings, options, cache);
-    Recorded recorded = isArray(options.out)       ? recording.array()
+    const engine::Device& device, const std::filesystem::path& directory, const std::string& name,
+    const hair::Settings& settings, const RecordingOptions& options, measure::HairCache& cache) {
+    Recording recording(device, directory, name, settings, options, cache);
+    Recorded recorded = options.out.empty()        ? recording.onlyProbes()
+                        : isArray(options.out)     ? recording.array()
                         : holdsFrames(options.out) ? recording.everyFrame()
                                                    : recording.lastFrame();
+    recorded.probes = recording.takeProbes();
     const std::vector<std::string> warnings = recording.warnings();
     recorded.warnings.insert(recorded.warnings.begin(), warnings.begin(), warnings.end());
     return recorded;

@@ -2,10 +2,11 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
-#include "benchmarks/scene/scene.h"
+#include "benchmarks/measure/measure.h"
 #include "engine/device.h"
 #include "hair/groom/groom.h"
 #include "hair/settings.h"
@@ -18,12 +19,14 @@ class HairCache;
 namespace benchmarks::groom {
 
 struct RecordingOptions {
-    std::filesystem::path out;
+    std::filesystem::path out;  // empty: no strands are written
     std::uint32_t frames = 60;
     bool guides = false;  // simulated guides instead of the drawn strands
+    bool probes = false;  // also record /run/probes, which must ask for some
+    std::string metadata = {};  // JSON text that a .npz also holds
 };
 
-// Whether the file is an array of NumPy, which also holds every frame.
+// Whether the file is an array of NumPy, or an archive of arrays; both hold every frame.
 bool isArray(const std::filesystem::path& file);
 
 // Whether the file's format holds every frame of a simulation; other formats hold only the last.
@@ -34,13 +37,15 @@ struct Recorded {
                                      // last
     std::vector<std::string> warnings;  // about the case, and about data that the format cannot
                                         // hold
+    std::optional<measure::PlayedProbes> probes;  // of the same frames
 };
 
-// Plays a scene's frames, with progress and without drawing them, and writes the strands. Throws
+// Plays a case's frames once, with progress and without drawing them, and writes the strands.
+// `directory` is that of the files that the settings name; `name` stands in the file. Throws
 // engine::Error, also if the file holds every frame and the drawn strands' point counts or widths
 // change between frames. Throws Interrupted, and then writes nothing.
 Recorded recordStrands(
-    const engine::Device& device, const scene::Scene& scene, const hair::Settings& settings,
-    const RecordingOptions& options, measure::HairCache& cache);
+    const engine::Device& device, const std::filesystem::path& directory, const std::string& name,
+    const hair::Settings& settings, const RecordingOptions& options, measure::HairCache& cache);
 
 }  // namespace benchmarks::groom

@@ -243,27 +243,42 @@ std::vector<std::uint8_t> measureFrames(
     return std::move(overlapped.end.picture);
 }
 
+ProbeRecorder::ProbeRecorder(const engine::Device& device, Case& test_case, std::uint32_t frames)
+    : case_(test_case), probes_(
+                            device, test_case.groom(), test_case.settings().simulation,
+                            test_case.settings().run.probes, frames + 1) {
+    const hair::Settings& settings = test_case.settings();
+    for (const std::string& name :
+         hair::simulation::Probes::names(settings.run.probes, settings.simulation.solver))
+        played_.names.push_back("probe." + name);
+}
+
+void ProbeRecorder::record(engine::Passes& passes) { case_.probe(passes, probes_); }
+
+void ProbeRecorder::frameDone() { played_.times.push_back(case_.time()); }
+
+PlayedProbes ProbeRecorder::take() {
+    played_.values = probes_.read();
+    return std::move(played_);
+}
+
 PlayedProbes playProbes(
     const engine::Device& device, Case& test_case, std::uint32_t frames,
     const std::function<bool()>& stop) {
-    const hair::SimulationSettings& simulation = test_case.settings().simulation;
-    const hair::ProbeSettings& wanted = test_case.settings().run.probes;
-    hair::simulation::Probes probes(device, test_case.groom(), simulation, wanted, frames + 1);
+    ProbeRecorder recorder(device, test_case, frames);
     test_case.reset();
-    PlayedProbes played;
     engine::FrameLoop loop(device, Timing::isolated);
     for (std::uint32_t frame = 0; frame <= frames; ++frame) {
         if (stop()) throw engine::Interrupted();
         loop.frame([&](engine::Passes& passes) {
             if (frame > 0) test_case.simulate(passes);
-            test_case.probe(passes, probes);
+            recorder.record(passes);
         });
-        played.times.push_back(test_case.time());
+        recorder.frameDone();
     }
-    played.pass_times = passTimes(loop.finish(), "probe");
-    for (const std::string& name : hair::simulation::Probes::names(wanted, simulation.solver))
-        played.names.push_back("probe." + name);
-    played.values = probes.read();
+    std::vector<double> pass_times = passTimes(loop.finish(), "probe");
+    PlayedProbes played = recorder.take();
+    played.pass_times = std::move(pass_times);
     return played;
 }
 

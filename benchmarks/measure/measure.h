@@ -51,6 +51,28 @@ struct PlayedProbes {
     std::vector<double> pass_times;  // [frame], ms; empty without timestamps
 };
 
+// Records the probes of /run/probes, which must ask for some, of frames that somebody plays.
+class ProbeRecorder {
+public:
+    // For the start of the hair and `frames` frames. Throws engine::Error for guides that do not
+    // exist.
+    ProbeRecorder(const engine::Device& device, Case& test_case, std::uint32_t frames);
+
+    // Records the pass `probe` of the current frame: of the start of the hair, or behind
+    // Case::simulate().
+    void record(engine::Passes& passes);
+    // Notes the time of the frame that was recorded.
+    void frameDone();
+
+    // Returns all frames, without times of the pass. Waits for the device.
+    PlayedProbes take();
+
+private:
+    Case& case_;
+    hair::simulation::Probes probes_;
+    PlayedProbes played_;
+};
+
 // Plays the case from its start with the pass `probe` of /run/probes, which must ask for some.
 // Throws Interrupted if `stop` returns true before a frame, engine::Error for guides that do not
 // exist.

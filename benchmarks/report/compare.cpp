@@ -270,6 +270,7 @@ public:
         for (const MetricReading& of_a : metrics_of_a)
             if (const MetricReading* const of_b = findMetric(metrics_of_b, of_a.id))
                 addMetric(name, of_a, *of_b, metrics_of_a);
+        if (options_.probes) addMissingProbes(name, metrics_of_a, metrics_of_b);
         countPassesOf("A", metrics_of_a, metrics_of_b);
         countPassesOf("B", metrics_of_b, metrics_of_a);
     }
@@ -302,6 +303,19 @@ private:
             if (each.id.of == MetricOf::pass && !findMetric(others, each.id) &&
                 judgementOf(judged_, each, each, 0.0) != Judgement::not_wanted)
                 ++only_[std::string(which) + ": " + each.name()];
+    }
+
+    // A probe that only one report has had no finite value in the other, or was not asked for
+    // there.
+    void addMissingProbes(
+        const std::string& case_name, const std::vector<MetricReading>& metrics_of_a,
+        const std::vector<MetricReading>& metrics_of_b) {
+        for (const MetricReading& each : metrics_of_a)
+            if (judged_(each.id) && !findMetric(metrics_of_b, each.id))
+                found_.mismatches.push_back({case_name, "probe", each.name(), "none"});
+        for (const MetricReading& each : metrics_of_b)
+            if (judged_(each.id) && !findMetric(metrics_of_a, each.id))
+                found_.mismatches.push_back({case_name, "probe", "none", each.name()});
     }
 
     // The change of a probe is the largest difference between frames of the same number, as a share

@@ -73,8 +73,9 @@ struct CaseOutcome {
 // A difference between two reports' results of a case. It makes their times incomparable.
 struct Mismatch {
     std::string case_name;
-    std::string what;  // "picture", "state", or "status" where only one of them ran
-    std::string a;  // hashes, or "failed: reason"
+    // "picture", "state", "status" where only one of them ran, or "probe" that only one of them has
+    std::string what;
+    std::string a;  // hashes, "failed: reason", or the probe's name and "none"
     std::string b;
 };
 
@@ -99,6 +100,7 @@ struct CompareOptions {
     VerdictOptions verdict;
     bool all = false;  // also show rows without a change
     bool json = false;
+    std::filesystem::path out = {};  // file for the same JSON; empty: none
 };
 
 struct ReportComparison {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cassert>
 #include <iterator>
+#include <limits>
 #include <optional>
 #include <utility>
 
@@ -178,13 +179,22 @@ Metric::Metric(MetricId metric_id, std::vector<double> values, Mode timed)
     }
 }
 
+std::vector<double> samplesIn(const scene::Json& samples) {
+    std::vector<double> numbers;
+    numbers.reserve(samples.size());
+    for (const scene::Json& each : samples)
+        numbers.push_back(
+            each.is_null() ? std::numeric_limits<double>::quiet_NaN() : each.get<double>());
+    return numbers;
+}
+
 MetricReading MetricReading::fromReport(std::string_view name, const scene::Json& entry) {
     MetricReading reading{{metricNamed(name), {}, modeNamed(entry.value("mode", ""))}};
     reading.unit = entry.at("unit").get<std::string>();
     reading.better = betterNamed(entry.value("hint", betterName(reading.better)));
     reading.median = entry.at("median").get<double>();
     if (const auto samples = entry.find("samples"); samples != entry.end())
-        reading.samples = samples->get<std::vector<double>>();
+        reading.samples = samplesIn(*samples);
     return reading;
 }
 

@@ -203,6 +203,10 @@ struct Metric {
     }
 };
 
+// Returns the samples of a metric in a report. Null, which a probe has in a frame without a finite
+// value, is NaN. nlohmann throws for anything else that is not a number.
+std::vector<double> samplesIn(const scene::Json& samples);
+
 // A metric of a case with all samples in the report.
 struct MetricReading : Metric {
     double median = 0.0;

@@ -91,12 +91,19 @@ scene::Json toJson(const SceneRecord& scene) {
     return {{"path", scene.path}, {"hash", scene.hash}, {"document", scene.document.json()}};
 }
 
-// Returns null if no sample is finite.
+// Returns null if no sample is finite. Samples of a probe keep their frames: there null stands for
+// one that is not finite.
 scene::Json toJson(const Metric& metric) {
     std::vector<double> samples = metric.samples;
     const std::size_t missing =
         std::erase_if(samples, [](double value) { return !std::isfinite(value); });
     if (samples.empty()) return nullptr;
+    scene::Json written = samples;
+    if (isProbe(metric.id) && missing > 0) {
+        written = scene::Json::array();
+        for (const double value : metric.samples)
+            written.push_back(std::isfinite(value) ? scene::Json(value) : scene::Json());
+    }
     const Summary summary = summarize(samples);
     scene::Json object = scene::Json::object();
     object["unit"] = metric.unit;
@@ -124,7 +131,7 @@ scene::Json toJson(const Metric& metric) {
                 {"confidence", interval.confidence}};
     }
     put(object, "relative_deviation", summary.relative_deviation);
-    object["samples"] = std::move(samples);
+    object["samples"] = std::move(written);
     if (missing > 0) object["missing_samples"] = missing;
     return object;
 }
@@ -359,9 +366,10 @@ std::map<Key, scene::Json> readSamples(const fs::path& path) {
 // A report and the samples of another run can lie together if a run was killed between writing
 // them.
 bool fits(const scene::Json& metric, const scene::Json& samples) {
-    return samples.size() == metric.at("sample_count").get<std::size_t>() && !samples.empty() &&
-           summarize(samples.get<std::vector<double>>()).median ==
-               metric.at("median").get<double>();
+    std::vector<double> numbers = samplesIn(samples);
+    if (numbers.size() != metric.at("sample_count").get<std::size_t>()) return false;
+    std::erase_if(numbers, [](double value) { return std::isnan(value); });
+    return !numbers.empty() && summarize(numbers).median == metric.at("median").get<double>();
 }
 
 // Whether the metric's samples belong in a file beside the report.

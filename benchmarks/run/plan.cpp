@@ -48,6 +48,10 @@ bool readNumber(std::string_view text, std::uint32_t& number) {
 
 }  // namespace
 
+scene::Document documentOf(const scene::CaseSpec& spec) {
+    return scene::Document(scene::writeSettings(spec.settings));
+}
+
 report::Shard parseShard(const std::string& text) {
     report::Shard shard;
     const std::size_t slash = text.find('/');
@@ -85,8 +89,7 @@ RunPlan planRun(
     std::vector<PlannedCase> cases;
     for (scene::Scene& scene : scenes) {
         for (scene::CaseSpec& spec : scene::selectCases(scene, options, assets)) {
-            all_documents += spec.name + '\n' +
-                             scene::Document(scene::writeSettings(spec.settings)).text() + '\n';
+            all_documents += spec.name + '\n' + documentOf(spec).text() + '\n';
             const std::size_t index = cases.size();
             cases.push_back(
                 {.spec = std::move(spec), .directory = scene.directory, .index = index});

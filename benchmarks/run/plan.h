@@ -68,6 +68,9 @@ RunPlan planRun(
     const scene::SceneOptions& scene, const std::string& filter, const std::string& shard,
     scene::AssetStore* assets = nullptr);
 
+// Returns all settings of a case, as a scene's document has them.
+scene::Document documentOf(const scene::CaseSpec& spec);
+
 // "2/8" -> {2, 8}. Throws engine::Error "--shard: ...".
 report::Shard parseShard(const std::string& text);
 

@@ -65,6 +65,31 @@ std::filesystem::path FramePaths::of(std::uint32_t frame) const {
     return before_ + number + after_;
 }
 
+namespace {
+
+constexpr std::string_view kCasePlace = "{case}";
+
+}  // namespace
+
+bool hasCasePlace(const std::filesystem::path& pattern) {
+    return pattern.string().find(kCasePlace) != std::string::npos;
+}
+
+std::filesystem::path
+caseFile(const std::filesystem::path& pattern, std::string_view scene, std::string_view name) {
+    if (name.starts_with(scene) && name.substr(scene.size()).starts_with('/'))
+        name.remove_prefix(scene.size() + 1);
+    std::string text(name);
+    for (char& each : text) {
+        if (each == '/') each = '_';
+        if (std::string_view(":\\\"*?<>|").find(each) != std::string_view::npos) each = '-';
+    }
+    std::string file = pattern.string();
+    for (std::size_t at = 0; (at = file.find(kCasePlace, at)) != file.npos; at += text.size())
+        file.replace(at, kCasePlace.size(), text);
+    return file;
+}
+
 // ---- Range --------------------------------------------------------------------------------------
 
 FrameRange parseFrameRange(std::string_view text) {

@@ -48,6 +48,14 @@ private:
     bool has_number_ = false;
 };
 
+// Whether a path has a place for the name of a case, "{case}".
+bool hasCasePlace(const std::filesystem::path& pattern);
+
+// The file of a case: its name without that of the scene stands for "{case}", in letters that every
+// system allows: "out/{case}.png" and "thesis/guides:86/msaa:4" -> "out/guides-86_msaa-4.png".
+std::filesystem::path
+caseFile(const std::filesystem::path& pattern, std::string_view scene, std::string_view name);
+
 // The frames `first`, `first` + `step` ... below `end`.
 struct FrameRange {
     std::uint32_t first = 0;

@@ -37,5 +37,19 @@ TEST(Pattern, TakesTimeByTheTextAlone) {
     EXPECT_NE(errorText([] { scene::Pattern("((a{1000}){1000}){1000}"); }), "no error");
 }
 
+TEST(CaseFile, HasTheValuesOfTheAxes) {
+    const auto file = [](const char* pattern, const char* name) {
+        return scene::caseFile(pattern, "thesis", name).string();
+    };
+    EXPECT_EQ(file("out/{case}.png", "thesis/guides:86/msaa:4"), "out/guides-86_msaa-4.png");
+    EXPECT_EQ(file("{case}/{case}_%04d.png", "thesis/msaa:4"), "msaa-4/msaa-4_%04d.png");
+    EXPECT_EQ(file("{case}.npy", "thesis"), "thesis.npy");  // without a sweep
+    EXPECT_EQ(file("{case}.npy", "thesis2/msaa:4"), "thesis2_msaa-4.npy");  // of a suite
+    EXPECT_EQ(file("{case}.npy", "thesis/file:a\\b\"c*?<>|"), "file-a-b-c-----.npy");
+    EXPECT_EQ(file("one.npy", "thesis/msaa:4"), "one.npy");
+    EXPECT_TRUE(scene::hasCasePlace("x/{case}.png"));
+    EXPECT_FALSE(scene::hasCasePlace("x/case.png"));
+}
+
 }  // namespace
 }  // namespace benchmarks

@@ -168,6 +168,39 @@ TEST(Report, SummarizesTheFiniteSamples) {
     EXPECT_FALSE(frame.contains("interval"));  // three samples give no 95 % interval
 }
 
+// A frame without a number keeps its place among those of the time, in the report, through its file
+// and in what is read.
+TEST(Report, KeepsTheFramesOfAProbe) {
+    constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+    report::Report report = sampleReport();
+    report.cases[0].metrics.push_back(
+        {report::metricNamed("probe.speed"), {1.0, kNone, 3.0, kNone}});
+    const std::string text = writtenText(report);
+    EXPECT_THAT(report::schemaErrors(engine::readFile(kReportSchemaFile), text), IsEmpty());
+    const TemporaryFolder folder;
+    const scene::Json read = report::readReport(folder.write("probed.json", text));
+    const scene::Json& entry = read["cases"][0]["metrics"]["probe.speed"];
+    EXPECT_EQ(entry["samples"].dump(), "[1.0,null,3.0,null]");
+    EXPECT_EQ(entry["median"], 2.0);
+    EXPECT_EQ(entry["missing_samples"], 2);
+    const auto reading = report::MetricReading::fromReport("probe.speed", entry);
+    ASSERT_EQ(reading.samples.size(), 4u);
+    EXPECT_EQ(reading.samples[2], 3.0);
+    EXPECT_TRUE(std::isnan(reading.samples[1]) && std::isnan(reading.samples[3]));
+    // More samples than a report holds lie beside it.
+    std::vector<double> many(3000, 1.0);
+    many[1000] = kNone;
+    report.cases[0].metrics.back().samples = many;
+    report::writeReport(report::reportJson(report), folder.file("many.json"));
+    ASSERT_TRUE(std::filesystem::exists(folder.file("many.samples.jsonl")));
+    const scene::Json again = report::readReport(folder.file("many.json"));
+    const auto long_one = report::MetricReading::fromReport(
+        "probe.speed", again["cases"][0]["metrics"]["probe.speed"]);
+    ASSERT_EQ(long_one.samples.size(), many.size());
+    EXPECT_TRUE(std::isnan(long_one.samples[1000]));
+    EXPECT_EQ(long_one.samples[999], 1.0);
+}
+
 TEST(Report, SaysWhatIsBetter) {
     const std::pair<report::Metric, const char*> hints[] = {
         {{report::ofFrame(report::Measured::time), {1.0}}, "lower"},

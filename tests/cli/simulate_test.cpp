@@ -55,6 +55,7 @@ TEST_F(SimulateCli, GateFindsHairThatMovesOtherwise) {
     EXPECT_EQ(other.status, 12) << other.output;
     EXPECT_THAT(other.output, testing::ContainsRegex("probe.tip_displacement.mean .* mismatch"));
     EXPECT_EQ(hairbench(gate + stiffer + " --threshold 90%").status, 0);
+    EXPECT_THAT(textOf(folder_.file("gate.json")), HasSubstr("\"verdict\": \"same\""));
     const Outcome none = hairbench(without);
     EXPECT_EQ(none.status, 14) << none.output;
     EXPECT_THAT(none.output, HasSubstr("no probe in common: see /run/probes"));
@@ -140,6 +141,48 @@ TEST_F(SimulateCli, WritesProbesOfASweep) {
     EXPECT_EQ(none.status, 2) << none.output;
     EXPECT_THAT(none.output, HasSubstr("asks for none: see /run/probes"));
     EXPECT_EQ(hairbench("simulate " + shippedScene("smoke.json")).status, 2);
+}
+
+// Probes don't change the motion, and are those of the frames that are written.
+TEST_F(SimulateCli, WritesStrandsAndProbesOfTheSameFrames) {
+    const std::string options = "--frames 4 --guides --axis /render/msaa=1 "
+                                "--axis /simulation/wind/strength=0,20 "
+                                "--set /run/probes/tip_displacement=true --set "
+                                "/run/probes/speed=true ";
+    const std::string scene = "simulate " + shippedScene("smoke.json") + options;
+    ASSERT_EQ(hairbench(scene + "--probes " + quoted("alone.csv")).status, 0);
+    ASSERT_EQ(hairbench(scene + "--export " + quoted("alone_{case}.npy")).status, 0);
+    const Outcome both =
+        hairbench(scene + "--export " + quoted("{case}.npy") + " --probes " + quoted("both.csv"));
+    ASSERT_EQ(both.status, 0) << both.output;
+    EXPECT_EQ(textOf(folder_.file("both.csv")), textOf(folder_.file("alone.csv")));
+    for (const std::string name : {"msaa-1_strength-0.npy", "msaa-1_strength-20.npy"})
+        EXPECT_EQ(textOf(folder_.file(name)), textOf(folder_.file("alone_" + name))) << name;
+}
+
+// Both parts and the filtered cases are those of the whole sweep.
+TEST_F(SimulateCli, PlaysPartsOfASweep) {
+    const std::string options =
+        "--frames 1 --guides --axis /render/msaa=1 --axis /simulation/wind/strength=0,5,20 ";
+    const auto files = [&](const std::string& name) {
+        std::vector<std::string> found;
+        for (const auto& each : fs::directory_iterator(folder_.file(name)))
+            found.push_back(each.path().filename().string());
+        std::ranges::sort(found);
+        return found;
+    };
+    ASSERT_EQ(simulate("first/{case}.npy", options + "--shard 1/2").status, 0);
+    ASSERT_EQ(simulate("second/{case}.npy", options + "--shard 2/2").status, 0);
+    ASSERT_EQ(simulate("some/{case}.npy", options + "--filter 'strength:.*0$'").status, 0);
+    EXPECT_THAT(
+        files("first"), testing::ElementsAre("msaa-1_strength-0.npy", "msaa-1_strength-20.npy"));
+    EXPECT_THAT(files("second"), testing::ElementsAre("msaa-1_strength-5.npy"));
+    EXPECT_THAT(
+        files("some"), testing::ElementsAre("msaa-1_strength-0.npy", "msaa-1_strength-20.npy"));
+    EXPECT_EQ(simulate("{case}.npy", options + "--filter nothing").status, 14);
+    const Outcome one = simulate("one.npy", options + "--filter strength");
+    EXPECT_EQ(one.status, 2);
+    EXPECT_THAT(one.output, HasSubstr("--filter: needs {case} in the name of the file"));
 }
 
 TEST_F(SimulateCli, WritesTheGuides) {

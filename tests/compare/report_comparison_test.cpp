@@ -267,6 +267,22 @@ TEST(ReportComparison, NeverTakesNoNumberForTheSameProbe) {
         }
 }
 
+// Neither is a probe without any number, which a report leaves out.
+TEST(ReportComparison, NeverTakesAMissingProbeForTheSame) {
+    const MadeMetric speed{"probe.speed", {1.0, 2.0}, "m/s", "", ""};
+    const scene::Json both = reportOf({probedCase({tips({1, 2}), speed}, "aa")});
+    const scene::Json one = reportOf({probedCase({speed}, "aa")});
+    const ReportComparison found = compareReports(both, one, {.probes = true});
+    ASSERT_EQ(found.mismatches.size(), 1u);
+    EXPECT_EQ(
+        mismatchText(found.mismatches[0]),
+        found.mismatches[0].case_name +
+            ": the probes differ: probe.tip_displacement.mean and none");
+    EXPECT_EQ(overallVerdict(found), Verdict::mismatch);
+    EXPECT_EQ(overallVerdict(compareReports(one, both, {.probes = true})), Verdict::mismatch);
+    EXPECT_EQ(overallVerdict(compareReports(both, one, {})), Verdict::same);
+}
+
 TEST(ReportComparison, GivesProbesTheirDirection) {
     const auto depth = [](double value) {
         return MadeMetric{"probe.penetration", {0.0, value}, "m", "lower", ""};

@@ -1,4 +1,4 @@
-"""Runs the examples of docs/results.md and docs/notebook.ipynb in order."""
+"""Runs the examples of docs/results.md and of the notebooks in docs in order."""
 
 import contextlib
 import io
@@ -47,9 +47,13 @@ class Documents(unittest.TestCase):
         self.assertIn("12 mismatch False", printed)
         self.assertTrue(os.path.getsize("longer.ply") > len(names["groom"].points) * 12)
 
+    def test_notebooks_have_no_outputs(self):
+        # They would depend on the machine.
+        for path in (REPOSITORY / "docs").glob("*.ipynb"):
+            cells = json.loads(path.read_text())["cells"]
+            self.assertFalse(any(cell.get("outputs") for cell in cells), path)
+
     def test_the_notebook(self):
-        cells = json.loads((REPOSITORY / "docs" / "notebook.ipynb").read_text())["cells"]
-        self.assertFalse(any(cell.get("outputs") for cell in cells))  # outputs would depend on the machine
         names, _ = self.play("notebook.ipynb")
         triangles = names["frame"]["counts.root_triangles"].iloc[0]
         strands = [triangles * density for density in names["DENSITIES"]]
@@ -63,6 +67,27 @@ class Documents(unittest.TestCase):
         self.assertEqual(len(pictures), len(names["DENSITIES"]))
         for i, picture in enumerate(pictures):
             self.assertGreater(picture.std(), 0.01)
+            self.assertFalse(any((picture == other).all() for other in pictures[:i]))
+
+    def test_the_notebook_of_deflection(self):
+        lines = [line for cell in examples("deflection.ipynb") for line in cell.splitlines()]
+        self.assertLessEqual(sum(bool(line.strip()) for line in lines), 40)  # as its title says
+        names, _ = self.play("deflection.ipynb")
+        mean = names["spread"]["mean"].unstack(names["WIND"])
+        self.assertEqual(mean.shape, (3, 4))
+        # Wind bends hair, and stiff hair less.
+        self.assertTrue((mean.diff(axis="columns").iloc[:, 1:] > 0).all().all(), mean)
+        self.assertTrue((mean.diff().iloc[1:] < 0).all().all(), mean)
+        # Hair that grows anew is other hair; no tip moves farther than twice its length, 15 cm.
+        self.assertTrue((names["spread"]["sem"] > 0).all())
+        self.assertTrue(((mean > 0) & (mean < 30)).all().all(), mean)
+        drawn = [list(container[0].get_ydata()) for container in names["axes"].containers]
+        self.assertEqual(drawn, mean.to_numpy().tolist())
+        self.assertTrue(os.path.getsize("deflection.pdf") > 0 and os.path.getsize("strip.png") > 0)
+        pictures = list(names["pictures"].values())
+        self.assertEqual(len(pictures), 4)
+        for i, picture in enumerate(pictures):
+            self.assertGreater(picture.std(), 1.0)
             self.assertFalse(any((picture == other).all() for other in pictures[:i]))
 
 

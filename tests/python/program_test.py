@@ -4,6 +4,7 @@ import json
 import os
 import tempfile
 import unittest
+import zipfile
 from pathlib import Path
 from unittest import mock
 
@@ -11,7 +12,7 @@ import numpy
 
 from report_test import made_report
 from support import REPOSITORY, hairbench, need_device
-from hairbench.program import option_arguments, scene_arguments
+from hairbench.program import call, option_arguments, scene_arguments
 
 SMOKE = REPOSITORY / "scenes" / "smoke.json"
 
@@ -35,7 +36,7 @@ class Arguments(unittest.TestCase):
              "--axis", "/strands/backend=lines,mesh",
              "--set", "/simulation/wind/enabled=false", "--set", "/simulation/solver=rod"])
         with self.assertRaisesRegex(TypeError, "axes: /strands/density: 16 is not a list"):
-            scene_arguments({"/strands/density": 16}, None)
+            scene_arguments({"/strands/density": 16}, {})
 
 
 class InFolder(unittest.TestCase):
@@ -183,8 +184,10 @@ class Simulate(InFolder):
              "value"])
         self.assertEqual(len(probes), 2 * 7)
         same = played.probes()  # of the same frames, in nine digits
-        self.assertEqual(list(same.columns), ["case", "frame", "time", "probe", "value"])
-        self.assertEqual(list(same["case"]), list(probes["case"]))
+        known = ["case", "/render/msaa", "/simulation/wind/strength", "frame", "probe", "unit"]
+        self.assertEqual(list(same.columns), list(probes.columns))
+        self.assertTrue((same[known] == probes[known]).all().all())
+        self.assertTrue(numpy.allclose(same["time"], probes["time"], rtol=1e-8, atol=0.0))
         self.assertTrue(numpy.allclose(same["value"], probes["value"], rtol=1e-8, atol=0.0))
         for case, positions in played.positions.items():
             speeds = numpy.linalg.norm(numpy.diff(positions.astype(float), axis=0), axis=-1) * 60
@@ -197,6 +200,119 @@ class Simulate(InFolder):
             hairbench.simulate(
                 SMOKE, out=self.folder, sets={"/simulation/solvers": 1}, progress=None)
         self.assertIn("/simulation/solvers", str(raised.exception))
+
+
+class Archive(InFolder):
+    def test_has_positions_times_and_settings(self):
+        need_device(self)
+        options = ["--guides", "--frames", "5", "--json", "--axis", "/render/msaa=1",
+                   "--axis", "/simulation/wind/strength=20"]
+        for kind in ("npy", "npz"):
+            pattern = self.folder / f"{{case}}.{kind}"
+            finished = call(["simulate", str(SMOKE), "--export", str(pattern), *options], None)
+            self.assertEqual(finished.status, 0, finished.errors)
+        (case,) = json.loads(finished.text)["cases"]
+        self.assertEqual(case["axes"], {"/render/msaa": 1, "/simulation/wind/strength": 20})
+        self.assertEqual((case["strands"], case["first_frame"], case["last_frame"]), (86, 0, 4))
+        with zipfile.ZipFile(case["file"]) as archive:
+            self.assertIsNone(archive.testzip())  # checksums
+        with numpy.load(case["file"]) as archive:
+            self.assertEqual(list(archive), ["positions", "times", "metadata"])
+            alone = numpy.load(self.folder / "msaa-1_strength-20.npy")
+            self.assertTrue((archive["positions"] == alone).all())
+            self.assertTrue(numpy.allclose(
+                archive["times"], numpy.arange(1, 6) / 60, rtol=0, atol=1e-6))  # 32 bits
+            metadata = json.loads(bytes(archive["metadata"]))
+        self.assertEqual(metadata["name"], "smoke/msaa:1/strength:20")
+        self.assertEqual(metadata["settings"]["simulation"]["wind"]["strength"], 20)
+        self.assertIn(hairbench.__version__, metadata["version"])
+
+
+class Render(InFolder):
+    SETS = {"/render/width": 64, "/render/height": 36}
+
+    def test_gives_the_picture_that_a_file_holds(self):
+        need_device(self)
+        picture = hairbench.render(SMOKE, frame=3, sets=self.SETS, progress=None)
+        self.assertEqual((picture.shape, picture.dtype), ((36, 64, 4), numpy.uint8))
+        self.assertGreater(picture[..., :3].std(), 1.0)  # it is not of one colour
+        matplotlib_reads = self.folder / "same.png"
+        call(["render", str(SMOKE), "-o", str(matplotlib_reads), "--frame", "3",
+              *scene_arguments({}, self.SETS)], None)
+        from matplotlib import pyplot
+        written = pyplot.imread(matplotlib_reads)  # shares of 255
+        self.assertTrue((numpy.rint(written * 255)[..., :3] == picture[..., :3]).all())
+
+    def test_gives_linear_light(self):
+        need_device(self)
+        sets = {**self.SETS, "/render/tone_map": "srgb"}
+        shown = hairbench.render(SMOKE, sets=sets, progress=None)
+        linear = hairbench.render(SMOKE, sets=sets, linear=True, progress=None)
+        self.assertEqual((linear.shape, linear.dtype), ((36, 64, 3), numpy.float32))
+        # IEC 61966-2-1, from radiance to display values.
+        light = numpy.clip(linear.astype(float), 0, 1)
+        encoded = numpy.where(
+            light <= 0.0031308, 12.92 * light, 1.055 * light ** (1 / 2.4) - 0.055)
+        # A value is rounded once on the device, and radiance once to 16 bits: 11 of them count.
+        self.assertLessEqual(abs(encoded * 255 - shown[..., :3]).max(), 1.0)
+
+    def test_gives_a_picture_of_each_case(self):
+        need_device(self)
+        axes = {"/render/msaa": [1], "/simulation/wind/strength": [0, 20]}
+        pictures = hairbench.render(SMOKE, frame=20, axes=axes, sets=self.SETS, progress=None)
+        self.assertEqual(
+            list(pictures), ["smoke/msaa:1/strength:0", "smoke/msaa:1/strength:20"])
+        still, blown = pictures.values()
+        self.assertTrue((still != blown).any())
+        alone = hairbench.render(
+            SMOKE, frame=20, progress=None,
+            sets={**self.SETS, "/render/msaa": 1, "/simulation/wind/strength": 20})
+        self.assertTrue((alone == blown).all())
+        one = hairbench.render(
+            SMOKE, frame=20, axes=axes, sets=self.SETS, progress=None, filter="strength:20")
+        self.assertEqual(list(one), ["smoke/msaa:1/strength:20"])
+
+    def test_says_what_is_wrong(self):
+        with self.assertRaises(hairbench.ProgramError) as raised:
+            hairbench.render(SMOKE, sets={"/render/msaa": 3}, progress=None)
+        self.assertEqual(raised.exception.pointer, "/render/msaa")
+
+
+class Physics(InFolder):
+    def test_gives_the_outcomes(self):
+        need_device(self)
+        result = hairbench.physics(
+            solver="shape", check="projectile", out=self.folder / "p.json", progress=None)
+        self.assertTrue(result.passed)
+        frame = result.frame()
+        self.assertEqual(set(frame["check"]), {"projectile"})
+        self.assertEqual(set(frame["solver"]), {"shape"})
+        self.assertTrue((frame["error"] <= frame["tolerance"]).all())
+        self.assertTrue((frame["time_step"] > 0).all())
+
+    def test_a_failed_check_is_a_result(self):
+        report = self.folder / "p.json"
+        report.write_text(json.dumps({"outcomes": [
+            {"check": "pendulum", "solver": "rod", "verdict": "fail", "error": 0.5}]}))
+        self.stand_in("exit 3\n")
+        result = hairbench.physics(out=report, progress=None)
+        self.assertFalse(result.passed)
+        self.assertEqual(list(result.frame()["verdict"]), ["fail"])
+        self.stand_in("exit 77\n")
+        with self.assertRaises(hairbench.ProgramError):
+            hairbench.physics(out=report, progress=None)
+
+
+class Errors(unittest.TestCase):
+    def test_have_the_pointer_of_the_field_at_fault(self):
+        for message, pointer in (
+                ("/strands/density: 0 is outside [1, 64]", "/strands/density"),
+                ("scenes/curl.json: /simulation/length/iterations: 0 is outside",
+                 "/simulation/length/iterations"),
+                (f"{SMOKE}: /render/msaa: 3 is none of 1, 2, 4, 8", "/render/msaa"),
+                (f"{SMOKE}: is not JSON: byte 3", None),
+                ("no Vulkan device", None)):
+            self.assertEqual(hairbench.ProgramError(2, message).pointer, pointer, message)
 
 
 class Gate(InFolder):
@@ -234,6 +350,21 @@ class Gate(InFolder):
         self.assertEqual((result.status, result.verdict, result.passed), (0, "same", True))
         self.assertEqual(result.report["decided_at"], 12)
         self.assertIn("verdict: same", result.text)
+
+    def test_finds_hair_that_moves_otherwise(self):
+        need_device(self)
+        for stiffness, verdict, status in ((0.2, "mismatch", 12), (None, "same", 0)):
+            result = hairbench.gate(
+                hairbench.program(), hairbench.program(), SMOKE, out=self.folder / "gate.json",
+                probes=True, axes={"/render/msaa": [1]}, threshold="1%", progress=None,
+                sets={"/run/probes/tip_displacement": True, "/run/frames": 5},
+                set_b=stiffness and f"/simulation/local/stiffness={stiffness}")
+            self.assertEqual((result.verdict, result.status), (verdict, status))
+            self.assertEqual(result.passed, status == 0)
+            frame = result.frame()
+            self.assertIn("probe.tip_displacement.mean", set(frame["metric"]))
+            if status == 0:
+                self.assertTrue((frame["change"] == 0).all())
 
     def test_raises_where_a_side_fails(self):
         with self.assertRaises(hairbench.ProgramError) as raised:

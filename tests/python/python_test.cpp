@@ -26,7 +26,8 @@ TEST_P(PythonModule, PassesItsTests) {
 }
 
 INSTANTIATE_TEST_SUITE_P(
-    Tests, PythonModule, testing::Values("ci", "documents", "groom", "program", "report", "thesis"),
+    Tests, PythonModule,
+    testing::Values("ci", "documents", "groom", "program", "report", "thesis", "typing"),
     [](const auto& test) { return test.param; });
 
 }  // namespace

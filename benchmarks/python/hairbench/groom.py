@@ -11,14 +11,18 @@ import os
 import struct
 import tempfile
 import warnings
+from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
-from .program import Option, option_arguments, succeed
+from .program import option_arguments, succeed
 
 if TYPE_CHECKING:
     import numpy
+    from typing_extensions import Unpack
+
+    from .keywords import ConvertOptions
 
 HEADER = struct.Struct("<4sIIII5f88s")
 SEGMENTS, THICKNESS = 1, 4  # bits for the arrays in the file
@@ -35,9 +39,9 @@ class Groom:
     Converts other types of numbers. Raises ValueError if the arrays do not fit together.
     """
 
-    points: numpy.ndarray
-    offsets: numpy.ndarray
-    widths: numpy.ndarray | None = None
+    points: numpy.ndarray[Any, Any]
+    offsets: numpy.ndarray[Any, Any]
+    widths: numpy.ndarray[Any, Any] | None = None
 
     def __post_init__(self) -> None:
         import numpy
@@ -71,7 +75,7 @@ class Groom:
     def __len__(self) -> int:
         return len(self.offsets) - 1
 
-    def strand(self, index: int) -> numpy.ndarray:
+    def strand(self, index: int) -> numpy.ndarray[Any, Any]:
         """Returns the points of a strand, float32 [its points, 3], as a view."""
         if not 0 <= index < len(self):
             raise IndexError(f"strand {index} of {len(self)}")
@@ -85,7 +89,7 @@ def groom_of_hair(data: bytes) -> Groom:
     _, strands, count, arrays, segments, thickness, *_ = HEADER.unpack_from(data)
     place = HEADER.size
 
-    def take(dtype: str, length: int) -> numpy.ndarray:
+    def take(dtype: str, length: int) -> numpy.ndarray[Any, Any]:
         nonlocal place
         array = numpy.frombuffer(data, dtype, length, place)
         place += array.nbytes
@@ -123,7 +127,7 @@ def ply_of_groom(groom: Groom) -> bytes:
     return "\n".join(header).encode() + vertices.tobytes() + lists.astype("<u4").tobytes()
 
 
-def convert(source: Path, target: Path, options: dict[str, Option]) -> list[tuple[str, str]]:
+def convert(source: Path, target: Path, options: Mapping[str, object]) -> list[tuple[str, str]]:
     """Returns the program's warnings as pairs of file and text."""
     arguments = ["groom", "convert", str(source), str(target), *option_arguments(options)]
     finished = succeed(arguments, None)
@@ -135,7 +139,7 @@ def convert(source: Path, target: Path, options: dict[str, Option]) -> list[tupl
     return found
 
 
-def read_groom(path: str | os.PathLike[str], **options: Option) -> Groom:
+def read_groom(path: str | os.PathLike[str], **options: Unpack[ConvertOptions]) -> Groom:
     """Reads any format of docs/grooms.md. Warns about data in the file that is not read.
 
     options  as in `hairbench groom convert --help`, with _ for -: scale=0.01, guides=200,
@@ -153,7 +157,7 @@ def read_groom(path: str | os.PathLike[str], **options: Option) -> Groom:
         return groom_of_hair(between.read_bytes())
 
 
-def write_groom(path: str | os.PathLike[str], groom: Groom, **options: Option) -> None:
+def write_groom(path: str | os.PathLike[str], groom: Groom, **options: Unpack[ConvertOptions]) -> None:
     """Writes any format of docs/grooms.md that the program can write, by the extension of `path`.
 
     Warns about data that the format cannot hold. Points are in the format's unit: metres for .hgl.

@@ -4,24 +4,32 @@ from __future__ import annotations
 
 import json
 import os
-import re
 import shutil
 import signal
 import subprocess
 import sys
 import threading
-from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass
+import tempfile
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from dataclasses import dataclass, field
 from pathlib import Path
-from typing import IO, TYPE_CHECKING, Any, Union
+from typing import IO, TYPE_CHECKING, Any, Union, overload
 
 if TYPE_CHECKING:
     import numpy
     import pandas
+    from typing_extensions import Unpack
 
-Value = Union[str, int, float, bool, "os.PathLike[str]"]
-Option = Union[Value, Sequence[Value], None]
+    from .keywords import Axes, GateOptions, PhysicsOptions, RenderOptions, RunOptions, Sets
+    from .keywords import SimulateOptions
+
+    AnyPath = Union[str, os.PathLike[str]]
+
 Progress = Callable[[str], object]  # called with each line that the program prints meanwhile
+
+# Defaults. If None were allowed too, a checker would not say which pointer is wrong.
+NO_AXES: Axes = {}
+NO_SETS: Sets = {}
 
 PROGRAM_VARIABLE = "HAIRBENCH_PROGRAM"
 PACKAGE = Path(__file__).resolve().parent
@@ -31,11 +39,27 @@ VERDICTS = {0: "ok", 10: "slower", 11: "inconclusive", 12: "differs"}
 
 
 class ProgramError(RuntimeError):
-    """The program failed: `status` as in README.md, and the last message."""
+    """The program failed.
+
+    status   as in docs/comparing.md
+    pointer  JSON pointer of the field at fault, such as "/strands/density"; None: no single field is
+
+    Its text is the program's last message, "file: /pointer: reason".
+    """
 
     def __init__(self, status: int, message: str):
         super().__init__(message)
         self.status = status
+        self.pointer = pointer_in(message)
+
+
+def pointer_in(message: str) -> str | None:
+    """Returns the last pointer before the reason. A path of the system also begins with a slash."""
+    found = None
+    for part in message.split(": ")[:-1]:
+        if part.startswith("/") and " " not in part and not Path(part).exists():
+            found = part
+    return found
 
 
 def program() -> Path:
@@ -69,7 +93,7 @@ def scenes() -> Path:
     raise FileNotFoundError(f"{start}: no scenes beside it")
 
 
-def option_arguments(options: Mapping[str, Option]) -> list[str]:
+def option_arguments(options: Mapping[str, object]) -> list[str]:
     """{"max_time": 0.5, "no_pictures": True, "filter": None} -> --max-time 0.5 --no-pictures
 
     A sequence repeats its option. None and False omit it.
@@ -83,9 +107,11 @@ def option_arguments(options: Mapping[str, Option]) -> list[str]:
             arguments.append(flag)
         elif isinstance(value, (str, int, float, os.PathLike)):
             arguments += [flag, os.fspath(value) if isinstance(value, os.PathLike) else str(value)]
-        else:
+        elif isinstance(value, Iterable):
             for each in value:
                 arguments += [flag, str(each)]
+        else:
+            raise TypeError(f"{name}: {value!r} is not a value of an option")
     return arguments
 
 
@@ -100,18 +126,17 @@ def json_text(value: object) -> str:
     return value if isinstance(value, str) else json.dumps(value)
 
 
-def scene_arguments(
-        axes: Mapping[str, object] | None, sets: Mapping[str, object] | None) -> list[str]:
+def scene_arguments(axes: Axes, sets: Sets) -> list[str]:
     """`axes`: pointer -> values, or a range such as "pow2:6:12"; `sets`: pointer -> value."""
     arguments: list[str] = []
-    for pointer, values in (axes or {}).items():
-        values = plain(values)
+    for pointer, given in axes.items():
+        values = plain(given)
         if not isinstance(values, str):
             if not isinstance(values, Sequence):
                 raise TypeError(f"axes: {pointer}: {values!r} is not a list of values")
             values = ",".join(json_text(value) for value in values)
         arguments += ["--axis", f"{pointer}={values}"]
-    for pointer, value in (sets or {}).items():
+    for pointer, value in sets.items():
         arguments += ["--set", f"{pointer}={json_text(value)}"]
     return arguments
 
@@ -204,7 +229,8 @@ class RunResult:
 
 @dataclass(frozen=True)
 class GateResult:
-    """A gate's report (results/gate.schema.json), its file and its exit status."""
+    """A gate's report (results/gate.schema.json; of `probes` and `shaders` that of `hairbench compare
+    --json`), its file and its exit status."""
 
     path: Path
     status: int
@@ -234,9 +260,8 @@ def compared(arguments: Sequence[str], progress: Progress | None) -> Finished:
 
 
 def run(
-        scene: str | os.PathLike[str], *, out: str | os.PathLike[str] | None = None,
-        axes: Mapping[str, object] | None = None, sets: Mapping[str, object] | None = None,
-        progress: Progress | None = to_stderr, **options: Option) -> RunResult:
+        scene: AnyPath, *, out: AnyPath | None = None, axes: Axes = NO_AXES, sets: Sets = NO_SETS,
+        progress: Progress | None = to_stderr, **options: Unpack[RunOptions]) -> RunResult:
     """`hairbench run`: plays the cases of a scene or a suite and writes a report.
 
     axes     pointer -> values: replaces or adds axes of the sweep
@@ -261,30 +286,41 @@ class Simulation:
     Arrays are mapped from their files, so only what is read is in memory.
     """
 
-    positions: dict[str, numpy.ndarray]
-    text: str  # that the program printed
+    positions: dict[str, numpy.ndarray[Any, Any]]
+    written: dict[str, Any] = field(repr=False)  # `hairbench simulate --json`
     table: Path | None = None  # of probes; None: none were asked for
 
     def probes(self) -> pandas.DataFrame:
-        """Returns a row per case, frame and probe: `case`, `frame` (from 0, the start of the hair),
-        `time` (simulated s), `probe`, `value`.
+        """Returns a row per case, frame and probe, as read_probes() does.
 
         Raises ValueError if none were asked for.
         """
         import pandas
 
+        from .report import axis_value
+
         if self.table is None:
             raise ValueError("no probes were asked for: sets={'/run/probes/speed': True}")
         wide = pandas.read_csv(self.table).rename(columns={"probe.time": "time"})
-        tidy = wide.melt(["case", "frame", "time"], var_name="probe")
+        frames: list[pandas.DataFrame] = []
+        axes = dict.fromkeys(pointer for case in self.written["cases"] for pointer in case["axes"])
+        for case in self.written["cases"]:
+            frame = wide[wide["case"] == case["name"]].melt(
+                ["case", "frame", "time"], var_name="probe")
+            frame["unit"] = frame["probe"].map(self.written["probes"]["units"])
+            for pointer, value in case["axes"].items():
+                frame[pointer] = pandas.Series([axis_value(value)] * len(frame))
+            frames.append(frame)
+        tidy = pandas.concat(frames, ignore_index=True)
         tidy["probe"] = tidy["probe"].str.removeprefix("probe.")
-        return tidy.dropna(subset="value", ignore_index=True)
+        return tidy.reindex(
+            columns=["case", *axes, "frame", "time", "probe", "unit", "value"])
 
 
 def simulate(
-        scene: str | os.PathLike[str], *, out: str | os.PathLike[str],
-        axes: Mapping[str, object] | None = None, sets: Mapping[str, object] | None = None,
-        frames: int = 60, progress: Progress | None = to_stderr, **options: Option) -> Simulation:
+        scene: AnyPath, *, out: AnyPath, axes: Axes = NO_AXES, sets: Sets = NO_SETS,
+        frames: int = 60, progress: Progress | None = to_stderr,
+        **options: Unpack[SimulateOptions]) -> Simulation:
     """`hairbench simulate --guides`: plays every case of a scene, without pictures.
 
     out      folder for a file CASE.npy of each case, and probes.csv if axes or sets ask for probes
@@ -298,28 +334,70 @@ def simulate(
     import numpy
 
     arguments = [
-        "simulate", os.fspath(scene), "--guides", "--frames", str(frames),
+        "simulate", os.fspath(scene), "--guides", "--json", "--frames", str(frames),
         "--export", str(Path(out) / "{case}.npy"), *scene_arguments(axes, sets),
         *option_arguments(options)]
-    asks = any(pointer.startswith("/run/probes") for pointer in (*(axes or ()), *(sets or ())))
+    asks = any(pointer.startswith("/run/probes") for pointer in (*axes, *sets))
     table = Path(out) / "probes.csv" if asks else None
     if table:
         arguments += ["--probes", str(table)]
-    finished = succeed(arguments, progress)
-    written = re.findall(
-        r"^(.*\.npy): \d+ strands, \d+ points, frames 0 to \d+ of (.+), [\d.]+ \w+$", finished.text,
-        re.MULTILINE)
+    written = json.loads(succeed(arguments, progress).text)
     return Simulation(
-        {case: numpy.load(path, mmap_mode="r") for path, case in written}, finished.text,
-        table)
+        {case["name"]: numpy.load(case["file"], mmap_mode="r") for case in written["cases"]},
+        written, table)
+
+
+@overload
+def render(
+        scene: AnyPath, *, frame: int = 0, linear: bool = False,
+        sets: Sets = NO_SETS, progress: Progress | None = to_stderr,
+        **options: Unpack[RenderOptions]) -> numpy.ndarray[Any, Any]: ...
+
+
+@overload
+def render(
+        scene: AnyPath, *, axes: Axes, frame: int = 0,
+        linear: bool = False, sets: Sets = NO_SETS, progress: Progress | None = to_stderr,
+        **options: Unpack[RenderOptions]) -> dict[str, numpy.ndarray[Any, Any]]: ...
+
+
+def render(
+        scene: AnyPath, *, frame: int = 0, linear: bool = False, axes: Axes = NO_AXES,
+        sets: Sets = NO_SETS, progress: Progress | None = to_stderr,
+        **options: Unpack[RenderOptions]
+) -> numpy.ndarray[Any, Any] | dict[str, numpy.ndarray[Any, Any]]:
+    """`hairbench render`: draws one frame of a scene, or of every case of a sweep.
+
+    frame    frame to draw, from 0
+    linear   linear radiance before exposure and tone map, instead of what a display shows
+    axes     pointer -> values: draws a picture for each case
+    sets     pointer -> value for every case
+    options  as in `hairbench render --help`, with _ for -
+
+    Returns uint8 [row, column, RGBA], or with `linear` float32 [row, column, RGB], top row first.
+    With `axes` returns case's name -> such an array. Raises ProgramError if the program fails or is
+    interrupted.
+    """
+    import numpy
+
+    with tempfile.TemporaryDirectory(prefix="hairbench-") as folder:
+        file = Path(folder) / ("{case}.npy" if axes else "picture.npy")
+        arguments = [
+            "render", os.fspath(scene), "--json", "--frame", str(frame), "--out", str(file),
+            *(["--linear"] if linear else []), *scene_arguments(axes, sets),
+            *option_arguments(options)]
+        written = json.loads(succeed(arguments, progress).text)
+        pictures = {case["name"]: numpy.load(case["pictures"][0]["file"])
+                    for case in written["cases"]}
+    return pictures if axes else next(iter(pictures.values()))
 
 
 def gate(
-        a: str | os.PathLike[str], b: str | os.PathLike[str], scene: str | os.PathLike[str], *,
-        out: str | os.PathLike[str] | None = None, axes: Mapping[str, object] | None = None,
-        sets: Mapping[str, object] | None = None, progress: Progress | None = to_stderr,
-        **options: Option) -> GateResult:
-    """`hairbench gate`: whether build B is slower than build A (docs/comparing.md).
+        a: AnyPath, b: AnyPath, scene: AnyPath, *, out: AnyPath | None = None,
+        axes: Axes = NO_AXES, sets: Sets = NO_SETS, progress: Progress | None = to_stderr,
+        **options: Unpack[GateOptions]) -> GateResult:
+    """`hairbench gate`: whether build B is slower than build A (docs/comparing.md), or with
+    probes=True whether its hair moves otherwise.
 
     a, b     a build folder, a program, or a command line
     options  as in `hairbench gate --help`, like run(): pairs=24, calibrate=48, max_time=0
@@ -335,6 +413,56 @@ def gate(
     finished = compared(arguments, progress)
     report = json.loads(path.read_text(encoding="utf-8"))
     return GateResult(path, finished.status, finished.text, report)
+
+
+@dataclass(frozen=True)
+class PhysicsResult:
+    """A report of the checks of solvers (results/physics.schema.json), its file and exit status."""
+
+    path: Path
+    status: int
+    text: str
+    report: dict[str, Any]
+
+    @property
+    def passed(self) -> bool:
+        return self.status == 0
+
+    def frame(self) -> pandas.DataFrame:
+        """Returns a row per outcome: `check`, `solver`, `quantity`, `measured`, `expected`, `error`,
+        `tolerance`, `verdict` and others, and each parameter under its name."""
+        import pandas
+
+        rows = []
+        for outcome in self.report["outcomes"]:
+            row = {name: value for name, value in outcome.items() if name != "parameters"}
+            for name, parameter in outcome.get("parameters", {}).items():
+                row.setdefault(name, parameter["value"])
+            rows.append(row)
+        return pandas.DataFrame(rows)
+
+
+CHECK_FAILED = 3  # exit status: a check of physics did not pass
+
+
+def physics(
+        *, out: AnyPath | None = None, progress: Progress | None = to_stderr,
+        **options: Unpack[PhysicsOptions]) -> PhysicsResult:
+    """`hairbench physics`: compares the solvers with theory (docs/physics.md).
+
+    out      the report; the program's own default is results/local/physics.json
+    options  as in `hairbench physics --help`: solver="rod", check="cantilever"
+
+    A check that fails is a result, not an exception: see `passed`. Raises ProgramError if the
+    program itself fails or is interrupted.
+    """
+    path = Path(out) if out is not None else Path("results/local") / "physics.json"
+    arguments = ["physics", "--out", str(path), *option_arguments(options)]
+    finished = call(arguments, progress)
+    if finished.status not in (0, CHECK_FAILED):
+        raise failure(finished, arguments)
+    report = json.loads(path.read_text(encoding="utf-8"))
+    return PhysicsResult(path, finished.status, finished.text, report)
 
 
 def main() -> None:

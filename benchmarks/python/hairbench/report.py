@@ -54,7 +54,7 @@ def metric_columns(name: str, metric: dict[str, Any]) -> dict[str, Any]:
 def parsed(path: str | os.PathLike[str]) -> dict[str, Any]:
     """Raises ValueError "path: reason" if the file is not a report."""
     try:
-        report = json.loads(Path(path).read_text(encoding="utf-8"))
+        report: dict[str, Any] = json.loads(Path(path).read_text(encoding="utf-8"))
     except ValueError as error:
         raise ValueError(f"{path}: is not JSON: {error}") from None
     schema = report.get("schema", "") if isinstance(report, dict) else ""
@@ -63,14 +63,19 @@ def parsed(path: str | os.PathLike[str]) -> dict[str, Any]:
     return report
 
 
-def samples_of(path: Path, case: str, metric: str, entry: dict[str, Any]) -> list[float]:
-    """Returns the samples of a metric, from the file beside the report if they are many."""
+def samples_of(
+        path: Path, case: str, metric: str, entry: dict[str, Any]) -> list[float | None]:
+    """Returns the samples of a metric, from the file beside the report if they are many. None stands
+    for a frame in which a probe has no finite value."""
+    samples: list[float | None]
     if "samples_file" not in entry:
-        return entry["samples"]
+        samples = entry["samples"]
+        return samples
     with open(path.parent / entry["samples_file"], encoding="utf-8") as lines:
         for line in map(json.loads, lines):
             if (line["case"], line["metric"]) == (case, metric):
-                return line["samples"]
+                samples = line["samples"]
+                return samples
     raise ValueError(f"{path}: {entry['samples_file']} lacks {metric} of {case}")
 
 
@@ -78,8 +83,8 @@ def read_probes(path: str | os.PathLike[str]) -> pandas.DataFrame:
     """Returns a row per probe (/run/probes), frame and case: what the guides did over time.
 
     Columns: `case`, the value on each axis under its JSON pointer, `frame` (from 0, the start of
-    the hair), `time` (simulated s), `probe` ("tip_displacement.mean"), `unit`, `value`. No rows
-    without probes.
+    the hair), `time` (simulated s), `probe` ("tip_displacement.mean"), `unit`, `value` (NaN where it
+    is not finite). No rows without probes.
 
     Raises ValueError "path: reason" if the file is not a report.
     """
@@ -102,7 +107,8 @@ def read_probes(path: str | os.PathLike[str]) -> pandas.DataFrame:
             frame = pandas.DataFrame({
                 "frame": range(len(times)), "time": times, "probe": name.removeprefix("probe."),
                 "unit": metric["unit"],
-                "value": samples_of(Path(path), case["name"], name, metric)})
+                "value": pandas.Series(
+                    samples_of(Path(path), case["name"], name, metric), dtype=float)})
             for column, value in common.items():
                 frame[column] = pandas.Series([value] * len(frame))
             frames.append(frame)

@@ -568,7 +568,8 @@ function drawSamples() {
     const div = byId("samples-plot"), found = sampleRows();
     const traces = [], shapes = [];
     const unit = metricUnits.get(samples.metric), size = shownUnit(unit).size;
-    const valuesOf = (row) => row.metrics[samples.metric].samples.map((value) => value / size);
+    const valuesOf = (row) => row.metrics[samples.metric].samples
+        .filter((value) => value !== null).map((value) => value / size);
     const all = found.flatMap(valuesOf);
     const range = [Math.min(...all), Math.max(...all)];
     const kind = kSpreads[samples.kind];
@@ -618,7 +619,7 @@ function probeTraces(name, found) {
         return {
             type: "scatter", mode: "lines", name: plain(caseValues(row)),
             x: row.metrics["probe.time"].samples,
-            y: row.metrics[name].samples.map((each) => each / size),
+            y: row.metrics[name].samples.map((each) => each === null ? null : each / size),
             line: {color: seriesColor(index), width: 2,
                 dash: axis ? seriesDash(dashes.get(text)) : "solid"},
             hovertemplate: `%{x:.4~g} s: %{y:.4~g}<br>${plain(caseLabel(row))}<extra></extra>`,

@@ -32,8 +32,6 @@ using namespace std::string_view_literals;
 
 constexpr auto kNpyMagic = "\x93NUMPY"sv;
 
-enum class NpyType : std::uint8_t { float32, float64, int32, int64, uint8, boolean };
-
 struct NpyTypeRow {
     NpyType type;
     std::string_view name;  // NumPy's `descr`
@@ -563,21 +561,6 @@ const ZipMember& positionsOf(std::span<const ZipMember> members, ExpansionLimit&
 
 // ---- Writing ------------------------------------------------------------------------------------
 
-// Returns the beginning of an array's file. NumPy wants the numbers to begin at a multiple of 64
-// bytes.
-std::string npyHeader(NpyType type, std::span<const std::uint64_t> shape) {
-    std::string dictionary = "{'descr': '" + std::string(rowOf(type).name) +
-                             "', 'fortran_order': False, 'shape': " + shapeText(shape) + ", }";
-    constexpr std::size_t kBefore = 10;
-    while ((kBefore + dictionary.size() + 1) % 64 != 0) dictionary += ' ';
-    dictionary += '\n';
-    std::string header(kNpyMagic);
-    header +=
-        {'\x01', '\0', static_cast<char>(dictionary.size() & 0xff),
-         static_cast<char>(dictionary.size() >> 8)};
-    return header + dictionary;
-}
-
 // Strands resampled as arrays need them.
 struct UniformStrands {
     std::optional<StrandSet> resampled;
@@ -601,6 +584,11 @@ UniformStrands uniformStrandsOf(const StrandSet& strands, std::vector<std::strin
 void write(std::ostream& out, std::span<const std::byte> bytes) {
     out.write(
         reinterpret_cast<const char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
+}
+
+template <class Value>
+void put(std::string& bytes, Value value) {
+    bytes.append(reinterpret_cast<const char*>(&value), sizeof value);
 }
 
 // Writes members one after another, then their directory.
@@ -664,11 +652,6 @@ public:
     }
 
 private:
-    template <class Value>
-    static void put(std::string& bytes, Value value) {
-        bytes.append(reinterpret_cast<const char*>(&value), sizeof value);
-    }
-
     std::ostream& out_;
     std::uint64_t position_ = 0;
     std::string directory_;
@@ -682,9 +665,133 @@ std::span<const std::byte> bytesOf(const std::vector<Element>& elements) {
 
 }  // namespace
 
-std::string npyHeader(std::span<const std::uint64_t> shape) {
-    return npyHeader(NpyType::float32, shape);
+std::string npyHeader(NpyType type, std::span<const std::uint64_t> shape) {
+    std::string dictionary = "{'descr': '" + std::string(rowOf(type).name) +
+                             "', 'fortran_order': False, 'shape': " + shapeText(shape) + ", }";
+    constexpr std::size_t kBefore = 10;
+    while ((kBefore + dictionary.size() + 1) % 64 != 0) dictionary += ' ';
+    dictionary += '\n';
+    std::string header(kNpyMagic);
+    header +=
+        {'\x01', '\0', static_cast<char>(dictionary.size() & 0xff),
+         static_cast<char>(dictionary.size() >> 8)};
+    return header + dictionary;
 }
+
+// ---- An archive in parts ------------------------------------------------------------------------
+
+namespace {
+
+constexpr std::uint16_t kZip64Version = 45;
+constexpr std::uint16_t kChecksumFollows = 8;  // bit 3 of the flags
+constexpr std::uint32_t kIn64Bits = 0xffffffff;  // a size or place is in the extra field
+
+// The members that the local and the central record share, up to the length of the name.
+std::string commonRecord(std::uint32_t checksum, std::size_t name_size, std::uint16_t extra_size) {
+    std::string record;
+    put(record, kZip64Version);
+    put(record, kChecksumFollows);
+    put(record, std::uint16_t{kStored});
+    put(record, std::uint16_t{0});  // time and date: 1 January 1980
+    put(record, std::uint16_t{0x21});
+    put(record, checksum);
+    put(record, kIn64Bits);
+    put(record, kIn64Bits);
+    put(record, static_cast<std::uint16_t>(name_size));
+    put(record, extra_size);
+    return record;
+}
+
+// The extra field that begins with the type 1: 64-bit numbers.
+std::string zip64Extra(std::initializer_list<std::uint64_t> numbers) {
+    std::string extra;
+    put(extra, std::uint16_t{1});
+    put(extra, static_cast<std::uint16_t>(8 * numbers.size()));
+    for (const std::uint64_t number : numbers) put(extra, number);
+    return extra;
+}
+
+}  // namespace
+
+void NpzStream::write(std::string_view bytes) {
+    hair::groom::write(out_, std::as_bytes(std::span(bytes)));
+    position_ += bytes.size();
+}
+
+void NpzStream::begin(std::string_view key, NpyType type, std::span<const std::uint64_t> shape) {
+    endArray();
+    name_ = std::string(key).append(kNpyExtension);
+    start_ = position_;
+    const std::string extra = zip64Extra({0, 0});
+    std::string local;
+    put(local, kLocalSignature);
+    local += commonRecord(0, name_.size(), static_cast<std::uint16_t>(extra.size()));
+    write(local + name_ + extra);
+    size_ = checksum_ = 0;
+    const std::string header = npyHeader(type, shape);
+    append(std::as_bytes(std::span(header)));
+}
+
+void NpzStream::append(std::span<const std::byte> numbers) {
+    checksum_ = checksumOf(numbers, checksum_);
+    hair::groom::write(out_, numbers);
+    position_ += numbers.size();
+    size_ += numbers.size();
+}
+
+void NpzStream::endArray() {
+    if (name_.empty()) return;
+    std::string descriptor;
+    put(descriptor, std::uint32_t{0x08074b50});
+    put(descriptor, checksum_);
+    put(descriptor, size_);
+    put(descriptor, size_);
+    write(descriptor);
+    const std::string extra = zip64Extra({size_, size_, start_});
+    put(directory_, kCentralSignature);
+    put(directory_, kZip64Version);
+    directory_ += commonRecord(checksum_, name_.size(), static_cast<std::uint16_t>(extra.size()));
+    put(directory_, std::uint16_t{0});  // comment, disk, attributes
+    put(directory_, std::uint16_t{0});
+    put(directory_, std::uint16_t{0});
+    put(directory_, std::uint32_t{0});
+    put(directory_, kIn64Bits);
+    directory_ += name_ + extra;
+    ++members_;
+    name_.clear();
+}
+
+void NpzStream::finish() {
+    endArray();
+    const std::uint64_t start = position_;
+    write(directory_);
+    const std::uint64_t end_record = position_;
+    std::string end;
+    put(end, std::uint32_t{0x06064b50});
+    put(end, std::uint64_t{44});  // bytes of this record that follow
+    put(end, kZip64Version);
+    put(end, kZip64Version);
+    put(end, std::uint32_t{0});  // disks
+    put(end, std::uint32_t{0});
+    put(end, members_);
+    put(end, members_);
+    put(end, static_cast<std::uint64_t>(directory_.size()));
+    put(end, start);
+    put(end, std::uint32_t{0x07064b50});  // where that record is
+    put(end, std::uint32_t{0});
+    put(end, end_record);
+    put(end, std::uint32_t{1});
+    put(end, kEndSignature);
+    put(end, std::uint32_t{0});
+    put(end, std::uint16_t{0xffff});
+    put(end, std::uint16_t{0xffff});
+    put(end, kIn64Bits);
+    put(end, kIn64Bits);
+    put(end, std::uint16_t{0});
+    write(end);
+}
+
+// ---- Files of strands ---------------------------------------------------------------------------
 
 std::vector<std::string> exportNpy(const StrandSet& strands, std::ostream& out) {
     std::vector<std::string> warnings = leftOut(strands, {});

@@ -1,9 +1,11 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <ostream>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "hair/groom/groom.h"
@@ -21,9 +23,40 @@
 // Arrays are in C's order or in Fortran's.
 namespace hair::groom {
 
-// Returns the beginning of a .npy file of float32 numbers in C's order, which follow. It has a
-// multiple of 64 bytes, so that the numbers can be mapped.
-std::string npyHeader(std::span<const std::uint64_t> shape);
+enum class NpyType : std::uint8_t { float32, float64, int32, int64, uint8, boolean };
+
+// Returns the beginning of a .npy file of numbers in C's order, which follow. It has a multiple of
+// 64 bytes, so that the numbers can be mapped.
+std::string npyHeader(NpyType type, std::span<const std::uint64_t> shape);
+
+// Writes a .npz archive whose numbers come in parts, so that no array is ever in memory whole.
+// Always ZIP64, so arrays and archive may be larger than 4 GiB; checksums follow their arrays, so
+// that a pipe will do. importNpz() does not read it.
+class NpzStream {
+public:
+    explicit NpzStream(std::ostream& out) : out_(out) {}
+
+    // Begins an array, after the end of the one before.
+    void begin(std::string_view key, NpyType type, std::span<const std::uint64_t> shape);
+    // Numbers of the array that was begun.
+    void append(std::span<const std::byte> numbers);
+    // Ends the archive.
+    void finish();
+
+private:
+    void endArray();
+    void write(std::string_view bytes);
+
+    std::ostream& out_;
+    std::uint64_t position_ = 0;
+    std::string directory_;
+    std::uint64_t members_ = 0;
+    // The array that was begun; no name: there is none.
+    std::string name_;
+    std::uint64_t start_ = 0;
+    std::uint64_t size_ = 0;
+    std::uint32_t checksum_ = 0;
+};
 
 // Strands with differing numbers of points are resampled to the greatest of them, with a warning.
 // Numbers are float32, int32 and uint8, in C's order; nothing is deflated. Both return what is
