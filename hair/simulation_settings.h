@@ -61,7 +61,7 @@ struct RodSettings {
 
 const Table& tableOf(const RodSettings*);
 
-// Hsu, Wang, Wu and Yuksel 2025, Stable Cosserat rods: hair/reference/stable_cosserat.h.
+// Hsu, Wang, Wu and Yuksel 2025, Stable Cosserat rods: hair/reference/compared_rods.h.
 struct StableCosseratSettings {
     std::uint32_t iterations = 8;
     float stretch_modulus = 1e6f;
@@ -70,7 +70,7 @@ struct StableCosseratSettings {
 const Table& tableOf(const StableCosseratSettings*);
 
 // Kugelstadt and Schoemer 2016, Position and orientation based Cosserat rods:
-// hair/reference/stable_cosserat.h.
+// hair/reference/compared_rods.h.
 struct PositionBasedRodSettings {
     std::uint32_t iterations = 4;
 };
@@ -78,7 +78,7 @@ struct PositionBasedRodSettings {
 const Table& tableOf(const PositionBasedRodSettings*);
 
 // Amador Herrera et al. 2024, Augmented mass-spring model for real-time dense hair simulation:
-// hair/reference/augmented_mass_spring.h.
+// hair/reference/compared_rods.h.
 struct AugmentedMassSpringSettings {
     std::uint32_t iterations = 2;
     float spring_modulus = 1e6f;

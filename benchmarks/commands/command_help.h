@@ -7,8 +7,10 @@
 #include <string_view>
 #include <vector>
 
-// The command line's own help as data, for completions and manual pages.
+// The command line's own help as data, and the shell completions and manual pages made from it.
 namespace benchmarks::commands {
+
+// ---- Help as data -------------------------------------------------------------------------------
 
 struct OptionHelp {
     std::vector<std::string> names;  // "-o", "--out"; empty: a positional argument
@@ -59,5 +61,21 @@ inline ValueKind kindOf(const OptionHelp& option) {
     if (std::ranges::find(kFolders, value) != kFolders.end()) return ValueKind::folder;
     return ValueKind::text;
 }
+
+// ---- Files made from it -------------------------------------------------------------------------
+
+// "bash", "zsh", "fish".
+std::vector<std::string> shellNames();
+
+// Returns the completion file for a shell. bash and fish read it when the program's name is
+// completed, zsh from a file _hairbench in a folder of $fpath.
+std::string completionFor(std::string_view shell, const CommandHelp& program);
+
+// "hairbench-groom-info.1"
+std::string manualFile(const CommandHelp& command);
+
+// Returns the page of a command of `program`, or of the program itself: roff with the macros of
+// man(7).
+std::string manualPage(const CommandHelp& command, const CommandHelp& program);
 
 }  // namespace benchmarks::commands

@@ -1,6 +1,6 @@
+#include "benchmarks/commands/command_help.h"
 #include "benchmarks/commands/command_line_options.h"
 #include "benchmarks/commands/commands.h"
-#include "benchmarks/commands/help_files.h"
 #include "benchmarks/measure/memory_need.h"
 #include "benchmarks/report/exporters.h"
 #include "engine/error.h"

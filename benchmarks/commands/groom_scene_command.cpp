@@ -19,7 +19,6 @@
 
 #include "benchmarks/commands/commands.h"
 #include "benchmarks/groom/convert.h"
-#include "benchmarks/groom/groom_scene.h"
 #include "benchmarks/groom/info.h"
 #include "benchmarks/groom/placement.h"
 #include "benchmarks/measure/case.h"

@@ -8,7 +8,6 @@
 #include "benchmarks/commands/commands.h"
 #include "benchmarks/doctor/checks.h"
 #include "benchmarks/doctor/facts.h"
-#include "benchmarks/doctor/report.h"
 #include "benchmarks/doctor/reports.h"
 #include "benchmarks/measure/machine_watch.h"
 #include "benchmarks/report/change.h"

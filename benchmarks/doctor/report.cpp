@@ -1,4 +1,4 @@
-#include "benchmarks/doctor/report.h"
+#include "benchmarks/doctor/reports.h"
 
 #include <algorithm>
 #include <cmath>

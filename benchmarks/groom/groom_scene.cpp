@@ -1,4 +1,4 @@
-#include "benchmarks/groom/groom_scene.h"
+#include "benchmarks/groom/placement.h"
 
 #include <algorithm>
 #include <array>

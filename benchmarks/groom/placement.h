@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <filesystem>
+#include <iosfwd>
 #include <limits>
 #include <optional>
 #include <string>
@@ -14,10 +16,14 @@
 #include "hair/groom/groom.h"
 #include "hair/groom/inspect.h"
 #include "hair/groom/mesh/mesh.h"
+#include "hair/settings.h"
 
-// Places files of hair and heads in a scene, which is in metres with +y up. Guesses units and axes
-// that files do not state by how well the roots fit the head.
+// Places files of hair and heads in a scene, which is in metres with +y up, and chooses settings of
+// a scene that shows and simulates them. Guesses units and axes that files do not state by how well
+// the roots fit the head.
 namespace benchmarks::groom {
+
+// ---- Placement ----------------------------------------------------------------------------------
 
 // An axis-aligned box; without points, `low` is above `high`.
 struct Box {
@@ -121,5 +127,37 @@ std::string straysText(const std::vector<hair::groom::Stray>& strays, double met
 // hair::groom::inspect(), and as up the stated axis or else guessUp().
 LayGuess guessLay(
     const hair::groom::StrandSet& strands, const hair::groom::Mesh* head, const LayHints& hints);
+
+// ---- The scene ----------------------------------------------------------------------------------
+
+// A setting or a group of them, and the reason for its value.
+struct SceneChoice {
+    std::string name;
+    std::string reason;
+};
+
+struct GroomScene {
+    hair::Settings
+        settings;  // without /groom/file and /groom/mesh, which depend on the scene's folder
+    // The part of the head that is the body, as a mesh of its own; absent: all of it.
+    std::optional<hair::groom::Mesh> body;
+    std::vector<SceneChoice> choices;
+    std::vector<hair::CameraSettings> views;  // from the front, the head's left, the back, its
+                                              // right
+    std::vector<std::string> warnings;  // oddities with figures and advice
+};
+
+// Makes a scene from strands, at least one, and the head that they grow on, which may be null. Both
+// are placed by `guess`, in metres with +y up.
+GroomScene sceneOf(
+    const hair::groom::StrandSet& strands, const hair::groom::Mesh* head, const LayGuess& guess);
+
+// Return the strands in the scene's coordinates with their widths in metres, and the head likewise.
+hair::groom::StrandSet placed(hair::groom::StrandSet strands, const Lay& lay);
+hair::groom::Mesh placed(hair::groom::Mesh head, const Lay& lay);
+
+// Writes the mesh as Wavefront OBJ: positions, normals, texture coordinates and triangles, without
+// materials.
+void writeObj(const hair::groom::Mesh& mesh, std::ostream& out);
 
 }  // namespace benchmarks::groom

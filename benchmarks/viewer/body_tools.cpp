@@ -1,4 +1,4 @@
-#include "benchmarks/viewer/body_tools.h"
+#include "benchmarks/viewer/toolbar.h"
 
 #include <algorithm>
 #include <array>

@@ -1,4 +1,4 @@
-#include "benchmarks/viewer/compare_panel.h"
+#include "benchmarks/viewer/settings_panel.h"
 
 #include <algorithm>
 #include <array>

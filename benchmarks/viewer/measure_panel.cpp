@@ -1,4 +1,4 @@
-#include "benchmarks/viewer/measure_panel.h"
+#include "benchmarks/viewer/timings_panel.h"
 
 #include <algorithm>
 #include <chrono>

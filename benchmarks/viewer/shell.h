@@ -13,12 +13,12 @@
 
 #include "benchmarks/scene/sweep.h"
 #include "benchmarks/viewer/actions.h"
-#include "benchmarks/viewer/compare_panel.h"
 #include "benchmarks/viewer/open_scene.h"
 #include "benchmarks/viewer/picture_area.h"
 #include "benchmarks/viewer/player.h"
 #include "benchmarks/viewer/preferences.h"
 #include "benchmarks/viewer/recorder.h"
+#include "benchmarks/viewer/settings_panel.h"
 #include "benchmarks/viewer/shader_reload.h"
 #include "benchmarks/viewer/side.h"
 #include "benchmarks/viewer/studio.h"

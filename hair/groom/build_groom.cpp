@@ -21,7 +21,6 @@
 #include "hair/groom/files.h"
 #include "hair/groom/formats/text.h"
 #include "hair/groom/growth/grow.h"
-#include "hair/groom/growth/vellus.h"
 #include "hair/groom/guides/bind_strands.h"
 #include "hair/groom/guides/choose_guides.h"
 #include "hair/groom/guides/root_triangles.h"

@@ -10,9 +10,8 @@
 #include <glm/geometric.hpp>
 #include <glm/gtc/quaternion.hpp>
 
-#include "hair/reference/augmented_mass_spring.h"
+#include "hair/reference/compared_rods.h"
 #include "hair/reference/rod.h"
-#include "hair/reference/stable_cosserat.h"
 #include "hair/reference/wind.h"
 #include "hair/simulation/solvers.h"
 

@@ -19,12 +19,11 @@
 #include "hair/groom/mesh/mesh.h"
 #include "hair/settings.h"
 #include "hair/simulation/bodies.h"
-#include "hair/simulation/cache.h"
-#include "hair/simulation/probes.h"
 #include "hair/simulation/forces.h"
 #include "hair/simulation/guide_solver.h"
 #include "hair/simulation/hair_hair.h"
 #include "hair/simulation/head_motion.h"
+#include "hair/simulation/probes.h"
 #include "hair/simulation/solvers.h"
 
 namespace hair::simulation {

@@ -2,7 +2,7 @@
 // One substep of the `augmented_mass_spring` solver, one invocation per strand: Amador Herrera et
 // al. 2024, Augmented mass-spring model for real-time dense hair simulation (arXiv 2412.17144). It
 // is implicit Euler with Newton steps. Each step solves the strand's block heptadiagonal system
-// directly. hair/reference/augmented_mass_spring.h describes the springs and the differences from
+// directly. hair/reference/compared_rods.h describes the springs and the differences from
 // the paper. See rod_structs.h for the units.
 #extension GL_GOOGLE_include_directive : require
 #include "common/vectors.glsl"

@@ -1,7 +1,7 @@
 #version 460
 // One substep of the `position_based_rod` solver, one invocation per strand: Kugelstadt and
 // Schoemer 2016, Position and orientation based Cosserat rods, with the compliances of Macklin,
-// Mueller and Chentanez 2016, XPBD. hair/reference/stable_cosserat.h describes the constraints and
+// Mueller and Chentanez 2016, XPBD. hair/reference/compared_rods.h describes the constraints and
 // the differences from the papers. See rod_structs.h for the units.
 #extension GL_GOOGLE_include_directive : require
 #include "common/vectors.glsl"

@@ -1,7 +1,7 @@
 #version 460
 // One substep of the `stable_cosserat` solver, one invocation per strand: Hsu, Wang, Wu and Yuksel
 // 2025, Stable Cosserat rods. It alternates positions and orientations, and minimises over one
-// with the other fixed. hair/reference/stable_cosserat.h has the energies and the differences from
+// with the other fixed. hair/reference/compared_rods.h has the energies and the differences from
 // the paper. See rod_structs.h for the units.
 #extension GL_GOOGLE_include_directive : require
 #include "common/vectors.glsl"

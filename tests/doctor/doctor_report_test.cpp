@@ -1,11 +1,10 @@
-#include "benchmarks/doctor/report.h"
+#include "benchmarks/doctor/reports.h"
 
 #include <limits>
 
 #include <gmock/gmock.h>
 #include <nlohmann/json.hpp>
 
-#include "benchmarks/doctor/reports.h"
 #include "tests/benchmarks/sample_report.h"
 #include "tests/temporary_folder.h"
 

@@ -37,7 +37,6 @@
 #include "hair/groom/files.h"
 #include "hair/groom/formats/ply.h"
 #include "hair/groom/formats/usd_import.h"
-#include "hair/groom/mesh/animation.h"
 #include "hair/groom/mesh/deforming_mesh.h"
 #include "hair/groom/mesh/import_alembic.h"
 #include "hair/groom/mesh/import_mesh.h"

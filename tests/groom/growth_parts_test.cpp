@@ -6,8 +6,8 @@
 #include <glm/geometric.hpp>
 #include <gmock/gmock.h>
 
+#include "hair/groom/growth/roots.h"
 #include "hair/groom/growth/scalp.h"
-#include "hair/groom/growth/sample_elimination.h"
 #include "hair/groom/growth/scalp_triangulation.h"
 #include "hair/random.h"
 #include "tests/groom/surface_meshes.h"

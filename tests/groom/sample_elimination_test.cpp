@@ -1,4 +1,4 @@
-#include "hair/groom/growth/sample_elimination.h"
+#include "hair/groom/growth/roots.h"
 
 #include <algorithm>
 #include <cmath>

@@ -4,7 +4,6 @@
 #include <gtest/gtest.h>
 
 #include "hair/groom/growth/roots.h"
-#include "hair/groom/growth/sample_elimination.h"
 #include "tests/groom/surface_meshes.h"
 #include "tests/groom/test_meshes.h"
 

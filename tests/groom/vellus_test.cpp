@@ -1,4 +1,4 @@
-#include "hair/groom/growth/vellus.h"
+#include "hair/groom/growth/grow.h"
 
 #include <algorithm>
 #include <cmath>

@@ -7,8 +7,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "benchmarks/commands/command_help.h"
 #include "benchmarks/commands/command_line.h"
-#include "benchmarks/commands/help_files.h"
 #include "tests/install/listed_options.h"
 #include "tests/install/typed_shell.h"
 #include "tests/temporary_folder.h"

@@ -1,4 +1,4 @@
-#include "hair/reference/augmented_mass_spring.h"
+#include "hair/reference/compared_rods.h"
 
 #include <cmath>
 #include <vector>

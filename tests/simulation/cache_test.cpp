@@ -1,5 +1,5 @@
 // Tests caches of the guides' motion: groom::GuideCache and hair/simulation/cache.h.
-#include "hair/simulation/cache.h"
+#include "hair/simulation/forces.h"
 
 #include <algorithm>
 #include <cmath>

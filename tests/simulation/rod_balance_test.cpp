@@ -1,4 +1,4 @@
-#include "hair/simulation/rod_balance.h"
+#include "hair/simulation/solver_rod.h"
 
 #include <cmath>
 #include <random>

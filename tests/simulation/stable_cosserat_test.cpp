@@ -1,4 +1,4 @@
-#include "hair/reference/stable_cosserat.h"
+#include "hair/reference/compared_rods.h"
 
 #include <cmath>
 #include <random>

@@ -9,7 +9,6 @@
 #include <gmock/gmock.h>
 
 #include "engine/error.h"
-#include "hair/groom/mesh/animation.h"
 #include "hair/groom/mesh/deforming_mesh.h"
 #include "hair/groom/mesh/import_mesh.h"
 #include "tests/error_text.h"

@@ -7,7 +7,6 @@
 #include <glm/geometric.hpp>
 #include <gmock/gmock.h>
 
-#include "hair/groom/mesh/animation.h"
 #include "hair/groom/mesh/deforming_mesh.h"
 #include "hair/groom/mesh/import_mesh.h"
 #include "tests/error_text.h"

@@ -2,7 +2,7 @@
 
 #include <gmock/gmock.h>
 
-#include "benchmarks/viewer/compare_panel.h"
+#include "benchmarks/viewer/settings_panel.h"
 
 namespace benchmarks::viewer {
 

@@ -7,7 +7,7 @@
 #include <glm/geometric.hpp>
 #include <glm/gtc/quaternion.hpp>
 
-#include "benchmarks/viewer/body_tools.h"
+#include "benchmarks/viewer/toolbar.h"
 #include "hair/simulation/head_motion.h"
 
 namespace benchmarks::viewer {

@@ -1,4 +1,4 @@
-#include "benchmarks/viewer/hair_tools.h"
+#include "benchmarks/viewer/toolbar.h"
 
 #include <vector>
 

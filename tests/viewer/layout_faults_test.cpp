@@ -1,7 +1,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "benchmarks/viewer/script/input.h"
+#include "benchmarks/viewer/script/script.h"
 #include "tests/viewer/headless_ui.h"
 
 // Each fault is planted. One layout has none.

@@ -8,8 +8,8 @@
 
 #include <gmock/gmock.h>
 
-#include "benchmarks/viewer/measure_panel.h"
 #include "benchmarks/viewer/player.h"
+#include "benchmarks/viewer/timings_panel.h"
 #include "engine/buffer_image.h"
 #include "tests/golden/features.h"
 #include "tests/gpu_fixture.h"

@@ -10,7 +10,7 @@
 #include "benchmarks/report/report.h"
 #include "benchmarks/report/table.h"
 #include "benchmarks/report/text.h"
-#include "benchmarks/viewer/measure_panel.h"
+#include "benchmarks/viewer/timings_panel.h"
 #include "tests/gpu_fixture.h"
 #include "tests/printed_text.h"
 #include "tests/temporary_folder.h"

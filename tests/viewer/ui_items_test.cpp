@@ -5,7 +5,7 @@
 #include <imgui.h>
 #include <imgui_internal.h>
 
-#include "benchmarks/viewer/script/input.h"
+#include "benchmarks/viewer/script/script.h"
 #include "engine/ui.h"
 #include "tests/error_text.h"
 #include "tests/viewer/headless_ui.h"

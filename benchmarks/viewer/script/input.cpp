@@ -1,4 +1,4 @@
-#include "benchmarks/viewer/script/input.h"
+#include "benchmarks/viewer/script/script.h"
 
 #include <algorithm>
 #include <cctype>

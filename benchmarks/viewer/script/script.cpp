@@ -16,7 +16,6 @@
 #include "benchmarks/viewer/actions.h"
 #include "benchmarks/viewer/player.h"
 #include "benchmarks/viewer/scene_file.h"
-#include "benchmarks/viewer/script/input.h"
 #include "engine/files.h"
 #include "engine/pictures.h"
 

@@ -1,4 +1,4 @@
-#include "hair/groom/formats/alembic_export.h"
+#include "hair/groom/formats/formats.h"
 
 #include <algorithm>
 #include <array>

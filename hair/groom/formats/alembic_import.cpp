@@ -1,4 +1,4 @@
-#include "hair/groom/formats/alembic_import.h"
+#include "hair/groom/formats/formats.h"
 
 #include <algorithm>
 #include <array>
@@ -21,7 +21,6 @@
 #include <glm/vec3.hpp>
 #include <glm/vec4.hpp>
 
-#include "hair/groom/formats/alembic_curves.h"
 #include "hair/groom/formats/alembic_values.h"
 #include "hair/groom/formats/binary_file.h"
 #include "hair/groom/formats/curves.h"

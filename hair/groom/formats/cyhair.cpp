@@ -1,4 +1,4 @@
-#include "hair/groom/formats/cyhair.h"
+#include "hair/groom/formats/formats.h"
 
 #include <algorithm>
 #include <array>
@@ -27,7 +27,7 @@ enum class HairArray : std::uint32_t {
 };
 constexpr std::uint32_t kAllHairArrays = 31;
 
-// The beginning of a .hair file, as it is in memory; cyhair.h says what follows.
+// The beginning of a .hair file, as it is in memory; formats.h says what follows.
 struct HairHeader {
     std::array<char, 4> magic{'H', 'A', 'I', 'R'};
     std::uint32_t hair_count = 0;

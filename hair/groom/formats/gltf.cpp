@@ -1,4 +1,4 @@
-#include "hair/groom/formats/gltf.h"
+#include "hair/groom/formats/formats.h"
 
 #include <cmath>
 #include <cstring>

@@ -1,4 +1,4 @@
-#include "hair/groom/formats/hgl.h"
+#include "hair/groom/formats/formats.h"
 
 #include <algorithm>
 #include <limits>

@@ -1,4 +1,4 @@
-#include "hair/groom/formats/obj.h"
+#include "hair/groom/formats/formats.h"
 
 #include <algorithm>
 #include <array>

@@ -1,4 +1,4 @@
-#include "hair/groom/formats/pbrt.h"
+#include "hair/groom/formats/formats.h"
 
 #include <algorithm>
 #include <array>

@@ -1,4 +1,4 @@
-#include "hair/groom/formats/strand_lists.h"
+#include "hair/groom/formats/formats.h"
 
 #include <cstddef>
 #include <cstdint>

@@ -1,4 +1,4 @@
-#include "hair/groom/formats/tfx.h"
+#include "hair/groom/formats/formats.h"
 
 #include <algorithm>
 #include <array>
@@ -24,7 +24,7 @@ namespace {
 
 // ---- The header ---------------------------------------------------------------------------------
 
-// The beginning of a .tfx file, as it is in memory; tfx.h says what follows. Offsets are bytes
+// The beginning of a .tfx file, as it is in memory; formats.h says what follows. Offsets are bytes
 // from the beginning of the file, 0 where there is no array.
 struct TfxHeader {
     static constexpr float kVersion = 4.0f;

@@ -13,7 +13,7 @@
 #include "hair/groom_settings.h"
 #include "hair/settings.h"
 
-// Guides grown on the scalp of a mesh.
+// Guides grown on the scalp of a mesh, and the fine hairs between the scalp and bare skin.
 namespace hair::groom {
 
 // The direction in which hair leaves the scalp:
@@ -52,5 +52,13 @@ private:
 Groom grow(
     const Mesh& mesh, const GrowSettings& settings, const std::filesystem::path& directory,
     std::uint32_t guides, std::uint32_t seed);
+
+// Grows vellus hairs, in metres: settings.vellus.share for each of settings.strands, on the mesh on
+// either side of the scalp's edge. At the distance d from the edge, their probability is 1 -
+// smoothstep(0, band, d). They lie along the surface, in the directions of DirectionField turned by
+// up to 25 degrees to either side. They are up to vellus.length long, on the scalp times 1 + d /
+// band; the shortest have a third of that. The same arguments give the same hairs. Throws
+// engine::Error if the mesh has no such scalp or the scalp has no edge.
+StrandSet growVellus(const Mesh& mesh, const GrowSettings& settings, std::uint32_t seed);
 
 }  // namespace hair::groom

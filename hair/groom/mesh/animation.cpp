@@ -1,4 +1,4 @@
-#include "hair/groom/mesh/animation.h"
+#include "hair/groom/mesh/deforming_mesh.h"
 
 #include <algorithm>
 #include <cmath>

@@ -4,7 +4,7 @@
 #include "common/quaternion.glsl"
 
 // The orientation of a segment that balances its edge and its neighbours: Hsu, Wang, Wu and Yuksel
-// 2025, Stable Cosserat rods. hair/reference/stable_cosserat.h has the energies.
+// 2025, Stable Cosserat rods. hair/reference/compared_rods.h has the energies.
 
 // Coefficients of a linear function of r that bounds the loss of a joint's energy. r is the
 // rotation from one frame to the other, (0, 0, 0, 1) at rest. The bound touches the energy at this

@@ -3,9 +3,8 @@
 
 #include <gmock/gmock.h>
 
-#include "hair/groom/formats/alembic_export.h"
-#include "hair/groom/formats/alembic_import.h"
 #include "hair/groom/formats/alembic_values.h"
+#include "hair/groom/formats/formats.h"
 #include "tests/groom/formats/alembic_files.h"
 #include "tests/groom/formats/broken_promise.h"
 #include "tests/groom/formats/strand_files.h"

@@ -1,9 +1,7 @@
 #include <gmock/gmock.h>
 
-#include "hair/groom/formats/gltf.h"
-#include "hair/groom/formats/obj.h"
+#include "hair/groom/formats/formats.h"
 #include "hair/groom/formats/ply.h"
-#include "hair/groom/formats/strand_lists.h"
 #include "tests/groom/formats/broken_promise.h"
 #include "tests/groom/formats/strand_files.h"
 

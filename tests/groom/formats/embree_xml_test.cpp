@@ -1,6 +1,6 @@
 #include <gmock/gmock.h>
 
-#include "hair/groom/formats/embree_xml.h"
+#include "hair/groom/formats/formats.h"
 #include "tests/groom/formats/broken_promise.h"
 #include "tests/groom/formats/bytes.h"
 #include "tests/groom/formats/strand_files.h"

@@ -1,6 +1,6 @@
 #include <gmock/gmock.h>
 
-#include "hair/groom/formats/gltf.h"
+#include "hair/groom/formats/formats.h"
 #include "tests/groom/formats/strand_files.h"
 
 namespace hair::groom {

@@ -4,9 +4,7 @@
 #include <glm/geometric.hpp>
 #include <gmock/gmock.h>
 
-#include "hair/groom/formats/alembic_import.h"
-#include "hair/groom/formats/gltf.h"
-#include "hair/groom/formats/obj.h"
+#include "hair/groom/formats/formats.h"
 #include "hair/groom/formats/ply.h"
 #include "hair/groom/formats/usd_import.h"
 #include "hair/groom/mesh/import_mesh.h"

@@ -3,7 +3,7 @@
 
 #include <gmock/gmock.h>
 
-#include "hair/groom/formats/pbrt.h"
+#include "hair/groom/formats/formats.h"
 #include "tests/groom/formats/broken_promise.h"
 #include "tests/groom/formats/strand_files.h"
 

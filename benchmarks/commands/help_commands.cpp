@@ -1,4 +1,4 @@
-#include "benchmarks/commands/help_files.h"
+#include "benchmarks/commands/command_help.h"
 
 #include <algorithm>
 #include <array>

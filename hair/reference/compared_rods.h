@@ -8,6 +8,12 @@
 
 #include "hair/reference/rod.h"
 
+// References for the GPU's rod solvers that serve for comparison with `rod`. They share no code
+// with the GPU's.
+namespace hair::reference {
+
+// ---- Stable Cosserat rods -----------------------------------------------------------------------
+
 // One strand by Hsu, Wang, Wu and Yuksel 2025, Stable Cosserat rods (SIGGRAPH Conference Papers),
 // in double: a reference for the GPU's `stable_cosserat` solver that shares no code with it.
 //
@@ -33,8 +39,6 @@
 // the same way. k_ss is a modulus of its own times the cross-section and l: with the hair's
 // modulus, 10^4 times as great, positions and orientations would hold each other.
 
-namespace hair::reference {
-
 struct StableCosseratParameters {
     double substep = 1.0 / 960.0;  // s
     double velocity_kept = 1.0;
@@ -59,6 +63,8 @@ bendTwistEnergy(const RodRest& rest, std::span<const glm::dquat> orientations, s
 // Returns the unit quaternion q that maximises b . q + edge . d3(q), where d3 is the third axis of
 // its frame. b must not be 0.
 glm::dquat balancedOrientation(const glm::dquat& b, const glm::dvec3& edge);
+
+// ---- Position-based rods ------------------------------------------------------------------------
 
 // One strand by Kugelstadt and Schoemer 2016, Position and orientation based Cosserat rods, in
 // double: a reference for the GPU's `position_based_rod` solver that shares no code with it.
@@ -94,5 +100,46 @@ struct PositionBasedRodParameters {
 void stepPositionBasedRod(
     RodState& state, const RodRest& rest, std::span<const glm::dvec3> accelerations,
     const RodRoot& root, const PositionBasedRodParameters& parameters, const RodAir* air = nullptr);
+
+// ---- Augmented mass-spring model ----------------------------------------------------------------
+
+// One strand by Amador Herrera, Zhou, Sun, Shu, He, Pirk and Michels 2024, Augmented mass-spring
+// model for real-time dense hair simulation (arXiv 2412.17144), in double: a reference for the
+// GPU's `augmented_mass_spring` solver that shares no code with it.
+//
+// From the paper's abstract and project page: particles with springs of one constant along edges,
+// against bending and against torsion. A ghost of the rest shape moves with the head and takes no
+// force. An integrity spring couples each particle to its ghost, with a tension proportional to
+// their distance. An angular spring has a tension proportional to the angle of deviation. The
+// matrix has seven diagonals and is decomposed directly.
+//
+// The rest is ours, because we had no access to the paper's equations. Springs against bending and
+// torsion join particles two and three apart, as in Selle, Lentine and Fedkiw 2008, A mass spring
+// model for hair simulation. Every spring has the energy E A L / 2 (d / L - 1)^2 with its rest
+// length L: the one constant is a modulus, so that hair does not depend on its segments. The
+// integrity spring has the energy m kappa_I / 2 |x - x_ghost|^2. The angular spring turns the
+// segment that ends in the particle. Its energy is lambda kappa_a l / 2 angle^2, with the angle
+// between the directions of the segment and of its ghost; it acts as a couple on both particles of
+// the segment. A step is implicit Euler. Each iteration is a Newton step with the positive part of
+// each spring's Hessian: a spring shorter than its rest length is stiff only along itself. The
+// seven diagonals consist of 3 x 3 blocks. Orientations are only the directions of the edges, for
+// air. The paper's hair-hair contact on a grid is not here: /simulation/hair_hair has it for every
+// solver.
+
+struct AugmentedMassSpringParameters {
+    double substep = 1.0 / 480.0;  // s
+    double velocity_kept = 1.0;
+    double spring_stiffness = 0.0;  // E A, N
+    double integrity = 0.0;  // kappa_I, 1/s^2
+    double angular_stiffness = 0.0;  // lambda kappa_a, N
+    std::uint32_t iterations = 2;
+};
+
+// One step under these vertex accelerations, m/s^2, in this air, if any. `root` places the ghost at
+// the end of the step. First multiplies velocities by `velocity_kept`.
+void stepAugmentedMassSpring(
+    RodState& state, const RodRest& rest, std::span<const glm::dvec3> accelerations,
+    const RodRoot& root, const AugmentedMassSpringParameters& parameters,
+    const RodAir* air = nullptr);
 
 }  // namespace hair::reference
