@@ -176,14 +176,14 @@ void renderCase(
     const engine::Device& device, const run::PlannedCase& planned, const PictureFiles& files,
     const RenderOptions& options, measure::HairCache& cache, measure::Progress& progress,
     scene::Json& written) {
-    measure::Case picture(device, planned.spec.settings, planned.directory, &cache);
-    for (const std::string& warning : measure::inspectStart(picture).warnings)
-        std::cerr << "hairbench: " << engine::shownText(warning) << '\n';
     const hair::RenderSettings& render = planned.spec.settings.render;
     written = toJson(planned.spec);
     written["width"] = render.width;
     written["height"] = render.height;
     scene::Json& pictures = written["pictures"] = scene::Json::array();
+    measure::Case picture(device, planned.spec.settings, planned.directory, &cache);
+    for (const std::string& warning : measure::inspectStart(picture).warnings)
+        std::cerr << "hairbench: " << engine::shownText(warning) << '\n';
     play(device, picture, files.range, progress, [&](std::uint32_t frame) {
         writePicture(picture, options.linear, files.of(frame));
         pictures.push_back({{"frame", frame}, {"file", files.of(frame).string()}});
