@@ -88,6 +88,8 @@ private:
     std::optional<engine::Buffer> air_;  // in drag mode
 };
 
+// ---- The scene's own force ----------------------------------------------------------------------
+
 // Evaluates the function of /simulation/force at every guide vertex, and adds the acceleration to
 // GuideAddresses::accelerations for a whole time step.
 class ForcePass {
@@ -104,6 +106,8 @@ private:
     std::uint32_t vertex_count_;
     engine::ComputePipeline pipeline_;
 };
+
+// ---- Hands --------------------------------------------------------------------------------------
 
 // The hand of a pull during a time step.
 struct Hand {
