@@ -303,8 +303,17 @@ class Files : public testing::Test {
 protected:
     Files() {
         path_ = folder_.path();
-        while (path_.string().size() < 300) path_ /= kName + std::string(40, 'x');
+        while (path_.native().size() < 300) path_ /= kName + std::string(40, 'x');
         fs::create_directories(path_);
+    }
+    // MinGW-w64's remove_all() knows only short paths.
+    ~Files() override {
+        std::error_code ignored;
+        for (int i = 0; path_ != folder_.path(); ++i) {
+            const fs::path parent = path_.parent_path();
+            fs::rename(path_, folder_.file(std::to_string(i)), ignored);
+            path_ = parent;
+        }
     }
 
     fs::path file(const std::string& name) const { return path_ / name; }
