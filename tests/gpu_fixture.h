@@ -21,7 +21,8 @@ public:
                 const bool assisted = std::getenv("HAIRBENCH_GPU_ASSISTED");
                 device_ = std::make_unique<engine::Device>(engine::DeviceOptions{
                     .wanted = "",
-                    .validation = assisted ? engine::Validation::gpu_assisted : kValidation});
+                    .validation =
+                        assisted ? engine::Validation::gpu_assisted : engine::Validation::on});
             } catch (const engine::NoDevice& error) {
                 missing_ = error.what();
             }
@@ -34,12 +35,6 @@ public:
     void TearDown() override { device_.reset(); }
 
 private:
-#ifdef _WIN32  // under Wine, which has no layers
-    static constexpr engine::Validation kValidation = engine::Validation::off;
-#else
-    static constexpr engine::Validation kValidation = engine::Validation::on;
-#endif
-
     static inline std::unique_ptr<engine::Device> device_;
     static inline std::string missing_;
 };
