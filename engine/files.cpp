@@ -135,9 +135,12 @@ fs::path partialName(const fs::path& target) {
     char suffix[32];
     const int size = std::snprintf(
         suffix, sizeof suffix, ".%016llx.partial", static_cast<unsigned long long>(number));
-    const std::string name = target.filename().string();
-    return target.parent_path() /
-           (name.substr(0, kLongestName - static_cast<std::size_t>(size)) + suffix);
+    std::string name = target.filename().string();
+    if (std::size_t kept = kLongestName - static_cast<std::size_t>(size); kept < name.size()) {
+        while (kept > 0 && (name[kept] & 0xc0) == 0x80) --kept;  // no part of a UTF-8 character
+        name.resize(kept);
+    }
+    return target.parent_path() / (name + suffix);
 }
 
 // `name` is the file's name in errors.

@@ -8,7 +8,12 @@
 
 // Returns the interpreter in a folder of .deps/; empty if there is none.
 inline std::string interpreterOf(const std::string& environment) {
-    const std::string made = HAIRBENCH_SOURCE_DIR "/.deps/" + environment + "/bin/python";
+#ifdef _WIN32
+    const std::string program = "/Scripts/python.exe";
+#else
+    const std::string program = "/bin/python";
+#endif
+    const std::string made = HAIRBENCH_SOURCE_DIR "/.deps/" + environment + program;
     return std::filesystem::exists(made) ? made : "";
 }
 

@@ -22,8 +22,7 @@
 namespace engine::system {
 namespace {
 
-[[noreturn]] void fail(const std::string& what) {
-    const DWORD error = GetLastError();
+[[noreturn]] void fail(const std::string& what, DWORD error) {
     const bool is_missing = error == ERROR_FILE_NOT_FOUND || error == ERROR_PATH_NOT_FOUND ||
                             error == ERROR_INVALID_NAME || error == ERROR_DIRECTORY;
     const bool is_no_program = error == ERROR_BAD_EXE_FORMAT || error == ERROR_ACCESS_DENIED;
@@ -127,7 +126,7 @@ struct Pipe {
         constexpr DWORD kBytes = 1 << 20;
         SECURITY_ATTRIBUTES inherited{sizeof inherited, nullptr, TRUE};
         HANDLE from = nullptr, to = nullptr;
-        if (!CreatePipe(&from, &to, &inherited, kBytes)) fail("pipe");
+        if (!CreatePipe(&from, &to, &inherited, kBytes)) fail("pipe", GetLastError());
         SetHandleInformation(from, HANDLE_FLAG_INHERIT, 0);
         read.emplace(from);
         write.emplace(to);
@@ -168,8 +167,9 @@ Handle jobFor(const ChildLimits& limits) {
         flags |= JOB_OBJECT_LIMIT_ACTIVE_PROCESS;
         information.BasicLimitInformation.ActiveProcessLimit = 1;
     }
-    SetInformationJobObject(
-        job.get(), JobObjectExtendedLimitInformation, &information, sizeof information);
+    if (!SetInformationJobObject(
+            job.get(), JobObjectExtendedLimitInformation, &information, sizeof information))
+        fail("limits of a child", ERROR_GEN_FAILURE);
     return job;
 }
 
@@ -213,19 +213,22 @@ public:
             CREATE_SUSPENDED | CREATE_NEW_PROCESS_GROUP | CREATE_UNICODE_ENVIRONMENT |
                 EXTENDED_STARTUPINFO_PRESENT,
             const_cast<wchar_t*>(environment.data()), nullptr, &start.StartupInfo, &made);
+        const DWORD error = GetLastError();
         DeleteProcThreadAttributeList(start.lpAttributeList);
-        if (!is_made) fail(arguments.front());
+        if (!is_made) fail(arguments.front(), error);
         process_.emplace(made.hProcess);
         id_ = made.dwProcessId;
-        AssignProcessToJobObject(job_.get(), made.hProcess);
         const Handle thread(made.hThread);
+        if (!AssignProcessToJobObject(job_.get(), made.hProcess)) {
+            TerminateProcess(made.hProcess, 1);  // it has not begun
+            fail("limits of a child", ERROR_GEN_FAILURE);
+        }
         ResumeThread(thread.get());
     }
     Child(const Child&) = delete;
     Child& operator=(const Child&) = delete;
     ~Child() {
         TerminateJobObject(job_.get(), 1);
-        TerminateProcess(process_->get(), 1);  // it may be in no job
         WaitForSingleObject(process_->get(), INFINITE);
     }
 
@@ -362,7 +365,7 @@ Program::Program(
     const Handle file(CreateFileW(
         output.c_str(), FILE_APPEND_DATA, FILE_SHARE_READ | FILE_SHARE_WRITE | FILE_SHARE_DELETE,
         &inherited, CREATE_ALWAYS, FILE_ATTRIBUTE_NORMAL, nullptr));
-    if (!file.isOpen()) fail(output.string());
+    if (!file.isOpen()) fail(output.string(), GetLastError());
     try {
         parts_->child = std::make_unique<Child>(
             command, ChildLimits{}, file.get(), file.get(),

@@ -83,7 +83,8 @@ void removeOpen(File file, const std::filesystem::path& path);
 
 // ---- Folders and names --------------------------------------------------------------------------
 
-// Renames a file. It replaces another one, even if that is open, in one step.
+// Renames a file. It replaces another one in one step, even if that is open. Windows refuses that,
+// so there it waits for a second until the file is closed, and then returns an error.
 int replaceFile(const std::filesystem::path& from, const std::filesystem::path& to);
 
 // Returns an error if this user can't write the file or, in the folder, new files.

@@ -11,8 +11,6 @@
 
 #include <fcntl.h>
 #include <io.h>
-#include <share.h>
-#include <sys/stat.h>
 #include <windows.h>
 
 #include "engine/error.h"
@@ -74,8 +72,15 @@ int lastError() {
     case ERROR_PATH_NOT_FOUND:
     case ERROR_INVALID_NAME:
         return ENOENT;
+    case ERROR_FILE_EXISTS:
+    case ERROR_ALREADY_EXISTS:
+        return EEXIST;
+    case ERROR_DIRECTORY:
+        return ENOTDIR;
     case ERROR_FILENAME_EXCED_RANGE:
         return ENAMETOOLONG;
+    case ERROR_FILE_TOO_LARGE:
+        return EFBIG;
     case ERROR_ACCESS_DENIED:
     case ERROR_SHARING_VIOLATION:
     case ERROR_LOCK_VIOLATION:
@@ -90,12 +95,15 @@ int lastError() {
     }
 }
 
-Opened openFile(const fs::path& path, int flags) {
-    int descriptor = -1;
-    const int error = _wsopen_s(
-        &descriptor, path.c_str(), flags | _O_BINARY | _O_NOINHERIT, _SH_DENYNO,
-        _S_IREAD | _S_IWRITE);
-    return {File(descriptor), error};
+// Takes a handle as a file of the C library, which closes it.
+Opened opened(HANDLE handle) {
+    if (handle == INVALID_HANDLE_VALUE) return {File(), lastError()};
+    const int descriptor =
+        _open_osfhandle(reinterpret_cast<intptr_t>(handle), _O_BINARY | _O_NOINHERIT);
+    if (descriptor >= 0) return {File(descriptor), 0};
+    const int error = errno;
+    CloseHandle(handle);
+    return {File(), error};
 }
 
 constexpr std::size_t kPiece = std::size_t{1} << 30;  // the C library counts in 32 bits
@@ -151,9 +159,18 @@ int File::cut(std::uintmax_t size) { return _chsize_s(descriptor_, static_cast<_
 
 int File::sync() { return _commit(descriptor_) == 0 ? 0 : errno; }
 
-Opened createFile(const fs::path& path) { return openFile(path, _O_WRONLY | _O_CREAT | _O_EXCL); }
+Opened createFile(const fs::path& path) {
+    // Without the last flag it would make what a link names.
+    return opened(CreateFileW(
+        path.c_str(), GENERIC_WRITE, FILE_SHARE_READ | FILE_SHARE_WRITE | FILE_SHARE_DELETE,
+        nullptr, CREATE_NEW, FILE_ATTRIBUTE_NORMAL | FILE_FLAG_OPEN_REPARSE_POINT, nullptr));
+}
 
-Opened openToWrite(const fs::path& path) { return openFile(path, _O_WRONLY); }
+Opened openToWrite(const fs::path& path) {
+    return opened(CreateFileW(
+        path.c_str(), GENERIC_WRITE, FILE_SHARE_READ | FILE_SHARE_WRITE | FILE_SHARE_DELETE,
+        nullptr, OPEN_EXISTING, FILE_ATTRIBUTE_NORMAL, nullptr));
+}
 
 std::optional<int> openStream(const fs::path& path) {
     if (path == "/dev/stdout") return 1;
@@ -180,14 +197,17 @@ Locked openLocked(const fs::path& path) {
         if (fs::is_directory(path, ignored)) return {.lock = Lock::is_no_file};
         return {Lock::failed, {File(), error}};
     }
-    const int descriptor =
-        _open_osfhandle(reinterpret_cast<intptr_t>(handle), _O_BINARY | _O_NOINHERIT);
-    Opened opened{File(descriptor), descriptor < 0 ? errno : 0};
-    BY_HANDLE_FILE_INFORMATION information{};
-    if (GetFileInformationByHandle(handle, &information) &&
-        information.dwFileAttributes & FILE_ATTRIBUTE_REPARSE_POINT)
+    Opened file = opened(handle);
+    if (!file.file.isOpen()) return {Lock::failed, std::move(file)};
+    if (GetFileType(handle) != FILE_TYPE_DISK) return {.lock = Lock::is_no_file};
+    // Other reparse points are files, such as those that OneDrive keeps elsewhere.
+    FILE_ATTRIBUTE_TAG_INFO information{};
+    if (GetFileInformationByHandleEx(
+            handle, FileAttributeTagInfo, &information, sizeof information) &&
+        information.FileAttributes & FILE_ATTRIBUTE_REPARSE_POINT &&
+        IsReparseTagNameSurrogate(information.ReparseTag))
         return {.lock = Lock::is_link};
-    return {opened.file.isOpen() ? Lock::held : Lock::failed, std::move(opened)};
+    return {Lock::held, std::move(file)};
 }
 
 void removeOpen(File file, const fs::path& path) {

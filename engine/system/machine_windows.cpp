@@ -109,7 +109,7 @@ std::vector<std::string> loadedLibraries() {
 
 Library::Library(const std::string& name) {
     // A name without a folder is one of the system's: nobody's file beside the program.
-    const fs::path path(name);
+    const fs::path path = fs::path(name).make_preferred();  // no slash, by LoadLibraryExW()
     handle_ = LoadLibraryExW(
         path.c_str(), nullptr, path.has_parent_path() ? 0 : LOAD_LIBRARY_SEARCH_SYSTEM32);
 }

@@ -11,8 +11,8 @@ namespace engine::system {
 
 // Makes the standard streams usable. A missing one is opened: otherwise the next opened file, a
 // report or a device, would take the number of a closed stream. Writing to a closed standard output
-// then fails, as on a full disk. On Windows it also sets the console to UTF-8 and the streams to
-// bytes, so that a line ends as on other systems.
+// then fails, as on a full disk. On Windows it also sets the console's output to UTF-8 and the
+// streams to bytes, so that a line ends as on other systems.
 void prepareStreams();
 
 // From here on, an interrupt, a request to end and a closed terminal call `came` instead of ending

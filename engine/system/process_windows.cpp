@@ -15,7 +15,6 @@ namespace engine::system {
 void prepareStreams() {
     // A crash ends the program instead of asking the user.
     SetErrorMode(SEM_FAILCRITICALERRORS | SEM_NOGPFAULTERRORBOX);
-    SetConsoleCP(CP_UTF8);
     SetConsoleOutputCP(CP_UTF8);
     for (const int stream : {0, 1, 2}) {
         if (_get_osfhandle(stream) < 0) continue;  // a program without a console may have none

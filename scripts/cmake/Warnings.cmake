@@ -12,7 +12,16 @@ set(CMAKE_VISIBILITY_INLINES_HIDDEN ON)
 
 # Messages name files relative to the source tree, and our programs do not name the machine that
 # built them.
-set(HAIRBENCH_SHORT_NAMES "-fmacro-prefix-map=${PROJECT_SOURCE_DIR}/=")
+if(NOT MSVC)
+    set(HAIRBENCH_SHORT_NAMES "-fmacro-prefix-map=${PROJECT_SOURCE_DIR}/=")
+endif()
+
+# What GCC and Clang do by themselves. Never tried (docs/install.md).
+if(MSVC)
+    add_compile_options("$<$<COMPILE_LANGUAGE:C,CXX>:/utf-8;/bigobj>"
+        "$<$<COMPILE_LANGUAGE:CXX>:/permissive-;/Zc:__cplusplus;/Zc:preprocessor>")
+    add_compile_definitions(NOMINMAX _CRT_SECURE_NO_WARNINGS)
+endif()
 
 # Every target of ours calls this. It also applies the requested sanitizers.
 function(hairbench_warnings target)

@@ -342,6 +342,8 @@ TEST(SceneErrors, OfALargeFile) {
         "t.json: is larger than 16 MiB, the limit of a scene file, and is not a picture");
 }
 
+#ifndef _WIN32
+
 // Reading a pipe without a writer would wait forever.
 TEST(SceneErrors, OfAPipe) {
     const TemporaryFolder folder;
@@ -358,6 +360,8 @@ TEST(SceneErrors, OfAPipe) {
         HasSubstr("pipe.json: is not a file"));
     EXPECT_EQ(load("/dev/zero"), "/dev/zero: is not a file");
 }
+
+#endif
 
 TEST(SceneErrors, OfARemovalThatRemovesNothing) {
     const TemporaryFolder folder;

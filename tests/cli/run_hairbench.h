@@ -5,7 +5,9 @@
 #include <stdexcept>
 #include <string>
 
+#ifndef _WIN32
 #include <sys/wait.h>
+#endif
 
 // The program as a user runs it.
 struct Outcome {
@@ -18,7 +20,11 @@ inline std::string shippedScene(const std::string& name) {
     return "'" HAIRBENCH_SCENES_DIR "/" + name + "' ";
 }
 
+// The commands are for a POSIX shell. Throws on Windows, which has none.
 inline Outcome runInShell(const std::string& command) {
+#ifdef _WIN32
+    throw std::runtime_error("no shell for " + command);
+#else
     FILE* pipe = popen(command.c_str(), "r");
     if (!pipe) throw std::runtime_error("popen failed");
     Outcome outcome{};
@@ -28,6 +34,7 @@ inline Outcome runInShell(const std::string& command) {
     }
     outcome.status = WEXITSTATUS(pclose(pipe));
     return outcome;
+#endif
 }
 
 // Runs hairbench and returns its stdout and stderr. `before` goes before the program's name.

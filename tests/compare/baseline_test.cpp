@@ -1,7 +1,5 @@
 #include "benchmarks/report/compare.h"
 
-#include <cstdlib>
-
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
@@ -9,21 +7,22 @@
 #include "tests/compare/made_report.h"
 #include "tests/error_text.h"
 #include "tests/temporary_folder.h"
+#include "tests/variable.h"
 
 namespace benchmarks::report {
 namespace {
 
 class Baseline : public testing::Test {
 protected:
-    Baseline() { setenv("HAIRBENCH_BASELINES", folder_.path().c_str(), 1); }
-    ~Baseline() override { unsetenv("HAIRBENCH_BASELINES"); }
+    Baseline() { setVariable("HAIRBENCH_BASELINES", folder_.path().string()); }
+    ~Baseline() override { removeVariable("HAIRBENCH_BASELINES"); }
 
     TemporaryFolder folder_;
 };
 
 TEST_F(Baseline, IsAFileOfNameAndScene) {
     EXPECT_EQ(baselineFile("main", "thesis"), folder_.file("main/thesis.json"));
-    unsetenv("HAIRBENCH_BASELINES");
+    removeVariable("HAIRBENCH_BASELINES");
     EXPECT_EQ(baselineFile("main", "thesis"), "results/local/baselines/main/thesis.json");
 }
 

@@ -817,7 +817,7 @@ TEST(AlembicExport, WritesIds) {
 
 // Alembic's own library reads our archives exactly, to the last bit.
 TEST(AlembicExport, IsReadByAlembicsLibrary) {
-    const std::string python = HAIRBENCH_SOURCE_DIR "/.deps/alembic/bin/python";
+    const std::string python = interpreterOf("alembic");
     if (!std::filesystem::exists(python))
         GTEST_SKIP() << "no Python environment for Alembic: run scripts/setup --alembic";
     StrandSet strands = hardStrands();

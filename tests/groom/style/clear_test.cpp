@@ -9,7 +9,7 @@
 namespace hair::groom {
 namespace {
 
-constexpr double kBallRadius = 0.1;
+constexpr double kSphereRadius = 0.1;
 constexpr double kClearance = 0.004;
 
 // Strands from the top of the ball: through it, along it, away from it, and one without length.
@@ -21,14 +21,14 @@ Groom onBall() {
         for (int i = 0; i < 17; ++i) {
             const glm::dvec3 along =
                 direction == glm::dvec3(0.0) ? direction : glm::normalize(direction);
-            groom.points.emplace_back(glm::dvec3(0.0, kBallRadius, 0.0) + 0.01 * i * along);
+            groom.points.emplace_back(glm::dvec3(0.0, kSphereRadius, 0.0) + 0.01 * i * along);
         }
     return groom;
 }
 
 // The ball has flat sides that lie up to r (1 - cos(pi / 48)) = 2.2e-4 m inside the sphere.
 TEST(Clearance, LeadsStrandsRoundTheMesh) {
-    const Mesh ball = makeSphere(kBallRadius, 96, 48);
+    const Mesh ball = makeSphere(kSphereRadius, 96, 48);
     const Groom before = onBall();
     const Groom after = keepClear(before, ball, kClearance);
     for (std::uint32_t s = 0; s < 4; ++s) {
@@ -41,7 +41,7 @@ TEST(Clearance, LeadsStrandsRoundTheMesh) {
             lengths.add(
                 glm::distance(glm::dvec3(points[i]), glm::dvec3(points[i - 1])) -
                 glm::distance(glm::dvec3(old[i]), glm::dvec3(old[i - 1])));
-            gaps.add(glm::length(glm::dvec3(points[i])) - kBallRadius - wanted);
+            gaps.add(glm::length(glm::dvec3(points[i])) - kSphereRadius - wanted);
         }
         EXPECT_LT(std::max(lengths.greatest(), -lengths.least()), 1e-7) << s;
         if (s == 3) continue;
@@ -57,7 +57,7 @@ TEST(Clearance, LeadsStrandsRoundTheMesh) {
 // Two balls side by side, and a strand that hangs into the cleft between them. No turn of a single
 // segment takes it out: a place clear of one ball is inside the other.
 TEST(Clearance, TakesStrandsOutOfAClosingCleft) {
-    Mesh balls = makeSphere(kBallRadius, 96, 48);
+    Mesh balls = makeSphere(kSphereRadius, 96, 48);
     Mesh other = balls;
     const auto offset = static_cast<std::uint32_t>(balls.positions.size());
     for (glm::vec3& position : balls.positions) position.x -= 0.101f;
@@ -80,7 +80,7 @@ TEST(Clearance, TakesStrandsOutOfAClosingCleft) {
             std::min(
                 glm::distance(point, glm::dvec3(-0.101, 0.0, 0.0)),
                 glm::distance(point, glm::dvec3(0.101, 0.0, 0.0))) -
-            kBallRadius);
+            kSphereRadius);
         lengths.add(
             glm::distance(point, glm::dvec3(after.points[i - 1])) -
             glm::distance(glm::dvec3(groom.points[i]), glm::dvec3(groom.points[i - 1])));
