@@ -296,6 +296,9 @@ const Table& tableOf(const ProbeSettings*) {
         {toggle(
              "tip_displacement", &S::tip_displacement,
              "distance of tips from where the head would carry them rigidly"),
+         toggle(
+             "groom_distance", &S::groom_distance,
+             "distance of all vertices from where the head would carry them rigidly"),
          toggle("length_error", &S::length_error, "strain of segments, without its sign"),
          toggle(
              "energy", &S::energy,

@@ -178,6 +178,7 @@ enum class Clocks { as_found, locked, free };
 // Quantities of guides over time: hair/simulation/probes.h.
 struct ProbeSettings {
     bool tip_displacement = false;
+    bool groom_distance = false;
     bool length_error = false;
     bool energy = false;
     bool contact = false;

@@ -16,6 +16,7 @@
 #include "engine/frame_loop.h"
 #include "engine/process.h"
 #include "hair/groom/files.h"
+#include "hair/groom/formats/formats.h"
 #include "hair/groom/formats/npy.h"
 #include "hair/groom/formats/usd_export.h"
 
@@ -33,6 +34,8 @@ public:
         if (options.probes) probes_.emplace(device, case_, options.frames);
     }
 
+    // In a format that holds moving strands.
+    template <class Animation>
     Recorded everyFrame();
     Recorded array();
     Recorded lastFrame();
@@ -106,22 +109,23 @@ void Recording::checkEqual(
                          " holds one set: 'forced' draws the same in all");
 }
 
+template <class Animation>
 Recorded Recording::everyFrame() {
     Recorded recorded;
     engine::writeFileAtomically(options_.out, [&](std::ostream& file) {
-        std::optional<hair::groom::UsdaAnimation> animation;
+        std::optional<Animation> animation;
         play([&](std::uint32_t frame) {
             hair::groom::StrandSet now = strands();
             if (frame == 0) {
                 animation.emplace(
                     file, now,
-                    hair::groom::UsdaTiming{options_.frames, double{settings_.run.frame_time}});
+                    hair::groom::FrameTiming{options_.frames, double{settings_.run.frame_time}});
                 recorded = {now, animation->warnings()};
             }
             checkEqual(frame, now, recorded.strands);
             animation->frame(now.points);
         });
-        animation->end();
+        animation->finish();
     });
     return recorded;
 }
@@ -191,17 +195,21 @@ bool isArray(const std::filesystem::path& file) {
 }
 
 bool holdsFrames(const std::filesystem::path& file) {
-    return hair::groom::lowerCaseExtension(file) == ".usda" || isArray(file);
+    const std::string extension = hair::groom::lowerCaseExtension(file);
+    return extension == ".usda" || extension == ".abc" || isArray(file);
 }
 
 Recorded recordStrands(
     const engine::Device& device, const std::filesystem::path& directory, const std::string& name,
     const hair::Settings& settings, const RecordingOptions& options, measure::HairCache& cache) {
     Recording recording(device, directory, name, settings, options, cache);
-    Recorded recorded = options.out.empty()        ? recording.onlyProbes()
-                        : isArray(options.out)     ? recording.array()
-                        : holdsFrames(options.out) ? recording.everyFrame()
-                                                   : recording.lastFrame();
+    const std::string extension = hair::groom::lowerCaseExtension(options.out);
+    Recorded recorded = options.out.empty()    ? recording.onlyProbes()
+                        : isArray(options.out) ? recording.array()
+                        : extension == ".usda" ? recording.everyFrame<hair::groom::UsdaAnimation>()
+                        : extension == ".abc"
+                            ? recording.everyFrame<hair::groom::AlembicAnimation>()
+                            : recording.lastFrame();
     recorded.probes = recording.takeProbes();
     const std::vector<std::string> warnings = recording.warnings();
     recorded.warnings.insert(recorded.warnings.begin(), warnings.begin(), warnings.end());

@@ -86,6 +86,7 @@ constexpr MetricKind kKinds[] = {
     {Of::probe, What::time, "probe.pass.time", "ms", lower},
     {Of::probe, What::simulated_time, "probe.time", "s", neither},
     {Of::probe, What::tip_displacement, "probe.tip_displacement.*", "m", neither},
+    {Of::probe, What::groom_distance, "probe.groom_distance.*", "m", neither},
     {Of::probe, What::length_error, "probe.length_error.*", "1", lower},
     {Of::probe, What::kinetic_energy, "probe.kinetic_energy", "J", neither},
     {Of::probe, What::gravitational_energy, "probe.gravitational_energy", "J", neither},

@@ -85,6 +85,7 @@ enum class Measured {
     inverse_throughput,
     simulated_time,
     tip_displacement,
+    groom_distance,
     length_error,
     kinetic_energy,
     gravitational_energy,

@@ -242,6 +242,7 @@ constexpr FormatFact onlyRead(Fact fact, std::string_view how = {}) {
     return {fact, true, false, how};
 }
 
+constexpr auto kBySimulate = "written by `simulate --export`"sv;
 constexpr auto kAnyLength = "of any length"sv;
 constexpr auto kOneLength = "of one length"sv;
 constexpr auto kPerPoint = "per point"sv;
@@ -282,7 +283,7 @@ constexpr FormatFact kUsdaFacts[] = {
     both(Fact::unit, "any"),
     both(Fact::up, "+y; +z is read"),
     both(Fact::root_triangles),
-    both(Fact::animation, "written by `simulate --export`")};
+    both(Fact::animation, kBySimulate)};
 constexpr FormatFact kUsdFacts[] = {
     onlyRead(Fact::strands, kAnyLength),
     onlyRead(Fact::guides),
@@ -305,7 +306,7 @@ constexpr FormatFact kAlembicFacts[] = {
     both(Fact::unit, "own"),
     both(Fact::up, "own"),
     both(Fact::root_triangles, "own"),
-    onlyRead(Fact::animation)};
+    both(Fact::animation, kBySimulate)};
 constexpr FormatFact kPointsFacts[] = {both(Fact::strands, kAnyLength)};
 constexpr FormatFact kPointsReadFacts[] = {onlyRead(Fact::strands, kAnyLength)};
 constexpr FormatFact kNpyFacts[] = {both(Fact::strands, kOneLength)};

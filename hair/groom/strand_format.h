@@ -44,6 +44,12 @@ struct StrandFile {
     NamedFileCheck check{};  // for those other files
 };
 
+// The frames of an animation that is written: the first is at 0 s.
+struct FrameTiming {
+    std::uint32_t frames = 1;
+    double frame_time = 1.0 / 60.0;  // s
+};
+
 // Strands of a file over time. Their number and their numbers of points don't change.
 struct StrandSamples {
     std::vector<std::uint32_t> ends;  // [strand], index after its last point

@@ -212,6 +212,7 @@ const uint kProbesContact = 8u;
 const uint kProbesBending = 16u;
 const uint kProbesTorsion = 32u;
 const uint kProbesElastic = 64u;
+const uint kProbesGroom = 128u;
 
 // Rows of a guide's quantities.
 const uint kProbeTip = 0u;  // m
@@ -228,7 +229,9 @@ const uint kProbeMostBending = 10u;
 const uint kProbeTorsion = 11u;  // mean and greatest, rad
 const uint kProbeMostTorsion = 12u;
 const uint kProbeMomentum = 13u;  // along x, y and z, kg m/s
-const uint kProbeRows = 16u;
+const uint kProbeDistance = 16u;  // mean and greatest, m
+const uint kProbeMostDistance = 17u;
+const uint kProbeRows = 18u;
 
 // Push constants of simulation/probe.comp.
 struct ProbePush {

@@ -74,12 +74,14 @@ void main() {
     Vectors groom = Vectors(push.rest);
 
     float kinetic = 0.0, gravitational = 0.0, fastest = 0.0;
+    float distances = 0.0, most_distance = 0.0;
     float strains = 0.0, most_strain = 0.0;
     float contacts = 0.0, depth = 0.0;
     float bends = 0.0, most_bend = 0.0, torsions = 0.0, most_torsion = 0.0;
     vec3 momentum = vec3(0.0);
     vec3 above = vec3(0.0), groom_above = vec3(0.0);  // the vertex above
     vec3 last = vec3(0.0), last_plane = vec3(0.0);  // the segment and the plane above
+    RigidFrame carried = rootFrame(push.frame, push.roots, strand);
     for (uint i = 0; i < vertices; ++i) {
         uint vertex = root + i;
         vec3 position = positions.at[vertex].xyz;
@@ -93,6 +95,11 @@ void main() {
             fastest = max(fastest, speed2);
         }
         if (i > 0) {
+            if (wants(kProbesGroom)) {
+                float apart = distance(position, toWorld(carried, rest.xyz));
+                distances += apart;
+                most_distance = max(most_distance, apart);
+            }
             vec3 edge = position - above;
             float rest_length = distance(rest.xyz, groom_above);
             if (wants(kProbesLength) && rest_length >= kShortestSegment) {
@@ -123,7 +130,6 @@ void main() {
     }
 
     float rows[kProbeRows];
-    RigidFrame carried = rootFrame(push.frame, push.roots, strand);
     rows[kProbeTip] =
         wants(kProbesTip)
             ? distance(above, toWorld(carried, groom.at[root + vertices - 1].xyz))
@@ -143,6 +149,8 @@ void main() {
     rows[kProbeMomentum] = momentum.x;
     rows[kProbeMomentum + 1] = momentum.y;
     rows[kProbeMomentum + 2] = momentum.z;
+    rows[kProbeDistance] = distances / float(vertices - 1);
+    rows[kProbeMostDistance] = most_distance;
     for (uint row = 0; row < kProbeRows; ++row)
         Rows(push.rows).at[row * push.guide_count + guide] = rows[row];
 }

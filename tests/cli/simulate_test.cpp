@@ -210,13 +210,15 @@ std::vector<double> coordinatesOf(const std::string& text) {
 
 // A file of guides that play is the motion that was written to it. Its first sample is at time 0,
 // and the first frame ends after a time step: so its frame 4 is sample 5.
-TEST_F(SimulateCli, PlaysWhatItWrote) {
+class PlayedFile : public SimulateCli, public testing::WithParamInterface<std::string> {};
+
+TEST_P(PlayedFile, IsTheMotionThatWasWritten) {
+    const std::string file = "guides" + GetParam();
     const std::string guides = "--guides -a /groom/guides=86 ";
-    ASSERT_EQ(simulate("guides.usda", guides + "--frames 6").status, 0);
+    ASSERT_EQ(simulate(file, guides + "--frames 6").status, 0);
     ASSERT_EQ(simulate("expected.obj", guides + "--frames 6").status, 0);
     folder_.write(
-        "playing.json",
-        R"({ "groom": { "file": "guides.usda", "cache": { "mode": "play" } },
+        "playing.json", R"({ "groom": { "file": ")" + file + R"(", "cache": { "mode": "play" } },
              "simulation": { "solver": "none" } })");
     const auto play = [&](const std::string& options) {
         return hairbench(
@@ -240,6 +242,10 @@ TEST_F(SimulateCli, PlaysWhatItWrote) {
     const Outcome followed = play("--set /simulation/solver=shape --set /groom/cache/mode=follow");
     EXPECT_EQ(followed.status, 0) << followed.output;
 }
+
+INSTANTIATE_TEST_SUITE_P(
+    Formats, PlayedFile, testing::Values(".usda", ".abc"),
+    [](const auto& test) { return test.param.substr(1); });
 
 TEST_F(SimulateCli, RefusesAFormatThatItDoesNotKnowBeforeItBegins) {
     const Outcome outcome = simulate("hair.fbx", "--frames 1000000");

@@ -195,6 +195,17 @@ class Simulate(InFolder):
             self.assertTrue(numpy.allclose(probed["value"], speeds.max(axis=(1, 2)), atol=5e-6))
             self.assertTrue(numpy.allclose(probed["time"], numpy.arange(2, 7) / 60, atol=1e-6))
 
+    def test_lists_the_probes_that_a_case_has(self):
+        need_device(self)
+        played = hairbench.simulate(
+            SMOKE, out=self.folder / "played", frames=1, progress=None,
+            axes={"/render/msaa": [1], "/simulation/solver": ["shape", "rod"]},
+            sets={"/run/probes/energy": True})
+        found = {solver: set(rows["probe"])
+                 for solver, rows in played.probes().groupby("/simulation/solver")}
+        self.assertEqual(found["shape"], {"kinetic_energy", "gravitational_energy"})
+        self.assertEqual(found["rod"], found["shape"] | {"elastic_energy"})
+
     def test_says_what_is_wrong(self):
         with self.assertRaises(hairbench.ProgramError) as raised:
             hairbench.simulate(

@@ -12,10 +12,13 @@ import hairbench  # noqa: E402, F401  # for the tests, from the repository
 from hairbench.program import call  # noqa: E402
 
 
+def skip_without(test: unittest.TestCase, need: str, reason: str) -> None:
+    """Skips the test, or fails it if HAIRBENCH_REQUIRE asks for what it needs."""
+    if need in os.environ.get("HAIRBENCH_REQUIRE", "").split(","):
+        test.fail(f"{reason}; HAIRBENCH_REQUIRE asks for {need}")
+    test.skipTest(reason)
+
+
 def need_device(test: unittest.TestCase) -> None:
-    """Skips the test without a Vulkan device, or fails it if HAIRBENCH_REQUIRE asks for one."""
-    if call(["devices"], None).status == 0:
-        return
-    if "device" in os.environ.get("HAIRBENCH_REQUIRE", "").split(","):
-        test.fail("there is no Vulkan device; HAIRBENCH_REQUIRE asks for one")
-    test.skipTest("there is no Vulkan device")
+    if call(["devices"], None).status != 0:
+        skip_without(test, "device", "there is no Vulkan device")

@@ -1,6 +1,7 @@
 """Tests that a type checker accepts the module and finds what is wrong in a call, and that the types
 of keywords are those of the scene's schema and of the program's options."""
 
+import importlib.util
 import json
 import re
 import subprocess
@@ -9,7 +10,7 @@ import tempfile
 import unittest
 from pathlib import Path
 
-from support import REPOSITORY, hairbench
+from support import REPOSITORY, hairbench, skip_without
 
 MODULE = REPOSITORY / "benchmarks" / "python"
 
@@ -62,6 +63,8 @@ class Typing(unittest.TestCase):
 
     def check(self, *arguments):
         """Returns the checker's status and lines."""
+        if importlib.util.find_spec("mypy") is None:
+            skip_without(self, "module", "there is no mypy: run scripts/setup --module")
         done = subprocess.run(
             [sys.executable, "-m", "mypy", "--strict", "--no-error-summary", "--no-color-output",
              "--cache-dir", str(self.folder / "cache"), *map(str, arguments)],

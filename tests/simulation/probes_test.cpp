@@ -27,6 +27,7 @@ constexpr double kProbedStep = 1.0 / 64.0;  // s, exact in 32 bits
 ProbeSettings all() {
     return {
         .tip_displacement = true,
+        .groom_distance = true,
         .length_error = true,
         .energy = true,
         .contact = true,
@@ -87,7 +88,7 @@ protected:
 TEST_F(GuideProbes, AreZeroAtRest) {
     const groom::Groom groom = straightGroom(5, 6);
     const Frame frame = probed(Simulation(device(), groom, still(), 1), groom, still());
-    EXPECT_EQ(frame.size(), 18u);  // without elastic energy, which `shape` lacks
+    EXPECT_EQ(frame.size(), 20u);  // without elastic energy, which `shape` lacks
     // Rest lengths and directions are rounded alike, and the hair is straight.
     for (const auto& [name, value] : frame) EXPECT_EQ(value, 0.0) << name;
 }
@@ -106,6 +107,27 @@ TEST_F(GuideProbes, GiveTheDisplacementOfTips) {
     EXPECT_NEAR(frame.at("tip_displacement.median"), 5e-3, kTolerance);
     EXPECT_NEAR(frame.at("tip_displacement.percentile_90"), 9e-3, kTolerance);
     EXPECT_NEAR(frame.at("tip_displacement.maximum"), 10e-3, kTolerance);
+}
+
+// Hair that is moved by d is d from its groom everywhere. Of two guides that lean, vertex i of the
+// first is 3 i mm from the groom and that of the second 6 i mm: on average, without roots, 6
+// and 12.
+TEST_F(GuideProbes, GiveTheDistanceFromTheGroom) {
+    const groom::Groom groom = straightGroom(2, 4);
+    constexpr double kTolerance = 6e-8;  // m, roundings of positions up to 0.5 m
+    std::vector<glm::vec3> moved = groom.points;
+    for (glm::vec3& point : moved) point += glm::vec3(0.003f, 0.0f, -0.004f);
+    Frame frame = probedAt(groom, still(), moved, moved);
+    EXPECT_NEAR(frame.at("groom_distance.mean"), 5e-3, kTolerance);
+    EXPECT_NEAR(frame.at("groom_distance.maximum"), 5e-3, kTolerance);
+    std::vector<glm::vec3> leaning = groom.points;
+    for (std::size_t s = 0; s < 2; ++s)
+        for (std::size_t i = 0; i < 4; ++i)
+            leaning[4 * s + i].z += 3e-3f * static_cast<float>((s + 1) * i);
+    frame = probedAt(groom, still(), leaning, leaning);
+    EXPECT_NEAR(frame.at("groom_distance.mean"), 9e-3, kTolerance);
+    EXPECT_NEAR(frame.at("groom_distance.maximum"), 18e-3, kTolerance);
+    EXPECT_NEAR(frame.at("tip_displacement.maximum"), 18e-3, kTolerance);
 }
 
 TEST_F(GuideProbes, CountOnlyTheWantedGuides) {
@@ -195,6 +217,7 @@ TEST_F(GuideProbes, GiveTheEnergyOfARigidRotation) {
     EXPECT_NEAR(frame.at("kinetic_energy"), kinetic, kOfSpeeds * kinetic);
     EXPECT_NEAR(frame.at("speed"), rate * kLength, kOfSpeeds * rate * kLength);
     EXPECT_NEAR(frame.at("tip_displacement.maximum"), 0.0, 6e-8);
+    EXPECT_NEAR(frame.at("groom_distance.maximum"), 0.0, 6e-8);
     EXPECT_NEAR(frame.at("length_error.maximum"), 0.0, 2e-6);  // of 25 mm
     // Half of the step before and the turn so far: the centre of mass moves across the hair.
     const double turn = kPi / 2.0 * 19.5 * kProbedStep;

@@ -8,8 +8,8 @@ import shutil
 import signal
 import subprocess
 import sys
-import threading
 import tempfile
+import threading
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -305,8 +305,9 @@ class Simulation:
         frames: list[pandas.DataFrame] = []
         axes = dict.fromkeys(pointer for case in self.written["cases"] for pointer in case["axes"])
         for case in self.written["cases"]:
-            frame = wide[wide["case"] == case["name"]].melt(
-                ["case", "frame", "time"], var_name="probe")
+            # Columns without a number are of probes that other cases have.
+            own = wide[wide["case"] == case["name"]].dropna(axis="columns", how="all")
+            frame = own.melt(["case", "frame", "time"], var_name="probe")
             frame["unit"] = frame["probe"].map(self.written["probes"]["units"])
             for pointer, value in case["axes"].items():
                 frame[pointer] = pandas.Series([axis_value(value)] * len(frame))

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <bit>
+#include <cassert>
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
@@ -70,6 +71,8 @@ std::string murmurOf(std::string_view text) { return murmurOf(std::as_bytes(std:
 // ---- The archive --------------------------------------------------------------------------------
 
 constexpr std::uint64_t kOgawaData = std::uint64_t{1} << 63;
+constexpr std::size_t kKeySize = 16;  // bytes of a sample's hash
+constexpr std::uint64_t kOgawaHead = 16;  // bytes before the first group or data
 
 template <class Value>
 void append(std::string& bytes, const Value& value) {
@@ -80,6 +83,9 @@ void append(std::string& bytes, const Value& value) {
 // Groups and data, each with its place in the file. Borrowed data must live until it is written.
 class OgawaWriter {
 public:
+    // `position`: where the first of them begins in the file.
+    explicit OgawaWriter(std::uint64_t position = kOgawaHead) : position_(position) {}
+
     std::uint64_t data(std::string own, std::span<const std::byte> borrowed = {}) {
         const std::uint64_t size = own.size() + borrowed.size();
         if (size == 0) return kOgawaData;
@@ -104,16 +110,24 @@ public:
         return number;
     }
 
-    void write(std::ostream& out, std::uint64_t top, const std::string& about) {
+    // Adds the root, with samples at 0 s, and `frames` of them if there are any. Returns its place.
+    std::uint64_t
+    root(std::uint64_t top, const std::string& about, std::uint32_t frames, double frame_time) {
         std::string zero;
         append(zero, std::int32_t{0});
         std::string library;
         append(library, std::int32_t{10803});  // like archives of Alembic 1.8.3
-        std::string sampling;  // one, with a sample at 0 s
+        std::string sampling;
         append(sampling, std::uint32_t{1});
         append(sampling, 1.0);
         append(sampling, std::uint32_t{1});
         append(sampling, 0.0);
+        if (frames > 0) {
+            append(sampling, frames);
+            append(sampling, frame_time);
+            append(sampling, std::uint32_t{1});
+            append(sampling, 0.0);
+        }
         std::string all;
         for (const std::string& text : metadata_) {
             all += static_cast<char>(text.size());
@@ -121,9 +135,10 @@ public:
         }
         const std::array children{data(zero),  data(library),  top,
                                   data(about), data(sampling), data(all)};
-        const std::uint64_t root = group(children);
-        out.write("Ogawa\xff\0\1", 8);
-        writeValue(out, root);
+        return group(children);
+    }
+
+    void write(std::ostream& out) const {
         for (const Chunk& chunk : chunks_) {
             writeValue(out, chunk.head);
             out.write(chunk.own.data(), static_cast<std::streamsize>(chunk.own.size()));
@@ -148,11 +163,17 @@ private:
     }
 
     std::vector<Chunk> chunks_;
-    std::uint64_t position_ = 16;
+    std::uint64_t position_;
     std::vector<std::string> metadata_;
 };
 
-// Properties of one sample each, of an object or a property.
+// Begins a file with the place of its root.
+void writeHead(std::ostream& out, std::uint64_t root) {
+    out.write("Ogawa\xff\0\1", 8);
+    writeValue(out, root);
+}
+
+// Properties of an object or a property.
 class OgawaCompound {
 public:
     explicit OgawaCompound(OgawaWriter& writer) : writer_(&writer) {}
@@ -173,6 +194,29 @@ public:
         const std::array children{sample(elements), kOgawaData};  // dimensions follow from the size
         header(name, metadata, is_one ? 3 : 2, type, extent);
         children_.push_back(writer_->group(children));
+    }
+
+    // Adds a scalar or an array of a sample per frame, in the second time sampling. `places` are of
+    // the samples, each of an array followed by that of its dimensions; `keys` are their hashes.
+    void moving(
+        std::string_view name, std::string_view metadata, AlembicKind kind, AlembicType type,
+        std::uint8_t extent, std::uint32_t samples, std::span<const std::uint64_t> places,
+        std::string_view keys) {
+        constexpr std::uint32_t kWide = 2 << 2;  // numbers have 32 bits
+        constexpr std::uint32_t kHasSampling = 0x100;
+        constexpr std::uint32_t kOneSize = 0x400;
+        const std::uint32_t constant = samples == 1 ? 0x800 : 0;
+        append(
+            headers_, (kind == AlembicKind::scalar ? 1u : 2u) | kWide |
+                          static_cast<std::uint32_t>(type) << 4 | kHasSampling | kOneSize |
+                          constant | std::uint32_t{extent} << 12 |
+                          static_cast<std::uint32_t>(writer_->metadata(metadata)) << 20);
+        append(headers_, samples);
+        append(headers_, std::uint32_t{1});  // time sampling
+        append(headers_, static_cast<std::uint32_t>(name.size()));
+        headers_ += name;
+        keys_.append(keys).append(name);
+        children_.push_back(writer_->group(places));
     }
 
     // Adds a compound; `inner` must be complete.
@@ -281,7 +325,7 @@ struct AlembicArrays {
     std::vector<std::int32_t> sizes;
     std::vector<std::int16_t> guides;
     std::vector<std::int32_t> ids;
-    std::array<glm::dvec3, 2> bounds{};
+    AlembicBounds bounds{};
     std::array<std::uint8_t, 4> kind{1, 0, 0, 0};  // linear, with two ends, no basis
     std::int16_t major = 1;
     std::int16_t minor = 5;
@@ -290,6 +334,16 @@ struct AlembicArrays {
     double metres_per_unit = 1.0;
     std::string comment;  // with the NUL that ends it
 };
+
+AlembicBounds boundsOf(std::span<const glm::vec3> points) {
+    glm::vec3 low = points.front();
+    glm::vec3 high = low;
+    for (const glm::vec3& point : points) {
+        low = glm::min(low, point);
+        high = glm::max(high, point);
+    }
+    return {glm::dvec3(low), glm::dvec3(high)};
+}
 
 AlembicArrays arraysOf(const StrandSet& strands) {
     AlembicArrays arrays;
@@ -300,13 +354,7 @@ AlembicArrays arraysOf(const StrandSet& strands) {
         arrays.sizes.push_back(static_cast<std::int32_t>(strands.size(i)));
     }
     arrays.guides.assign(strands.guides.begin(), strands.guides.end());
-    glm::vec3 low = strands.points.front();
-    glm::vec3 high = low;
-    for (const glm::vec3& point : strands.points) {
-        low = glm::min(low, point);
-        high = glm::max(high, point);
-    }
-    arrays.bounds = {glm::dvec3(low), glm::dvec3(high)};
+    arrays.bounds = boundsOf(strands.points);
     arrays.metres_per_unit = strands.metres_per_unit.value_or(1.0);
     arrays.up = strands.up.value_or(1);
     arrays.ids.resize(strands.ends.size());
@@ -360,14 +408,44 @@ void writeOwn(OgawaCompound& own, const StrandSet& strands, const AlembicArrays&
             std::as_bytes(std::span(arrays.comment)));
 }
 
+constexpr std::string_view kBounds = ".selfBnds";
+constexpr std::string_view kBox = "interpretation=box";
+constexpr std::string_view kPoints = "P";
+constexpr std::string_view kVertexPoints = "geoScope=vtx;interpretation=point";
+
+// Adds the points of all frames, which begin the file one after another, and their bounds.
+void writeMotion(
+    OgawaWriter& writer, OgawaCompound& geometry, std::size_t points, const AlembicMotion& motion) {
+    const auto frames = static_cast<std::uint32_t>(motion.bounds.size());
+    std::vector<std::uint64_t> boxes;
+    std::vector<std::uint64_t> samples;
+    std::string box_keys;
+    for (std::uint32_t i = 0; i < frames; ++i) {
+        const std::span<const std::byte> box = bytesOfOne(motion.bounds[i]);
+        const std::string key = murmurOf(box);
+        box_keys += key;
+        boxes.push_back(writer.data(key, box));
+        const std::uint64_t size = sizeof(std::uint64_t) + kKeySize + points * sizeof(glm::vec3);
+        samples.push_back((kOgawaHead + i * size) | kOgawaData);
+        samples.push_back(kOgawaData);  // dimensions follow from the size
+    }
+    geometry.moving(
+        kBounds, kBox, AlembicKind::scalar, AlembicType::float64, 6, frames, boxes, box_keys);
+    geometry.moving(
+        kPoints, kVertexPoints, AlembicKind::array, AlembicType::float32, 3, frames, samples,
+        motion.keys);
+}
+
 OgawaObject writeCurves(
     OgawaWriter& writer, const StrandSet& strands, const AlembicArrays& arrays,
-    const ExportExtras& extras) {
+    const ExportExtras& extras, const AlembicMotion* motion) {
     OgawaCompound geometry(writer);
-    geometry.scalar(
-        ".selfBnds", "interpretation=box", AlembicType::float64, 6, bytesOfOne(arrays.bounds));
-    geometry.array(
-        "P", "geoScope=vtx;interpretation=point", AlembicType::float32, 3, bytesIn(strands.points));
+    if (motion) {
+        writeMotion(writer, geometry, strands.points.size(), *motion);
+    } else {
+        geometry.scalar(kBounds, kBox, AlembicType::float64, 6, bytesOfOne(arrays.bounds));
+        geometry.array(kPoints, kVertexPoints, AlembicType::float32, 3, bytesIn(strands.points));
+    }
     geometry.array("nVertices", "", AlembicType::int32, 1, bytesIn(arrays.sizes));
     geometry.scalar("curveBasisAndType", "", AlembicType::uint8, 4, bytesOfOne(arrays.kind));
     if (strands.widths.known())
@@ -411,6 +489,31 @@ writeTransform(OgawaWriter& writer, const AlembicArrays& arrays, const OgawaObje
         "schemaObjTitle=AbcGeom_Curve_v2:.geom");
 }
 
+// Returns the place of the root.
+std::uint64_t layOut(
+    OgawaWriter& writer, const StrandSet& strands, const AlembicArrays& arrays,
+    const ExportExtras& extras, const AlembicMotion* motion) {
+    const OgawaObject curves = writeCurves(writer, strands, arrays, extras, motion);
+    const OgawaObject transform = writeTransform(writer, arrays, curves);
+    OgawaCompound nothing(writer);
+    const OgawaObject top = writeObject(
+        writer, nothing, &transform, "hair",
+        "schema=AbcGeom_Xform_v3;schemaObjTitle=AbcGeom_Xform_v3:.xform");
+    const auto frames = motion ? static_cast<std::uint32_t>(motion->bounds.size()) : 0;
+    return writer.root(
+        top.group, "_ai_Application=hairbench", frames, motion ? motion->frame_time : 0.0);
+}
+
+std::vector<std::string> warningsOf(const StrandSet& strands) {
+    if (strands.ends.empty()) throw engine::Error("there are no strands");
+    std::vector<std::string> warnings = leftOut(
+        strands, {Part::widths, Part::colors, Part::root_uvs, Part::groups, Part::guides,
+                  Part::root_triangles, Part::unit, Part::comment});
+    if (strands.comment.find('\0') != std::string::npos)
+        warnings.emplace_back("the comment is written up to its first NUL");
+    return warnings;
+}
+
 }  // namespace
 
 std::vector<std::string> exportAlembic(const StrandSet& strands, std::ostream& out) {
@@ -419,22 +522,56 @@ std::vector<std::string> exportAlembic(const StrandSet& strands, std::ostream& o
 
 std::vector<std::string>
 exportAlembicWith(const StrandSet& strands, const ExportExtras& extras, std::ostream& out) {
-    if (strands.ends.empty()) throw engine::Error("there are no strands");
-    std::vector<std::string> warnings = leftOut(
-        strands, {Part::widths, Part::colors, Part::root_uvs, Part::groups, Part::guides,
-                  Part::root_triangles, Part::unit, Part::comment});
-    if (strands.comment.find('\0') != std::string::npos)
-        warnings.emplace_back("the comment is written up to its first NUL");
+    std::vector<std::string> warnings = warningsOf(strands);
     const AlembicArrays arrays = arraysOf(strands);
     OgawaWriter writer;
-    const OgawaObject curves = writeCurves(writer, strands, arrays, extras);
-    const OgawaObject transform = writeTransform(writer, arrays, curves);
-    OgawaCompound nothing(writer);
-    const OgawaObject top = writeObject(
-        writer, nothing, &transform, "hair",
-        "schema=AbcGeom_Xform_v3;schemaObjTitle=AbcGeom_Xform_v3:.xform");
-    writer.write(out, top.group, "_ai_Application=hairbench");
+    writeHead(out, layOut(writer, strands, arrays, extras, nullptr));
+    writer.write(out);
     return warnings;
+}
+
+// ---- Frame by frame -----------------------------------------------------------------------------
+
+// Sizes do not depend on numbers, so what follows the points is laid out for its place alone, then
+// again with the numbers.
+AlembicAnimation::AlembicAnimation(
+    std::ostream& out, const StrandSet& strands, const FrameTiming& timing)
+    : out_(&out), strands_(strands), timing_(timing), warnings_(warningsOf(strands)) {
+    if (!(timing.frame_time > 0.0))
+        throw engine::Error("/run/frame_time", "is 0, but samples of .abc need times that ascend");
+    motion_.frame_time = timing.frame_time;
+    AlembicMotion any = motion_;
+    any.bounds.resize(timing.frames);
+    any.keys.resize(timing.frames * kKeySize);
+    OgawaWriter writer(end());
+    root_ = layOut(writer, strands_, arraysOf(strands_), {}, &any);
+    writeHead(out, root_);
+}
+
+std::uint64_t AlembicAnimation::end() const {
+    return kOgawaHead + timing_.frames * (sizeof(std::uint64_t) + kKeySize +
+                                          strands_.points.size() * sizeof(glm::vec3));
+}
+
+void AlembicAnimation::frame(std::span<const glm::vec3> points) {
+    assert(points.size() == strands_.points.size() && motion_.bounds.size() < timing_.frames);
+    const auto bytes = std::as_bytes(points);
+    const std::string key = murmurOf(bytes);
+    writeValue(*out_, std::uint64_t{key.size() + bytes.size()});
+    out_->write(key.data(), static_cast<std::streamsize>(key.size()));
+    out_->write(
+        reinterpret_cast<const char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
+    motion_.keys += key;
+    motion_.bounds.push_back(boundsOf(points));
+}
+
+void AlembicAnimation::finish() {
+    assert(motion_.bounds.size() == timing_.frames);
+    const AlembicArrays arrays = arraysOf(strands_);
+    OgawaWriter writer(end());
+    [[maybe_unused]] const std::uint64_t root = layOut(writer, strands_, arrays, {}, &motion_);
+    assert(root == root_);
+    writer.write(*out_);
 }
 
 }  // namespace hair::groom

@@ -50,7 +50,7 @@ void attribute(
 }
 
 void stage(
-    UsdaText& text, const StrandSet& strands, const std::optional<UsdaTiming>& timing,
+    UsdaText& text, const StrandSet& strands, const std::optional<FrameTiming>& timing,
     std::vector<std::string>& warnings) {
     text.text("#usda 1.0\n(\n    defaultPrim = \"hair\"\n");
     if (!strands.comment.empty()) {
@@ -100,7 +100,7 @@ opacities(const PointAttribute<float>& transparencies, std::vector<std::string>&
 // warning for all data that is not written equal to the last bit. Throws engine::Error for more
 // points than USD counts.
 std::vector<std::string> beginUsdaCurves(
-    UsdaText& text, const StrandSet& strands, const std::optional<UsdaTiming>& timing,
+    UsdaText& text, const StrandSet& strands, const std::optional<FrameTiming>& timing,
     const ExportExtras& extras = {}) {
     if (strands.points.size() > std::numeric_limits<std::int32_t>::max())
         throw engine::Error("usda", "more points than an int can hold");
@@ -234,7 +234,7 @@ exportUsdaWith(const StrandSet& strands, const ExportExtras& extras, std::ostrea
     return warnings;
 }
 
-UsdaAnimation::UsdaAnimation(std::ostream& out, const StrandSet& strands, const UsdaTiming& timing)
+UsdaAnimation::UsdaAnimation(std::ostream& out, const StrandSet& strands, const FrameTiming& timing)
     : text_(out), point_count_(strands.points.size()), greatest_width_(greatestWidth(strands)),
       frames_(timing.frames), warnings_(beginUsdaCurves(text_, strands, timing)) {
     text_.text("    point3f[] points.timeSamples = {\n");
@@ -254,7 +254,7 @@ void UsdaAnimation::frame(std::span<const glm::vec3> points) {
     extents_.push_back(usdExtent(points, greatest_width_));
 }
 
-void UsdaAnimation::end() {
+void UsdaAnimation::finish() {
     assert(extents_.size() == frames_);
     text_.text("    }\n    float3[] extent.timeSamples = {\n");
     for (std::uint32_t i = 0; i < extents_.size(); ++i) {

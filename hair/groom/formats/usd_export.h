@@ -74,22 +74,17 @@ private:
     std::string buffer_;
 };
 
-// The times of an animation's frames: frame i is at time code i.
-struct UsdaTiming {
-    std::uint32_t frames = 1;
-    double frame_time = 1.0 / 60.0;  // s
-};
-
-// Writes moving strands as time-sampled BasisCurves, a frame at a time, without keeping them.
+// Writes moving strands as time-sampled BasisCurves, a frame at a time, without keeping them. Frame
+// i is at time code i.
 class UsdaAnimation {
 public:
     // Every frame has the data of `strands`, except for the points. Throws as exportUsda does.
-    UsdaAnimation(std::ostream& out, const StrandSet& strands, const UsdaTiming& timing);
+    UsdaAnimation(std::ostream& out, const StrandSet& strands, const FrameTiming& timing);
 
     // Writes the points of the next frame, as many as the strands have.
     void frame(std::span<const glm::vec3> points);
     // Ends the file, after the last frame.
-    void end();
+    void finish();
 
     const std::vector<std::string>& warnings() const { return warnings_; }
 

@@ -1,10 +1,14 @@
+#include <bit>
 #include <cstdio>
 #include <filesystem>
+#include <initializer_list>
+#include <sstream>
 
 #include <gmock/gmock.h>
 
 #include "hair/groom/formats/alembic_values.h"
 #include "hair/groom/formats/formats.h"
+#include "tests/error_text.h"
 #include "tests/groom/formats/alembic_files.h"
 #include "tests/groom/formats/broken_promise.h"
 #include "tests/groom/formats/strand_files.h"
@@ -813,6 +817,90 @@ TEST(AlembicExport, WritesIds) {
             ids = values.integersOf(*found);
     }
     EXPECT_THAT(ids, ElementsAre(0, 1, 2));
+}
+
+// Three frames of the same strands, each of them elsewhere.
+std::vector<std::vector<glm::vec3>> threeFrames(const StrandSet& strands) {
+    std::vector<std::vector<glm::vec3>> frames(3, strands.points);
+    for (glm::vec3& point : frames[1]) point += glm::vec3(0.25f, -1.0f, 3.0f);
+    frames[2].front() = {-7.0f, 1e-20f, 1e20f};
+    return frames;
+}
+
+std::string animationOf(
+    const StrandSet& strands, const std::vector<std::vector<glm::vec3>>& frames,
+    double frame_time) {
+    std::ostringstream file;
+    AlembicAnimation animation(
+        file, strands, {static_cast<std::uint32_t>(frames.size()), frame_time});
+    for (const std::vector<glm::vec3>& points : frames) animation.frame(points);
+    animation.finish();
+    return file.str();
+}
+
+TEST(AlembicAnimation, IsReadFrameByFrame) {
+    const StrandSet strands = hardStrands();
+    const auto frames = threeFrames(strands);
+    const std::string file = animationOf(strands, frames, 0.125);
+    const StrandSamples samples = importAlembicCache({std::as_bytes(std::span(file)), "a.abc"});
+    EXPECT_EQ(samples.ends, strands.ends);
+    EXPECT_THAT(samples.times, ElementsAre(0.0, 0.125, 0.25));
+    ASSERT_EQ(samples.points.size(), 3 * strands.points.size());
+    for (std::size_t i = 0; i < samples.points.size(); ++i)
+        EXPECT_EQ(samples.points[i], frames[i / strands.points.size()][i % strands.points.size()])
+            << i;
+    // A reader of hair that stands still gets the first frame with all else.
+    const StrandSet first = importAlembic({std::as_bytes(std::span(file)), "a.abc"});
+    EXPECT_EQ(first.points, strands.points);
+    EXPECT_EQ(first.widths.values, strands.widths.values);
+    EXPECT_EQ(first.ends, strands.ends);
+}
+
+TEST(AlembicAnimation, MayHaveOneFrame) {
+    const StrandSet strands = hardStrands();
+    const std::string file = animationOf(strands, {strands.points}, 0.125);
+    const StrandSet read = importAlembic({std::as_bytes(std::span(file)), "a.abc"});
+    EXPECT_EQ(read.points, strands.points);
+    EXPECT_EQ(
+        errorText([&] { animationOf(strands, {strands.points}, 0.0); }),
+        "/run/frame_time: is 0, but samples of .abc need times that ascend");
+}
+
+TEST(AlembicAnimation, IsReadByAlembicsLibrary) {
+    const std::string python = HAIRBENCH_SOURCE_DIR "/.deps/alembic/bin/python";
+    if (!std::filesystem::exists(python))
+        GTEST_SKIP() << "no Python environment for Alembic: run scripts/setup --alembic";
+    StrandSet strands = hardStrands();
+    strands.points = {{1, 2, 3}, {4, 5, 6}, {0, 0, 0}, {0, 0, 1}, {-1, 0, 0}};
+    strands.ends = {2, 5};
+    strands.widths = {};
+    strands.metres_per_unit = 1.0;
+    strands.comment = "moves";
+    const std::vector<std::vector<glm::vec3>> frames{
+        strands.points, {{1, 2, 3}, {4, 5, 6}, {0, 0, 0}, {0, 0, 2}, {-8, 0, 0}}};
+    const TemporaryFolder folder;
+    folder.write("a.abc", animationOf(strands, frames, 0.5));
+    const Outcome loaded = runInShell(
+        "'" + python + "' -B '" HAIRBENCH_SOURCE_DIR "/tests/groom/formats/load_alembic.py' '" +
+        folder.file("a.abc").string() + "' 2>&1");
+    ASSERT_EQ(loaded.status, 0) << loaded.output;
+    const auto words = [](std::initializer_list<int> numbers) {
+        std::string text;
+        for (const int number : numbers) {
+            char word[16];
+            std::snprintf(
+                word, sizeof word, " %08x",
+                std::bit_cast<std::uint32_t>(static_cast<float>(number)));
+            text += word;
+        }
+        return text + '\n';
+    };
+    EXPECT_THAT(
+        loaded.output, HasSubstr(
+                           "P" + words({1, 2, 3, 4, 5, 6, 0, 0, 0, 0, 0, 1, -1, 0, 0}) +
+                           "nVertices 2 3\nbounds" + words({-1, 0, 0, 4, 5, 6}) + "at 0.5\nP" +
+                           words({1, 2, 3, 4, 5, 6, 0, 0, 0, 0, 0, 2, -8, 0, 0}) +
+                           "nVertices 2 3\nbounds" + words({-8, 0, 0, 4, 5, 6})));
 }
 
 // Alembic's own library reads our archives exactly, to the last bit.

@@ -41,12 +41,17 @@ def visit(item):
         show_parameters(schema.getArbGeomParams())
     if AbcGeom.ICurves.matches(header):
         schema = AbcGeom.ICurves(item.getParent(), item.getName()).getSchema()
-        curves = schema.getValue()
-        print("curves", item.getFullName(), curves.getType(), curves.getWrap(), curves.getBasis())
-        show("P", curves.getPositions())
-        show("nVertices", curves.getCurvesNumVertices())
-        show("bounds", [*map(float, curves.getSelfBounds().min())] +
-             [*map(float, curves.getSelfBounds().max())])
+        for i in range(schema.getNumSamples()):
+            curves = schema.getValue(Abc.ISampleSelector(i))
+            if i == 0:
+                print("curves", item.getFullName(), curves.getType(), curves.getWrap(),
+                      curves.getBasis())
+            else:
+                print("at", schema.getTimeSampling().getSampleTime(i))
+            show("P", curves.getPositions())
+            show("nVertices", curves.getCurvesNumVertices())
+            show("bounds", [*map(float, curves.getSelfBounds().min())] +
+                 [*map(float, curves.getSelfBounds().max())])
         widths = schema.getWidthsParam()
         if widths:
             show(f"width {widths.getScope()}", widths.getExpandedValue().getVals())

@@ -184,7 +184,7 @@ TEST_F(UsdExportTest, WritesFramesAsTimeSamples) {
             for (std::uint32_t k = 0; k < 4; ++k) points.emplace_back(0.1f * i, k / 3.0f, i * k);
             animation.frame(points);
         }
-        animation.end();
+        animation.finish();
         EXPECT_THAT(animation.warnings(), ElementsAre());
     }
     const std::string text = dump(path);
