@@ -109,9 +109,8 @@ TEST_F(GuideProbes, GiveTheDisplacementOfTips) {
     EXPECT_NEAR(frame.at("tip_displacement.maximum"), 10e-3, kTolerance);
 }
 
-// Hair that is moved by d is d from its groom everywhere. Of two guides that lean, vertex i of the
-// first is 3 i mm from the groom and that of the second 6 i mm: on average, without roots, 6
-// and 12.
+// Hair that is moved by d is d from its groom everywhere. Two guides lean: vertex i of the first is
+// 3 i mm from the groom, and that of the second 6 i mm. Without roots the means are 6 and 12 mm.
 TEST_F(GuideProbes, GiveTheDistanceFromTheGroom) {
     const groom::Groom groom = straightGroom(2, 4);
     constexpr double kTolerance = 6e-8;  // m, roundings of positions up to 0.5 m
