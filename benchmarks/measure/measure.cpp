@@ -243,14 +243,18 @@ std::vector<std::uint8_t> measureFrames(
     return std::move(overlapped.end.picture);
 }
 
+std::vector<std::string> probeNames(const hair::Settings& settings) {
+    std::vector<std::string> names =
+        hair::simulation::Probes::names(settings.run.probes, settings.simulation.solver);
+    for (std::string& name : names) name.insert(0, "probe.");
+    return names;
+}
+
 ProbeRecorder::ProbeRecorder(const engine::Device& device, Case& test_case, std::uint32_t frames)
     : case_(test_case), probes_(
                             device, test_case.groom(), test_case.settings().simulation,
                             test_case.settings().run.probes, frames + 1) {
-    const hair::Settings& settings = test_case.settings();
-    for (const std::string& name :
-         hair::simulation::Probes::names(settings.run.probes, settings.simulation.solver))
-        played_.names.push_back("probe." + name);
+    played_.names = probeNames(test_case.settings());
 }
 
 void ProbeRecorder::record(engine::Passes& passes) { case_.probe(passes, probes_); }

@@ -51,6 +51,9 @@ struct PlayedProbes {
     std::vector<double> pass_times;  // [frame], ms; empty without timestamps
 };
 
+// Returns the names of the metrics that /run/probes asks for: "probe.speed".
+std::vector<std::string> probeNames(const hair::Settings& settings);
+
 // Records the probes of /run/probes, which must ask for some, of frames that somebody plays.
 class ProbeRecorder {
 public:

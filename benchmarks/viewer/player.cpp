@@ -300,9 +300,7 @@ void Player::seek(std::uint32_t frame, const std::function<bool()>& stop) {
     }
     probed_ = {};
     if (probes_) {
-        for (const std::string& name :
-             hair::simulation::Probes::names(settings_.run.probes, settings_.simulation.solver))
-            probed_.names.push_back("probe." + name);
+        probed_.names = measure::probeNames(settings_);
         probed_.values.resize(probed_.names.size());
     }
     probe();  // the start

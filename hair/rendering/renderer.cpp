@@ -379,10 +379,11 @@ std::array<float, 3> Renderer::background() const {
     return {color.r, color.g, color.b};
 }
 
-void Renderer::recordPoints(engine::Passes& passes, const StrandPicture& picture) const {
+void Renderer::recordPoints(
+    engine::Passes& passes, const StrandPicture& picture, Bounds bounds) const {
     if (!points_) return;
     passes.pass("points", engine::PassKind::compute, [&](engine::Commands& commands) {
-        points_->clear(commands);
+        if (bounds == Bounds::old) points_->clear(commands);
         points_->record(commands, picture.address, picture.parameters);
     });
 }
@@ -421,8 +422,7 @@ void Renderer::recordApart(
     // The scene and the points wait for the simulation alone: one barrier in front of the scene is
     // enough for both if the points' bounds are cleared before it. A GPU can then work on both at
     // once.
-    const bool evaluates_late = points == Points::needed && points_;
-    const bool clears_early = evaluates_late && passes.joins();
+    const bool clears_early = points == Points::needed && points_ && passes.joins();
     if (clears_early)
         passes.pass("points", engine::PassKind::compute, [&](engine::Commands& commands) {
             points_->clear(commands);
@@ -432,11 +432,8 @@ void Renderer::recordApart(
         drawScene(commands, picture);
         target_.endRendering(commands, after_scene);
     });
-    if (evaluates_late)
-        passes.pass("points", engine::PassKind::compute, [&](engine::Commands& commands) {
-            if (!clears_early) points_->clear(commands);
-            points_->record(commands, picture.address, picture.parameters);
-        });
+    if (points == Points::needed)
+        recordPoints(passes, picture, clears_early ? Bounds::cleared : Bounds::old);
     if (settings_.render.hair) strands_.record(passes, target_, picture, after_strands);
     if (!overlay_.empty()) {
         const Last last = resolves ? Last::no : Last::yes;

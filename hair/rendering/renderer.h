@@ -121,7 +121,9 @@ public:
 private:
     std::array<float, 3> background() const;
     enum class Points { recorded, needed };  // in this frame
-    void recordPoints(engine::Passes& passes, const StrandPicture& picture) const;
+    enum class Bounds { cleared, old };  // of the points
+    void recordPoints(
+        engine::Passes& passes, const StrandPicture& picture, Bounds bounds = Bounds::old) const;
     void drawScene(engine::Commands& commands, const StrandPicture& picture) const;
     void recordJoined(
         engine::Passes& passes, const StrandView& view, const StrandPicture& picture) const;
