@@ -298,7 +298,8 @@ const Table& tableOf(const ProbeSettings*) {
              "distance of tips from where the head would carry them rigidly"),
          toggle(
              "groom_distance", &S::groom_distance,
-             "distance of all vertices from where the head would carry them rigidly"),
+             "distance of all vertices from where the head would carry them rigidly from the groom "
+             "or from `reference`"),
          toggle("length_error", &S::length_error, "strain of segments, without its sign"),
          toggle(
              "energy", &S::energy,
@@ -310,6 +311,10 @@ const Table& tableOf(const ProbeSettings*) {
          toggle("bending", &S::bending, "angle between successive segments"),
          toggle("torsion", &S::torsion, "angle between successive planes of two segments"),
          toggle("momentum", &S::momentum, "momentum along x, y and z"),
+         fileName(
+             "reference", &S::reference,
+             "strands to which groom_distance measures instead of to the groom, one for each guide "
+             "with as many points, relative to the scene file; empty: the groom"),
          number("first_guide", &S::first_guide, 0, 4294967295.0, "1", "first guide that counts"),
          number(
              "guides", &S::guides, 0, 4294967295.0, "count",

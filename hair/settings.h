@@ -186,6 +186,7 @@ struct ProbeSettings {
     bool bending = false;
     bool torsion = false;
     bool momentum = false;
+    std::string reference;
     std::uint32_t first_guide = 0;
     std::uint32_t guides = 0;
 };

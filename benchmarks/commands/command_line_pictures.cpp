@@ -23,6 +23,9 @@ void addSweepOptions(CLI::App& command, SweepOptions& options) {
             "--shard", options.shard,
             "with {case}: play one part of the cases: 2/8 is the second of 8")
         ->type_name("I/N");
+    command.add_flag(
+        "--resume", options.resume,
+        "with {case}: play only the cases that an interrupted or killed sweep left");
     command.add_flag("--json", options.json, "print what was written as JSON");
 }
 
@@ -113,7 +116,8 @@ void addPictureCommands(const CommandLine& line) {
             command
                 .add_option(
                     "--export", options.recording.out,
-                    "file to write; .usda, .abc, .npy (NumPy's, float32 [frame, strand, point, 3], "
+                    "file to write; .usda, .usdc, .abc, .npy (NumPy's, float32 [frame, strand, "
+                    "point, 3], "
                     "m) and .npz (positions, times, metadata) hold every frame, other formats (see "
                     "'groom convert') the last; with {case} in its name, all cases of the sweep "
                     "are played, each into its file")

@@ -87,6 +87,7 @@ struct SweepOptions {
     scene::SceneOptions scene;
     std::string filter;
     std::string shard;  // "2/8": the second of eight parts; empty: all
+    bool resume = false;  // play only the cases that an interrupted sweep left
     bool json = false;  // print what was written as JSON
 };
 

@@ -27,6 +27,7 @@
 #include "benchmarks/report/metric.h"
 #include "benchmarks/report/text.h"
 #include "benchmarks/run/plan.h"
+#include "benchmarks/run/record.h"
 #include "benchmarks/scene/pattern.h"
 #include "engine/error.h"
 #include "engine/files.h"
@@ -43,15 +44,18 @@ namespace {
 
 // ---- Cases of a sweep, each with its file -------------------------------------------------------
 
+engine::Error needsCasePlace(const std::string& option) {
+    return {option, "needs {case} in the name of the file, which stands for that of each case"};
+}
+
 // Returns all cases of the sweep that the options leave if `sweeps`, otherwise the scene itself.
 // Empty if --filter matches none.
 std::vector<run::PlannedCase>
 casesToPlay(const SweepOptions& options, bool sweeps, scene::AssetStore& assets) {
     if (sweeps) return run::planRun(options.scene, options.filter, options.shard, &assets).cases;
     if (!options.filter.empty() || !options.shard.empty())
-        throw engine::Error(
-            options.filter.empty() ? "--shard" : "--filter",
-            "needs {case} in the name of the file, which stands for that of each case");
+        throw needsCasePlace(options.filter.empty() ? "--shard" : "--filter");
+    if (options.resume) throw needsCasePlace("--resume");
     scene::Scene scene = scene::loadScene(options.scene.scene, options.scene.outside);
     run::PlannedCase only{
         .spec = scene::singleCase(scene, options.scene, &assets), .directory = scene.directory};
@@ -70,6 +74,38 @@ std::vector<std::filesystem::path> filesOf(
             throw engine::Error(files.back().string(), "is the file of two cases");
     }
     return files;
+}
+
+// Returns the record of a sweep's finished cases, beside its files. `identity` has the options of
+// the command that its files depend on. A scene alone needs none.
+std::optional<run::SweepRecord> recordOf(
+    const SweepOptions& options, bool sweeps, const std::filesystem::path& pattern,
+    const engine::Device& device, scene::Json identity) {
+    if (!sweeps) return std::nullopt;
+    identity["device"] = device.info().name;
+    identity["driver"] = device.info().driver_version;
+    const std::string scene = options.scene.scene.stem().string();
+    return std::make_optional<run::SweepRecord>(
+        run::journalFile(scene::caseFile(pattern, "", scene)), std::move(identity), options.resume);
+}
+
+// Returns what an earlier sweep kept of each case, if its files are there; null: it is to be
+// played. Says how many there are.
+std::vector<scene::Json> keptCases(
+    const std::optional<run::SweepRecord>& record, const std::vector<run::PlannedCase>& cases,
+    const std::function<bool(std::size_t, const scene::Json&)>& has_files) {
+    std::vector<scene::Json> kept(cases.size());
+    std::size_t count = 0;
+    for (std::size_t i = 0; record && i < cases.size(); ++i) {
+        scene::Json known = record->finished(cases[i].spec);
+        if (known.is_null() || !has_files(i, known)) continue;
+        kept[i] = std::move(known);
+        ++count;
+    }
+    if (count > 0)
+        std::cerr << count << " of " << cases.size() << " cases are there already, "
+                  << cases.size() - count << " are played\n";
+    return kept;
 }
 
 int sayNothingMatches(const SweepOptions& options) {
@@ -225,22 +261,42 @@ int renderScene(const RenderOptions& options) {
     }
 
     const engine::Device device(wanted.device);
-    measure::Progress progress(cases.size() * files.front().range.end);
+    std::optional<run::SweepRecord> record = recordOf(
+        options.sweep, scene::hasCasePlace(options.out), options.out, device,
+        {{"command", "render"},
+         {"file", options.out.string()},
+         {"frame", options.frame},
+         {"frames", options.frames},
+         {"linear", options.linear}});
+    std::vector<scene::Json> kept =
+        keptCases(record, cases, [](std::size_t, const scene::Json& entry) {
+            return std::ranges::all_of(entry.at("pictures"), [](const scene::Json& each) {
+                return std::filesystem::exists(each.at("file").get<std::string>());
+            });
+        });
+    const auto to_play = static_cast<std::size_t>(std::ranges::count(kept, scene::Json()));
+    measure::Progress progress(to_play * files.front().range.end);
     scene::Json document = {
         {"schema", "hairbench-pictures/1.0.0"}, {"scene", wanted.scene.string()}};
     scene::Json written = scene::Json::array();
     bool interrupted = false;
     const auto say_interrupted = [&] {
         std::size_t pictures = 0;
-        for (const scene::Json& each : written) pictures += each.at("pictures").size();
+        for (const scene::Json& each : written)
+            if (!each.is_null()) pictures += each.at("pictures").size();
         std::cerr << "interrupted: " << pictures << " of "
-                  << cases.size() * files.front().range.count() << " pictures are written\n";
+                  << cases.size() * files.front().range.count() << " pictures are written"
+                  << (record ? "; --resume continues\n" : "\n");
     };
     const engine::InterruptMessage last_words(say_interrupted);
     try {
-        for (std::size_t i = 0; i < cases.size(); ++i)
-            renderCase(
-                device, cases[i], files[i], options, cache, progress, written.emplace_back());
+        for (std::size_t i = 0; i < cases.size(); ++i) {
+            scene::Json& entry = written.emplace_back(std::move(kept[i]));
+            if (!entry.is_null()) continue;
+            renderCase(device, cases[i], files[i], options, cache, progress, entry);
+            if (record) record->add(cases[i].spec, entry);
+        }
+        if (record) record->complete();
     } catch (const engine::Interrupted&) {
         progress.clear();
         say_interrupted();
@@ -388,6 +444,11 @@ struct ProbeTable {
     std::vector<std::string> cases;
     std::vector<measure::PlayedProbes> played;
 
+    void add(const std::string& name, measure::PlayedProbes probes) {
+        cases.push_back(name);
+        played.push_back(std::move(probes));
+    }
+
     // The probes of any case, each once.
     std::vector<std::string> names() const {
         std::vector<std::string> names;
@@ -432,11 +493,31 @@ void checkProbes(const std::vector<run::PlannedCase>& cases) {
             throw engine::Error("--probes", each.spec.name + " asks for none: see /run/probes");
 }
 
+// A value that is not finite is null.
+scene::Json toJson(const measure::PlayedProbes& probes) {
+    return {{"names", probes.names}, {"times", probes.times}, {"values", probes.values}};
+}
+
+measure::PlayedProbes probesOf(const scene::Json& json) {
+    measure::PlayedProbes probes{
+        .names = json.at("names").get<std::vector<std::string>>(),
+        .times = json.at("times").get<std::vector<double>>(),
+        .values = {},
+        .pass_times = {}};
+    for (const scene::Json& row : json.at("values")) {
+        std::vector<double>& values = probes.values.emplace_back();
+        for (const scene::Json& value : row)
+            values.push_back(
+                value.is_null() ? std::numeric_limits<double>::quiet_NaN() : value.get<double>());
+    }
+    return probes;
+}
+
 // Plays a case once and writes its strands.
 void simulateCase(
     const engine::Device& device, const run::PlannedCase& planned, const SimulateOptions& options,
-    const std::filesystem::path& file, measure::HairCache& cache, ProbeTable& probes,
-    scene::Json& written) {
+    const std::filesystem::path& file, measure::HairCache& cache,
+    std::optional<run::SweepRecord>& record, ProbeTable& probes, scene::Json& written) {
     groom::RecordingOptions recording = options.recording;
     recording.out = file;
     recording.probes = !options.probes.empty();
@@ -446,14 +527,27 @@ void simulateCase(
     for (const std::string& message : device.messages().take()) std::cerr << message << '\n';
     for (const std::string& warning : recorded.warnings)
         std::cerr << engine::shownText(warning) << '\n';
-    if (recorded.probes) {
-        probes.cases.push_back(planned.spec.name);
-        probes.played.push_back(std::move(*recorded.probes));
+    scene::Json entry = toJson(planned.spec);
+    if (!file.empty()) {
+        entry.update(describeFile(recorded, recording));
+        if (!options.sweep.json) printFile(entry);
     }
-    scene::Json& entry = written.emplace_back(toJson(planned.spec));
-    if (file.empty()) return;
-    entry.update(describeFile(recorded, recording));
-    if (!options.sweep.json) printFile(entry);
+    if (record) {
+        scene::Json line = {{"entry", entry}};
+        if (recorded.probes) line["probes"] = toJson(*recorded.probes);
+        record->add(planned.spec, line);
+    }
+    if (recorded.probes) probes.add(planned.spec.name, std::move(*recorded.probes));
+    written.push_back(std::move(entry));
+}
+
+// Takes what an earlier sweep kept of a case.
+void takeKept(
+    const scene::Json& kept, const scene::CaseSpec& spec, ProbeTable& probes,
+    scene::Json& written) {
+    if (const auto played = kept.find("probes"); played != kept.end())
+        probes.add(spec.name, probesOf(*played));
+    written.push_back(kept.at("entry"));
 }
 
 // Writes the table, and adds it to `document`.
@@ -485,8 +579,8 @@ int simulateScene(const SimulateOptions& options) {
     measure::HairCache cache = measure::userHairCache(wanted.cache);
     // Throws early for an unknown format.
     if (!out.empty() && !groom::isArray(out)) hair::groom::strandExporterOf(out);
-    const std::vector<run::PlannedCase> cases =
-        casesToPlay(options.sweep, out.empty() || scene::hasCasePlace(out), cache.assets());
+    const bool sweeps = out.empty() || scene::hasCasePlace(out);
+    const std::vector<run::PlannedCase> cases = casesToPlay(options.sweep, sweeps, cache.assets());
     if (cases.empty()) return sayNothingMatches(options.sweep);
     std::vector<std::filesystem::path> files(cases.size());
     if (!out.empty()) files = filesOf(cases, out, wanted.scene);
@@ -498,6 +592,17 @@ int simulateScene(const SimulateOptions& options) {
     }
 
     const engine::Device device(wanted.device);
+    std::optional<run::SweepRecord> record = recordOf(
+        options.sweep, sweeps, out.empty() ? options.probes : out, device,
+        {{"command", "simulate"},
+         {"file", out.string()},
+         {"frames", options.recording.frames},
+         {"guides", options.recording.guides},
+         {"probes", !options.probes.empty()}});
+    const std::vector<scene::Json> kept =
+        keptCases(record, cases, [&](std::size_t i, const scene::Json&) {
+            return files[i].empty() || std::filesystem::exists(files[i]);
+        });
     scene::Json document = {
         {"schema", "hairbench-simulation/1.0.0"}, {"scene", wanted.scene.string()}};
     scene::Json written = scene::Json::array();
@@ -505,12 +610,16 @@ int simulateScene(const SimulateOptions& options) {
     bool interrupted = false;
     try {
         for (std::size_t i = 0; i < cases.size(); ++i)
-            simulateCase(device, cases[i], options, files[i], cache, probes, written);
+            if (kept[i].is_null())
+                simulateCase(device, cases[i], options, files[i], cache, record, probes, written);
+            else
+                takeKept(kept[i], cases[i].spec, probes, written);
+        if (record) record->complete();
     } catch (const engine::Interrupted&) {
         interrupted = true;
-        std::cerr
-            << (written.empty() ? "interrupted: nothing is written\n"
-                                : "interrupted: only finished cases are written\n");
+        std::cerr << "interrupted: "
+                  << (written.empty() ? "nothing is written" : "only finished cases are written")
+                  << (record && !written.empty() ? "; --resume continues\n" : "\n");
     }
     document["interrupted"] = interrupted;
     document["cases"] = std::move(written);

@@ -196,7 +196,7 @@ bool isArray(const std::filesystem::path& file) {
 
 bool holdsFrames(const std::filesystem::path& file) {
     const std::string extension = hair::groom::lowerCaseExtension(file);
-    return extension == ".usda" || extension == ".abc" || isArray(file);
+    return extension == ".usda" || extension == ".usdc" || extension == ".abc" || isArray(file);
 }
 
 Recorded recordStrands(
@@ -207,6 +207,7 @@ Recorded recordStrands(
     Recorded recorded = options.out.empty()    ? recording.onlyProbes()
                         : isArray(options.out) ? recording.array()
                         : extension == ".usda" ? recording.everyFrame<hair::groom::UsdaAnimation>()
+                        : extension == ".usdc" ? recording.everyFrame<hair::groom::UsdcAnimation>()
                         : extension == ".abc"
                             ? recording.everyFrame<hair::groom::AlembicAnimation>()
                             : recording.lastFrame();

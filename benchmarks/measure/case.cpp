@@ -66,6 +66,10 @@ Case::Case(
     if (settings_.run.interpolate && simulation_.moves()) simulation_.interpolate();
 }
 
+std::optional<hair::groom::StrandSet> Case::probeReference() const {
+    return scene::loadProbeReference(settings_, groom_, directory_);
+}
+
 hair::rendering::GroomBuffers Case::groomBuffers(const hair::Settings& settings) const {
     return {
         device_, groom_, settings, pointerTo(scene::loadOffsets(settings, directory_)),

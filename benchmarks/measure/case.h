@@ -91,6 +91,8 @@ public:
     // The guides as drawn: with /run/interpolate between the last two steps, otherwise guides().
     std::vector<glm::vec3> drawnGuides() const;
     const hair::groom::Groom& groom() const { return groom_; }
+    // Loads /run/probes/reference; nothing if it is empty. Throws engine::Error.
+    std::optional<hair::groom::StrandSet> probeReference() const;
     // Oddities of the input that do not prevent playing.
     std::vector<std::string> warnings() const { return simulation_.bodyWarnings(); }
     // Pose of the head in the last frame. If an animation deforms the head, it is the average pose

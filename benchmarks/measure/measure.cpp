@@ -250,10 +250,24 @@ std::vector<std::string> probeNames(const hair::Settings& settings) {
     return names;
 }
 
+namespace {
+
+hair::simulation::Probes
+probesOf(const engine::Device& device, const Case& test_case, std::uint32_t frames) {
+    const std::optional<hair::groom::StrandSet> reference = test_case.probeReference();
+    return {
+        device,
+        test_case.groom(),
+        test_case.settings().simulation,
+        test_case.settings().run.probes,
+        frames,
+        reference ? &*reference : nullptr};
+}
+
+}  // namespace
+
 ProbeRecorder::ProbeRecorder(const engine::Device& device, Case& test_case, std::uint32_t frames)
-    : case_(test_case), probes_(
-                            device, test_case.groom(), test_case.settings().simulation,
-                            test_case.settings().run.probes, frames + 1) {
+    : case_(test_case), probes_(probesOf(device, test_case, frames + 1)) {
     played_.names = probeNames(test_case.settings());
 }
 

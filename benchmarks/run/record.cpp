@@ -429,4 +429,59 @@ measuredInComplete(const RunPlan& plan, const report::ReportHeader& header, cons
     return measured;
 }
 
+// ---- Sweeps whose results are files -------------------------------------------------------------
+
+namespace {
+
+constexpr const char* kSweepSchema = "hairbench-sweep-journal/1.0.0";
+
+std::string settingsHash(const scene::CaseSpec& spec) {
+    return report::hashText(documentOf(spec).text());
+}
+
+}  // namespace
+
+SweepRecord::SweepRecord(fs::path journal, scene::Json identity, bool resume)
+    : journal_(std::make_unique<Journal>(journal)),
+      finished_(std::make_unique<scene::Json>(scene::Json::object())) {
+    identity["schema"] = kSweepSchema;
+    identity["version"] = report::versionText();
+    scene::Json head;
+    if (resume)
+        journal_->read([&](scene::Json line, const Journal::Place&) {
+            if (head.is_null()) {
+                head = std::move(line);
+            } else if (line.contains("name")) {
+                const auto name = line["name"].get<std::string>();
+                (*finished_)[name] = std::move(line);
+            }
+        });
+    if (head.is_null()) {
+        journal_->clear();
+        journal_->append(identity);
+        return;
+    }
+    for (const auto& [member, value] : identity.items()) {
+        const scene::Json other = head.value(member, scene::Json());
+        if (other != value)
+            throw engine::Error(
+                journal.string(), "can't be resumed: its " + member + " is " + other.dump() +
+                                      ", not " + value.dump());
+    }
+}
+
+SweepRecord::~SweepRecord() = default;
+
+scene::Json SweepRecord::finished(const scene::CaseSpec& spec) const {
+    const auto found = finished_->find(spec.name);
+    if (found == finished_->end() || found->at("settings") != settingsHash(spec)) return nullptr;
+    return found->at("written");
+}
+
+void SweepRecord::add(const scene::CaseSpec& spec, const scene::Json& written) {
+    journal_->append({{"name", spec.name}, {"settings", settingsHash(spec)}, {"written", written}});
+}
+
+void SweepRecord::complete() { journal_->remove(); }
+
 }  // namespace benchmarks::run

@@ -150,6 +150,32 @@ private:
 
 std::filesystem::path journalFile(const std::filesystem::path& report);
 
+// The finished cases of a sweep whose results are files of their own. They are in a journal until
+// all are finished, so that a sweep that was interrupted or killed can continue.
+class SweepRecord {
+public:
+    // `identity` tells sweeps apart that write other files of equal cases. With `resume`, takes the
+    // cases of an existing journal; without it, forgets them. Throws engine::Error "<journal>:
+    // <reason>" if `resume` is set and the journal belongs to another sweep, and like Journal.
+    SweepRecord(std::filesystem::path journal, scene::Json identity, bool resume);
+    ~SweepRecord();
+    SweepRecord(const SweepRecord&) = delete;
+    SweepRecord& operator=(const SweepRecord&) = delete;
+
+    // Returns what add() got for a case with this name and these settings; null: none is finished.
+    scene::Json finished(const scene::CaseSpec& spec) const;
+
+    // Throws WriteFailed like Journal.
+    void add(const scene::CaseSpec& spec, const scene::Json& written);
+
+    // Ends the sweep: removes the journal.
+    void complete();
+
+private:
+    std::unique_ptr<Journal> journal_;
+    std::unique_ptr<scene::Json> finished_;  // name -> {settings, written}
+};
+
 // Returns how many cases of the report at `out` were measured. Returns nothing unless it is
 // complete, of the same plan, build and device, and without a journal of a run in progress.
 std::optional<std::size_t> measuredInComplete(

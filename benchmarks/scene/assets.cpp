@@ -242,6 +242,30 @@ std::optional<hair::groom::StrandSet> loadOffsets(
     return hair::groom::importStrands(file, 0, checkOf(reach, file));
 }
 
+std::optional<hair::groom::StrandSet> loadProbeReference(
+    const hair::Settings& settings, const hair::groom::Groom& groom,
+    const std::filesystem::path& directory, const Reach& reach) {
+    const std::string& name = settings.run.probes.reference;
+    if (name.empty()) return std::nullopt;
+    const std::filesystem::path file = directory / name;
+    hair::groom::StrandSet strands = hair::groom::importStrands(file, 0, checkOf(reach, file));
+    const auto refuse = [&](const std::string& what) {
+        throw engine::Error("/run/probes/reference", name + " has " + what);
+    };
+    if (strands.strandCount() != groom.strand_count)
+        refuse(
+            std::to_string(strands.strandCount()) + " strands, and there are " +
+            std::to_string(groom.strand_count) + " guides");
+    for (std::uint32_t i = 0; i < strands.strandCount(); ++i)
+        if (strands.strand(i).size() != groom.strand(i).size())
+            refuse(
+                std::to_string(strands.strand(i).size()) + " points in strand " +
+                std::to_string(i) + ", and a guide has " + std::to_string(groom.strand(i).size()));
+    const auto scale = static_cast<float>(strands.metres_per_unit.value_or(1.0));
+    for (glm::vec3& point : strands.points) point *= scale;
+    return strands;
+}
+
 hair::rendering::RenderAssets loadRenderAssets(
     const hair::Settings& settings, const hair::groom::Mesh* head,
     const std::filesystem::path& directory, const Reach& reach) {
@@ -330,6 +354,7 @@ std::vector<std::string> checkAssets(
             hair::rendering::makeStrandOffsets(
                 settings.strands, groom, offsets ? &*offsets : nullptr, settings.seed);
         checkExtensions(settings);
+        loadProbeReference(settings, groom, directory, reach);
     } catch (const engine::Error& error) {
         throw engine::Error(scene.string(), error.what());
     }

@@ -306,6 +306,17 @@ void setField(Scene& scene, const std::string& argument) {
     }
 }
 
+// Throws if an axis gives the field of "POINTER=VALUE" another value in every case.
+void requireEffect(const Scene& scene, const std::string& argument, std::span<const Axis> axes) {
+    const std::string pointer = argument.substr(0, argument.find('='));
+    for (const Axis& axis : axes)
+        if (std::ranges::count(fields(axis), pointer))
+            throw engine::Error(
+                scene.path.string(), "--set " + argument +
+                                         ": the sweep varies this field; --axis " + argument +
+                                         " replaces its values");
+}
+
 // Returns the number as a scene file would have it: 0.02, although settings are floats.
 Json decimal(double number) {
     if (!std::isfinite(number)) throw engine::Error("expected a finite number");
@@ -325,6 +336,8 @@ std::vector<CaseSpec> selectCases(
     for (const std::string& set : options.sets) setField(scene, set);
     std::vector<Axis> overrides;
     for (const std::string& axis : options.axes) overrides.push_back(parseAxis(axis));
+    const std::vector<Axis> axes = withOverrides(scene, overrides);
+    for (const std::string& set : options.sets) requireEffect(scene, set, axes);
     std::vector<CaseSpec> cases = expand(scene, overrides);
 
     if (!options.reads_assets) return cases;
@@ -336,7 +349,7 @@ std::vector<CaseSpec> selectCases(
              {groom.file, groom.mesh, groom.grow.mesh, groom.grow.scalp, groom.grow.mask,
               groom.grow.length_map, groom.cache.file, each.settings.strands.offsets,
               each.settings.strands.texture, each.settings.render.environment,
-              each.settings.run.reference})
+              each.settings.run.reference, each.settings.run.probes.reference})
             files += file + '\n';
         for (const auto& mesh : each.settings.render.meshes) files += '\n' + mesh.file;
         for (const auto& field : each.settings.simulation.distance_fields)

@@ -50,7 +50,7 @@ struct SceneOptions {
     std::optional<std::uint32_t> warmup;
     std::optional<double> precision;  // share
     std::optional<double> max_time;  // s
-    std::vector<std::string> sets;  // "POINTER=VALUE": fields of every case
+    std::vector<std::string> sets;  // "POINTER=VALUE": fields of every case, none of them an axis
     engine::DeviceOptions device;
     bool reads_assets = true;  // check every file before anything is made from them
     bool cache = true;  // cache slow results on disk
@@ -60,7 +60,8 @@ struct SceneOptions {
 
 // Returns the scene's cases, changed by the command line. Reads every asset of the cases once if
 // options.reads_assets is set, and keeps meshes and grooms in `assets`. Adds warnings about odd
-// assets (checkAssets()) to `warnings`, each once. Both may be null.
+// assets (checkAssets()) to `warnings`, each once. Both may be null. Throws engine::Error like
+// expand(), and for a field that is set and swept, because setting it would have no effect.
 std::vector<CaseSpec> selectCases(
     Scene& scene, const SceneOptions& options, AssetStore* assets = nullptr,
     std::vector<std::string>* warnings = nullptr);

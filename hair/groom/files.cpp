@@ -28,6 +28,7 @@ constexpr StrandExporter kExporters[] = {
     {".gltf", exportGltf},
     {".glb", exportGlb},
     {".usda", exportUsda, exportUsdaWith},
+    {".usdc", exportUsdc, exportUsdcWith},
     {".data", exportHairData},
     {".npy", exportNpy},
     {".npz", exportNpz},
@@ -323,8 +324,8 @@ constexpr FormatFact kCurvesFacts[] = {
 constexpr std::array kGltfs{".gltf"sv, ".glb"sv};
 constexpr std::array kMitsubaBinary{".mitshair"sv};
 constexpr std::array kMitsubaText{".txt"sv};
-constexpr std::array kUsda{".usda"sv};
-constexpr std::array kOtherUsd{".usd"sv, ".usdc"sv, ".usdz"sv};
+constexpr std::array kWrittenUsd{".usda"sv, ".usdc"sv};
+constexpr std::array kReadUsd{".usd"sv, ".usdz"sv};
 
 constexpr FormatFacts kFormatFacts[] = {
     {kHair, "Cem Yuksel's HAIR", kHairFacts},
@@ -336,8 +337,8 @@ constexpr FormatFacts kFormatFacts[] = {
     {kPly, "vertices and edges, polylines, or points alone", kHairFacts},
     {kObj, "line elements", kObjFacts},
     {kGltfs, "line primitives", kGltfFacts},
-    {kUsda, "BasisCurves, NurbsCurves", kUsdaFacts},
-    {kOtherUsd, "BasisCurves, NurbsCurves", kUsdFacts},
+    {kWrittenUsd, "BasisCurves, NurbsCurves", kUsdaFacts},
+    {kReadUsd, "BasisCurves, NurbsCurves", kUsdFacts},
     {kAbc, "Alembic curves", kAlembicFacts},
     {kData, "USC-HairSalon, Hair20K", kPointsFacts},
     {kBin, "CT2Hair", kPointsReadFacts},

@@ -103,7 +103,7 @@ std::vector<gpu::VertexCondition> inspectVertices(
 
 namespace {
 
-static_assert(sizeof(gpu::ProbePush) == 84 && offsetof(gpu::ProbePush, frame) == 40);
+static_assert(sizeof(gpu::ProbePush) == 92 && offsetof(gpu::ProbePush, frame) == 48);
 static_assert(sizeof(gpu::ProbeReducePush) == 28 && sizeof(gpu::ProbeResult) == 16);
 
 constexpr float kDegrees = static_cast<float>(180.0 / std::numbers::pi);
@@ -229,17 +229,20 @@ engine::MemoryRows Probes::rows(
     const groom::GroomSize& size, Solver solver, const ProbeSettings& probes,
     std::uint32_t most_frames) {
     const std::uint64_t values = valuesOf(probes, solver).size();
-    return {
+    engine::MemoryRows rows{
         "measuring",
         {{"probes' groom", engine::bytesOf<glm::vec4>(size.vertices())},
          {"probes of guides", engine::bytesOf<float>(gpu::kProbeRows * size.guides)},
          {"probes' results", engine::bytesOf<gpu::ProbeResult>(values)},
          {"probes of frames", engine::bytesOf<float>(values * most_frames)}}};
+    if (!probes.reference.empty())
+        rows.add("measuring", {{"probes' reference", engine::bytesOf<glm::vec4>(size.vertices())}});
+    return rows;
 }
 
 Probes::Probes(
     const engine::Device& device, const groom::Groom& groom, const SimulationSettings& settings,
-    const ProbeSettings& probes, std::uint32_t most_frames)
+    const ProbeSettings& probes, std::uint32_t most_frames, const groom::StrandSet* reference)
     : device_(&device), first_guide_(probes.first_guide),
       guide_count_(guidesOf(probes, groom.strand_count)),
       line_density_(static_cast<float>(lineDensity(settings.material))), most_frames_(most_frames),
@@ -260,6 +263,12 @@ Probes::Probes(
         Probes::rows(sizeOf(groom), settings.solver, probes, most_frames);
     rest_ = engine::makeBuffer(
         device, withMass(groom, lineDensity(settings.material)), rows, "probes' groom");
+    if (reference) {
+        assert(reference->points.size() == groom.points.size());
+        std::vector<glm::vec4> points;
+        for (const glm::vec3& point : reference->points) points.emplace_back(point, 0.0f);
+        reference_ = engine::makeBuffer(device, points, rows, "probes' reference");
+    }
     wanted_ = engine::makeBuffer(device, resultsOf(values, guide_count_), rows, "probes' results");
     rows_ = {device, rows["probes of guides"]};
     results_ = {device, rows["probes of frames"]};
@@ -276,6 +285,7 @@ void Probes::record(engine::Commands& commands, const ProbedGuides& guides) {
         guides_, gpu::ProbePush{
                      .guides = guides.parameters,
                      .rest = rest_.address(),
+                     .reference = (reference_.size() > 0 ? reference_ : rest_).address(),
                      .rows = commands.writes(rows_),
                      .roots = guides.roots ? commands.reads(guides.roots) : 0,
                      .rods = guides.rods.parameters,

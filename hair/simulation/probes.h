@@ -81,10 +81,13 @@ bool hasProbes(const ProbeSettings& settings);
 // that no frame waits.
 class Probes {
 public:
-    // For `most_frames` frames. Throws Error if /run/probes names guides that the groom lacks.
+    // For `most_frames` frames. groom_distance measures to the `reference`, m, with as many points
+    // as the groom; null: to the groom. Throws Error if /run/probes names guides that the groom
+    // lacks.
     Probes(
         const engine::Device& device, const groom::Groom& groom, const SimulationSettings& settings,
-        const ProbeSettings& probes, std::uint32_t most_frames);
+        const ProbeSettings& probes, std::uint32_t most_frames,
+        const groom::StrandSet* reference = nullptr);
 
     static engine::MemoryRows rows(
         const groom::GroomSize& size, Solver solver, const ProbeSettings& probes,
@@ -113,6 +116,7 @@ private:
     std::uint32_t frames_ = 0;  // recorded
     std::uint32_t results_per_frame_;
     engine::Buffer rest_;  // vec4 [strand][vertex], m; w: mass, kg
+    engine::Buffer reference_;  // vec4 [strand][vertex], m; none: rest_
     engine::Buffer rows_;  // float [row][guide]
     engine::Buffer wanted_;  // gpu::ProbeResult [result]
     engine::Buffer results_;  // float [frame][result]

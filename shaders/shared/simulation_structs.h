@@ -237,6 +237,7 @@ const uint kProbeRows = 18u;
 struct ProbePush {
     Address guides;  // GuideParameters
     Address rest;  // vec4 [strand][vertex]: the groom, m; w = mass of a vertex, kg
+    Address reference;  // vec4 [strand][vertex]: where groom_distance measures to, m
     Address rows;  // float [row][guide], written
     Address roots;  // RigidFrame [strand] now; read if kSkinnedRoots
     Address rods;  // RodParameters of `rod`; address 0: no elastic energy

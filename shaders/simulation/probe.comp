@@ -71,7 +71,7 @@ void main() {
     uint root = strand * vertices;
     State positions = State(guides.positions);
     State previous = State(guides.previous);
-    Vectors groom = Vectors(push.rest);
+    Vectors groom = Vectors(push.rest), reference = Vectors(push.reference);
 
     float kinetic = 0.0, gravitational = 0.0, fastest = 0.0;
     float distances = 0.0, most_distance = 0.0;
@@ -96,7 +96,7 @@ void main() {
         }
         if (i > 0) {
             if (wants(kProbesGroom)) {
-                float apart = distance(position, toWorld(carried, rest.xyz));
+                float apart = distance(position, toWorld(carried, reference.at[vertex].xyz));
                 distances += apart;
                 most_distance = max(most_distance, apart);
             }

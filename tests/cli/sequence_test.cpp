@@ -93,4 +93,29 @@ TEST_F(SequenceCli, KeepsWholePicturesWhenItIsInterrupted) {
         EXPECT_EQ(entry.path().extension(), ".png");
 }
 
+// Each case plays 300 frames, so that the interrupt finds a case that is not finished.
+TEST_F(SequenceCli, ContinuesASweepThatWasInterrupted) {
+    const std::string options = smallSmoke() +
+                                "-a /render/msaa=1 -a /simulation/wind/strength=0,2,5 "
+                                "--frame 300 -o " +
+                                quoted("{case}.png");
+    const std::string name = "msaa-1_width-64_height-64_strength-";
+    const std::string first = name + "0.png";
+    const fs::path script = folder_.write(
+        "interrupt.sh", "set -m\n'" HAIRBENCH_PROGRAM "' " + options + " >" + quoted("log") +
+                            " 2>&1 &\nfor i in $(seq 1200); do test -e " + quoted(first) +
+                            " && break; sleep 0.05; done\nkill -INT $!\nwait $!\n");
+    EXPECT_EQ(runInShell("bash '" + script.string() + "'").status, 130);
+    EXPECT_THAT(
+        textOf(folder_.file("log")), HasSubstr(" of 3 pictures are written; --resume continues\n"));
+    ASSERT_TRUE(fs::exists(folder_.file("smoke.png.journal")));
+    folder_.write(first, "kept");
+    const Outcome resumed = hairbench(options + " --resume");
+    EXPECT_EQ(resumed.status, 0) << resumed.output;
+    EXPECT_THAT(resumed.output, HasSubstr(" of 3 cases are there already"));
+    EXPECT_EQ(textOf(folder_.file(first)), "kept");
+    EXPECT_TRUE(fs::exists(folder_.file(name + "5.png")));
+    EXPECT_FALSE(fs::exists(folder_.file("smoke.png.journal")));
+}
+
 }  // namespace

@@ -66,8 +66,8 @@ protected:
 
     static Frame probed(
         const Simulation& simulation, const groom::Groom& groom, const SimulationSettings& settings,
-        const ProbeSettings& wanted = all()) {
-        Probes probes(device(), groom, settings, wanted, 1);
+        const ProbeSettings& wanted = all(), const groom::StrandSet* reference = nullptr) {
+        Probes probes(device(), groom, settings, wanted, 1, reference);
         runOnce(device(), [&](engine::Commands& commands) {
             probes.record(commands, simulation.recordProbed(commands));
         });
@@ -78,10 +78,10 @@ protected:
     static Frame probedAt(
         const groom::Groom& groom, const SimulationSettings& settings,
         const std::vector<glm::vec3>& points, const std::vector<glm::vec3>& before,
-        const ProbeSettings& wanted = all()) {
+        const ProbeSettings& wanted = all(), const groom::StrandSet* reference = nullptr) {
         Simulation simulation(device(), groom, settings, 1);
         simulation.setState(points, before);
-        return probed(simulation, groom, settings, wanted);
+        return probed(simulation, groom, settings, wanted, reference);
     }
 };
 
@@ -126,6 +126,17 @@ TEST_F(GuideProbes, GiveTheDistanceFromTheGroom) {
     frame = probedAt(groom, still(), leaning, leaning);
     EXPECT_NEAR(frame.at("groom_distance.mean"), 9e-3, kTolerance);
     EXPECT_NEAR(frame.at("groom_distance.maximum"), 18e-3, kTolerance);
+    EXPECT_NEAR(frame.at("tip_displacement.maximum"), 18e-3, kTolerance);
+    // To leaning strands as the reference, hair at rest has the same distances, and leaning hair
+    // none; its tips are still where they were.
+    const groom::StrandSet reference{.ends = {4, 8}, .points = leaning};
+    ProbeSettings wanted = all();
+    wanted.reference = "leaning.ply";
+    frame = probedAt(groom, still(), groom.points, groom.points, wanted, &reference);
+    EXPECT_NEAR(frame.at("groom_distance.mean"), 9e-3, kTolerance);
+    EXPECT_NEAR(frame.at("groom_distance.maximum"), 18e-3, kTolerance);
+    frame = probedAt(groom, still(), leaning, leaning, wanted, &reference);
+    EXPECT_NEAR(frame.at("groom_distance.maximum"), 0.0, kTolerance);
     EXPECT_NEAR(frame.at("tip_displacement.maximum"), 18e-3, kTolerance);
 }
 

@@ -566,6 +566,7 @@ SimulateOptions = TypedDict("SimulateOptions", {
     "allow_outside": 'bool',
     "filter": 'Option',
     "shard": 'Option',
+    "resume": 'bool',
 }, total=False)
 
 # Options of `hairbench render`.
@@ -577,6 +578,7 @@ RenderOptions = TypedDict("RenderOptions", {
     "allow_outside": 'bool',
     "filter": 'Option',
     "shard": 'Option',
+    "resume": 'bool',
 }, total=False)
 
 # Options of `hairbench gate`.

@@ -12,6 +12,7 @@
 
 #include "engine/error.h"
 #include "hair/groom/formats/text.h"
+#include "hair/groom/formats/usd_import.h"
 
 namespace hair::groom {
 namespace {
@@ -232,6 +233,36 @@ exportUsdaWith(const StrandSet& strands, const ExportExtras& extras, std::ostrea
     text.text("\n");
     endUsdaCurves(text);
     return warnings;
+}
+
+UsdBinary::UsdBinary() : text_(folder_.path() / "strands.usda", std::ios::binary) {
+    text_.exceptions(std::ios::badbit | std::ios::failbit);
+}
+
+void UsdBinary::write(std::ostream& out) {
+    text_.close();
+    const std::filesystem::path binary = folder_.path() / "strands.usdc";
+    runScript(
+        {.script = "usd_binary.py", .what = "USD", .library = "usd-core"},
+        {(folder_.path() / "strands.usda").string(), binary.string()}, {});
+    out << std::ifstream(binary, std::ios::binary).rdbuf();
+}
+
+std::vector<std::string> exportUsdc(const StrandSet& strands, std::ostream& out) {
+    return exportUsdcWith(strands, {}, out);
+}
+
+std::vector<std::string>
+exportUsdcWith(const StrandSet& strands, const ExportExtras& extras, std::ostream& out) {
+    UsdBinary binary;
+    std::vector<std::string> warnings = exportUsdaWith(strands, extras, binary.text());
+    binary.write(out);
+    return warnings;
+}
+
+void UsdcAnimation::finish() {
+    animation_.finish();
+    binary_.write(*out_);
 }
 
 UsdaAnimation::UsdaAnimation(std::ostream& out, const StrandSet& strands, const FrameTiming& timing)

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstdint>
+#include <fstream>
 #include <ostream>
 #include <span>
 #include <string>
@@ -11,10 +12,12 @@
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 
+#include "engine/process.h"
 #include "hair/groom/groom.h"
 #include "hair/groom/strand_format.h"
 
-// Strands as text of Universal Scene Description (.usda), at rest or frame by frame.
+// Strands as Universal Scene Description, text (.usda) or binary (.usdc), at rest or frame by
+// frame.
 namespace hair::groom {
 
 // Writes text of Universal Scene Description: one linear BasisCurves, "/hair". It holds all data
@@ -23,6 +26,12 @@ namespace hair::groom {
 std::vector<std::string> exportUsda(const StrandSet& strands, std::ostream& out);
 std::vector<std::string>
 exportUsdaWith(const StrandSet& strands, const ExportExtras& extras, std::ostream& out);
+
+// The same as binary Universal Scene Description (.usdc): usd-core rewrites the text by
+// usd_binary.py. Throws engine::Error also if the project's Python environment is missing.
+std::vector<std::string> exportUsdc(const StrandSet& strands, std::ostream& out);
+std::vector<std::string>
+exportUsdcWith(const StrandSet& strands, const ExportExtras& extras, std::ostream& out);
 
 // Writes values in the text format of Universal Scene Description. Floats are the shortest
 // decimals that read back as the same floats. Data may not be in the stream before flush().
@@ -97,6 +106,38 @@ private:
     std::uint32_t frames_;
     std::vector<std::array<glm::vec3, 2>> extents_;  // [frame], of the frames written so far
     std::vector<std::string> warnings_;
+};
+
+// A text of USD that becomes binary: it is in a temporary folder until write().
+class UsdBinary {
+public:
+    UsdBinary();
+
+    std::ostream& text() { return text_; }
+    // Writes the text in binary form. Throws engine::Error like exportUsdc().
+    void write(std::ostream& out);
+
+private:
+    engine::ScratchFolder folder_;
+    std::ofstream text_;
+};
+
+// The same as UsdaAnimation as a .usdc. The whole text is in a temporary file before finish().
+class UsdcAnimation {
+public:
+    UsdcAnimation(std::ostream& out, const StrandSet& strands, const FrameTiming& timing)
+        : out_(&out), animation_(binary_.text(), strands, timing) {}
+
+    void frame(std::span<const glm::vec3> points) { animation_.frame(points); }
+    // Ends the file. Throws engine::Error like exportUsdc().
+    void finish();
+
+    const std::vector<std::string>& warnings() const { return animation_.warnings(); }
+
+private:
+    std::ostream* out_;
+    UsdBinary binary_;
+    UsdaAnimation animation_;
 };
 
 }  // namespace hair::groom

@@ -178,22 +178,24 @@ std::vector<std::byte> runScript(
 #ifdef HAIRBENCH_SANITIZE
     limits.bytes = 0;
 #endif
-    std::ranges::move(librariesOf(python), std::back_inserter(*limits.reads));
-    limits.reads->push_back(script.parent_path());
+    if (limits.reads) {
+        std::ranges::move(librariesOf(python), std::back_inserter(*limits.reads));
+        limits.reads->push_back(script.parent_path());
+    }
     try {
         return engine::runTool(command, limits);
     } catch (const std::system_error& error) {
         if (error.code() != std::errc::no_such_file_or_directory)
             throw engine::Error(
-                "the program that reads " + tool.what +
-                " can't be started: " + error.code().message());
+                "the program for " + tool.what + " can't be started: " + error.code().message());
         throw engine::Error(
-            "reading " + tool.what + " needs the project's Python environment: run " +
+            tool.what + " needs the project's Python environment: run " +
             engine::makesPythonEnvironment("python") + " (" + error.what() + ')');
     } catch (const engine::Error& error) {
         const std::string reason = error.what();
         if (!reason.starts_with(python)) throw;
-        throw engine::Error(tool.library + ", which reads it," + reason.substr(python.size()));
+        throw engine::Error(
+            tool.library + ", the library for " + tool.what + ',' + reason.substr(python.size()));
     }
 }
 

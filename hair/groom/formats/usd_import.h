@@ -17,15 +17,15 @@
 
 namespace hair::groom {
 
-// A script of this folder that reads files for the program.
+// A script of this folder that reads or writes files for the program.
 struct FormatScript {
     std::string script;  // "usd_curves.py"
     std::string what;  // for messages: "USD"
     std::string library;  // "usd-core"
 };
 
-// Runs it in the project's Python environment with these limits, `reads` among them, which get the
-// interpreter's own folders too. Returns its stdout. Throws engine::Error if the environment is
+// Runs it in the project's Python environment with these limits. If `reads` is among them, it gets
+// the interpreter's own folders too. Returns its stdout. Throws engine::Error if the environment is
 // missing, and with the last line of the script's errors if it fails.
 std::vector<std::byte> runScript(
     const FormatScript& tool, const std::vector<std::string>& arguments,

@@ -168,6 +168,7 @@ TEST(ImportStrands, TellsFilesOfOneExtensionApart) {
 TEST(ExportStrands, WritesWholeFilesOrNone) {
     const TemporaryFolder folder;
     for (const StrandExporter& exporter : strandExporters()) {
+        if (exporter.extension == ".usdc" && pythonInterpreter().empty()) continue;
         const auto path = folder.file("none" + std::string(exporter.extension));
         const std::string error = errorText([&] { exportStrands({}, path); });
         if (error != "no error") {
@@ -181,9 +182,9 @@ TEST(ExportStrands, WritesWholeFilesOrNone) {
 
 TEST(ExportStrands, ListsWhatItKnows) {
     EXPECT_EQ(
-        errorText([] { exportStrands(kTwoStrands, "a.usdc"); }),
-        "a.usdc: strands can't be written as '.usdc'; known: .hair, .hgl, .tfx, .obj, .ply, .gltf, "
-        ".glb, .usda, .data, .npy, .npz, .abc, .mitshair, .txt, .pbrt");
+        errorText([] { exportStrands(kTwoStrands, "a.usdz"); }),
+        "a.usdz: strands can't be written as '.usdz'; known: .hair, .hgl, .tfx, .obj, .ply, .gltf, "
+        ".glb, .usda, .usdc, .data, .npy, .npz, .abc, .mitshair, .txt, .pbrt");
 }
 
 TEST(ExportStrands, ReturnsTheWarnings) {

@@ -1,12 +1,15 @@
-// Tests that usd-core reads the files of exportUsda and UsdaAnimation.
+// Tests that usd-core reads the files of USD that are written.
 #include <bit>
 #include <cstdint>
 #include <fstream>
 #include <string>
+#include <type_traits>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "engine/files.h"
+#include "hair/groom/files.h"
 #include "hair/groom/formats/usd_export.h"
 #include "hair/groom/formats/usd_import.h"
 #include "hair/random.h"
@@ -197,6 +200,29 @@ TEST_F(UsdExportTest, WritesFramesAsTimeSamples) {
     const StrandSet back = importUsd({.bytes = {}, .path = path});
     EXPECT_EQ(back.points, frames[0]);
     EXPECT_THAT(back.warnings, ElementsAre("/hair: one of its 12 time samples is read"));
+}
+
+// usd-core tells the same of both files.
+TEST_F(UsdExportTest, WritesTheSameInBinaryForm) {
+    const auto binary = folder_.file("moving.usdc");
+    EXPECT_EQ(
+        exportStrands(everything(), binary), exportStrands(everything(), folder_.file("a.usda")));
+    EXPECT_EQ(dump(binary), dump(folder_.file("a.usda")));
+    EXPECT_TRUE(engine::readFile(binary).starts_with("PXR-USDC"));
+    const auto write = [&]<class Animation>(std::type_identity<Animation>, const auto& path) {
+        std::ofstream file(path, std::ios::binary);
+        Animation animation(file, everything(), {.frames = 3, .frame_time = 0.1});
+        for (int i = 0; i < 3; ++i) {
+            std::vector<glm::vec3> points = everything().points;
+            for (glm::vec3& point : points) point.y += 0.1f * static_cast<float>(i);
+            animation.frame(points);
+        }
+        animation.finish();
+    };
+    write(std::type_identity<UsdcAnimation>(), binary);
+    write(std::type_identity<UsdaAnimation>(), folder_.file("a.usda"));
+    EXPECT_EQ(dump(binary), dump(folder_.file("a.usda")));
+    EXPECT_THAT(dump(binary), HasSubstr("points point3f[] @2:"));
 }
 
 }  // namespace
