@@ -279,7 +279,9 @@ TEST(Npy, BelievesNoShapeThatTheFileIsTooShortFor) {
             std::string("{'descr': '<f4', 'fortran_order': False, 'shape': ") + shape + "}";
         EXPECT_THAT(
             readError(importNpy, npyFile(dictionary, fourPoints())),
-            testing::MatchesRegex("byte [0-9]+: (truncated.*|.*trailing bytes.*)"))
+            testing::AnyOf(
+                testing::MatchesRegex("byte .+: truncated.*"),
+                testing::MatchesRegex("byte .+: .*trailing bytes.*")))
             << shape;
     }
 }
@@ -289,7 +291,7 @@ TEST(Npy, IsRefusedWhereverItEnds) {
     for (std::size_t size = 0; size < whole.size(); ++size)
         EXPECT_THAT(
             readError(importNpy, whole.substr(0, size)),
-            testing::MatchesRegex("byte [0-9]+: .*truncated.*"))
+            testing::MatchesRegex("byte .+: .*truncated.*"))
             << size;
 }
 

@@ -223,7 +223,7 @@ TEST(CountedHair, RefusesSizesThatTheFileDoesNotBearOut) {
     for (std::size_t size = 0; size < countedFile().size(); ++size)
         EXPECT_THAT(
             readError(importCountedHair, countedFile().substr(0, size)),
-            testing::MatchesRegex("byte [0-9]+: .*truncated.*"))
+            testing::MatchesRegex("byte .+: .*truncated.*"))
             << size;
 }
 
@@ -234,7 +234,7 @@ TEST(StrandLists, AreRefusedWhereverTheyEnd) {
         for (std::size_t size = 0; size < whole.size(); ++size) {
             EXPECT_THAT(
                 readError(read, whole.substr(0, size)),
-                testing::MatchesRegex("byte [0-9]+: .*truncated.*"))
+                testing::MatchesRegex("byte .+: .*truncated.*"))
                 << size;
         }
         EXPECT_THAT(readError(read, whole + '\0'), HasSubstr("1 trailing bytes"));

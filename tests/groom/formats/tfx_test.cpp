@@ -264,7 +264,7 @@ TEST(ImportTfx3, RefusesWrongCountsAndOffsetsAndTruncation) {
     const std::string whole = tfx3File();
     for (std::size_t size = 0; size < whole.size(); ++size)
         EXPECT_THAT(
-            errorOfTfx(whole.substr(0, size)), testing::MatchesRegex("byte [0-9]+: .*truncated.*"))
+            errorOfTfx(whole.substr(0, size)), testing::MatchesRegex("byte .+: .*truncated.*"))
             << size;
     for (const std::size_t at : {4u, 8u, 144u, 148u, 152u, 156u, 160u, 164u}) {
         for (const std::uint32_t wrong : {5u, 295u, 300u, 0x7fffffffu, 0xfffffffcu})
