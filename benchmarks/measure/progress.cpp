@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <cstdio>
+#include <cstdlib>
 #include <iostream>
 #include <utility>
 
@@ -17,7 +18,12 @@ using Clock = std::chrono::steady_clock;
 
 constexpr std::chrono::milliseconds kLook{500};
 constexpr std::chrono::seconds kLong{2};  // minimum duration of a step that is shown
-constexpr std::chrono::seconds kPlainPeriod{10};  // between lines if stderr is not a terminal
+
+std::chrono::duration<double> periodOfLines() {
+    const char* const wanted = std::getenv("HAIRBENCH_PROGRESS_SECONDS");
+    const double seconds = wanted ? std::strtod(wanted, nullptr) : 0.0;
+    return std::chrono::duration<double>(seconds > 0.0 ? seconds : 10.0);
+}
 
 std::string clockText(double seconds) {
     char text[48];
@@ -56,7 +62,7 @@ std::string progressText(std::size_t number, std::size_t total, std::size_t done
 
 // ---- The line -----------------------------------------------------------------------------------
 
-ProgressLine::ProgressLine() : terminal_(engine::system::hasTerminal()) {
+ProgressLine::ProgressLine() : terminal_(engine::system::hasTerminal()), period_(periodOfLines()) {
     engine::onceStepsEnd([this] { clear(); });
     thread_ = std::thread([this] { run(); });
 }
@@ -81,10 +87,10 @@ void ProgressLine::run() {
 void ProgressLine::show() {
     const std::lock_guard lock(writing_);
     const Clock::time_point now = Clock::now();
-    if (written_ && now - *written_ < kPlainPeriod) return;
+    if (written_ && now - *written_ < period_) return;
     const engine::StepsUnderWay steps = engine::stepsUnderWay();
     if (steps.text.empty()) return;
-    if (now - steps.start < (terminal_ ? kLong : kPlainPeriod)) return;
+    if (now - steps.start < (terminal_ ? std::chrono::duration<double>(kLong) : period_)) return;
     if (terminal_) {
         shown_ = true;
         std::cerr << "\r\033[K" << fitting(engine::shownText(steps.text)) << std::flush;

@@ -16,8 +16,8 @@ namespace benchmarks::measure {
 struct SamplingState;  // measure.h
 
 // Shows the current steps (engine/process.h). On a terminal they appear after two seconds, in one
-// line that is rewritten; elsewhere a new line appears every ten seconds. A program has one of
-// these while it works; its own thread checks twice a second.
+// line that is rewritten; elsewhere a new line appears every $HAIRBENCH_PROGRESS_SECONDS, or every
+// ten. A program has one of these while it works; its own thread checks twice a second.
 class ProgressLine {
 public:
     ProgressLine();
@@ -31,6 +31,7 @@ private:
     void run();
 
     bool terminal_;
+    std::chrono::duration<double> period_;  // between lines if stderr is not a terminal
     std::mutex writing_;
     bool shown_ = false;  // on the terminal
     std::optional<std::chrono::steady_clock::time_point> written_;  // time of the last line, if not

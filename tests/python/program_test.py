@@ -2,7 +2,9 @@
 
 import json
 import os
+import sys
 import tempfile
+import types
 import unittest
 import zipfile
 from pathlib import Path
@@ -92,6 +94,24 @@ class Run(InFolder):
         self.assertEqual(lines, ["[1/2] one", "[2/2] two"])
         self.assertEqual(result.text, "table\n")
         self.assertEqual((result.status, result.verdict), (0, "ok"))
+
+    def test_shows_a_bar_in_a_notebook(self):
+        shown = []  # by the notebook: what each display had at last
+        display = types.SimpleNamespace(update=lambda content: shown.append(content))
+        ipython = types.SimpleNamespace(
+            get_ipython=lambda: types.SimpleNamespace(kernel=True),
+            display=types.SimpleNamespace(
+                HTML=str, display=lambda content, display_id: shown.append(content) or display))
+        self.stand_in('echo "[1/2] one <b>" >&2; echo "[2/2] two" >&2; exit 2\n')
+        modules = {"IPython": ipython, "IPython.display": ipython.display}
+        with mock.patch.dict(sys.modules, modules), self.assertRaises(hairbench.ProgramError):
+            hairbench.run("made.json")
+        self.assertEqual(shown, [
+            '<progress value="0" max="2"></progress> [1/2] one &lt;b&gt;',
+            '<progress value="1" max="2"></progress> [2/2] two', ""])
+        self.stand_in("echo $HAIRBENCH_PROGRESS_SECONDS\n")
+        with mock.patch.dict(sys.modules, modules):
+            self.assertEqual(hairbench.run("made.json").text, "1\n")
 
     def test_survives_a_program_that_says_a_lot(self):
         # Both outputs are longer than a pipe's buffer.

@@ -269,6 +269,7 @@ Axes = TypedDict("Axes", {
     "/run/probes/bending": 'Values[bool]',
     "/run/probes/torsion": 'Values[bool]',
     "/run/probes/momentum": 'Values[bool]',
+    "/run/probes/reference": 'Values[str]',
     "/run/probes/first_guide": 'Values[Integer]',
     "/run/probes/guides": 'Values[Integer]',
 }, total=False)
@@ -525,6 +526,7 @@ Sets = TypedDict("Sets", {
     "/run/probes/bending": 'bool',
     "/run/probes/torsion": 'bool',
     "/run/probes/momentum": 'bool',
+    "/run/probes/reference": 'str',
     "/run/probes/first_guide": 'Integer',
     "/run/probes/guides": 'Integer',
 }, total=False)

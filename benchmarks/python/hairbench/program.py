@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import html
 import json
 import os
+import re
 import shutil
 import signal
 import subprocess
@@ -142,7 +144,45 @@ def scene_arguments(axes: Axes, sets: Sets) -> list[str]:
 
 
 def to_stderr(line: str) -> None:
+    """Prints progress. In a notebook, calls show one NotebookBar instead."""
     print(line, file=sys.stderr, flush=True)
+
+
+def in_notebook() -> bool:
+    ipython = sys.modules.get("IPython")
+    shell = ipython.get_ipython() if ipython else None
+    return hasattr(shell, "kernel")
+
+
+class NotebookBar:
+    """Shows the program's progress in a notebook as a bar, and its other lines as to_stderr() does.
+
+    A line of progress is "[3/12] 0:41, about 1:50 left  smoke/msaa:4". The bar vanishes with close().
+    """
+
+    SECONDS = "1"  # between lines of progress
+
+    def __init__(self) -> None:
+        self.handle: Any = None
+
+    def __call__(self, line: str) -> None:
+        found = re.match(r"\[(\d+)/(\d+)\] ", line)
+        if not found:
+            to_stderr(line)
+            return
+        number, total = map(int, found.groups())
+        self.show(f'<progress value="{number - 1}" max="{total}"></progress> {html.escape(line)}')
+
+    def show(self, text: str) -> None:
+        notebook = sys.modules["IPython"].display
+        if self.handle is None:
+            self.handle = notebook.display(notebook.HTML(text), display_id=True)
+        else:
+            self.handle.update(notebook.HTML(text))
+
+    def close(self) -> None:
+        if self.handle is not None:
+            self.show("")
 
 
 @dataclass(frozen=True)
@@ -157,9 +197,18 @@ def call(arguments: Sequence[str], progress: Progress | None = to_stderr) -> Fin
 
     A KeyboardInterrupt also interrupts the program, which first saves what is done.
     """
+    if progress is to_stderr and in_notebook():
+        bar = NotebookBar()
+        try:
+            return call(arguments, bar)
+        finally:
+            bar.close()
+    environment = dict(os.environ)
+    if isinstance(progress, NotebookBar):
+        environment["HAIRBENCH_PROGRESS_SECONDS"] = NotebookBar.SECONDS
     with subprocess.Popen(
             [str(program()), *arguments], stdin=subprocess.DEVNULL, stdout=subprocess.PIPE,
-            stderr=subprocess.PIPE, encoding="utf-8", errors="replace") as process:
+            stderr=subprocess.PIPE, encoding="utf-8", errors="replace", env=environment) as process:
         said: list[str] = []
         errors: list[str] = []
 
