@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
-"""Installs a wheel into a root of Debian 12 with only Python and a Vulkan driver, and measures there.
-The first result must be there 60 s after pip install began. scripts/test --wheel calls this as root.
+"""Installs a wheel into a root of Debian 12 with only Python, Debian's Jupyter and a Vulkan driver, and
+measures there. The first result must be there 60 s after pip install began. Then Jupyter executes the
+notebooks of docs. scripts/test --wheel calls this as root.
 
 usage: wheel_test.py WHEEL
 """
@@ -19,6 +20,8 @@ import root
 
 REPOSITORY = Path(__file__).resolve().parents[2]
 MOST_SECONDS = 60
+NOTEBOOKS = ("notebook.ipynb", "deflection.ipynb")
+JUPYTER = ("jupyter-nbconvert", "python3-ipykernel", "python3-matplotlib", "python3-pandas")
 # Libraries that every desktop has (the list of PEP 600), or that come with the Vulkan driver.
 SYSTEM_LIBRARIES = re.compile(
     r"lib(c|m|dl|rt|pthread|stdc\+\+|gcc_s|X11|z)\.so\.\d+|ld-linux-x86-64\.so\.2")
@@ -48,13 +51,30 @@ def check_files(wheel):
         return len(own)
 
 
+def check_notebooks(place, wheel):
+    """Executes them as their readers do: with the wheel, and with Debian's packages for the rest."""
+    python = "/root/jupyter/bin/python"
+    root.inside(place, ["python3", "-m", "venv", "--system-site-packages", "/root/jupyter"])
+    root.inside(place, [python, "-m", "pip", "install", "--quiet", "--no-index", "--no-deps", f"/root/{wheel.name}"])
+    for name in NOTEBOOKS:
+        shutil.copy(REPOSITORY / "docs" / name, place / "root")
+        root.inside(place, [python, "-m", "jupyter", "nbconvert", "--to", "notebook", "--execute",
+                            "--output", f"done-{name}", f"/root/{name}"])
+        cells = json.loads((place / "root" / f"done-{name}").read_text())["cells"]
+        outputs = [output for cell in cells for output in cell.get("outputs", [])]
+        if not any("image/png" in output.get("data", {}) for output in outputs):
+            fail(f"{name} shows no figure")
+        if any("<progress" in str(output) for output in outputs):
+            fail(f"{name} keeps bars of progress")
+
+
 def main():
     wheel = Path(sys.argv[1])
     libraries = check_files(wheel)
     folder = Path(tempfile.mkdtemp(prefix="hairbench-wheel-"))
     try:
         place = folder / "root"
-        root.make(place, "bookworm", "python3-venv", "mesa-vulkan-drivers")
+        root.make(place, "bookworm", "python3-venv", "mesa-vulkan-drivers", *JUPYTER)
         shutil.copy(wheel, place / "root")
         root.inside(place, ["python3", "-m", "venv", "/root/venv"])
         begun = time.monotonic()
@@ -86,6 +106,7 @@ def main():
         (place / "root" / "hair.obj").write_text("v 0.2 0.2 0\nv 0.2 0.2 -0.1\nl 1 2\n")
         root.inside(
             place, [program, "groom", "info", "/root/hair.obj", "--mesh", "/root/body.obj"])
+        check_notebooks(place, wheel)
         took = measured - begun
         print(f"wheel test: {wheel.stat().st_size / 1e6:.1f} MB, {libraries} libraries of its own; "
               f"installed in {installed - begun:.1f} s, first result after {took:.1f} s on "
