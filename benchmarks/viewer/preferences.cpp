@@ -351,7 +351,7 @@ ImVec2 paddingOf(Surface surface, const Box& box) {
 
 // Returns how far the splitter was dragged to the right, in letter heights.
 float splitter(const char* name, const Box& box) {
-    float dragged = 0.0f;
+    float shift = 0.0f;
     pane(name, box, Surface::splitter, [&] {
         ImGui::InvisibleButton("##bar", {box.width, box.height});
         const bool held = ImGui::IsItemActive();
@@ -364,9 +364,9 @@ float splitter(const char* name, const Box& box) {
                 {box.x, box.y}, {box.right(), box.bottom()},
                 ImGui::GetColorU32(ImGuiCol_SeparatorActive, held ? 1.0f : 0.5f));
         }
-        if (held) dragged = ImGui::GetIO().MouseDelta.x / ImGui::GetFontSize();
+        if (held) shift = dragged().x / ImGui::GetFontSize();
     });
-    return dragged;
+    return shift;
 }
 
 // Drags start from the column's actual width, not from a wanted one that did not fit.
@@ -402,6 +402,32 @@ void cutText(const std::string& text, float room, ImGuiCol color) {
 }
 
 }  // namespace
+
+// ---- Drags --------------------------------------------------------------------------------------
+
+namespace {
+
+constexpr std::array kMouseButtons{
+    ImGuiMouseButton_Left, ImGuiMouseButton_Right, ImGuiMouseButton_Middle};
+
+}  // namespace
+
+glm::vec2 dragged() {
+    if (std::ranges::none_of(
+            kMouseButtons, [](int button) { return ImGui::IsMouseDragging(button); }))
+        return glm::vec2(0.0f);
+    const ImVec2 by = ImGui::GetIO().MouseDelta;
+    return {by.x, by.y};
+}
+
+glm::vec2 dragPoint() {
+    const ImGuiIO& io = ImGui::GetIO();
+    const float least = io.MouseDragThreshold * io.MouseDragThreshold;
+    const bool is_click =
+        (io.MouseDown[0] || io.MouseReleased[0]) && io.MouseDragMaxDistanceSqr[0] < least;
+    const ImVec2 at = is_click ? io.MouseClickedPos[0] : io.MousePos;
+    return {at.x, at.y};
+}
 
 // ---- Panes and splitters ------------------------------------------------------------------------
 

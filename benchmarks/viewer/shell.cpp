@@ -75,6 +75,8 @@ engine::WindowDescription windowOf(const ViewOptions& options, const Preferences
         .height = as_it_was ? preferences.height : options.height};
 }
 
+constexpr float kDragThreshold = 6.0f;  // px at scale 1 that make a drag of a click
+
 constexpr const char* kTitle = "Save scene as";
 
 bool exists(const std::string& path) {
@@ -154,6 +156,7 @@ void Shell::followScale() {
     if (wanted == styled_scale && preferences.now.theme == styled_theme) return;
     if (wanted != ui.scale()) ui.setScale(wanted);
     ImGui::GetStyle() = styleOf(preferences.now.theme, wanted);
+    ImGui::GetIO().MouseDragThreshold = kDragThreshold * wanted;
     styled_scale = wanted;
     styled_theme = preferences.now.theme;
 }

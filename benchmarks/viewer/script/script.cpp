@@ -359,8 +359,11 @@ int keysOf(const Members& members) {
     return keys ? keyChord(*keys, members.pointerOf("keys")) : 0;
 }
 
-void press(Driver& driver, int button, int keys) {
+// `at`: a place to move to within the same picture of the window.
+void press(
+    Driver& driver, int button, int keys, std::optional<std::array<float, 2>> at = std::nullopt) {
     driver.then([=, &driver] {
+        if (at) driver.input.move((*at)[0], (*at)[1]);
         if (keys) driver.input.key(keys, Change::press);
         driver.input.button(button, Change::press);
     });
@@ -393,14 +396,17 @@ Act readMove(const scene::Json& value, const std::string& pointer, const ScriptF
 
 Act readClick(const scene::Json& value, const std::string& pointer, const ScriptFolders&) {
     const scene::Json object = asObject(value);
-    const Members members(object, pointer, {"item", "window", "at", "button", "double", "keys"});
+    const Members members(
+        object, pointer, {"item", "window", "at", "button", "double", "hasty", "keys"});
     const Place place = placeOf(members, "at");
     const int button = buttonOf(members), keys = keysOf(members);
     const int clicks = members.flag("double").value_or(false) ? 2 : 1;
+    const bool is_hasty = members.flag("hasty").value_or(false);
     return [=](Driver& driver) {
-        moveTo(driver, pixelsOf(driver, place));
+        const std::array<float, 2> to = pixelsOf(driver, place);
+        if (!is_hasty) moveTo(driver, to);
         for (int i = 0; i < clicks; ++i) {
-            press(driver, button, keys);
+            press(driver, button, keys, is_hasty ? std::optional(to) : std::nullopt);
             release(driver, button, keys);
         }
         driver.settle();
