@@ -382,21 +382,9 @@ constexpr std::size_t kLeft = 2;  // tabs of the left column, which come first
 
 float widthOf(const std::string& text) { return ImGui::CalcTextSize(text.c_str()).x; }
 
-// Shortens a text to fit, px, without splitting a UTF-8 character.
-std::string cut(const std::string& text, float room) {
-    if (widthOf(text) <= room) return text;
-    std::size_t length = text.size();
-    const auto fits = [&] { return widthOf(text.substr(0, length) + "...") <= room; };
-    while (length > 0 && !fits()) {
-        --length;
-        while (length > 0 && (static_cast<unsigned char>(text[length]) & 0xc0u) == 0x80u) --length;
-    }
-    return text.substr(0, length) + "...";
-}
-
 void cutText(const std::string& text, float room, ImGuiCol color) {
     ImGui::PushStyleColor(ImGuiCol_Text, ImGui::GetStyleColorVec4(color));
-    ImGui::TextUnformatted(cut(text, room).c_str());
+    ImGui::TextUnformatted(shortened(text, room).c_str());
     ImGui::PopStyleColor();
     if (widthOf(text) > room && ImGui::IsItemHovered()) ImGui::SetTooltip("%s", text.c_str());
 }
@@ -523,6 +511,17 @@ bool choiceButton(const char* label, const char* help, Chosen chosen) {
 }
 
 // ---- Status line --------------------------------------------------------------------------------
+
+std::string shortened(const std::string& text, float room) {
+    if (widthOf(text) <= room) return text;
+    std::size_t length = text.size();
+    const auto fits = [&] { return widthOf(text.substr(0, length) + "...") <= room; };
+    while (length > 0 && !fits()) {
+        --length;
+        while (length > 0 && (static_cast<unsigned char>(text[length]) & 0xc0u) == 0x80u) --length;
+    }
+    return text.substr(0, length) + "...";
+}
 
 void statusLine(const StatusText& status) {
     ImGui::AlignTextToFramePadding();

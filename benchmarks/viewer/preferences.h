@@ -206,6 +206,9 @@ void choiceButtons(std::span<const Choice<Value>> choices, Value& value) {
     }
 }
 
+// Returns a text that fits into `room`, px: shortened, with "..." at its end, if it is longer.
+std::string shortened(const std::string& text, float room);
+
 struct StatusText {
     std::string text;  // a message, or a hint
     enum class Tone { hint, message, problem } tone = Tone::hint;

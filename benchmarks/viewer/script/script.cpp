@@ -2,9 +2,11 @@
 
 #include <algorithm>
 #include <cctype>
+#include <chrono>
 #include <iterator>
 #include <optional>
 #include <string_view>
+#include <thread>
 #include <utility>
 #include <vector>
 
@@ -483,6 +485,27 @@ Act readLive(const scene::Json& value, const std::string& pointer, const ScriptF
     return [=](Driver& driver) { driver.viewer.setLive(live); };
 }
 
+constexpr int kLongestThumbnails = 60 * 60;  // s
+constexpr std::chrono::milliseconds kThumbnailLook{10};
+
+// Waits until all scenes in sight have their pictures.
+Act readThumbnails(const scene::Json& value, const std::string& pointer, const ScriptFolders&) {
+    checkTrue(value, pointer);
+    return [](Driver& driver) {
+        driver.viewer.setThumbnails(true);
+        driver.settle();
+        driver.until(
+            [&driver] {
+                const bool all = driver.viewer.missingThumbnails() == 0;
+                if (!all) std::this_thread::sleep_for(kThumbnailLook);
+                return all;
+            },
+            kLongestThumbnails * static_cast<int>(std::chrono::seconds(1) / kThumbnailLook),
+            "thumbnails take too long");
+        driver.settle();
+    };
+}
+
 Act readSeek(const scene::Json& value, const std::string& pointer, const ScriptFolders&) {
     const std::uint32_t frame = countOf(value, pointer);
     return [=](Driver& driver) {
@@ -585,7 +608,7 @@ constexpr Verb kVerbs[] = {
     {"click", readClick},     {"drag", readDrag},     {"scroll", readScroll},
     {"key", readKey},         {"type", readType},     {"screenshot", readScreenshot},
     {"picture", readPicture}, {"save", readSave},     {"state", readState},
-    {"live", readLive},       {"expect", readExpect},
+    {"live", readLive},       {"expect", readExpect}, {"thumbnails", readThumbnails},
 };
 
 }  // namespace
