@@ -1,12 +1,20 @@
 #include "benchmarks/viewer/files_panel.h"
 
 #include <algorithm>
+#include <chrono>
+#include <string>
+#include <thread>
 
 #include <gmock/gmock.h>
 #include <imgui.h>
 
+#include "tests/gpu_fixture.h"
 #include "tests/temporary_folder.h"
 #include "tests/viewer/headless_ui.h"
+
+#ifndef _WIN32
+#include <signal.h>
+#endif
 
 namespace benchmarks::viewer {
 namespace {
@@ -61,6 +69,61 @@ TEST(SceneGroups, AreTheShippedFoldersAndTheOpenOne) {
     EXPECT_EQ(all.front().title, "In mine");
     EXPECT_THAT(all.front().files, ElementsAre(mine));
 }
+
+#ifndef _WIN32
+// Pictures by programs that stand for hairbench: shell scripts.
+class ThumbnailTest : public GpuTest {
+protected:
+    std::filesystem::path program(const std::string& lines) const {
+        const std::filesystem::path file = folder_.write("program", "#!/bin/sh\n" + lines);
+        std::filesystem::permissions(file, std::filesystem::perms::owner_all);
+        return file;
+    }
+
+    // Looks at the scene in pictures of the window until it has another state.
+    Thumbnails::Picture
+    after(Thumbnails& thumbnails, Thumbnails::State state, Thumbnails::Draw draw) const {
+        const auto late = std::chrono::steady_clock::now() + std::chrono::seconds(30);
+        for (;;) {
+            const Thumbnails::Picture picture = thumbnails.of(scene_);
+            thumbnails.work(draw);
+            if (picture.state != state || std::chrono::steady_clock::now() > late) return picture;
+            std::this_thread::sleep_for(std::chrono::milliseconds(10));
+        }
+    }
+
+    TemporaryFolder folder_;
+    std::filesystem::path scene_ = folder_.write("a.json", "{}");
+};
+
+using State = Thumbnails::State;
+using Draw = Thumbnails::Draw;
+
+TEST_F(ThumbnailTest, SaysWhyThereIsNone) {
+    Thumbnails thumbnails(device(), {.program = {program("echo no hair >&2; exit 1").string()}});
+    EXPECT_EQ(after(thumbnails, State::waiting, Draw::wanted).state, State::drawing);
+    const Thumbnails::Picture picture = after(thumbnails, State::drawing, Draw::wanted);
+    EXPECT_EQ(picture.state, State::failed);
+    EXPECT_EQ(picture.problem, "no hair");
+    EXPECT_EQ(thumbnails.message(), "");
+}
+
+// While frames play, the process ends at once, and begins anew afterwards.
+TEST_F(ThumbnailTest, GivesWayToFramesThatPlay) {
+    Thumbnails thumbnails(
+        device(),
+        {.program = {program("echo $$ >> " + folder_.file("pids").string() + "; exec sleep 600")
+                         .string()}});
+    EXPECT_EQ(after(thumbnails, State::waiting, Draw::wanted).state, State::drawing);
+    while (!std::filesystem::exists(folder_.file("pids"))) std::this_thread::yield();
+    EXPECT_EQ(thumbnails.message(), "1 picture left");
+    EXPECT_EQ(after(thumbnails, State::drawing, Draw::later).state, State::waiting);
+    EXPECT_EQ(thumbnails.message(), "Pause to draw 1 picture");
+    const pid_t ended = std::stoi(textOf(folder_.file("pids")));
+    EXPECT_EQ(kill(ended, 0), -1);
+    EXPECT_EQ(after(thumbnails, State::waiting, Draw::wanted).state, State::drawing);
+}
+#endif
 
 // The dialog in a window of 1280 x 720 px with a keyboard, without drawing.
 class Dialog : public testing::Test {
