@@ -518,7 +518,7 @@ Act readSeek(const scene::Json& value, const std::string& pointer, const ScriptF
 
 constexpr int kLongestResize = 200;  // pictures; a desktop may take a while to answer
 
-// "File/Open scene", without the dots of menu items.
+// "File/Open", without the dots of menu items.
 std::string fullName(const ActionRow& row) {
     std::string name = std::string(row.menu) + '/' + row.name;
     while (name.ends_with('.') || name.ends_with(' ')) name.pop_back();
