@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cassert>
+#include <cmath>
 #include <limits>
 #include <memory>
 #include <set>
@@ -187,6 +188,109 @@ void writePng(
         throw Error(path.string(), error.what());
     }
     writeFileAtomically(path, bytes);
+}
+
+// ---- Animations ---------------------------------------------------------------------------------
+
+namespace {
+
+// Two bytes, most significant first.
+std::string pngShort(std::uint32_t number) { return pngNumber(number).substr(2); }
+
+// Returns seconds as a fraction of two numbers of 16 bits. A fraction of one, such as a 60th, is
+// exact.
+std::string pngDelay(double seconds) {
+    constexpr double kLongest = 65535.0;
+    const double rate = std::round(1.0 / std::max(seconds, 1.0 / kLongest));
+    if (rate >= 1.0 && std::abs(rate * seconds - 1.0) < 1e-4)
+        return pngShort(1) + pngShort(static_cast<std::uint32_t>(rate));
+    const double milliseconds = std::clamp(std::round(1000.0 * seconds), 1.0, kLongest);
+    return pngShort(static_cast<std::uint32_t>(milliseconds)) + pngShort(1000);
+}
+
+std::string imageHeader(std::uint32_t width, std::uint32_t height) {
+    using namespace std::string_view_literals;
+    std::string data = pngNumber(width) + pngNumber(height);
+    data += "\x08\x06\0\0\0"sv;  // 8 bits, RGBA, deflate, adaptive filters, not interlaced
+    return pngChunk("IHDR", data);
+}
+
+std::string animationControl(std::uint32_t pictures) {
+    return pngChunk("acTL", pngNumber(pictures) + pngNumber(0));  // 0: repeats without end
+}
+
+}  // namespace
+
+AnimatedPng::AnimatedPng(
+    const std::filesystem::path& path, std::uint32_t width, std::uint32_t height)
+    : path_(path), file_(path, std::ios::binary), width_(width), height_(height) {
+    if (!file_) throw Error(path.string(), "cannot be written");
+    checkPictureSize(width, height);
+}
+
+// Returns the chunks of a picture: the smallest rectangle with all that differs from the last one.
+std::string AnimatedPng::changed(std::span<const std::uint8_t> rgba, double seconds) {
+    const std::size_t row = std::size_t{4} * width_;
+    std::uint32_t left = 0, top = 0, right = width_, bottom = height_;
+    if (!last_.empty()) {
+        left = width_, top = height_, right = bottom = 0;
+        for (std::uint32_t y = 0; y < height_; ++y) {
+            const auto now = rgba.subspan(y * row, row);
+            const auto before = std::span(last_).subspan(y * row, row);
+            const auto from = std::ranges::mismatch(now, before).in1;
+            if (from == now.end()) continue;
+            const auto first = static_cast<std::uint32_t>((from - now.begin()) / 4);
+            std::uint32_t last = width_ - 1;
+            while (std::ranges::equal(now.subspan(4 * last, 4), before.subspan(4 * last, 4)))
+                --last;
+            left = std::min(left, first);
+            right = std::max(right, last + 1);
+            top = std::min(top, y);
+            bottom = y + 1;
+        }
+        // A picture needs a pixel.
+        if (bottom == 0) left = top = 0, right = bottom = 1;
+    }
+    std::vector<std::uint8_t> part;
+    for (std::uint32_t y = top; y < bottom; ++y) {
+        const auto pixels = rgba.subspan(y * row + 4 * left, 4 * (right - left));
+        part.insert(part.end(), pixels.begin(), pixels.end());
+    }
+    const std::string data = pngChunks(encodePng(right - left, bottom - top, part), "IDAT");
+    std::string control = pngNumber(sequence_++);
+    for (const std::uint32_t number : {right - left, bottom - top, left, top})
+        control += pngNumber(number);
+    control += pngDelay(seconds);
+    control += std::string(2, '\0');  // stays, and replaces what it covers
+    std::string chunks = pngChunk("fcTL", control);
+    if (last_.empty()) return chunks + pngChunk("IDAT", data);
+    chunks += pngChunk("fdAT", pngNumber(sequence_) + data);
+    ++sequence_;
+    return chunks;
+}
+
+void AnimatedPng::add(
+    std::span<const std::uint8_t> rgba, double seconds, std::string_view keyword,
+    std::string_view text) {
+    assert(rgba.size() == std::size_t{4} * width_ * height_);
+    std::string bytes;
+    if (last_.empty()) {
+        const std::string head = std::string(kPngSignature) + imageHeader(width_, height_);
+        bytes = text.empty() ? head : withPngText(head, keyword, text);
+        count_ = static_cast<std::streamoff>(bytes.size());
+        bytes += animationControl(1);
+    }
+    bytes += changed(rgba, seconds);
+    const std::string end = pngChunk("IEND", {});
+    // First the picture, so that the file never counts more pictures than it has.
+    file_.seekp(end_);
+    file_ << bytes << end << std::flush;
+    file_.seekp(count_);
+    file_ << animationControl(pictures_ + 1) << std::flush;
+    if (!file_) throw Error(path_.string(), "cannot be written");
+    end_ += static_cast<std::streamoff>(bytes.size());
+    ++pictures_;
+    last_.assign(rgba.begin(), rgba.end());
 }
 
 }  // namespace engine

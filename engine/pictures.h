@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <fstream>
 #include <span>
 #include <string>
 #include <string_view>
@@ -31,6 +32,37 @@ encodePng(std::uint32_t width, std::uint32_t height, std::span<const std::uint8_
 void writePng(
     const std::filesystem::path& path, std::uint32_t width, std::uint32_t height,
     std::span<const std::uint8_t> rgba);
+
+// An animated PNG that repeats without end, written picture by picture and lossless: browsers play
+// it (PNG, third edition, section 11.3.6). After each picture the file is complete.
+class AnimatedPng {
+public:
+    // Creates the file, or empties it. Throws Error "<path>: reason", as add() does.
+    AnimatedPng(const std::filesystem::path& path, std::uint32_t width, std::uint32_t height);
+
+    // Adds a picture of RGBA pixels, [row][column], top row first, shown for `seconds`. Writes the
+    // part that differs from the picture before. `text` of the first picture becomes an iTXt chunk
+    // by `keyword`, as by withPngText(); empty: none.
+    void
+    add(std::span<const std::uint8_t> rgba, double seconds, std::string_view keyword = {},
+        std::string_view text = {});
+
+    std::uint32_t pictures() const { return pictures_; }
+    std::uintmax_t size() const { return static_cast<std::uintmax_t>(end_); }  // bytes of the file
+
+private:
+    std::string changed(std::span<const std::uint8_t> rgba, double seconds);
+
+    std::filesystem::path path_;
+    std::ofstream file_;
+    std::uint32_t width_ = 0;
+    std::uint32_t height_ = 0;
+    std::vector<std::uint8_t> last_;  // the picture before; empty: none
+    std::uint32_t pictures_ = 0;
+    std::uint32_t sequence_ = 0;  // number of the next chunk of the animation
+    std::streamoff count_ = 0;  // place of the chunk that counts pictures
+    std::streamoff end_ = 0;
+};
 
 // Throws Error, which doesn't name the file, for a picture without pixels or with more than 2^26.
 void checkPictureSize(std::int64_t width, std::int64_t height);

@@ -13,7 +13,6 @@ namespace {
 
 using namespace std::string_view_literals;
 
-constexpr auto kSignature = "\x89PNG\r\n\x1a\n"sv;
 constexpr std::size_t kFrame = 12;  // bytes of a chunk besides its data: length, type, checksum
 constexpr std::size_t kHeaderChunk = kFrame + 13;          // IHDR and its data
 constexpr std::size_t kLongestText = std::size_t{64} << 20;  // bytes
@@ -39,12 +38,6 @@ std::uint32_t bigEndian(std::string_view bytes) {
     std::uint32_t value = 0;
     for (std::size_t i = 0; i < 4; ++i) value = value << 8 | static_cast<unsigned char>(bytes[i]);
     return value;
-}
-
-std::string bigEndian(std::uint32_t value) {
-    std::string bytes;
-    for (int shift = 24; shift >= 0; shift -= 8) bytes += static_cast<char>(value >> shift & 0xff);
-    return bytes;
 }
 
 // Returns the chunk at `at` and moves `at` past it.
@@ -121,24 +114,45 @@ std::string textOf(std::string_view type, std::string_view data, std::size_t at)
 
 }  // namespace
 
-bool isPng(std::string_view file) { return file.starts_with(kSignature); }
+std::string pngNumber(std::uint32_t number) {
+    std::string bytes;
+    for (int shift = 24; shift >= 0; shift -= 8) bytes += static_cast<char>(number >> shift & 0xff);
+    return bytes;
+}
+
+std::string pngChunk(std::string_view type, std::string_view data) {
+    std::string chunk(type);
+    chunk += data;
+    return pngNumber(static_cast<std::uint32_t>(data.size())) + chunk + pngNumber(checksum(chunk));
+}
+
+std::string pngChunks(std::string_view file, std::string_view type) {
+    if (!isPng(file)) fail(0, "is not a PNG");
+    std::string data;
+    std::size_t at = kPngSignature.size();
+    for (Chunk chunk; chunk.type != "IEND";) {
+        chunk = readChunk(file, at);
+        if (chunk.type == type) data += chunk.data;
+    }
+    return data;
+}
+
+bool isPng(std::string_view file) { return file.starts_with(kPngSignature); }
 
 std::string withPngText(std::string_view file, std::string_view keyword, std::string_view text) {
-    assert(isPng(file) && file.size() > kSignature.size() + kHeaderChunk);
+    assert(isPng(file) && file.size() >= kPngSignature.size() + kHeaderChunk);
     assert(!keyword.empty() && keyword.size() < 80 && text.find('\0') == text.npos);
-    std::string chunk = "iTXt";
-    chunk.append(keyword).append("\0\0\0\0\0"sv).append(text);  // not compressed, no language
-    chunk += bigEndian(checksum(chunk));
-    const std::size_t place = kSignature.size() + kHeaderChunk;
-    std::string result(file.substr(0, place));
-    result += bigEndian(static_cast<std::uint32_t>(chunk.size() - 8));
-    return result.append(chunk).append(file.substr(place));
+    std::string data(keyword);
+    data.append("\0\0\0\0\0"sv).append(text);  // not compressed, no language
+    const std::size_t place = kPngSignature.size() + kHeaderChunk;
+    return std::string(file.substr(0, place)) + pngChunk("iTXt", data) +
+           std::string(file.substr(place));
 }
 
 std::optional<std::string> pngText(std::string_view file, std::string_view keyword) {
     if (!isPng(file)) fail(0, "is not a PNG");
     std::optional<std::string> found;
-    std::size_t at = kSignature.size();
+    std::size_t at = kPngSignature.size();
     for (std::string_view type; type != "IEND";) {
         const std::size_t begin = at;
         Chunk chunk = readChunk(file, at);
@@ -172,12 +186,12 @@ void checkPngData(std::string_view file) {
     std::array<char, 1 << 14> piece{};
     std::uint64_t most = 0;
     int state = Z_OK;
-    std::size_t at = kSignature.size();
+    std::size_t at = kPngSignature.size();
     for (std::string_view type; type != "IEND";) {
         const std::size_t begin = at;
         const Chunk chunk = readChunk(file, at);
         type = chunk.type;
-        if (begin == kSignature.size()) {
+        if (begin == kPngSignature.size()) {
             if (type != "IHDR") fail(begin, "the first chunk is not a header");
             most = 2 * rowBytes(chunk.data, begin);
         }

@@ -1,6 +1,7 @@
 #include "benchmarks/commands/command_line_options.h"
 #include "benchmarks/commands/commands.h"
 #include "benchmarks/viewer/viewer.h"
+#include "engine/system/files.h"
 
 namespace benchmarks::commands {
 namespace {
@@ -40,6 +41,7 @@ void addPictureCommands(const CommandLine& line) {
              {"hairbench view wavy_bob",
               "hairbench view scenes/strong_wind.json --width 1920 --height 1080"}},
         viewScene, [](CLI::App& command, viewer::ViewOptions& options) {
+            options.program = engine::system::thisProgram();
             addSceneOptions(command, options.scene);
             command.add_option("--width", options.width, "width of the window (default 1600)");
             command.add_option("--height", options.height, "height of the window (default 900)");

@@ -20,8 +20,10 @@ constexpr int kAlt = ImGuiMod_Alt;
 // W, A, S, D, Q, E and the arrows are taken: they fly the camera.
 constexpr std::array kActions{
     ActionRow{
-        Action::open_scene, "File", "Open scene...", kCtrl | ImGuiKey_O, "Ctrl+O",
-        "lists the scenes beside this one, and takes any other by its path"},
+        Action::open_scene, "File", "Open...", kCtrl | ImGuiKey_O, "Ctrl+O",
+        "asks for a file: a scene or screenshot to open, or hair, a mesh or an environment for "
+        "this "
+        "scene"},
     ActionRow{
         Action::save_scene, "File", "Save scene", kCtrl | ImGuiKey_S, "Ctrl+S",
         "writes exactly the state shown as a scene that the runner plays to the same picture"},
@@ -35,8 +37,8 @@ constexpr std::array kActions{
         Action::screenshot, "File", "Screenshot", ImGuiKey_F12, "F12",
         "writes the picture as a PNG with the scene in it, which can be opened again"},
     ActionRow{
-        Action::record, "File", "Record frames", kCtrl | ImGuiKey_R, "Ctrl+R",
-        "writes every frame that is played as a PNG, until this is chosen again"},
+        Action::record, "File", "Record", kCtrl | ImGuiKey_R, "Ctrl+R",
+        "writes every frame that is played to an animated PNG, until this is chosen again"},
     ActionRow{Action::quit, "File", "Quit", kCtrl | ImGuiKey_Q, "Ctrl+Q", "closes the window"},
 
     ActionRow{

@@ -112,8 +112,8 @@ pickCapsule(const Ray& ray, const glm::vec3& a, const glm::vec3& b, float radius
 // State of the mouse over a picture in one frame of the window.
 struct Pointer {
     PictureView view;
-    glm::vec2 at{0.0f};  // px in the window
-    glm::vec2 moved{0.0f};  // px since the window's last frame
+    glm::vec2 at{0.0f};  // px in the window; dragPoint() while a button is down
+    glm::vec2 moved{0.0f};  // dragged()
     bool hovers = false;  // over the picture
     bool pressed = false;  // the left button was just pressed on it
     bool holds = false;  // the left button was pressed on it and is still down

@@ -236,7 +236,8 @@ void divider(const char* id, const PictureRect& rect, float& share) {
     ImGui::InvisibleButton(id, {grab, rect.size.y});
     const bool active = ImGui::IsItemActive() && ImGui::IsMouseDown(ImGuiMouseButton_Left);
     const bool focused = ImGui::IsItemFocused(), hovered = ImGui::IsItemHovered();
-    if (active) share = (ImGui::GetMousePos().x - rect.corner.x) / rect.size.x;
+    if (active && ImGui::IsMouseDragging(ImGuiMouseButton_Left))
+        share = (ImGui::GetMousePos().x - rect.corner.x) / rect.size.x;
     if (focused) share += stepOfKeys();
     share = std::clamp(share, 0.0f, 1.0f);
     if (active || hovered) ImGui::SetMouseCursor(ImGuiMouseCursor_ResizeEW);
@@ -524,7 +525,7 @@ PictureArea::Shown PictureArea::item(const Placed& placed, const PictureRect& cl
     const ImGuiIO& io = ImGui::GetIO();
     if (zoom && !io.WantTextInput && ImGui::IsKeyDown(kMoveKey)) {
         if (held || hovered) ImGui::SetMouseCursor(ImGuiMouseCursor_ResizeAll);
-        if (held) focus_ -= glm::vec2(io.MouseDelta.x, io.MouseDelta.y) / placed.picture.size;
+        if (held) focus_ -= dragged() / placed.picture.size;
         return shown;
     }
     if (held) held_ = side;

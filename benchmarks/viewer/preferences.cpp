@@ -351,7 +351,7 @@ ImVec2 paddingOf(Surface surface, const Box& box) {
 
 // Returns how far the splitter was dragged to the right, in letter heights.
 float splitter(const char* name, const Box& box) {
-    float dragged = 0.0f;
+    float shift = 0.0f;
     pane(name, box, Surface::splitter, [&] {
         ImGui::InvisibleButton("##bar", {box.width, box.height});
         const bool held = ImGui::IsItemActive();
@@ -364,9 +364,9 @@ float splitter(const char* name, const Box& box) {
                 {box.x, box.y}, {box.right(), box.bottom()},
                 ImGui::GetColorU32(ImGuiCol_SeparatorActive, held ? 1.0f : 0.5f));
         }
-        if (held) dragged = ImGui::GetIO().MouseDelta.x / ImGui::GetFontSize();
+        if (held) shift = dragged().x / ImGui::GetFontSize();
     });
-    return dragged;
+    return shift;
 }
 
 // Drags start from the column's actual width, not from a wanted one that did not fit.
@@ -382,26 +382,40 @@ constexpr std::size_t kLeft = 2;  // tabs of the left column, which come first
 
 float widthOf(const std::string& text) { return ImGui::CalcTextSize(text.c_str()).x; }
 
-// Shortens a text to fit, px, without splitting a UTF-8 character.
-std::string cut(const std::string& text, float room) {
-    if (widthOf(text) <= room) return text;
-    std::size_t length = text.size();
-    const auto fits = [&] { return widthOf(text.substr(0, length) + "...") <= room; };
-    while (length > 0 && !fits()) {
-        --length;
-        while (length > 0 && (static_cast<unsigned char>(text[length]) & 0xc0u) == 0x80u) --length;
-    }
-    return text.substr(0, length) + "...";
-}
-
 void cutText(const std::string& text, float room, ImGuiCol color) {
     ImGui::PushStyleColor(ImGuiCol_Text, ImGui::GetStyleColorVec4(color));
-    ImGui::TextUnformatted(cut(text, room).c_str());
+    ImGui::TextUnformatted(shortened(text, room).c_str());
     ImGui::PopStyleColor();
     if (widthOf(text) > room && ImGui::IsItemHovered()) ImGui::SetTooltip("%s", text.c_str());
 }
 
 }  // namespace
+
+// ---- Drags --------------------------------------------------------------------------------------
+
+namespace {
+
+constexpr std::array kMouseButtons{
+    ImGuiMouseButton_Left, ImGuiMouseButton_Right, ImGuiMouseButton_Middle};
+
+}  // namespace
+
+glm::vec2 dragged() {
+    if (std::ranges::none_of(
+            kMouseButtons, [](int button) { return ImGui::IsMouseDragging(button); }))
+        return glm::vec2(0.0f);
+    const ImVec2 by = ImGui::GetIO().MouseDelta;
+    return {by.x, by.y};
+}
+
+glm::vec2 dragPoint() {
+    const ImGuiIO& io = ImGui::GetIO();
+    const float least = io.MouseDragThreshold * io.MouseDragThreshold;
+    const bool is_click =
+        (io.MouseDown[0] || io.MouseReleased[0]) && io.MouseDragMaxDistanceSqr[0] < least;
+    const ImVec2 at = is_click ? io.MouseClickedPos[0] : io.MousePos;
+    return {at.x, at.y};
+}
 
 // ---- Panes and splitters ------------------------------------------------------------------------
 
@@ -497,6 +511,17 @@ bool choiceButton(const char* label, const char* help, Chosen chosen) {
 }
 
 // ---- Status line --------------------------------------------------------------------------------
+
+std::string shortened(const std::string& text, float room) {
+    if (widthOf(text) <= room) return text;
+    std::size_t length = text.size();
+    const auto fits = [&] { return widthOf(text.substr(0, length) + "...") <= room; };
+    while (length > 0 && !fits()) {
+        --length;
+        while (length > 0 && (static_cast<unsigned char>(text[length]) & 0xc0u) == 0x80u) --length;
+    }
+    return text.substr(0, length) + "...";
+}
 
 void statusLine(const StatusText& status) {
     ImGui::AlignTextToFramePadding();

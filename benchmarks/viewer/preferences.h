@@ -9,6 +9,8 @@
 #include <string>
 #include <vector>
 
+#include <glm/vec2.hpp>
+
 #include "engine/presenter.h"
 
 struct ImGuiStyle;
@@ -128,6 +130,17 @@ private:
 
 // Layout elements of the window: panes, splitters, tabs, choice buttons, the status line.
 
+// A press becomes a drag when the mouse has moved away from it by ImGuiIO::MouseDragThreshold.
+// Until then it is a click, however unsteady the hand is, and moves nothing.
+
+// Returns the mouse's movement since the window's last picture, px, if a button is down and drags;
+// otherwise zero. The movement before a press, and the one that makes a drag of it, do not count.
+glm::vec2 dragged();
+
+// Returns the mouse's place, px in the window; the place of the left button's press if that is no
+// drag.
+glm::vec2 dragPoint();
+
 // Appearance of a part of the window.
 enum class Surface {
     panel,
@@ -192,6 +205,9 @@ void choiceButtons(std::span<const Choice<Value>> choices, Value& value) {
         if (choiceButton(choice.label, choice.help, chosen)) value = choice.value;
     }
 }
+
+// Returns a text that fits into `room`, px: shortened, with "..." at its end, if it is longer.
+std::string shortened(const std::string& text, float room);
 
 struct StatusText {
     std::string text;  // a message, or a hint

@@ -7,6 +7,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "benchmarks/report/text.h"
 #include "benchmarks/scene/axis.h"
 #include "benchmarks/scene/json.h"
 #include "benchmarks/scene/scene.h"
@@ -15,6 +16,8 @@
 #include "engine/error.h"
 #include "engine/files.h"
 #include "engine/float_pictures.h"
+#include "engine/pictures.h"
+#include "engine/png_text.h"
 #include "hair/fields.h"
 #include "hair/groom/files.h"
 #include "hair/groom/formats/ply.h"
@@ -367,6 +370,16 @@ hair::Settings withGroom(
     return settings;
 }
 
+// ---- Recordings ---------------------------------------------------------------------------------
+
+constexpr double kUsualFrame = 1.0 / 60.0;  // s, for a scene whose frames take no time
+
+// "0012"; larger numbers have more digits.
+std::string fourDigits(std::uint32_t number) {
+    std::string digits = std::to_string(number);
+    return std::string(4 - std::min<std::size_t>(digits.size(), 4), '0') + digits;
+}
+
 }  // namespace
 
 // ---- Settings as arguments of the command line --------------------------------------------------
@@ -463,6 +476,81 @@ withDropped(hair::Settings settings, const fs::path& directory, const fs::path& 
         settings.render.environment = name;
     }
     return settings;
+}
+
+// ---- Recordings ---------------------------------------------------------------------------------
+
+void Recorder::start(const fs::path& path) {
+    engine::checkWritable(path);
+    path_ = path;
+    film_.reset();
+    last_.reset();
+}
+
+void Recorder::stop() {
+    path_.clear();
+    film_.reset();
+}
+
+void Recorder::frame(const Shown& shown) {
+    if (!records() || last_ == shown.frame || !shown.isThere()) return;
+    try {
+        const bool is_first = !film_;
+        if (is_first) {
+            film_.emplace(path_, shown.width, shown.height);
+            width_ = shown.width;
+            height_ = shown.height;
+        }
+        if (shown.width != width_ || shown.height != height_)
+            throw engine::Error(
+                path_.string(), "the recording ends, for the picture's size changed");
+        const double seconds = double{shown.settings.run.frame_time};
+        film_->add(
+            shown.picture, seconds > 0.0 ? seconds : kUsualFrame, scene::kSceneKeyword,
+            is_first ? sceneText(shown.settings, shown.directory, path_.parent_path()) : "");
+    } catch (...) {
+        stop();
+        throw;
+    }
+    last_ = shown.frame;
+}
+
+std::string Recorder::message() const { return records() ? "recording " + figures() : ""; }
+
+std::string Recorder::summary() const { return records() ? "recorded " + figures() : ""; }
+
+std::string Recorder::figures() const {
+    const std::uint32_t frames = film_ ? film_->pictures() : 0;
+    return std::to_string(frames) + (frames == 1 ? " frame" : " frames") + " to " + path_.string() +
+           ", " + report::sizeText(film_ ? film_->size() : 0);
+}
+
+// ---- Screenshots --------------------------------------------------------------------------------
+
+void writeScreenshot(
+    const std::filesystem::path& path, std::uint32_t width, std::uint32_t height,
+    std::span<const std::uint8_t> rgba, const std::string& scene) {
+    std::string file;
+    try {
+        file = engine::withPngText(
+            engine::encodePng(width, height, rgba), scene::kSceneKeyword, scene);
+    } catch (const engine::Error& error) {
+        throw engine::Error(path.string(), error.what());
+    }
+    engine::writeFileAtomically(path, file);
+}
+
+std::filesystem::path freeName(
+    const std::filesystem::path& folder, const std::string& stem, const std::string& extension) {
+    for (std::uint32_t number = 1;; ++number) {
+        std::filesystem::path path = folder / (stem + '-' + fourDigits(number) + extension);
+        std::error_code error;
+        if (std::filesystem::symlink_status(path, error).type() ==
+            std::filesystem::file_type::not_found)
+            return path;
+        // In an unreadable folder, no free name can be found. Writing will report the error.
+        if (error) return path;
+    }
 }
 
 }  // namespace benchmarks::viewer

@@ -1,14 +1,19 @@
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
+#include <optional>
+#include <span>
 #include <string>
 
 #include "benchmarks/scene/json.h"
 #include "benchmarks/scene/scene.h"
+#include "benchmarks/viewer/player.h"
+#include "engine/pictures.h"
 #include "hair/settings.h"
 
-// Files of the viewer: opens and saves scenes, quotes them as command-line arguments, and handles
-// files that are dropped on the window.
+// Files of the viewer: opens and saves scenes, quotes them as command-line arguments, handles files
+// that are dropped on the window, and writes recordings and screenshots.
 namespace benchmarks::viewer {
 
 // Returns the arguments after `hairbench run SCENE` that play exactly these settings: "-a
@@ -69,5 +74,46 @@ Dropped whatIs(const std::filesystem::path& file);
 hair::Settings withDropped(
     hair::Settings settings, const std::filesystem::path& directory,
     const std::filesystem::path& file);
+
+// ---- Recordings and screenshots -----------------------------------------------------------------
+
+// Writes every shown frame to an animated PNG, which browsers play at the scene's own speed.
+class Recorder {
+public:
+    bool records() const { return !path_.empty(); }
+    // Starts a recording. Throws engine::Error if the file can't be written.
+    void start(const std::filesystem::path& path);
+    void stop();
+    // Adds the shown frame, once even if called repeatedly. The first one brings its scene, as a
+    // screenshot does. Does nothing without a recording. Stops the recording if it throws
+    // engine::Error, also for a frame of another size.
+    void frame(const Shown& shown);
+
+    // "recording 12 frames to <path>, 3.1 MB"; empty without a recording.
+    std::string message() const;
+    // The same with "recorded".
+    std::string summary() const;
+
+private:
+    std::string figures() const;
+
+    std::filesystem::path path_;  // empty: no recording
+    std::optional<engine::AnimatedPng> film_;  // from the first frame on
+    std::uint32_t width_ = 0;
+    std::uint32_t height_ = 0;
+    std::optional<std::uint32_t> last_;  // number of the last written frame
+};
+
+// Writes a PNG of RGBA pixels, [row][column], top row first, with a scene in its metadata: an iTXt
+// chunk "hairbench-scene" for sceneOfScreenshot() and loadScene(). `scene` is from sceneText() for
+// the picture's folder. Replaces the file atomically. Throws engine::Error.
+void writeScreenshot(
+    const std::filesystem::path& path, std::uint32_t width, std::uint32_t height,
+    std::span<const std::uint8_t> rgba, const std::string& scene);
+
+// Returns the first free name in the folder: "hairbench-rest-0001.png" for the stem
+// "hairbench-rest".
+std::filesystem::path freeName(
+    const std::filesystem::path& folder, const std::string& stem, const std::string& extension);
 
 }  // namespace benchmarks::viewer

@@ -66,6 +66,21 @@ std::filesystem::path preferencesOf(const ViewOptions& options) {
     return usersPreferences().value_or("");
 }
 
+std::vector<std::string> thumbnailProgram(const ViewOptions& options) {
+    if (options.program.empty()) return {};
+    std::vector<std::string> program{options.program.string()};
+    const engine::DeviceOptions& device = options.scene.device;
+    if (!device.wanted.empty()) program.insert(program.end(), {"--device", device.wanted});
+    if (!options.scene.cache) program.push_back("--no-cache");
+    if (options.scene.outside == scene::Outside::allowed) program.push_back("--allow-outside");
+    return program;
+}
+
+std::filesystem::path thumbnailFolder(const ViewOptions& options) {
+    const std::filesystem::path cache = engine::userCacheFolder();
+    return options.scene.cache && !cache.empty() ? cache / "thumbnails" : std::filesystem::path();
+}
+
 // Returns the size from the command line, or otherwise that of the last session.
 engine::WindowDescription windowOf(const ViewOptions& options, const Preferences& preferences) {
     const ViewOptions unsaid;
@@ -75,12 +90,7 @@ engine::WindowDescription windowOf(const ViewOptions& options, const Preferences
         .height = as_it_was ? preferences.height : options.height};
 }
 
-constexpr const char* kTitle = "Save scene as";
-
-bool exists(const std::string& path) {
-    std::error_code none;
-    return std::filesystem::exists(path, none);
-}
+constexpr float kDragThreshold = 6.0f;  // px at scale 1 that make a drag of a click
 
 }  // namespace
 
@@ -97,7 +107,12 @@ Shell::Shell(
       device(windowed(options.scene.device)),
       presenter(device, window, preferences.now.present_mode), ui(device, window, 1.0f),
       area(device), scene(file, settings), scenes(file.directory),
-      timings(*scene_device, &engine::Window::endWait), previews(!driven),
+      thumbnails(
+          device, {.program = thumbnailProgram(options),
+                   .folder = thumbnailFolder(options),
+                   .drawn = &engine::Window::endWait}),
+      draws_thumbnails(!waitsForDrawing()), timings(*scene_device, &engine::Window::endWait),
+      previews(!driven),
       studio(
           *scene_device, options.shaders.empty() ? engine::programFile("shaders") : options.shaders,
           options.before_drawing, std::move(cache)),
@@ -154,6 +169,7 @@ void Shell::followScale() {
     if (wanted == styled_scale && preferences.now.theme == styled_theme) return;
     if (wanted != ui.scale()) ui.setScale(wanted);
     ImGui::GetStyle() = styleOf(preferences.now.theme, wanted);
+    ImGui::GetIO().MouseDragThreshold = kDragThreshold * wanted;
     styled_scale = wanted;
     styled_theme = preferences.now.theme;
 }
@@ -165,9 +181,18 @@ void Shell::present() {
                 commands, scene.side(0).shown(),
                 scene.sideCount() > 1 ? &scene.side(1).shown() : nullptr);
             unseen |= !all_seen;
+            unseen |= thumbnails.copy(commands);
         },
         [&](engine::Commands& commands) { ui.draw(commands); });
     disturbed |= drawing.busy();
+}
+
+// They would disturb frames that are timed, and compete with pictures of the scene.
+Thumbnails::Draw Shell::thumbnailsToDraw() const {
+    const bool times = timings.measuring().isMeasuring() || (state.playing && !stopped);
+    if (!draws_thumbnails) return Thumbnails::Draw::never;
+    if (times) return Thumbnails::Draw::later;
+    return drawing.busy() ? Thumbnails::Draw::begun : Thumbnails::Draw::wanted;
 }
 
 void Shell::drawPicture() {
@@ -179,6 +204,7 @@ void Shell::drawPicture() {
     ui.begin();
     due += double{ImGui::GetIO().DeltaTime};
     showWindow();
+    thumbnails.work(thumbnailsToDraw());
     if (!ImGui::IsAnyItemActive() && !tools.isBusy())
         for (Side* const side : scene.sides()) side->settle();
     ui.end();
@@ -386,7 +412,7 @@ void Shell::takeNews(const OpenScene::News& news) {
         state.scrub.reset();
         state.furthest = 0;
         const SceneFile& file = scene.file();
-        scenes = SceneList(file.directory);
+        scenes.setFolder(file.directory);
         area.views = Views::a;
         window.setTitle("hairbench " + file.name);
         remember(preferences.now, file.path);
@@ -454,7 +480,7 @@ void Shell::save() {
     if (scene.wasSaved())
         saveAs(scene.file().path);
     else
-        path_popup.open(suggestedPath());
+        dialog.open(FileDialog::Use::save, suggestedPath());
 }
 
 void Shell::saveAs(const std::filesystem::path& path) {
@@ -497,15 +523,14 @@ void Shell::screenshot() {
 void Shell::record() {
     message.attempt([&] {
         if (recorder.records()) {
-            message.tell(
-                "recorded " + std::to_string(recorder.written()) + " frames to " +
-                recorder.folder().string());
+            message.tell(recorder.summary());
             recorder.stop();
             return;
         }
-        recorder.start(
-            freeName(std::filesystem::current_path(), "hairbench-" + scene.file().name, ""));
-        message.tell("recording to " + recorder.folder().string());
+        recorder.start(freeName(
+            std::filesystem::current_path(), "hairbench-" + scene.file().name + "-recording",
+            ".png"));
+        message.tell(recorder.message());
     });
 }
 
@@ -525,42 +550,6 @@ void Shell::drop(const std::filesystem::path& file) {
             message.tell("took " + file.string());
         });
     }
-}
-
-// ---- The box that asks for a path ---------------------------------------------------------------
-
-void PathPopup::open(const std::filesystem::path& suggested) {
-    typed_ = suggested.string();
-    opens_ = true;
-}
-
-std::optional<std::filesystem::path> PathPopup::show() {
-    if (opens_) ImGui::OpenPopup(kTitle);
-    const bool first = std::exchange(opens_, false);
-    const ImVec2 room = ImGui::GetMainViewport()->Size;
-    const float letter = ImGui::GetFontSize();
-    ImGui::SetNextWindowSize({std::min(42.0f * letter, room.x - 2.0f * letter), 0.0f});
-    ImGui::SetNextWindowPos({room.x * 0.5f, room.y * 0.4f}, ImGuiCond_Always, {0.5f, 0.5f});
-    if (!ImGui::BeginPopupModal(
-            kTitle, nullptr, ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoSavedSettings))
-        return std::nullopt;
-    std::optional<std::filesystem::path> accepted;
-    ImGui::SetNextItemWidth(-1.0f);
-    if (first) ImGui::SetKeyboardFocusHere();
-    textInput("##path", typed_);
-    const bool entered = ImGui::IsItemDeactivated() && ImGui::IsKeyPressed(ImGuiKey_Enter);
-    const bool replaces = exists(typed_);
-    ImGui::TextDisabled(
-        "%s", replaces ? "This file exists and will be replaced." : "The scene, as JSON.");
-    ImGui::BeginDisabled(typed_.empty());
-    const bool pressed = ImGui::Button(replaces ? "Replace###save" : "Save###save");
-    ImGui::EndDisabled();
-    ImGui::SameLine();
-    const bool leaves = ImGui::Button("Cancel") || ImGui::IsKeyPressed(ImGuiKey_Escape);
-    if ((entered || pressed) && !typed_.empty()) accepted = typed_;
-    if (accepted || leaves) ImGui::CloseCurrentPopup();
-    ImGui::EndPopup();
-    return accepted;
 }
 
 }  // namespace benchmarks::viewer

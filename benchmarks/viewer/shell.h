@@ -13,11 +13,11 @@
 
 #include "benchmarks/scene/sweep.h"
 #include "benchmarks/viewer/actions.h"
+#include "benchmarks/viewer/files_panel.h"
 #include "benchmarks/viewer/open_scene.h"
 #include "benchmarks/viewer/picture_area.h"
 #include "benchmarks/viewer/player.h"
 #include "benchmarks/viewer/preferences.h"
-#include "benchmarks/viewer/recorder.h"
 #include "benchmarks/viewer/settings_panel.h"
 #include "benchmarks/viewer/shader_reload.h"
 #include "benchmarks/viewer/side.h"
@@ -44,6 +44,7 @@ struct ViewOptions {
     // File of preferences; empty: the user's file, or none with a script.
     std::filesystem::path preferences;
     std::vector<std::string> command;  // for reports
+    std::filesystem::path program{};  // this one, which draws thumbnails; empty: none
     // Called on the drawing thread with each order before any work, for tests that delay it; may be
     // empty.
     std::function<void()> before_drawing{};
@@ -88,20 +89,6 @@ private:
     unsigned count_ = 0;
 };
 
-// A box above everything else that asks for the path of a file to write.
-class PathPopup {
-public:
-    // Opens the box in the window's next picture, with an initial path.
-    void open(const std::filesystem::path& suggested);
-
-    // Shows the box while it is open. Returns the accepted path, if any.
-    std::optional<std::filesystem::path> show();
-
-private:
-    std::string typed_;
-    bool opens_ = false;
-};
-
 // The state of the viewer, and its work beside the contents of the window, which viewer.cpp adds.
 struct Shell {
     Shell(
@@ -124,6 +111,7 @@ struct Shell {
     // Draws one picture of the window; false if it was closed.
     bool frame();
     void drawPicture();
+    Thumbnails::Draw thumbnailsToDraw() const;
     void waitForEvents();
     double patience() const;
     void followScale();
@@ -178,6 +166,8 @@ struct Shell {
     ComparePanel compare_panel;
     OpenScene scene;
     SceneList scenes;
+    Thumbnails thumbnails;
+    bool draws_thumbnails;
     PictureTools tools;
     TimingsPanel timings;
     ReportOrigin origin;  // for reports of the open scene
@@ -186,7 +176,7 @@ struct Shell {
     Message message;
     std::string reported;  // problem of the side that was last reported
     std::string reported_preferences;
-    PathPopup path_popup;
+    FileDialog dialog;
     std::string search;
     Tabs tabs;
     bool help = false;

@@ -71,18 +71,18 @@ Edit PictureTools::update(
     const PictureRect& rect, const PictureRect& clip, bool hovered, bool held,
     hair::Settings& settings, const Shown& played) {
     const ImGuiIO& io = ImGui::GetIO();
+    const bool had = drags();
     // A press with Shift, Ctrl or Alt goes to the camera, not to a handle.
     const bool is_plain = !io.KeyShift && !io.KeyCtrl && !io.KeyAlt;
     // Uses the view of the shown settings; the wanted ones may be ahead of them.
     const Pointer pointer{
         .view = {played.settings.camera, played.settings.render, rect},
-        .at = {io.MousePos.x, io.MousePos.y},
-        .moved = {io.MouseDelta.x, io.MouseDelta.y},
+        .at = held || had ? dragPoint() : glm::vec2{io.MousePos.x, io.MousePos.y},
+        .moved = dragged(),
         .hovers = hovered,
         .pressed = hovered && held && is_plain && ImGui::IsMouseClicked(ImGuiMouseButton_Left),
         .holds = held && ImGui::IsMouseDown(ImGuiMouseButton_Left)};
     Handles handles(clip);
-    const bool had = drags();
     Edit edit = handle(pointer, handles, settings, played);
     const bool has = had || drags();
     edit |= camera_.update(

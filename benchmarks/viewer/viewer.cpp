@@ -9,7 +9,7 @@
 
 #include <imgui.h>
 
-#include "benchmarks/viewer/recorder.h"
+#include "benchmarks/viewer/files_panel.h"
 #include "benchmarks/viewer/settings_panel.h"
 #include "benchmarks/viewer/shell.h"
 #include "engine/shaders.h"
@@ -53,7 +53,6 @@ std::optional<engine::PresentMode> presentModeOf(Action action) {
 
 std::optional<Tab> tabOf(Action action) {
     switch (action) {
-    case Action::open_scene:
     case Action::panel_files:
         return Tab::files;
     case Action::panel_scene:
@@ -139,8 +138,12 @@ void Viewer::Parts::showScene() {
 }
 
 void Viewer::Parts::showFiles() {
+    if (ImGui::Button("Open file...")) perform(Action::open_scene);
+    ImGui::SetItemTooltip("A scene, a screenshot, hair, a mesh or an environment.\n"
+                          "Files can be dropped on the window, too.");
+    ImGui::SameLine();
     std::optional<std::filesystem::path> chosen = recentScenes(preferences.now.recent);
-    if (const auto listed = scenes.show(scene.file().path)) chosen = listed;
+    if (const auto listed = scenes.show(scene.file().path, thumbnails)) chosen = listed;
     if (chosen) open(*chosen);
 }
 
@@ -298,7 +301,12 @@ void Viewer::Parts::showWindow() {
     pane("Status", layout.status, Surface::bar, [&] { showStatus(); });
     splitters(layout, preferences.now);
     helpPanel(help);
-    if (const auto path = path_popup.show()) saveAs(*path);
+    if (const std::optional<FileDialog::Chosen> chosen = dialog.show()) {
+        if (chosen->use == FileDialog::Use::save)
+            saveAs(chosen->path);
+        else
+            drop(chosen->path);
+    }
 }
 
 // ---- Effects of menus and keys ------------------------------------------------------------------
@@ -400,11 +408,14 @@ void Viewer::Parts::perform(Action action) {
         return;
     }
     switch (action) {
+    case Action::open_scene:
+        dialog.open(FileDialog::Use::open, scene.file().directory);
+        break;
     case Action::save_scene:
         save();
         break;
     case Action::save_scene_as:
-        path_popup.open(suggestedPath());
+        dialog.open(FileDialog::Use::save, suggestedPath());
         break;
     case Action::copy_axes:
         copyArguments();
@@ -515,6 +526,8 @@ bool Viewer::finish(std::chrono::milliseconds patience) {
 void Viewer::keepPreferences() { parts_->keepPreferences(); }
 
 void Viewer::setLive(bool live) { parts_->live = live; }
+void Viewer::setThumbnails(bool drawn) { parts_->draws_thumbnails = drawn; }
+std::size_t Viewer::missingThumbnails() const { return parts_->thumbnails.missing(); }
 
 std::size_t Viewer::sideCount() const { return parts_->scene.sideCount(); }
 const Side& Viewer::side(std::size_t index) const { return parts_->scene.side(index); }

@@ -39,6 +39,11 @@ public:
     // earlier requests.
     void setLive(bool live);
 
+    // Whether thumbnails of scenes are drawn. Initially not where frame() waits for the scene.
+    void setThumbnails(bool drawn);
+    // How many scenes in the window's last picture lack a thumbnail.
+    std::size_t missingThumbnails() const;
+
     // User actions, for scripts. Sides are counted from 0; there are two when comparing.
     std::size_t sideCount() const;
     const Side& side(std::size_t index) const;

@@ -7,7 +7,6 @@
 #include "benchmarks/measure/case.h"
 #include "benchmarks/scene/assets.h"
 #include "benchmarks/scene/schema.h"
-#include "benchmarks/viewer/recorder.h"
 #include "engine/pictures.h"
 #include "hair/groom/build_groom.h"
 #include "hair/groom/mesh/import_mesh.h"

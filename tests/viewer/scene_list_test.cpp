@@ -1,9 +1,20 @@
-#include "benchmarks/viewer/open_scene.h"
+#include "benchmarks/viewer/files_panel.h"
+
+#include <algorithm>
+#include <chrono>
+#include <string>
+#include <thread>
 
 #include <gmock/gmock.h>
 #include <imgui.h>
 
+#include "tests/gpu_fixture.h"
 #include "tests/temporary_folder.h"
+#include "tests/viewer/headless_ui.h"
+
+#ifndef _WIN32
+#include <signal.h>
+#endif
 
 namespace benchmarks::viewer {
 namespace {
@@ -11,6 +22,7 @@ namespace {
 using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
+using testing::IsSupersetOf;
 
 TEST(ListedScenes, AreTheJsonFilesOfTheFolderButSchemas) {
     const TemporaryFolder folder;
@@ -34,103 +46,175 @@ TEST(ListedScenes, SayWhatTheyAreOrWhyNot) {
     EXPECT_THAT(listedScene(folder.file("gone.json")).problem, HasSubstr("no such file"));
 }
 
-// A list in a panel 280 px wide, with a mouse and a keyboard but without drawing.
-class SceneListPanel : public testing::Test {
+std::vector<std::string> titles(const std::vector<SceneGroup>& groups) {
+    std::vector<std::string> found;
+    for (const SceneGroup& group : groups) found.push_back(group.title);
+    return found;
+}
+
+// The groups are the folders of scenes/.
+TEST(SceneGroups, AreTheShippedFoldersAndTheOpenOne) {
+    const TemporaryFolder folder;
+    const std::vector<SceneGroup> shipped = sceneGroups(HAIRBENCH_SCENES_DIR);
+    EXPECT_THAT(titles(shipped), IsSupersetOf({"Scenes", "Portraits", "Extended", "Truth"}));
+    EXPECT_EQ(shipped.front().title, "Scenes");
+    std::size_t files = 0;
+    for (const SceneGroup& group : shipped) files += group.files.size();
+    EXPECT_GE(files, 40u);
+    // A folder of the user's comes first, if it has scenes.
+    EXPECT_EQ(titles(sceneGroups(folder.path())), titles(shipped));
+    const std::filesystem::path mine = folder.write("mine/a.json", "{}");
+    const std::vector<SceneGroup> all = sceneGroups(mine.parent_path());
+    EXPECT_EQ(all.size(), shipped.size() + 1);
+    EXPECT_EQ(all.front().title, "In mine");
+    EXPECT_THAT(all.front().files, ElementsAre(mine));
+}
+
+#ifndef _WIN32
+// Pictures by programs that stand for hairbench: shell scripts.
+class ThumbnailTest : public GpuTest {
 protected:
-    void SetUp() override {
-        context_ = ImGui::CreateContext();
-        ImGui::GetIO().IniFilename = nullptr;
-        ImGui::GetIO().DisplaySize = {1280, 720};
-        unsigned char* pixels = nullptr;
-        int width = 0, height = 0;
-        ImGui::GetIO().Fonts->GetTexDataAsRGBA32(&pixels, &width, &height);
-        folder_.write("curly.json", "{}");
-        folder_.write("rest.json", "{}");
-        folder_.write("suite.json", R"({"suite": ["rest.json"]})");
+    std::filesystem::path program(const std::string& lines) const {
+        const std::filesystem::path file = folder_.write("program", "#!/bin/sh\n" + lines);
+        std::filesystem::permissions(file, std::filesystem::perms::owner_all);
+        return file;
     }
 
-    void TearDown() override { ImGui::DestroyContext(context_); }
-
-    std::optional<std::filesystem::path> frame(SceneList& list) {
-        ImGui::GetIO().DeltaTime = 1.0f / 60.0f;
-        ImGui::NewFrame();
-        ImGui::SetNextWindowPos({0, 0});
-        ImGui::SetNextWindowSize({280, 400});
-        ImGui::Begin("panel", nullptr, ImGuiWindowFlags_NoDecoration);
-        auto chosen = list.show(folder_.file("rest.json"));
-        content_ = ImGui::GetWindowWidth() - ImGui::GetStyle().WindowPadding.x;
-        last_right_ = ImGui::GetItemRectMax().x;
-        ImGui::End();
-        ImGui::EndFrame();
-        return chosen;
-    }
-
-    std::optional<std::filesystem::path> click(SceneList& list, float x, float y) {
-        ImGui::GetIO().AddMousePosEvent(x, y);
-        frame(list);
-        ImGui::GetIO().AddMouseButtonEvent(0, true);
-        frame(list);
-        ImGui::GetIO().AddMouseButtonEvent(0, false);
-        return frame(list);
-    }
-
-    // Returns the y coordinate of a row's middle.
-    float row(int index) const {
-        const ImGuiStyle& style = ImGui::GetStyle();
-        return style.WindowPadding.y + 2.0f * ImGui::GetFrameHeightWithSpacing() +
-               (static_cast<float>(index) + 0.5f) * ImGui::GetTextLineHeightWithSpacing();
-    }
-
-    void type(SceneList& list, const std::string& text, float y) {
-        click(list, 20.0f, y);
-        ImGui::GetIO().AddInputCharactersUTF8(text.c_str());
-        frame(list);
+    // Looks at the scene in pictures of the window until it has another state.
+    Thumbnails::Picture
+    after(Thumbnails& thumbnails, Thumbnails::State state, Thumbnails::Draw draw) const {
+        const auto late = std::chrono::steady_clock::now() + std::chrono::seconds(30);
+        for (;;) {
+            const Thumbnails::Picture picture = thumbnails.of(scene_);
+            thumbnails.work(draw);
+            if (picture.state != state || std::chrono::steady_clock::now() > late) return picture;
+            std::this_thread::sleep_for(std::chrono::milliseconds(10));
+        }
     }
 
     TemporaryFolder folder_;
-    float content_ = 0.0f;
-    float last_right_ = 0.0f;
-
-private:
-    ImGuiContext* context_ = nullptr;
+    std::filesystem::path scene_ = folder_.write("a.json", "{}");
 };
 
-TEST_F(SceneListPanel, GivesTheSceneThatIsClicked) {
-    SceneList list(folder_.path());
-    EXPECT_EQ(frame(list), std::nullopt);
-    EXPECT_EQ(click(list, 40, row(0)), folder_.file("curly.json"));
-    EXPECT_EQ(click(list, 40, row(1)), folder_.file("rest.json"));
+using State = Thumbnails::State;
+using Draw = Thumbnails::Draw;
+
+TEST_F(ThumbnailTest, SaysWhyThereIsNone) {
+    Thumbnails thumbnails(device(), {.program = {program("echo no hair >&2; exit 1").string()}});
+    EXPECT_EQ(after(thumbnails, State::waiting, Draw::wanted).state, State::drawing);
+    const Thumbnails::Picture picture = after(thumbnails, State::drawing, Draw::wanted);
+    EXPECT_EQ(picture.state, State::failed);
+    EXPECT_EQ(picture.problem, "no hair");
+    EXPECT_EQ(thumbnails.message(), "");
 }
 
-TEST_F(SceneListPanel, DoesNotGiveASuite) {
-    SceneList list(folder_.path());
-    frame(list);
-    EXPECT_EQ(click(list, 40, row(2)), std::nullopt);
+// While frames play, the process ends at once, and begins anew afterwards.
+TEST_F(ThumbnailTest, GivesWayToFramesThatPlay) {
+    Thumbnails thumbnails(
+        device(),
+        {.program = {program("echo $$ >> " + folder_.file("pids").string() + "; exec sleep 600")
+                         .string()}});
+    EXPECT_EQ(after(thumbnails, State::waiting, Draw::wanted).state, State::drawing);
+    while (!std::filesystem::exists(folder_.file("pids"))) std::this_thread::yield();
+    EXPECT_EQ(thumbnails.message(), "1 picture left");
+    EXPECT_EQ(after(thumbnails, State::drawing, Draw::later).state, State::waiting);
+    EXPECT_EQ(thumbnails.message(), "Pause to draw 1 picture");
+    const pid_t ended = std::stoi(textOf(folder_.file("pids")));
+    EXPECT_EQ(kill(ended, 0), -1);
+    EXPECT_EQ(after(thumbnails, State::waiting, Draw::wanted).state, State::drawing);
+}
+#endif
+
+// The dialog in a window of 1280 x 720 px with a keyboard, without drawing.
+class Dialog : public testing::Test {
+protected:
+    Dialog() {
+        folder_.write("hair/bob.json", "{}");
+        folder_.write("hair/notes.txt", "");
+        folder_.write("rest.json", "{}");
+    }
+
+    void picture() {
+        ui_.show(
+            [&] {
+                if (const auto taken = dialog_.show()) chosen_ = taken;
+            },
+            1);
+    }
+
+    // Replaces the name in the dialog, and presses Enter.
+    void enter(const std::string& name) {
+        ImGuiIO& io = ImGui::GetIO();
+        picture();
+        picture();
+        for (const bool down : {true, false}) {
+            io.AddKeyEvent(ImGuiMod_Ctrl, down);
+            io.AddKeyEvent(ImGuiKey_A, down);
+            picture();
+        }
+        io.AddInputCharactersUTF8(name.c_str());
+        for (int i = 0; i < 3; ++i) picture();
+        for (const bool down : {true, false}) {
+            io.AddKeyEvent(ImGuiKey_Enter, down);
+            picture();
+            picture();
+        }
+    }
+
+    TemporaryFolder folder_;
+    HeadlessUi ui_{1280, 720};
+    FileDialog dialog_;
+    std::optional<FileDialog::Chosen> chosen_;
+};
+
+TEST_F(Dialog, TakesANameInItsFolder) {
+    dialog_.open(FileDialog::Use::open, folder_.path());
+    enter("rest.json");
+    ASSERT_TRUE(chosen_);
+    EXPECT_EQ(chosen_->use, FileDialog::Use::open);
+    EXPECT_EQ(chosen_->path, std::filesystem::canonical(folder_.file("rest.json")));
+    picture();
+    EXPECT_FALSE(ImGui::IsPopupOpen("", ImGuiPopupFlags_AnyPopupId));
 }
 
-TEST_F(SceneListPanel, FiltersByName) {
-    SceneList list(folder_.path());
-    frame(list);
-    const float filter =
-        ImGui::GetStyle().WindowPadding.y + 1.5f * ImGui::GetFrameHeightWithSpacing();
-    type(list, "RES", filter);
-    EXPECT_EQ(click(list, 40, row(0)), folder_.file("rest.json"));
+TEST_F(Dialog, TakesAPathElsewhere) {
+    dialog_.open(FileDialog::Use::open, folder_.file("hair"));
+    enter(folder_.file("rest.json").string());
+    ASSERT_TRUE(chosen_);
+    EXPECT_EQ(chosen_->path, folder_.file("rest.json"));
 }
 
-TEST_F(SceneListPanel, TakesAPathWithEnter) {
-    SceneList list(folder_.path());
-    frame(list);
-    type(list, "/some/other.json", row(0) - 2.0f * ImGui::GetFrameHeightWithSpacing());
-    ImGui::GetIO().AddKeyEvent(ImGuiKey_Enter, true);
-    EXPECT_EQ(frame(list), "/some/other.json");
-    ImGui::GetIO().AddKeyEvent(ImGuiKey_Enter, false);
-    EXPECT_EQ(frame(list), std::nullopt);
+TEST_F(Dialog, OpensNoMissingFile) {
+    dialog_.open(FileDialog::Use::open, folder_.path());
+    enter("gone.json");
+    EXPECT_FALSE(chosen_);
+    EXPECT_TRUE(ImGui::IsPopupOpen("", ImGuiPopupFlags_AnyPopupId));
 }
 
-TEST_F(SceneListPanel, StaysWithinItsPanel) {
-    SceneList list(folder_.path());
-    frame(list);
-    EXPECT_LE(last_right_, content_);
+// The name of a folder leads into it.
+TEST_F(Dialog, EntersAFolder) {
+    dialog_.open(FileDialog::Use::open, folder_.path());
+    enter("hair");
+    EXPECT_FALSE(chosen_);
+    // The field has lost the keyboard; the box opens anew in the folder that a name leads to.
+    dialog_.open(FileDialog::Use::open, folder_.file("hair"));
+    enter("bob.json");
+    ASSERT_TRUE(chosen_);
+    EXPECT_EQ(chosen_->path, std::filesystem::canonical(folder_.file("hair/bob.json")));
+}
+
+// A scene gets its ending, and may replace another one.
+TEST_F(Dialog, SavesUnderANewNameOrAnOldOne) {
+    dialog_.open(FileDialog::Use::save, folder_.file("rest-0001.json"));
+    enter("mine");
+    ASSERT_TRUE(chosen_);
+    EXPECT_EQ(chosen_->use, FileDialog::Use::save);
+    EXPECT_EQ(chosen_->path, std::filesystem::canonical(folder_.path()) / "mine.json");
+    chosen_.reset();
+    dialog_.open(FileDialog::Use::save, folder_.file("rest-0001.json"));
+    enter("rest.json");
+    ASSERT_TRUE(chosen_);
+    EXPECT_EQ(chosen_->path, std::filesystem::canonical(folder_.file("rest.json")));
 }
 
 }  // namespace

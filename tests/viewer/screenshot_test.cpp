@@ -1,4 +1,4 @@
-#include "benchmarks/viewer/recorder.h"
+#include "benchmarks/viewer/scene_file.h"
 
 #include <gmock/gmock.h>
 

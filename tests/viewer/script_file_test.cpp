@@ -53,14 +53,14 @@ TEST_F(ScriptFile, NamesTheVerbsItCouldHave) {
         problemOfStep(R"({"clik": "Play"})"),
         "script.json: /steps/1: unknown verb (did you mean 'click'?); known: wait, frames, play, "
         "seek, set, perform, drop, resize, move, click, drag, scroll, key, type, screenshot, "
-        "picture, save, state, live, expect");
+        "picture, save, state, live, expect, thumbnails");
 }
 
 TEST_F(ScriptFile, NamesTheMembersItCouldHave) {
     EXPECT_EQ(
         problemOfStep(R"({"click": {"itme": "Play"}})"),
         "script.json: /steps/1/click: unknown key (did you mean 'item'?); known: item, window, "
-        "at, button, double, keys");
+        "at, button, double, hasty, keys");
     EXPECT_EQ(
         problemOf(R"({"step": []})"),
         "script.json: /step: unknown key (did you mean 'steps'?); known: description, out, "

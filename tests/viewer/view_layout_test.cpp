@@ -28,8 +28,10 @@ std::string popupsAndSettings() {
     for (const char* menu : {"File", "Camera", "Tools", "View", "Window"})
         steps += R"({"click": {"item": ")" + std::string(menu) +
                  R"(", "window": "##MainMenuBar"}}, )" + kGood + R"(, {"key": "escape"}, )";
-    steps += R"({"perform": "Save scene as"}, )" + kGood + R"(, {"click": "Cancel"}, )" +
-             R"({"click": "##search"}, {"type": "e"})";
+    for (const char* dialog : {"Save scene as", "File/Open"})
+        steps += R"({"perform": ")" + std::string(dialog) + R"("}, )" + kGood +
+                 R"(, {"click": "Cancel"}, )";
+    steps += R"({"click": "##search"}, {"type": "e"})";
     for (int i = 0; i < 8; ++i)
         steps += R"(, {"scroll": {"window": "Left/Scene/fields", "by": [0, -12]}}, )" + kGood;
     // The panel floats above the others.

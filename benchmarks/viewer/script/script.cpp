@@ -2,9 +2,11 @@
 
 #include <algorithm>
 #include <cctype>
+#include <chrono>
 #include <iterator>
 #include <optional>
 #include <string_view>
+#include <thread>
 #include <utility>
 #include <vector>
 
@@ -359,8 +361,11 @@ int keysOf(const Members& members) {
     return keys ? keyChord(*keys, members.pointerOf("keys")) : 0;
 }
 
-void press(Driver& driver, int button, int keys) {
+// `at`: a place to move to within the same picture of the window.
+void press(
+    Driver& driver, int button, int keys, std::optional<std::array<float, 2>> at = std::nullopt) {
     driver.then([=, &driver] {
+        if (at) driver.input.move((*at)[0], (*at)[1]);
         if (keys) driver.input.key(keys, Change::press);
         driver.input.button(button, Change::press);
     });
@@ -393,14 +398,17 @@ Act readMove(const scene::Json& value, const std::string& pointer, const ScriptF
 
 Act readClick(const scene::Json& value, const std::string& pointer, const ScriptFolders&) {
     const scene::Json object = asObject(value);
-    const Members members(object, pointer, {"item", "window", "at", "button", "double", "keys"});
+    const Members members(
+        object, pointer, {"item", "window", "at", "button", "double", "hasty", "keys"});
     const Place place = placeOf(members, "at");
     const int button = buttonOf(members), keys = keysOf(members);
     const int clicks = members.flag("double").value_or(false) ? 2 : 1;
+    const bool is_hasty = members.flag("hasty").value_or(false);
     return [=](Driver& driver) {
-        moveTo(driver, pixelsOf(driver, place));
+        const std::array<float, 2> to = pixelsOf(driver, place);
+        if (!is_hasty) moveTo(driver, to);
         for (int i = 0; i < clicks; ++i) {
-            press(driver, button, keys);
+            press(driver, button, keys, is_hasty ? std::optional(to) : std::nullopt);
             release(driver, button, keys);
         }
         driver.settle();
@@ -477,6 +485,27 @@ Act readLive(const scene::Json& value, const std::string& pointer, const ScriptF
     return [=](Driver& driver) { driver.viewer.setLive(live); };
 }
 
+constexpr int kLongestThumbnails = 60 * 60;  // s
+constexpr std::chrono::milliseconds kThumbnailLook{10};
+
+// Waits until all scenes in sight have their pictures.
+Act readThumbnails(const scene::Json& value, const std::string& pointer, const ScriptFolders&) {
+    checkTrue(value, pointer);
+    return [](Driver& driver) {
+        driver.viewer.setThumbnails(true);
+        driver.settle();
+        driver.until(
+            [&driver] {
+                const bool all = driver.viewer.missingThumbnails() == 0;
+                if (!all) std::this_thread::sleep_for(kThumbnailLook);
+                return all;
+            },
+            kLongestThumbnails * static_cast<int>(std::chrono::seconds(1) / kThumbnailLook),
+            "thumbnails take too long");
+        driver.settle();
+    };
+}
+
 Act readSeek(const scene::Json& value, const std::string& pointer, const ScriptFolders&) {
     const std::uint32_t frame = countOf(value, pointer);
     return [=](Driver& driver) {
@@ -489,7 +518,7 @@ Act readSeek(const scene::Json& value, const std::string& pointer, const ScriptF
 
 constexpr int kLongestResize = 200;  // pictures; a desktop may take a while to answer
 
-// "File/Open scene", without the dots of menu items.
+// "File/Open", without the dots of menu items.
 std::string fullName(const ActionRow& row) {
     std::string name = std::string(row.menu) + '/' + row.name;
     while (name.ends_with('.') || name.ends_with(' ')) name.pop_back();
@@ -579,7 +608,7 @@ constexpr Verb kVerbs[] = {
     {"click", readClick},     {"drag", readDrag},     {"scroll", readScroll},
     {"key", readKey},         {"type", readType},     {"screenshot", readScreenshot},
     {"picture", readPicture}, {"save", readSave},     {"state", readState},
-    {"live", readLive},       {"expect", readExpect},
+    {"live", readLive},       {"expect", readExpect}, {"thumbnails", readThumbnails},
 };
 
 }  // namespace
