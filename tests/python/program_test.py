@@ -295,7 +295,7 @@ class Pictures(InFolder):
 
     @staticmethod
     def mean_difference(picture, reference):
-        """Of display values, from 0 to 1."""
+        """Returns the mean difference of display values, from 0 to 1."""
         return numpy.abs(picture.astype(float) - reference.astype(float)).mean() / 255
 
     def test_are_measured_against_the_same_case_with_other_values(self):
