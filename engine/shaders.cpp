@@ -203,7 +203,12 @@ std::string nameOfFunction(const std::string& signature) {
 // because the program's own units fit together. glslang calls a function there "name(u1;".
 ShaderError linkError(const std::string& log, const ShaderExtension& extension) {
     static const std::regex signature(R"(\n\s*(\w+)\()");
+    static const std::regex constant(R"(Initializers must match:\s*(\w+))");
     std::smatch match;
+    if (std::regex_search(log, match, constant))
+        return {
+            extension.name, 0,
+            "'" + match[1].str() + "' is a constant of another file too: rename one"};
     if (!std::regex_search(log, match, signature))
         return {extension.name, 0, firstError(log, extension.name).text};
     const std::string function = match[1];

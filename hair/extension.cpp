@@ -304,12 +304,11 @@ struct Part {
     const char* stand_in;
 };
 
-Part partOf(ExtensionKind kind) {
-    switch (kind) {
-    case ExtensionKind::shading:
-        return {
-            "extension/shading.glsl", "HAIRBENCH_EXTENDED_SHADING", gpu::kShadingParameterConstant,
-            "vec3 shadeHair(HairPoint point)", R"(
+// In the order of ExtensionKind.
+constexpr std::array kParts{
+    Part{
+        "extension/shading.glsl", "HAIRBENCH_EXTENDED_SHADING", gpu::kShadingParameterConstant,
+        "vec3 shadeHair(HairPoint point)", R"(
 uint lightCount() { return 1u; }
 HairLight hairLight(HairPoint point, uint light) {
     return HairLight(point.normal, point.color, 1.0);
@@ -320,21 +319,17 @@ void main() {
     HairPoint point;
     shadeHair(point);
 }
-)"};
-    case ExtensionKind::offset:
-        return {
-            "extension/offset.glsl", "HAIRBENCH_EXTENDED_OFFSET", gpu::kOffsetParameterConstant,
-            "vec3 offsetHair(HairPlace place)", R"(
+)"},
+    Part{
+        "extension/offset.glsl", "HAIRBENCH_EXTENDED_OFFSET", gpu::kOffsetParameterConstant,
+        "vec3 offsetHair(HairPlace place)", R"(
 float hairRandom(HairPlace place, uint which) { return 0.0; }
 void main() {
     HairPlace place;
     offsetHair(place);
 }
-)"};
-    case ExtensionKind::force:
-        break;
-    }
-    return {
+)"},
+    Part{
         "extension/force.glsl", "HAIRBENCH_EXTENDED_FORCE", gpu::kForceParameterConstant,
         "vec3 accelerateGuide(GuidePoint point)", R"(
 float guideRandom(GuidePoint point, uint which) { return 0.0; }
@@ -342,8 +337,42 @@ void main() {
     GuidePoint point;
     accelerateGuide(point);
 }
-)"};
+)"},
+    Part{
+        "extension/solver.glsl", "HAIRBENCH_EXTENDED_SOLVER", gpu::kSolverParameterConstant,
+        "void solveGuide(Guide guide)", R"(
+vec3 guidePosition(uint vertex) { return vec3(0.0); }
+void setGuidePosition(uint vertex, vec3 position) {}
+bool guideHeld(uint vertex) { return vertex == 0u; }
+vec3 guideBefore(uint vertex) { return vec3(0.0); }
+vec3 guideVelocity(uint vertex) { return vec3(0.0); }
+vec3 guideAcceleration(uint vertex) { return vec3(0.0); }
+vec3 guideDrift(uint vertex, vec3 velocity) { return velocity; }
+vec3 guidePredicted(uint vertex) { return vec3(0.0); }
+float guideYield(uint vertex) { return 1.0; }
+vec3 guideRest(uint vertex) { return vec3(0.0); }
+float guideRestLength(uint vertex) { return 0.0; }
+float guideMass(uint vertex) { return 0.0; }
+GuideMaterial guideMaterial() { return GuideMaterial(0.0, 0.0, 0.0, 0.0, 0.0, 0.0); }
+vec3 outOfBodies(uint vertex, vec3 position) { return position; }
+vec4 guideMemory(uint vertex, uint place) { return vec4(0.0); }
+void setGuideMemory(uint vertex, uint place, vec4 value) {}
+float guideRandom(Guide guide, uint which) { return 0.0; }
+void main() {
+    Guide guide;
+    solveGuide(guide);
 }
+)"},
+    Part{
+        "extension/curve.glsl", "HAIRBENCH_EXTENDED_CURVE", gpu::kCurveParameterConstant,
+        "HairCurvePoint curveHair(HairSegment segment, float t)", R"(
+void main() {
+    HairSegment segment;
+    curveHair(segment, 0.5);
+}
+)"}};
+
+const Part& partOf(ExtensionKind kind) { return kParts[static_cast<std::size_t>(kind)]; }
 
 std::uint32_t constantOf(ExtensionKind kind, std::size_t parameter) {
     return partOf(kind).first_constant + 3 * static_cast<std::uint32_t>(parameter);
@@ -398,7 +427,7 @@ Extension parseExtension(ExtensionKind kind, const std::string& name, const std:
         declarations += declarationOf(parameter, constantOf(kind, extension.parameters.size()));
         extension.parameters.push_back(std::move(parameter));
     }
-    const Part part = partOf(kind);
+    const Part& part = partOf(kind);
     extension.shader = std::make_shared<const engine::ShaderExtension>(engine::ShaderExtension{
         .interface = part.interface,
         .macro = part.macro,

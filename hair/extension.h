@@ -19,10 +19,14 @@ enum class ExtensionKind {
     shading,  // /shading/model
     offset,  // /strands/offset_function
     force,  // /simulation/force
+    solver,  // /simulation/solver
+    curve,  // /strands/curve
 };
 
 inline constexpr std::size_t kLargestExtension = std::size_t{64} << 10;  // B
 inline constexpr std::size_t kMostExtensionParameters = 16;
+// A parameter by which a solver's file chooses /simulation/substeps, s.
+inline constexpr const char* kLongestSubstep = "longest_substep";
 
 // A number or vector that the file declares. The file's functions read it as a constant of that
 // name.

@@ -131,13 +131,20 @@ const Table& tableOf(const StrandSettings*) {
              "colour multiplies that of the strand, its alpha the opacity; relative to the scene "
              "file; empty: "
              "none"),
-         choice(
+         choiceOrFile(
              "curve", &S::curve,
              {{Curve::bspline, "bspline"},
               {Curve::bspline_unpinned, "bspline_unpinned"},
               {Curve::catmull_rom, "catmull_rom"}},
+             Curve::extension, &S::curve_file,
              "bspline: uniform cubic B-spline through root and tip; bspline_unpinned: the "
-             "thesis's, which floats off the scalp; catmull_rom: through every vertex"),
+             "thesis's, which floats off the scalp; catmull_rom: through every vertex; a file of "
+             "GLSL "
+             "(.glsl), relative to the scene file: docs/extending.md"),
+         parameters(
+             "curve_parameters", &S::curve_parameters,
+             "parameters of the file that curve names, with the names, ranges and units that it "
+             "declares"),
          choice(
              "taper", &S::taper, {{Taper::strand, "strand"}, {Taper::segment, "segment"}},
              "strand: width falls along the whole strand; segment: width falls anew in every guide "

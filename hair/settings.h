@@ -37,7 +37,8 @@ const char* backendName(Backend backend);
 enum class Interpolation { multi, single, mixed };
 enum class StrandCollision { none, push_out };
 enum class Randomness { hashed, thesis };
-enum class Curve { bspline, bspline_unpinned, catmull_rom };
+// extension: of the file that StrandSettings::curve_file names.
+enum class Curve { bspline, bspline_unpinned, catmull_rom, extension };
 enum class Taper { strand, segment };
 enum class Submission { instanced, batched };
 enum class StrandSource { root_triangles, groom };
@@ -84,6 +85,8 @@ struct StrandSettings {
     float opacity = 1.0f;
     std::string texture;
     Curve curve = Curve::bspline;
+    std::string curve_file;
+    ExtensionParameters curve_parameters;
     Taper taper = Taper::strand;
     float taper_start = 0.0f;
     Submission submission = Submission::instanced;

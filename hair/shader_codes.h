@@ -34,7 +34,8 @@ template <>
 inline constexpr std::size_t kCount<Curve> = counted<Curve>(
     {{Curve::bspline, gpu::kCurveBspline},
      {Curve::bspline_unpinned, gpu::kCurveBsplineUnpinned},
-     {Curve::catmull_rom, gpu::kCurveCatmullRom}});
+     {Curve::catmull_rom, gpu::kCurveCatmullRom},
+     {Curve::extension, gpu::kCurveExtension}});
 
 template <>
 inline constexpr std::size_t kCount<Taper> =

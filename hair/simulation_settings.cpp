@@ -317,7 +317,7 @@ const Table& tableOf(const PullSettings*) {
 const Table& tableOf(const SimulationSettings*) {
     using S = SimulationSettings;
     static const Table table = tableWith<S>(
-        {choice(
+        {choiceOrFile(
              "solver", &S::solver,
              {{Solver::none, "none"},
               {Solver::shape, "shape"},
@@ -326,12 +326,18 @@ const Table& tableOf(const SimulationSettings*) {
               {Solver::stable_cosserat, "stable_cosserat"},
               {Solver::position_based_rod, "position_based_rod"},
               {Solver::augmented_mass_spring, "augmented_mass_spring"}},
+             Solver::extension, &S::solver_file,
              "none: frozen at rest; shape: the thesis's Verlet with shape constraints; ftl: follow "
              "the leader; rod: Cosserat rods with SI material; stable_cosserat: such rods by Hsu "
              "et al. 2025, solved for positions and orientations alternately; position_based_rod: "
              "such rods by "
              "Kugelstadt and Schoemer 2016, with XPBD's compliances; augmented_mass_spring: "
-             "springs and a ghost of the rest shape, by Amador Herrera et al. 2024"),
+             "springs and a ghost of the rest shape, by Amador Herrera et al. 2024; a file of GLSL "
+             "(.glsl), relative to the scene file: docs/extending.md"),
+         parameters(
+             "solver_parameters", &S::solver_parameters,
+             "parameters of the file that solver names, with the names, ranges and units that it "
+             "declares"),
          choice(
              "parallelism", &S::parallelism,
              {{Parallelism::automatic, "automatic"},
@@ -345,7 +351,8 @@ const Table& tableOf(const SimulationSettings*) {
          number(
              "substeps", &S::substeps, 0, 64, "count",
              "solver steps per time step; 0: one, or for rods as many as keep a substep within "
-             "1/480 s (rod, augmented_mass_spring), 1/960 s (stable_cosserat) or 1/1920 s"),
+             "1/480 s (rod, augmented_mass_spring), 1/960 s (stable_cosserat) or 1/1920 s, and "
+             "for a file within its parameter longest_substep"),
          number(
              "settle_steps", &S::settle_steps, 0, 100000, "count",
              "steps simulated without wind before the first frame"),

@@ -221,7 +221,8 @@ enum class Solver {
     rod,
     stable_cosserat,
     position_based_rod,
-    augmented_mass_spring
+    augmented_mass_spring,
+    extension  // of the file that `solver_file` names
 };
 enum class Parallelism { automatic, vertex, strand, serial };
 enum class StiffnessScaling { invariant, thesis };
@@ -231,6 +232,8 @@ enum class RestShape { groom, balanced };
 
 struct SimulationSettings {
     Solver solver = Solver::shape;
+    std::string solver_file;
+    ExtensionParameters solver_parameters;
     Parallelism parallelism = Parallelism::automatic;
     float time_step = 1.0f / 60.0f;
     std::uint32_t substeps = 0;

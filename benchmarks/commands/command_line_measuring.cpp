@@ -390,8 +390,10 @@ void addCheckCommands(const CommandLine& line) {
              {"hairbench physics", "hairbench physics --solver rod --check 'cantilever|catenary'"}},
         checkPhysics, [](CLI::App& command, PhysicsOptions& options) {
             addRepeated(
-                command, "--solver", options.solvers, "solver to check; repeatable (default all)")
-                ->type_name("NAME");
+                command, "--solver", options.solvers,
+                "solver to check, or a file of GLSL with one; repeatable (default all of the "
+                "program's)")
+                ->type_name("NAME|FILE");
             command.add_option("--check", options.check, "run the checks whose name matches")
                 ->type_name("REGEX");
             command

@@ -102,7 +102,7 @@ struct RenderOptions {
 int renderScene(const RenderOptions& options);
 
 struct PhysicsOptions {
-    std::vector<std::string> solvers;  // empty: all except none
+    std::vector<std::string> solvers;  // names or files; empty: all except none
     std::string check;  // regex of check names
     std::filesystem::path out;  // empty: results/local/physics.json
     engine::DeviceOptions device;

@@ -440,7 +440,7 @@ constexpr std::uint64_t kSeed = 1;
 }  // namespace
 
 int checkPhysics(const PhysicsOptions& options) {
-    const std::vector<hair::Solver> solvers = physics::chosenSolvers(options.solvers);
+    const std::vector<physics::CheckedSolver> solvers = physics::chosenSolvers(options.solvers);
     const std::vector<physics::Check> checks = physics::chosenChecks(options.check);
     if (checks.empty()) {
         std::cerr << "hairbench: no check's name matches '" << options.check << "'\n";

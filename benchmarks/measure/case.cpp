@@ -94,9 +94,11 @@ void Case::setCamera(const hair::CameraSettings& camera) {
 
 void Case::carryOn(const hair::SimulationSettings& settings) {
     simulation_.carryOn(settings);
-    const auto file = settings_.simulation.force_parameters.file;
+    const auto force = settings_.simulation.force_parameters.file;
+    const auto solver = settings_.simulation.solver_parameters.file;
     settings_.simulation = settings;
-    settings_.simulation.force_parameters.file = file;
+    settings_.simulation.force_parameters.file = force;
+    settings_.simulation.solver_parameters.file = solver;
 }
 
 void Case::simulate(engine::Passes& passes) {

@@ -185,6 +185,8 @@ std::string stateKey(
     simulation.erase("force");
     simulation.erase("force_parameters");
     Key key("settled state");
+    if (const auto& solver = settings.simulation.solver_parameters.file)
+        key.add("solver", report::hashBytes(std::as_bytes(std::span(solver->text))));
     for (const std::string& mesh : meshes) key.add("mesh", mesh);
     // Guides settle where a cache has them at first, and are pulled there if they follow it.
     if (!groom.cache.times.empty())

@@ -40,7 +40,7 @@ constexpr double kWindStill = 1e-6;  // m in a tenth of a second
 constexpr double kDeflectionTolerance = 0.02;  // of the length, promised for `rod`
 constexpr double kRestTolerance = 0.01;  // of the length, promised for `rod` and for an energy
 
-hair::SimulationSettings inWind(hair::Solver solver, double speed) {
+hair::SimulationSettings inWind(const CheckedSolver& solver, double speed) {
     hair::SimulationSettings settings = freeHair(solver);
     settings.wind.mode = hair::WindMode::drag;
     settings.wind.speed = static_cast<float>(speed);
@@ -107,7 +107,8 @@ void findApart(
 
 }  // namespace
 
-void checkDragDeflection(const engine::Device& device, hair::Solver solver, Findings& findings) {
+void checkDragDeflection(
+    const engine::Device& device, const CheckedSolver& solver, Findings& findings) {
     const bool elastic = !lack(solver, Need::material);
     const auto tolerance = [&](double of_rod) {
         return solver == hair::Solver::rod ? std::optional(of_rod) : std::nullopt;
@@ -174,7 +175,7 @@ constexpr double kSinkingBracket = 0.01;  // share of the speed, to either side
 constexpr double kSinkingTolerance = 1e-3;
 
 // Rise of the tip, m.
-double riseOf(const engine::Device& device, hair::Solver solver, double speed) {
+double riseOf(const engine::Device& device, const CheckedSolver& solver, double speed) {
     hair::SimulationSettings settings = inWind(solver, 0.0);
     for (int i = 0; i < kSinkingKeyframes; ++i)
         settings.motion.keyframes.push_back(
@@ -197,7 +198,8 @@ double riseOf(const engine::Device& device, hair::Solver solver, double speed) {
 
 }  // namespace
 
-void checkTerminalSpeed(const engine::Device& device, hair::Solver solver, Findings& findings) {
+void checkTerminalSpeed(
+    const engine::Device& device, const CheckedSolver& solver, Findings& findings) {
     const double expected = terminalSpeed(inWind(solver, 0.0));
     const double slow = expected * (1.0 - kSinkingBracket);
     const double fast = expected * (1.0 + kSinkingBracket);

@@ -34,7 +34,7 @@ hair::groom::Groom vee() {
 
 }  // namespace
 
-void checkCatenary(const engine::Device& device, hair::Solver solver, Findings& findings) {
+void checkCatenary(const engine::Device& device, const CheckedSolver& solver, Findings& findings) {
     if (const auto why = lack(solver, Need::pinned_tip)) return findings.skip(*why);
     hair::SimulationSettings settings = chain(solver, kCatenaryLength);
     settings.time_step = 1.0f / 480.0f;
@@ -89,7 +89,7 @@ std::vector<glm::dvec3> moved(std::vector<glm::dvec3> points, const glm::dvec3& 
 
 }  // namespace
 
-void checkFreeFall(const engine::Device& device, hair::Solver solver, Findings& findings) {
+void checkFreeFall(const engine::Device& device, const CheckedSolver& solver, Findings& findings) {
     hair::SimulationSettings settings = defaultHair(solver);
     settings.friction = 0.0f;  // drag, because the air does not fall
     settings.time_step = static_cast<float>(kFallInterval);
@@ -135,7 +135,8 @@ constexpr double kHangingTolerance = 0.01;
 
 }  // namespace
 
-void checkHangingChain(const engine::Device& device, hair::Solver solver, Findings& findings) {
+void checkHangingChain(
+    const engine::Device& device, const CheckedSolver& solver, Findings& findings) {
     hair::SimulationSettings settings = chain(solver, kHangingLength);
     settings.substeps = 1;
     const double segment = kHangingLength / kHangingSegments;
@@ -177,7 +178,7 @@ constexpr double kStretchTolerance = 0.01;  // share of the worst segment's leng
 
 }  // namespace
 
-void checkLength(const engine::Device& device, hair::Solver solver, Findings& findings) {
+void checkLength(const engine::Device& device, const CheckedSolver& solver, Findings& findings) {
     const hair::SimulationSettings settings = livelyHair(solver);
     const hair::groom::Groom groom = livelyGroom();
     const double rest = kLivelyLength / groom.segmentsPerStrand();
@@ -227,7 +228,7 @@ constexpr glm::dvec3 kPendulumSideways{1.0, 0.0, 0.0};
 }  // namespace
 
 void checkPendulum(
-    const engine::Device& device, hair::Solver solver, std::span<const unsigned> masses,
+    const engine::Device& device, const CheckedSolver& solver, std::span<const unsigned> masses,
     Findings& findings) {
     if (const auto why = lack(solver, Need::equal_masses)) return findings.skip(*why);
     for (const unsigned count : masses) {
@@ -269,7 +270,8 @@ constexpr double kProjectileTolerance = 1e-4;
 
 }  // namespace
 
-void checkProjectile(const engine::Device& device, hair::Solver solver, Findings& findings) {
+void checkProjectile(
+    const engine::Device& device, const CheckedSolver& solver, Findings& findings) {
     if (const auto why = lack(solver, Need::free_vertices)) return findings.skip(*why);
 
     hair::SimulationSettings settings = freeHair(solver);

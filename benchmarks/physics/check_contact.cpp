@@ -95,7 +95,8 @@ double worstPlacement(
 
 }  // namespace
 
-void checkContactMomentum(const engine::Device& device, hair::Solver solver, Findings& findings) {
+void checkContactMomentum(
+    const engine::Device& device, const CheckedSolver& solver, Findings& findings) {
     if (const auto why = lack(solver, Need::free_vertices)) return findings.skip(*why);
     hair::SimulationSettings settings = freeHair(solver);
     settings.gravity = glm::vec3(0.0f);
@@ -248,7 +249,7 @@ constexpr double kFallingTime = 0.5;  // s; over ten times the time to reach the
 // less than half a cell apart, and their splines deviate from a constant density by 2e-3.
 constexpr double kSlidingTolerance = 5e-3;
 
-hair::SimulationSettings slidingHair(hair::Solver solver, float friction, double rate) {
+hair::SimulationSettings slidingHair(const CheckedSolver& solver, float friction, double rate) {
     hair::SimulationSettings settings = freeHair(solver);
     settings.gravity = glm::vec3(0.0f);
     settings.local.stiffness = 0.0f;
@@ -323,7 +324,7 @@ constexpr double kStoppingFriction = 0.5;
 
 // In a step of 1/60 s hair falls into the slope by up to 2.7 mm, a fifth of a segment. `shape` and
 // `ftl` then correct lengths, which moves hair along the slope before friction acts.
-std::optional<double> slidePromise(hair::Solver solver, bool rests, double step) {
+std::optional<double> slidePromise(const CheckedSolver& solver, bool rests, double step) {
     double longest = 1.0;  // s
     if (solver == hair::Solver::ftl || solver == hair::Solver::shape) longest = 1.0 / 200.0;
     if (solver == hair::Solver::shape && !rests) longest = 1.0 / 1000.0;
@@ -454,7 +455,7 @@ Slid stop(const engine::Device& device, hair::SimulationSettings settings, doubl
 
 }  // namespace
 
-void checkSlide(const engine::Device& device, hair::Solver solver, Findings& findings) {
+void checkSlide(const engine::Device& device, const CheckedSolver& solver, Findings& findings) {
     hair::SimulationSettings settings = chain(solver, kSlidingHair);
     for (const bool warm_start : {false, true}) {
         if (warm_start && solver != hair::Solver::rod) continue;
@@ -497,7 +498,7 @@ void checkSlide(const engine::Device& device, hair::Solver solver, Findings& fin
     }
 }
 
-void checkStickSlip(const engine::Device& device, hair::Solver solver, Findings& findings) {
+void checkStickSlip(const engine::Device& device, const CheckedSolver& solver, Findings& findings) {
     if (const auto why = lack(solver, Need::material)) return findings.skip(*why);
     hair::SimulationSettings settings = freeHair(solver);
     settings.collision.warm_start = solver == hair::Solver::rod;
@@ -547,7 +548,7 @@ void checkStickSlip(const engine::Device& device, hair::Solver solver, Findings&
 }
 
 void checkFrictionInvariance(
-    const engine::Device& device, hair::Solver solver, Findings& findings) {
+    const engine::Device& device, const CheckedSolver& solver, Findings& findings) {
     if (const auto why = lack(solver, Need::free_vertices)) return findings.skip(*why);
     const hair::groom::Groom groom = slidingGroom();
     const std::vector<glm::dvec3> points(groom.points.begin(), groom.points.end());

@@ -95,7 +95,7 @@ void checkBoundary(
 
 }  // namespace
 
-void checkBendTwist(const engine::Device& device, hair::Solver solver, Findings& findings) {
+void checkBendTwist(const engine::Device& device, const CheckedSolver& solver, Findings& findings) {
     if (const auto why = lack(solver, Need::material)) return findings.skip(*why);
     hair::SimulationSettings settings = freeHair(solver);
     const double length = lengthOf(settings.material, kBendTwistGamma);
@@ -144,7 +144,8 @@ constexpr double kBuckledTolerance = 0.02;  // of the length, as promised for th
 
 }  // namespace
 
-void checkLateralBuckling(const engine::Device& device, hair::Solver solver, Findings& findings) {
+void checkLateralBuckling(
+    const engine::Device& device, const CheckedSolver& solver, Findings& findings) {
     if (const auto why = lack(solver, Need::sections)) return findings.skip(*why);
     hair::SimulationSettings settings = freeHair(solver);
     settings.friction = frictionOf(kBucklingFriction);
@@ -239,7 +240,8 @@ constexpr glm::dvec3 kBendingSideways{0.0, 1.0, 0.0};
 
 }  // namespace
 
-void checkBendingFrequency(const engine::Device& device, hair::Solver solver, Findings& findings) {
+void checkBendingFrequency(
+    const engine::Device& device, const CheckedSolver& solver, Findings& findings) {
     if (const auto why = lack(solver, Need::bending)) return findings.skip(*why);
     hair::SimulationSettings settings = freeHair(solver);
     settings.gravity = {};
@@ -303,7 +305,8 @@ double decayRateOf(std::span<const double> samples, double interval) {
 
 }  // namespace
 
-void checkBendingDecay(const engine::Device& device, hair::Solver solver, Findings& findings) {
+void checkBendingDecay(
+    const engine::Device& device, const CheckedSolver& solver, Findings& findings) {
     if (solver != hair::Solver::rod) return findings.skip("it has no damping of its material");
     hair::SimulationSettings settings = freeHair(solver);
     settings.gravity = {};
@@ -389,7 +392,7 @@ void remark(const Sag& sag, Outcome& outcome) {
 
 // Promised only for `rod`, with 64 segments. At Gamma = 1000, nearly the whole bend is within three
 // segments of the clamp.
-std::optional<double> toleranceOf(hair::Solver solver, double gamma) {
+std::optional<double> toleranceOf(const CheckedSolver& solver, double gamma) {
     if (solver != hair::Solver::rod) return {};
     return gamma <= 100.0 ? 0.02 : 0.05;
 }
@@ -397,7 +400,7 @@ std::optional<double> toleranceOf(hair::Solver solver, double gamma) {
 }  // namespace
 
 void checkCantilever(
-    const engine::Device& device, hair::Solver solver, std::span<const double> gammas,
+    const engine::Device& device, const CheckedSolver& solver, std::span<const double> gammas,
     Findings& findings) {
     if (const auto why = lack(solver, Need::bending)) return findings.skip(*why);
     const hair::SimulationSettings settings = freeHair(solver);
@@ -429,7 +432,8 @@ void checkCantilever(
 
 // Second-order methods quarter the error with every doubling. The check requires only that the
 // error falls, down to the limits of single precision and settling.
-void checkConvergence(const engine::Device& device, hair::Solver solver, Findings& findings) {
+void checkConvergence(
+    const engine::Device& device, const CheckedSolver& solver, Findings& findings) {
     if (const auto why = lack(solver, Need::material)) return findings.skip(*why);
     constexpr double kGamma = 10.0;
     constexpr double kFloor = 2e-4;
@@ -468,7 +472,8 @@ constexpr double kTwistTolerance = 0.02;  // as promised for the rod's statics
 
 }  // namespace
 
-void checkClampTwist(const engine::Device& device, hair::Solver solver, Findings& findings) {
+void checkClampTwist(
+    const engine::Device& device, const CheckedSolver& solver, Findings& findings) {
     if (const auto why = lack(solver, Need::bending)) return findings.skip(*why);
     hair::SimulationSettings settings = freeHair(solver);
     settings.gravity = {};

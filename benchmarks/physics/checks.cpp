@@ -5,7 +5,9 @@
 #include <cmath>
 #include <cstdio>
 #include <cstring>
+#include <filesystem>
 #include <iterator>
+#include <string_view>
 
 #include <nlohmann/json.hpp>
 
@@ -43,7 +45,7 @@ const std::vector<hair::Named<hair::Solver>>& checkedSolvers() {
     static const auto solvers = [] {
         hair::SimulationSettings settings;
         const hair::Field& field = hair::fieldAt(settings, &settings.solver);
-        const auto& row = std::get<hair::Choice>(field.kind);
+        const auto& row = std::get<hair::ChoiceOrFile>(field.kind);
         std::vector<hair::Named<hair::Solver>> named;
         for (std::size_t i = 0; i < row.names.size(); ++i) {
             row.choose(settings, i);
@@ -55,11 +57,21 @@ const std::vector<hair::Named<hair::Solver>>& checkedSolvers() {
     return solvers;
 }
 
-std::string nameOf(hair::Solver solver) {
+std::string nameOf(const CheckedSolver& solver) {
+    if (!solver.file.empty()) return std::filesystem::path(solver.file).filename().string();
     const auto& all = checkedSolvers();
-    const auto found = std::ranges::find(all, solver, &hair::Named<hair::Solver>::value);
+    const auto found = std::ranges::find(all, solver.solver, &hair::Named<hair::Solver>::value);
     return found == all.end() ? "none" : found->name;
 }
+
+// Checks that a solver passes if it moves guides as shaders/extension/solver.glsl tells.
+constexpr std::array<std::string_view, 3> kGatesOfFiles{
+    "free_fall", "terminal_speed", "state_hash"};
+
+Findings::Findings(std::string check, const CheckedSolver& solver)
+    : check_(std::move(check)), solver_(nameOf(solver)),
+      has_gates_(
+          solver.file.empty() || std::ranges::find(kGatesOfFiles, check_) != kGatesOfFiles.end()) {}
 
 Outcome& Findings::compare(
     Quantity quantity, double measured, double expected, std::optional<double> tolerance) {
@@ -108,6 +120,7 @@ void Findings::curve(
 Outcome& Findings::add(Outcome outcome) {
     outcome.check = check_;
     outcome.solver = solver_;
+    if (!has_gates_) outcome.tolerance.reset();
     if (!std::isfinite(outcome.measured)) outcome.reason = "not a number";
     if (outcome.error && !std::isfinite(*outcome.error)) outcome.error.reset();
     if (outcome.tolerance)
@@ -266,11 +279,11 @@ constexpr double kGammas[] = {0.1, 1.0, 5.0, 10.0, 50.0, 100.0, 1000.0};
 constexpr Check kChecks[] = {
     {"projectile", checkProjectile},
     {"free_fall", checkFreeFall},
-    {"pendulum", [](const engine::Device& device, hair::Solver solver,
+    {"pendulum", [](const engine::Device& device, const CheckedSolver& solver,
                     Findings& findings) { checkPendulum(device, solver, kMasses, findings); }},
     {"hanging_chain", checkHangingChain},
     {"catenary", checkCatenary},
-    {"cantilever", [](const engine::Device& device, hair::Solver solver,
+    {"cantilever", [](const engine::Device& device, const CheckedSolver& solver,
                       Findings& findings) { checkCantilever(device, solver, kGammas, findings); }},
     {"convergence", checkConvergence},
     {"bending_frequency", checkBendingFrequency},
@@ -294,7 +307,8 @@ constexpr Check kChecks[] = {
 };
 
 void runCheck(
-    const engine::Device& device, const Check& check, hair::Solver solver, PhysicsReport& report) {
+    const engine::Device& device, const Check& check, const CheckedSolver& solver,
+    PhysicsReport& report) {
     Findings findings(check.name, solver);
     const auto keep = [&] {
         for (const std::string& message : device.messages().take())
@@ -319,18 +333,25 @@ void runCheck(
 
 std::span<const Check> allChecks() { return kChecks; }
 
-std::vector<hair::Solver> chosenSolvers(const std::vector<std::string>& names) {
-    std::vector<hair::Solver> solvers;
+std::vector<CheckedSolver> chosenSolvers(const std::vector<std::string>& names) {
+    std::vector<CheckedSolver> solvers;
     std::vector<std::string> known;
     for (const auto& each : checkedSolvers()) {
         known.emplace_back(each.name);
         if (names.empty() || std::ranges::find(names, each.name) != names.end())
-            solvers.push_back(each.value);
+            solvers.emplace_back(each.value);
     }
-    for (const std::string& name : names)
-        if (std::ranges::find(known, name) == known.end())
+    for (const std::string& name : names) {
+        if (std::ranges::find(known, name) != known.end()) continue;
+        if (!name.ends_with(hair::ChoiceOrFile::kExtension))
             throw engine::Error(
                 "--solver " + name, scene::unknownName("unknown solver", name, known));
+        try {
+            solvers.emplace_back(name);
+        } catch (const engine::Error& error) {
+            throw engine::Error("--solver " + name, error.what());
+        }
+    }
     return solvers;
 }
 
@@ -348,10 +369,10 @@ std::vector<Check> chosenChecks(const std::string& regex) {
 
 void runChecks(
     const engine::Device& device, std::span<const Check> checks,
-    std::span<const hair::Solver> solvers, PhysicsReport& report) {
+    std::span<const CheckedSolver> solvers, PhysicsReport& report) {
     measure::Progress progress(checks.size() * solvers.size());
     for (const Check& check : checks)
-        for (const hair::Solver solver : solvers) {
+        for (const CheckedSolver& solver : solvers) {
             if (report.interrupted) break;
             progress.begin(std::string(check.name) + ", " + nameOf(solver));
             runCheck(device, check, solver, report);
@@ -419,7 +440,7 @@ double greatestGrowth(std::span<const double> samples, std::size_t window) {
 
 }  // namespace
 
-void checkEnergy(const engine::Device& device, hair::Solver solver, Findings& findings) {
+void checkEnergy(const engine::Device& device, const CheckedSolver& solver, Findings& findings) {
     // Uses one solver step per time step; otherwise the energy would be averaged over several.
     hair::SimulationSettings settings = freeHair(solver);
     settings.time_step = hair::simulation::stepOf(settings).sub;
@@ -498,7 +519,8 @@ void reportDifferences(
 
 }  // namespace
 
-void checkStepInvariance(const engine::Device& device, hair::Solver solver, Findings& findings) {
+void checkStepInvariance(
+    const engine::Device& device, const CheckedSolver& solver, Findings& findings) {
     std::vector<double> steps;
     std::vector<Trajectory> runs;
     for (const double rate : {30.0, 60.0, 120.0, 240.0, 480.0, 1000.0}) {
@@ -531,7 +553,8 @@ void checkStepInvariance(const engine::Device& device, hair::Solver solver, Find
 }
 
 // The effect of the substep's length alone: numerical damping.
-void checkSubstepInvariance(const engine::Device& device, hair::Solver solver, Findings& findings) {
+void checkSubstepInvariance(
+    const engine::Device& device, const CheckedSolver& solver, Findings& findings) {
     std::vector<double> counts;
     std::vector<Trajectory> runs;
     for (const std::uint32_t substeps : {1u, 2u, 4u, 8u, 16u, 32u, 64u}) {
@@ -561,7 +584,8 @@ void checkSubstepInvariance(const engine::Device& device, hair::Solver solver, F
             substeps >= 8 ? std::optional(kSecondOrderTolerance) : std::nullopt);
 }
 
-void checkSegmentInvariance(const engine::Device& device, hair::Solver solver, Findings& findings) {
+void checkSegmentInvariance(
+    const engine::Device& device, const CheckedSolver& solver, Findings& findings) {
     std::vector<double> counts;
     std::vector<Trajectory> runs;
     for (const std::uint32_t segments : {8u, 16u, 32u, 64u, 128u}) {
@@ -572,7 +596,7 @@ void checkSegmentInvariance(const engine::Device& device, hair::Solver solver, F
 }
 
 void checkIterationInvariance(
-    const engine::Device& device, hair::Solver solver, Findings& findings) {
+    const engine::Device& device, const CheckedSolver& solver, Findings& findings) {
     if (const auto why = lack(solver, Need::iterations)) return findings.skip(*why);
     std::vector<double> counts;
     std::vector<Trajectory> runs;
@@ -589,7 +613,7 @@ namespace {
 
 // ---- State hash ---------------------------------------------------------------------------------
 
-std::vector<glm::vec3> play(const engine::Device& device, hair::Solver solver) {
+std::vector<glm::vec3> play(const engine::Device& device, const CheckedSolver& solver) {
     Experiment experiment(device, livelyGroom(), livelyHair(solver));
     experiment.advance(experiment.stepsIn(2.0));
     const std::vector<glm::dvec3> points = experiment.positions();  // exactly the values that were
@@ -599,7 +623,7 @@ std::vector<glm::vec3> play(const engine::Device& device, hair::Solver solver) {
 
 }  // namespace
 
-void checkStateHash(const engine::Device& device, hair::Solver solver, Findings& findings) {
+void checkStateHash(const engine::Device& device, const CheckedSolver& solver, Findings& findings) {
     const std::vector<glm::vec3> first = play(device, solver);
     const std::vector<glm::vec3> second = play(device, solver);
     double different = 0.0;

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "benchmarks/physics/experiment.h"
 #include "benchmarks/report/report.h"
 #include "engine/device.h"
 #include "hair/fields.h"
@@ -65,16 +66,18 @@ struct Curve {
     std::vector<std::vector<double>> rows;
 };
 
-// The names of the solvers that can be checked: all except `none`, in the order of the settings.
+// The names of the program's solvers that can be checked: all except `none`, in the order of the
+// settings.
 const std::vector<hair::Named<hair::Solver>>& checkedSolvers();
-std::string nameOf(hair::Solver solver);
+// Returns the name of one of the program's solvers, or a file's without its folder.
+std::string nameOf(const CheckedSolver& solver);
 
-// The results of one check for one solver. An outcome with a tolerance is a gate. Callers may add a
-// reason or a hash to the returned outcome.
+// The results of one check for one solver. An outcome with a tolerance is a gate. A solver from a
+// file has only the gates of checks that every solver passes. Callers may add a reason or a hash to
+// the returned outcome.
 class Findings {
 public:
-    Findings(std::string check, hair::Solver solver)
-        : check_(std::move(check)), solver_(nameOf(solver)) {}
+    Findings(std::string check, const CheckedSolver& solver);
 
     // Compares with a value from theory; the error is relative to it.
     Outcome& compare(
@@ -102,6 +105,7 @@ private:
 
     std::string check_;
     std::string solver_;
+    bool has_gates_;
     std::vector<Outcome> outcomes_;
     std::vector<Curve> curves_;
 };
@@ -129,14 +133,15 @@ int exitStatus(const PhysicsReport& report);
 
 struct Check {
     const char* name;
-    void (*run)(const engine::Device& device, hair::Solver solver, Findings& findings);
+    void (*run)(const engine::Device& device, const CheckedSolver& solver, Findings& findings);
 };
 
 std::span<const Check> allChecks();
 
-// Returns the solvers of these names, or all that can be checked if there are none. Throws
-// engine::Error "--solver <name>: ..." for an unknown name.
-std::vector<hair::Solver> chosenSolvers(const std::vector<std::string>& names);
+// Returns the solvers of these names, or all of the program's if there are none. A name that ends
+// in .glsl is a file. Throws engine::Error "--solver <name>: ..." for an unknown name and for a
+// file that can't be read or does not compile.
+std::vector<CheckedSolver> chosenSolvers(const std::vector<std::string>& names);
 
 // Returns the checks with matching names. Throws engine::Error "--check <regex>: ..." for an
 // invalid regular expression.
@@ -147,59 +152,59 @@ std::vector<Check> chosenChecks(const std::string& regex);
 // the results so far are kept and `report.interrupted` is set.
 void runChecks(
     const engine::Device& device, std::span<const Check> checks,
-    std::span<const hair::Solver> solvers, PhysicsReport& report);
+    std::span<const CheckedSolver> solvers, PhysicsReport& report);
 
 // ---- Against theory -----------------------------------------------------------------------------
 
 // Compares a free vertex with Verlet's exact parabola.
-void checkProjectile(const engine::Device&, hair::Solver, Findings&);
+void checkProjectile(const engine::Device&, const CheckedSolver&, Findings&);
 // Checks that hair on a freely falling head is not deformed.
-void checkFreeFall(const engine::Device&, hair::Solver, Findings&);
+void checkFreeFall(const engine::Device&, const CheckedSolver&, Findings&);
 // Frequencies of all modes of pendulums with these numbers of equal masses.
 void checkPendulum(
-    const engine::Device&, hair::Solver, std::span<const unsigned> masses, Findings&);
+    const engine::Device&, const CheckedSolver&, std::span<const unsigned> masses, Findings&);
 // First period of a hanging chain.
-void checkHangingChain(const engine::Device&, hair::Solver, Findings&);
+void checkHangingChain(const engine::Device&, const CheckedSolver&, Findings&);
 // Rest shape of a chain between two pins.
-void checkCatenary(const engine::Device&, hair::Solver, Findings&);
+void checkCatenary(const engine::Device&, const CheckedSolver&, Findings&);
 // Sag of a clamped hair under its weight, for these ratios of weight to stiffness.
 void checkCantilever(
-    const engine::Device&, hair::Solver, std::span<const double> gammas, Findings&);
+    const engine::Device&, const CheckedSolver&, std::span<const double> gammas, Findings&);
 // Error of the sag of a clamped hair, from coarse to fine segments.
-void checkConvergence(const engine::Device&, hair::Solver, Findings&);
+void checkConvergence(const engine::Device&, const CheckedSolver&, Findings&);
 // First frequency of a clamped hair without weight.
-void checkBendingFrequency(const engine::Device&, hair::Solver, Findings&);
+void checkBendingFrequency(const engine::Device&, const CheckedSolver&, Findings&);
 // Half-life of the same vibration against the material's damping.
-void checkBendingDecay(const engine::Device&, hair::Solver, Findings&);
+void checkBendingDecay(const engine::Device&, const CheckedSolver&, Findings&);
 // Checks that a curl follows its root's rotation about its own axis.
-void checkClampTwist(const engine::Device&, hair::Solver, Findings&);
+void checkClampTwist(const engine::Device&, const CheckedSolver&, Findings&);
 // Distance of a hanging curl from its plane, and the curvature at which it leaves the plane.
-void checkBendTwist(const engine::Device&, hair::Solver, Findings&);
+void checkBendTwist(const engine::Device&, const CheckedSolver&, Findings&);
 // The length at which a level hair of elliptic section leaves its plane, and its buckled shape.
-void checkLateralBuckling(const engine::Device&, hair::Solver, Findings&);
+void checkLateralBuckling(const engine::Device&, const CheckedSolver&, Findings&);
 // Rest position of hanging hair in wind, at any time step.
-void checkDragDeflection(const engine::Device&, hair::Solver, Findings&);
+void checkDragDeflection(const engine::Device&, const CheckedSolver&, Findings&);
 // The speed at which the air bears falling hair.
-void checkTerminalSpeed(const engine::Device&, hair::Solver, Findings&);
+void checkTerminalSpeed(const engine::Device&, const CheckedSolver&, Findings&);
 
 // Compression at which a hair pressed onto the ground slips.
-void checkStickSlip(const engine::Device&, hair::Solver, Findings&);
+void checkStickSlip(const engine::Device&, const CheckedSolver&, Findings&);
 // Motion of hair down a slope, and its rest there, by Coulomb's law of friction.
-void checkSlide(const engine::Device&, hair::Solver, Findings&);
+void checkSlide(const engine::Device&, const CheckedSolver&, Findings&);
 // Momentum lost by contact of hair with hair.
-void checkContactMomentum(const engine::Device&, hair::Solver, Findings&);
+void checkContactMomentum(const engine::Device&, const CheckedSolver&, Findings&);
 // Sliding speed of hair past hair, at any time step.
-void checkFrictionInvariance(const engine::Device&, hair::Solver, Findings&);
+void checkFrictionInvariance(const engine::Device&, const CheckedSolver&, Findings&);
 
 // ---- Against itself -----------------------------------------------------------------------------
 
-void checkLength(const engine::Device&, hair::Solver, Findings&);
-void checkEnergy(const engine::Device&, hair::Solver, Findings&);
-void checkStepInvariance(const engine::Device&, hair::Solver, Findings&);
-void checkSubstepInvariance(const engine::Device&, hair::Solver, Findings&);
-void checkSegmentInvariance(const engine::Device&, hair::Solver, Findings&);
-void checkIterationInvariance(const engine::Device&, hair::Solver, Findings&);
+void checkLength(const engine::Device&, const CheckedSolver&, Findings&);
+void checkEnergy(const engine::Device&, const CheckedSolver&, Findings&);
+void checkStepInvariance(const engine::Device&, const CheckedSolver&, Findings&);
+void checkSubstepInvariance(const engine::Device&, const CheckedSolver&, Findings&);
+void checkSegmentInvariance(const engine::Device&, const CheckedSolver&, Findings&);
+void checkIterationInvariance(const engine::Device&, const CheckedSolver&, Findings&);
 // Checks that two equal runs end with the same bits.
-void checkStateHash(const engine::Device&, hair::Solver, Findings&);
+void checkStateHash(const engine::Device&, const CheckedSolver&, Findings&);
 
 }  // namespace benchmarks::physics

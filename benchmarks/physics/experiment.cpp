@@ -8,6 +8,7 @@
 #include <glm/geometric.hpp>
 
 #include "benchmarks/measure/measure.h"
+#include "benchmarks/scene/extensions.h"
 #include "engine/commands.h"
 #include "engine/process.h"
 #include "engine/transfer.h"
@@ -15,6 +16,17 @@
 #include "hair/simulation/stiffness.h"
 
 namespace benchmarks::physics {
+
+CheckedSolver::CheckedSolver(const std::string& path)
+    : solver(hair::Solver::extension), file(path) {
+    hair::Settings settings;
+    settings.simulation.solver = solver;
+    settings.simulation.solver_file = path;
+    settings = scene::withExtensions(settings, {});
+    scene::checkExtensions(settings);
+    parameters = settings.simulation.solver_parameters;
+}
+
 namespace {
 
 // ---- Strands and their simulation ---------------------------------------------------------------
@@ -183,6 +195,10 @@ constexpr Lack kLacks[] = {
     {hair::Solver::augmented_mass_spring, Need::sections,
      "its stiffness is not that of a material"},
     {hair::Solver::ftl, Need::iterations, "it has no iterations"},
+    {hair::Solver::extension, Need::free_vertices, "no setting frees the vertices of a file"},
+    {hair::Solver::extension, Need::equal_masses, "its masses are its own"},
+    {hair::Solver::extension, Need::sections, "its cross-sections are its own"},
+    {hair::Solver::extension, Need::iterations, "its iterations are its own"},
 };
 
 // The Gamma of a hair of this length; see lengthOf().
@@ -192,21 +208,23 @@ double gammaOf(const hair::MaterialSettings& material, double length) {
 
 }  // namespace
 
-hair::SimulationSettings defaultHair(hair::Solver solver) {
+hair::SimulationSettings defaultHair(const CheckedSolver& solver) {
     hair::SimulationSettings settings;
     settings.solver = solver;
+    settings.solver_file = solver.file;
+    settings.solver_parameters = solver.parameters;
     settings.gravity = {0.0f, static_cast<float>(-kGravity), 0.0f};
     return settings;
 }
 
-hair::SimulationSettings freeHair(hair::Solver solver) {
+hair::SimulationSettings freeHair(const CheckedSolver& solver) {
     hair::SimulationSettings settings = defaultHair(solver);
     settings.friction = 0.0f;
     settings.global.stiffness = 0.0f;
     return settings;
 }
 
-hair::SimulationSettings chain(hair::Solver solver, double length) {
+hair::SimulationSettings chain(const CheckedSolver& solver, double length) {
     hair::SimulationSettings settings = freeHair(solver);
     settings.local = {.stiffness = 0.0f, .iterations = 0};
     settings.augmented_mass_spring.integrity = 0.0f;
@@ -250,7 +268,7 @@ void setIterations(hair::SimulationSettings& settings, std::uint32_t iterations)
 
 // ---- Lively hair --------------------------------------------------------------------------------
 
-hair::SimulationSettings livelyHair(hair::Solver solver) {
+hair::SimulationSettings livelyHair(const CheckedSolver& solver) {
     hair::SimulationSettings settings = defaultHair(solver);
     settings.wind.strength = 15.0f;  // the thesis's strongest
     settings.motion.keyframes = {

@@ -20,6 +20,19 @@ namespace benchmarks::physics {
 
 inline constexpr double kPi = 3.14159265358979323846;
 
+// A solver that is checked: one of the program's, or that of a GLSL file with the file's defaults.
+struct CheckedSolver {
+    CheckedSolver(hair::Solver built_in) : solver(built_in) {}
+    // Reads and compiles the file. Throws engine::Error "<file>:<line>: <reason>".
+    explicit CheckedSolver(const std::string& path);
+
+    operator hair::Solver() const { return solver; }
+
+    hair::Solver solver;
+    std::string file;  // empty: one of the program's
+    hair::ExtensionParameters parameters;
+};
+
 // A strand in `segments` equal segments from the origin along a unit vector, at rest. m
 hair::groom::Groom
 straightStrand(std::uint32_t segments, double length, const glm::dvec3& direction);
@@ -80,7 +93,7 @@ verletFlight(double n, const glm::dvec3& velocity, const glm::dvec3& acceleratio
 inline constexpr double kLivelyLength = 0.15;  // m, the thesis's
 
 // Default hair in strong wind on a head that shakes once and nods, for 2 s.
-hair::SimulationSettings livelyHair(hair::Solver solver);
+hair::SimulationSettings livelyHair(const CheckedSolver& solver);
 
 // Sixteen hanging strands of the thesis's 8 vertices, 1 cm apart.
 hair::groom::Groom livelyGroom();
@@ -90,15 +103,15 @@ hair::groom::Groom livelyGroom();
 inline constexpr double kGravity = 9.81;  // m/s^2, down -y
 
 // A hair with the default settings except for this gravity.
-hair::SimulationSettings defaultHair(hair::Solver solver);
+hair::SimulationSettings defaultHair(const CheckedSolver& solver);
 
 // The hair with only its stiffness and weight: neither friction nor a pull to rest.
-hair::SimulationSettings freeHair(hair::Solver solver);
+hair::SimulationSettings freeHair(const CheckedSolver& solver);
 
 // A chain: segments keep their length, as well as the solver can, and do not resist bending. Rods
 // always resist; their modulus is so small that strands up to `length` bend under their weight at
 // once.
-hair::SimulationSettings chain(hair::Solver solver, double length);
+hair::SimulationSettings chain(const CheckedSolver& solver, double length);
 
 // Friction that reduces the velocity to exp(-rate) in 1 s. `rate` in 1/s.
 float frictionOf(double rate);

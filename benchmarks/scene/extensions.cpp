@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <cstddef>
 #include <functional>
+#include <map>
 #include <memory>
 #include <set>
+#include <string>
 #include <string_view>
 #include <system_error>
 #include <type_traits>
@@ -194,9 +196,13 @@ auto named(Settings& settings, hair::ExtensionKind kind) {
     case hair::ExtensionKind::offset:
         return Of{settings.strands.offset_function, settings.strands.offset_parameters};
     case hair::ExtensionKind::force:
+        return Of{settings.simulation.force, settings.simulation.force_parameters};
+    case hair::ExtensionKind::solver:
+        return Of{settings.simulation.solver_file, settings.simulation.solver_parameters};
+    case hair::ExtensionKind::curve:
         break;
     }
-    return Of{settings.simulation.force, settings.simulation.force_parameters};
+    return Of{settings.strands.curve_file, settings.strands.curve_parameters};
 }
 
 std::vector<std::string> namesOf(const hair::Extension& extension) {
@@ -236,15 +242,33 @@ std::vector<hair::ExtensionValue> completed(
     return all;
 }
 
-// The host and the shaders must know how far an offset can move strands.
-void checkReach(const hair::Extension& extension) {
-    if (extension.kind != hair::ExtensionKind::offset) return;
-    const auto reach =
-        std::ranges::find(extension.parameters, "reach", &hair::ExtensionParameter::name);
-    if (reach == extension.parameters.end() || reach->is_vector || reach->minimum < 0.0)
-        throw engine::Error(
-            extension.shader->name,
-            "must declare a parameter 'reach': a number of at least 0 m that no offset exceeds");
+// A parameter that the host reads too.
+struct HostParameter {
+    hair::ExtensionKind kind;
+    const char* name;
+    double least;  // of its range
+    bool required;
+    const char* meaning;
+};
+
+constexpr HostParameter kHostParameters[]{
+    {hair::ExtensionKind::offset, "reach", 0.0, true,
+     "a number of at least 0 m that no offset exceeds"},
+    {hair::ExtensionKind::solver, hair::kLongestSubstep, 1e-5, false,
+     "a number of at least 1e-05 s, the longest substep of /simulation/substeps 0"}};
+
+void checkHostParameters(const hair::Extension& extension) {
+    for (const HostParameter& each : kHostParameters) {
+        if (extension.kind != each.kind) continue;
+        const auto found =
+            std::ranges::find(extension.parameters, each.name, &hair::ExtensionParameter::name);
+        if (found == extension.parameters.end() && !each.required) continue;
+        if (found == extension.parameters.end() || found->is_vector || found->minimum < each.least)
+            throw engine::Error(
+                extension.shader->name,
+                std::string(each.required ? "must declare a parameter '" : "has a parameter '") +
+                    each.name + "'" + (each.required ? ": " : " that must be ") + each.meaning);
+    }
 }
 
 void loadOne(
@@ -263,7 +287,7 @@ void loadOne(
         reach.check(path);
         parameters.file = std::make_shared<const hair::Extension>(hair::parseExtension(
             field.kind, path.string(), engine::readFile(path, hair::kLargestExtension)));
-        checkReach(*parameters.file);
+        checkHostParameters(*parameters.file);
     } catch (const engine::Error& error) {
         throw engine::Error(field.pointer, error.what());
     }
@@ -276,6 +300,23 @@ void loadOne(
                     known.empty() ? path.string() + " declares no parameters"
                                   : unknownName("unknown key", value.name, known));
     parameters.values = completed(parameters.values, *parameters.file, field.parameters);
+}
+
+// Parameters of files that are linked into one shader must differ in their names: to the linker,
+// equal names are one constant.
+void checkNames(const hair::Settings& settings) {
+    using hair::ExtensionKind;
+    std::map<std::string, const char*> known;  // by parameter
+    for (const ExtensionField& field : kExtensionFields) {
+        if (field.kind == ExtensionKind::force || field.kind == ExtensionKind::solver) continue;
+        for (const hair::ExtensionValue& value : named(settings, field.kind).parameters.values) {
+            const auto [other, is_new] = known.emplace(value.name, field.pointer);
+            if (!is_new)
+                throw engine::Error(
+                    field.pointer, "declares '" + value.name + "' as the file of " + other->second +
+                                       " does: rename one");
+        }
+    }
 }
 
 // Returns one entry point of each stage that calls functions of the extension. Stages differ in
@@ -319,6 +360,7 @@ void loadExtensions(
         const auto [file, parameters] = named(settings, field.kind);
         loadOne(file, parameters, field, directory, reach, unknown);
     }
+    checkNames(settings);
 }
 
 hair::Settings
@@ -338,13 +380,18 @@ void rereadExtensions(hair::Settings& settings, const std::filesystem::path& dir
 }
 
 void checkExtensions(const hair::Settings& settings) {
+    const engine::ShaderLibrary library;
+    engine::ShaderExtensions all;
     for (const ExtensionField& field : kExtensionFields) {
         const auto [file, parameters] = named(settings, field.kind);
         if (!parameters.file) continue;
         try {
-            const engine::ShaderLibrary library;
-            for (const std::string& path : entryPointsOf(*parameters.file->shader))
-                library.extended(path, hair::shaderExtensions(parameters));
+            const engine::ShaderExtensions own = hair::shaderExtensions(parameters);
+            const std::vector<std::string> paths = entryPointsOf(*own.front());
+            for (const std::string& path : paths) library.extended(path, own);
+            // Then with the files before, which may share its stages.
+            all.insert(all.begin(), own.front());
+            for (const std::string& path : paths) library.extended(path, all);
         } catch (const engine::Error& error) {
             throw engine::Error(field.pointer, error.what());
         }

@@ -76,7 +76,9 @@ struct ExtensionField {
 inline constexpr ExtensionField kExtensionFields[]{
     {hair::ExtensionKind::shading, "/shading/model", "/shading/model_parameters"},
     {hair::ExtensionKind::offset, "/strands/offset_function", "/strands/offset_parameters"},
-    {hair::ExtensionKind::force, "/simulation/force", "/simulation/force_parameters"}};
+    {hair::ExtensionKind::force, "/simulation/force", "/simulation/force_parameters"},
+    {hair::ExtensionKind::solver, "/simulation/solver", "/simulation/solver_parameters"},
+    {hair::ExtensionKind::curve, "/strands/curve", "/strands/curve_parameters"}};
 
 // Returns the parameters of such a field.
 hair::ExtensionParameters& parametersOf(hair::Settings& settings, hair::ExtensionKind kind);

@@ -48,6 +48,12 @@ Broken groomHasStrandsOfItsOwn(const hair::Settings& s) {
     return "is groom, but neither /groom/file nor /groom/grow/strands is set";
 }
 
+Broken groomsStrandsHaveTheirCurve(const hair::Settings& s) {
+    if (s.strands.curve != hair::Curve::extension) return {};
+    if (s.strands.source != hair::StrandSource::groom) return {};
+    return "is a file, which draws strands between guides only: /strands/source is groom";
+}
+
 Broken cacheHasItsSolver(const hair::Settings& s) {
     if (s.groom.cache.mode == hair::CacheMode::none) return {};
     if (s.groom.file.empty()) return "is not none, but /groom/file is empty";
@@ -120,7 +126,7 @@ Broken solverKeepsSegmentsOut(const hair::Settings& s) {
     case hair::Solver::stable_cosserat:
     case hair::Solver::position_based_rod:
     case hair::Solver::augmented_mass_spring:
-        return "is segments, which only the solvers shape, ftl and rod support";
+        return "is segments, which only the solvers shape, ftl, rod and files support";
     default:
         if (s.simulation.collision.warm_start)
             return "is segments, but warm_start carries only the contact forces of vertices";
@@ -258,6 +264,7 @@ constexpr Rule kRules[] = {
     {"/groom/cache/mode", cacheHasItsSolver},
     {"/groom/grow/parting/to", partingHasLength},
     {"/strands/source", groomHasStrandsOfItsOwn},
+    {"/strands/curve", groomsStrandsHaveTheirCurve},
     {"/simulation/rest", solverHasBalancedRest},
     {"/simulation/material/ellipticity", solverHasEllipticSections},
     {"/simulation/collision/warm_start", solverCarriesContact},

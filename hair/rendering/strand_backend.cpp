@@ -1,10 +1,13 @@
 #include "hair/rendering/strand_backend.h"
 
+#include <array>
 #include <cmath>
 #include <cstddef>
 
 #include <glm/trigonometric.hpp>
 
+#include "engine/error.h"
+#include "hair/extension.h"
 #include "hair/rendering/environment.h"
 #include "hair/rendering/render_assets.h"
 #include "hair/rendering/strand_offsets.h"
@@ -131,7 +134,17 @@ void declareStrands(
          {picture.root_corrections, access}});
 }
 
+namespace {
+
+std::array<const ExtensionParameters*, 2> extensionsOf(const StrandSettings& strands) {
+    return {&strands.offset_parameters, &strands.curve_parameters};
+}
+
+}  // namespace
+
 engine::Constants strandConstants(const StrandSettings& strands, const StrandPlan& plan) {
+    if (strands.curve == Curve::extension && !strands.curve_parameters.file)
+        throw engine::Error("/strands/curve", "names a file that was not read");
     engine::Constants constants{
         {gpu::kCurveConstant, shaderCode(strands.curve)},
         {gpu::kTaperConstant, shaderCode(strands.taper)},
@@ -149,13 +162,20 @@ engine::Constants strandConstants(const StrandSettings& strands, const StrandPla
         {gpu::kResidualsConstant, plan.residuals},
         {gpu::kSkinnedStrandsConstant, plan.skinned},
         {gpu::kOffsetReachConstant, functionReach(strands)}};
-    const engine::Constants own = extensionConstants(strands.offset_parameters);
-    constants.insert(constants.end(), own.begin(), own.end());
+    for (const ExtensionParameters* of : extensionsOf(strands)) {
+        const engine::Constants own = extensionConstants(*of);
+        constants.insert(constants.end(), own.begin(), own.end());
+    }
     return constants;
 }
 
 engine::ShaderExtensions strandExtensions(const StrandSettings& strands) {
-    return shaderExtensions(strands.offset_parameters);
+    engine::ShaderExtensions all;
+    for (const ExtensionParameters* of : extensionsOf(strands)) {
+        const engine::ShaderExtensions own = shaderExtensions(*of);
+        all.insert(all.end(), own.begin(), own.end());
+    }
+    return all;
 }
 
 }  // namespace hair::rendering

@@ -89,6 +89,9 @@ public:
     // Derives the solver's own state from positions and previous positions that other code wrote.
     virtual void recordAdopt(engine::Commands&, gpu::SubstepPush) const {}
 
+    // The solver's own state that is 0 then instead.
+    virtual const engine::Buffer* memory() const { return nullptr; }
+
     // Allows bodies from now on, even if the constructor's settings had none. Throws like the
     // constructor.
     virtual void expectBodies(const engine::Device&) {}

@@ -56,11 +56,12 @@ bool hasSegmentPass(const SimulationSettings& settings) {
         return false;
     case Solver::shape:
     case Solver::ftl:
+    case Solver::extension:
         return true;
     default:
         throw engine::Error(
             "/simulation/collision/parts",
-            "is segments, which only the solvers shape, ftl and rod support");
+            "is segments, which only the solvers shape, ftl, rod and files support");
     }
 }
 
@@ -97,7 +98,9 @@ engine::MemoryRows Simulation::rows(
     rows.add(WindPass::rows(size.vertices(), settings.wind.mode));
     rows.add(solverRows(device, size, settings));
     if (!settings.pulls.empty()) rows.add(PullPass::rows());
-    const bool moves_vertices = settings.solver == Solver::shape || settings.solver == Solver::ftl;
+    const bool moves_vertices = settings.solver == Solver::shape ||
+                                settings.solver == Solver::ftl ||
+                                settings.solver == Solver::extension;
     if (moves_vertices && hasSegmentPass(settings)) rows.add(SegmentPass::rows(size.vertices()));
     if (hairActsOnHair(settings)) rows.add(HairHair::rows(size, settings));
     if (hasSkinnedRoots(settings))
@@ -359,6 +362,7 @@ void Simulation::setState(
     if (!solver_) return;
     runOnce(*device_, [&](engine::Commands& commands) {
         const gpu::RigidFrame frame = toGpu(pose());
+        if (const engine::Buffer* memory = solver_->memory()) commands.fill(*memory, 0);
         if (roots_) roots_->record(commands, motion_, 1, time(), time());
         commands.uses(
             {{positions_[current_], engine::Access::compute_read},

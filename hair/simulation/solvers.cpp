@@ -8,9 +8,12 @@
 #include <iterator>
 #include <limits>
 #include <span>
+#include <utility>
 
 #include "engine/buffer_image.h"
+#include "engine/error.h"
 #include "engine/transfer.h"
+#include "hair/extension.h"
 #include "hair/simulation/solver_rod.h"
 #include "hair/simulation/solver_shape.h"
 #include "hair/simulation/stiffness.h"
@@ -39,6 +42,69 @@ FtlSolver::FtlSolver(
 void FtlSolver::record(engine::Commands& commands, gpu::SubstepPush push) const {
     push.solver = parameters_.address();
     commands.bind(pipeline_, push);
+    commands.dispatchInvocations(strand_count_, gpu::kGuideGroupSize);
+}
+
+// ---- A solver from the scene --------------------------------------------------------------------
+
+static_assert(sizeof(gpu::ExtendedParameters) == 40);
+static_assert(offsetof(gpu::ExtendedParameters, density) == 16);
+
+namespace {
+
+engine::ComputeDescription extendedStage(const SimulationSettings& settings) {
+    if (!settings.solver_parameters.file)
+        throw engine::Error("/simulation/solver", "names a file that was not read");
+    engine::Constants constants = extensionConstants(settings.solver_parameters);
+    constants.push_back({gpu::kContinuousCollisionConstant, settings.collision.continuous});
+    constants.push_back({gpu::kSkinnedRootsConstant, hasSkinnedRoots(settings)});
+    return {
+        .shader = "simulation/extended.comp",
+        .constants = std::move(constants),
+        .extensions = shaderExtensions(settings.solver_parameters),
+        .push_size = sizeof(gpu::SubstepPush)};
+}
+
+}  // namespace
+
+engine::MemoryRows ExtendedSolver::rows(
+    const engine::DeviceInfo&, const groom::GroomSize& size, const SimulationSettings&) {
+    const std::size_t vectors = engine::bytesOf<glm::vec4>(size.vertices());
+    return {
+        "simulation",
+        {{"extended earlier positions", vectors},
+         {"extended memory", gpu::kExtendedMemory * vectors},
+         {"extended parameters", sizeof(gpu::ExtendedParameters)},
+         {"settled state", gpu::kExtendedMemory * vectors}}};
+}
+
+ExtendedSolver::ExtendedSolver(
+    const engine::Device& device, const groom::Groom& groom, const SimulationSettings& settings,
+    const gpu::Step&)
+    : strand_count_(groom.strand_count), pipeline_(device, extendedStage(settings)) {
+    const engine::MemoryRows all = rows(device.info(), sizeOf(groom), settings);
+    earlier_ = {device, all["extended earlier positions"]};
+    memory_ = {device, all["extended memory"]};
+    const MaterialSettings& material = settings.material;
+    parameters_ = engine::makeBuffer(
+        device,
+        std::array{gpu::ExtendedParameters{
+            .earlier = earlier_.address(),
+            .memory = memory_.address(),
+            .density = material.density,
+            .radius = material.radius,
+            .ellipticity = material.ellipticity,
+            .youngs_modulus = material.youngs_modulus,
+            .shear_modulus = material.shear_modulus,
+            .damping = material.damping}},
+        all, "extended parameters");
+}
+
+void ExtendedSolver::record(engine::Commands& commands, gpu::SubstepPush push) const {
+    push.solver = parameters_.address();
+    commands.bind(pipeline_, push);
+    commands.uses(
+        {{earlier_, engine::Access::compute_write}, {memory_, engine::Access::compute_write}});
     commands.dispatchInvocations(strand_count_, gpu::kGuideGroupSize);
 }
 
@@ -123,6 +189,7 @@ constexpr Row kSolvers[] = {
      rodRows<positionBasedMethod>},
     {Solver::augmented_mass_spring, 1.0 / 480.0, makeRods<augmentedMassSpringMethod>,
      rodRows<augmentedMassSpringMethod>},
+    {Solver::extension, kWholeStep, make<ExtendedSolver>, ExtendedSolver::rows},
 };
 
 const Row& rowOf(Solver solver) {
@@ -133,7 +200,10 @@ const Row& rowOf(Solver solver) {
 
 std::uint32_t substepsOf(const SimulationSettings& settings) {
     if (settings.substeps > 0) return settings.substeps;
-    const double substeps = double{settings.time_step} / rowOf(settings.solver).longest_substep;
+    double longest = rowOf(settings.solver).longest_substep;
+    if (const float own = extensionNumber(settings.solver_parameters, kLongestSubstep); own > 0.0f)
+        longest = own;
+    const double substeps = double{settings.time_step} / longest;
     // Time steps are rounded to floats: 8.0000001 counts as 8.
     return static_cast<std::uint32_t>(std::max(1.0, std::ceil(substeps - 1e-4)));
 }

@@ -37,6 +37,31 @@ private:
     engine::ComputePipeline pipeline_;
 };
 
+// Calls the function of a file that the scene names as its solver: shaders/extension/solver.glsl.
+// Its memory is its own state.
+class ExtendedSolver : public GuideSolver {
+public:
+    // Throws engine::Error if the file was not read or does not compile.
+    ExtendedSolver(
+        const engine::Device& device, const groom::Groom& groom, const SimulationSettings& settings,
+        const gpu::Step& step);
+
+    static engine::MemoryRows rows(
+        const engine::DeviceInfo& device, const groom::GroomSize& size,
+        const SimulationSettings& settings);
+
+    void record(engine::Commands& commands, gpu::SubstepPush push) const override;
+    const engine::Buffer* memory() const override { return &memory_; }
+    std::vector<const engine::Buffer*> state() const override { return {&memory_}; }
+
+private:
+    std::uint32_t strand_count_;
+    engine::Buffer earlier_;
+    engine::Buffer memory_;
+    engine::Buffer parameters_;
+    engine::ComputePipeline pipeline_;
+};
+
 // The list of solvers, for code that chooses one.
 
 // Returns the memory of the settings' solver.

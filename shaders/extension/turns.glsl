@@ -4,11 +4,17 @@
 #define HAIRBENCH_EXTENSION_TURNS_GLSL
 
 #if defined(HAIRBENCH_EXTENDED_SHADING) || defined(HAIRBENCH_EXTENDED_OFFSET) || \
-    defined(HAIRBENCH_EXTENDED_FORCE)
+    defined(HAIRBENCH_EXTENDED_FORCE) || defined(HAIRBENCH_EXTENDED_SOLVER) || \
+    defined(HAIRBENCH_EXTENDED_CURVE)
 
 // Turns of all loops in one call of a scene's function. lavapipe ends all loops of an invocation
-// after 65,535 turns together, the program's own too, and an invocation may make several calls.
+// after 65,535 turns together, the program's own too, and an invocation may make several calls. A
+// solver is called once.
+#ifdef HAIRBENCH_EXTENDED_SOLVER
+const uint kMostTurns = 32768u;
+#else
 const uint kMostTurns = 4096u;
+#endif
 
 uint extension_turns;
 

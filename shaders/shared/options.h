@@ -12,6 +12,7 @@ const uint kFarDepth = 0u;
 const uint kCurveBspline = 0u;
 const uint kCurveBsplineUnpinned = 1u;
 const uint kCurveCatmullRom = 2u;
+const uint kCurveExtension = 3u;  // from a file that the scene names
 
 // The length over which a strand's width tapers (Taper).
 const uint kTaperStrand = 0u;
@@ -140,6 +141,8 @@ const uint kFarFieldConstant = 34u;
 const uint kShadingParameterConstant = 64u;
 const uint kOffsetParameterConstant = 128u;
 const uint kForceParameterConstant = 192u;
+const uint kSolverParameterConstant = 256u;
+const uint kCurveParameterConstant = 320u;
 
 // Constant of an offset function from the scene: strands/strand.glsl.
 const uint kOffsetReachConstant = 36u;

@@ -289,4 +289,19 @@ struct FtlParameters {
     float velocity_correction;  // s_damping of Mueller et al. 2012, eq. 9
 };
 
+// Memory of a solver from the scene, vec4 for each vertex.
+const uint kExtendedMemory = 4u;
+
+// Parameters of simulation/extended.comp.
+struct ExtendedParameters {
+    Address earlier;  // vec4 [strand][vertex]: previous positions at the start of the substep, m
+    Address memory;  // vec4 [strand][vertex][kExtendedMemory]
+    float density;  // kg/m^3, of /simulation/material like the rest
+    float radius;  // m
+    float ellipticity;
+    float youngs_modulus;  // Pa
+    float shear_modulus;  // Pa
+    float damping;  // s
+};
+
 #endif

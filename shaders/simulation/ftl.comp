@@ -7,10 +7,8 @@
 #include "common/rigid_frame.glsl"
 #include "simulation/air_drag.glsl"
 #include "simulation/constraints/bodies.glsl"
-#include "simulation/constraints/follow_leader.glsl"
 #include "simulation/constraints/global.glsl"
 #include "simulation/guides.glsl"
-#include "simulation/integrate.glsl"
 #include "simulation/root_frame.glsl"
 
 layout(local_size_x = kGuideGroupSize) in;
@@ -18,6 +16,15 @@ layout(local_size_x = kGuideGroupSize) in;
 layout(push_constant, scalar) uniform Push { SubstepPush push; };
 
 layout(buffer_reference, scalar) readonly buffer FtlReference { FtlParameters parameters; };
+
+// The point at the rest length from the leader, towards the follower; along +y if they coincide.
+// Mueller, Kim and Chentanez 2012, Fast simulation of inextensible hair and fur, section 3.2.
+vec3 followLeader(vec3 leader, vec3 follower, float rest_length) {
+    vec3 edge = follower - leader;
+    float len = length(edge);
+    vec3 direction = len < kShortestSegment ? vec3(0.0, 1.0, 0.0) : edge / len;
+    return leader + rest_length * direction;
+}
 
 void main() {
     GuideParameters guides = GuideReference(push.guides).parameters;

@@ -24,7 +24,6 @@
 #include "simulation/constraints/transport.glsl"
 #include "simulation/contacts.glsl"
 #include "simulation/guides.glsl"
-#include "simulation/integrate.glsl"
 #include "simulation/root_frame.glsl"
 
 // The work group size is a multiple of kChunks.

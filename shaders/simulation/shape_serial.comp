@@ -18,7 +18,6 @@
 #include "simulation/constraints/transport.glsl"
 #include "simulation/contacts.glsl"
 #include "simulation/guides.glsl"
-#include "simulation/integrate.glsl"
 #include "simulation/root_frame.glsl"
 
 layout(local_size_x_id = kShapeGroupSizeConstant) in;

@@ -2,13 +2,26 @@
 // Makes a line of a strand into its quad. HAIRBENCH_SHADOW is for a light's map, HAIRBENCH_WATCHED
 // for a watched stage (strands/watch.glsl).
 #extension GL_GOOGLE_include_directive : require
-#include "strands/geometry_lines.glsl"
+#include "strands/line_end.glsl"
 #ifdef HAIRBENCH_SHADOW
 #include "shadows/quad.glsl"
 #else
 #include "strands/quad.glsl"
 #endif
 #include "strands/watch.glsl"
+
+layout(lines) in;
+layout(triangle_strip, max_vertices = 4) out;
+
+layout(location = 0) in vec4 position_and_width[];  // a negative width drops the line
+layout(location = 1) in vec4 tangent_and_along[];
+layout(location = 2) in uint merged_hairs[];  // set if kTellsHairs
+
+LineEnd lineEnd(int end) {
+    vec4 position = position_and_width[end];
+    vec4 tangent = tangent_and_along[end];
+    return LineEnd(position.xyz, tangent.xyz, position.w, tangent.w, merged_hairs[end]);
+}
 
 void main() {
 #ifdef HAIRBENCH_SHADOW

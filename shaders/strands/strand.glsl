@@ -3,6 +3,7 @@
 #define HAIRBENCH_STRAND_GLSL
 
 #include "common/picture.glsl"
+#include "extension/curve.glsl"
 #include "extension/offset.glsl"
 #include "extension/turns.glsl"
 #include "shading/options.glsl"
@@ -151,6 +152,25 @@ void correctRoot(PictureParameters picture, StrandPatch strand_patch, PatchStran
     point.tangent = tangent;
 }
 
+#ifdef HAIRBENCH_EXTENDED_CURVE
+
+// Calls a function from the scene. Limits the point to the distance from the segment's line that
+// culling assumes (strands/outside.glsl).
+HairCurvePoint extendedCurve(PictureParameters picture, uint segment, vec3 r[4], float t) {
+    beginTurns();
+    HairCurvePoint curve = curveHair(
+        HairSegment(r[0], r[1], r[2], r[3], segment, picture.vertices_per_guide - 1u), t);
+    float longest = max(max(distance(r[0], r[1]), distance(r[1], r[2])), distance(r[2], r[3]));
+    vec3 place = mix(r[1], r[2], t);
+    float away = distance(curve.position, place);
+    if (!(away <= 1e30)) curve.position = place;  // NaN or infinite
+    else if (away > longest) curve.position = place + longest / away * (curve.position - place);
+    if (!(length(curve.tangent) <= 1e30)) curve.tangent = r[2] - r[1];
+    return curve;
+}
+
+#endif
+
 vec4 curveWeights(float t) {
     return kCurve == kCurveCatmullRom ? interpolationWeights(t) : splineWeights(t);
 }
@@ -169,8 +189,14 @@ StrandPoint pointOnStrand(PictureParameters picture, StrandPatch strand_patch, P
                           float t) {
     StrandPoint point;
     vec3 r[4] = strand.r;
+#ifdef HAIRBENCH_EXTENDED_CURVE
+    HairCurvePoint curve = extendedCurve(picture, strand_patch.segment, r, t);
+    point.position = curve.position;
+    point.tangent = curve.tangent;
+#else
     point.position = blend(curveWeights(t), r[0], r[1], r[2], r[3]);
     point.tangent = blend(curveSlopes(t), r[0], r[1], r[2], r[3]);
+#endif
     point.along =
         (float(strand_patch.segment) + t) / float(picture.vertices_per_guide - 1);
     point.width = strandWidth(picture, strand, strand_patch.segment, t, point.along) *

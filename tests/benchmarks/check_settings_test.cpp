@@ -171,15 +171,30 @@ TEST(CheckSettings, WantsSolversThatKeepSegmentsOut) {
             s.simulation.collision.parts = hair::CollisionParts::segments;
         });
     };
-    for (const hair::Solver solver : {hair::Solver::shape, hair::Solver::ftl, hair::Solver::rod})
+    for (const hair::Solver solver :
+         {hair::Solver::shape, hair::Solver::ftl, hair::Solver::rod, hair::Solver::extension})
         EXPECT_EQ(with(solver, false), "no error");
     EXPECT_EQ(
         with(hair::Solver::stable_cosserat, false),
-        "/simulation/collision/parts: is segments, which only the solvers shape, ftl and rod "
-        "support");
+        "/simulation/collision/parts: is segments, which only the solvers shape, ftl, rod "
+        "and files support");
     EXPECT_EQ(
         with(hair::Solver::rod, true), "/simulation/collision/parts: is segments, but warm_start "
                                        "carries only the contact forces of vertices");
+}
+
+TEST(CheckSettings, WantsCurvesOfFilesBetweenGuides) {
+    const auto from = [](hair::StrandSource source) {
+        return broken([&](hair::Settings& s) {
+            s.groom.grow.strands = 50;
+            s.strands.curve = hair::Curve::extension;
+            s.strands.source = source;
+        });
+    };
+    EXPECT_EQ(from(hair::StrandSource::root_triangles), "no error");
+    EXPECT_EQ(
+        from(hair::StrandSource::groom), "/strands/curve: is a file, which draws strands between "
+                                         "guides only: /strands/source is groom");
 }
 
 TEST(CheckSettings, WantsKeyframesInOrder) {

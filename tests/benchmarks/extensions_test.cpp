@@ -291,6 +291,106 @@ TEST_F(SceneExtensions, AreTheSameInEveryStage) {
         error(R"({"simulation": {"force": "force.glsl"}})"),
         "in/s.json: /simulation/force: in/force.glsl:2: a stage's own input such as gl_FragCoord" +
             no_place);
+    folder.write(
+        "in/solver.glsl", "void solveGuide(Guide guide) {\n"
+                          "    setGuidePosition(1u, vec3(gl_GlobalInvocationID));\n}\n");
+    EXPECT_EQ(
+        error(R"({"simulation": {"solver": "solver.glsl"}})"),
+        "in/s.json: /simulation/solver: in/solver.glsl:2: a stage's own input such as "
+        "gl_FragCoord" +
+            no_place);
+}
+
+// A solver moves guides by functions of the program's and sees no more of it.
+TEST_F(SceneExtensions, SolversSeeTheirInterfaceAlone) {
+    const auto with = [&](const std::string& before, const std::string& statement) {
+        folder.write(
+            "in/solver.glsl",
+            before + "void solveGuide(Guide guide) {\n    " + statement + "\n}\n");
+        return error(R"({"simulation": {"solver": "solver.glsl"}})");
+    };
+    const std::string at = "in/s.json: /simulation/solver: in/solver.glsl";
+    EXPECT_EQ(
+        with("", "setGuidePosition(1u, guidePredicted(1u)); setGuideMemory(0u, 0u, vec4(1.0));"),
+        "no error");
+    for (const char* const own :
+         {"push.guides", "solved_guide", "solvedGuides().positions", "solvedVertex(1u)",
+          "State(uvec2(0u)).at[0].x", "kExtendedMemory", "extension_turns"})
+        EXPECT_THAT(
+            with("", "float x = float(" + std::string(own) + ");"),
+            AllOf(
+                testing::StartsWith(at + ":2: "),
+                testing::ContainsRegex("undeclared identifier|no matching overloaded function")))
+            << own;
+    for (const char* const global : {"uint solved_guide;", "vec3 guides[2];"})
+        EXPECT_THAT(
+            with(std::string(global) + "\n", ""),
+            testing::StartsWith(at + ":1: a declaration outside functions must be const"));
+    for (const char* const function :
+         {"uint solvedVertex(uint vertex)", "vec3 guidePosition(uint vertex)",
+          "bool isOnGuide(uint vertex)"})
+        EXPECT_THAT(
+            with(std::string(function) + ";\n", ""),
+            HasSubstr("is declared but not defined, which is not permitted"))
+            << function;
+    EXPECT_THAT(
+        with("bool guideHeld(uint vertex) { return false; }\n", ""),
+        HasSubstr("'guideHeld' has the name of one of the program's own functions: rename it"));
+    EXPECT_THAT(
+        with("uint solvedVertex(uint vertex) { return 0u; }\n", ""),
+        HasSubstr("'solvedVertex' has the name of one of the program's own functions: rename it"));
+    EXPECT_EQ(
+        with(
+            "void f(uint v) { solveGuide(Guide(v, v, 0., 0., GuideFrame(vec4(0), vec3(0)), "
+            "GuideFrame(vec4(0), vec3(0)))); }\n",
+            "f(1u);"),
+        at + ": 'solveGuide' calls itself: recursion is not permitted");
+    EXPECT_THAT(with("", "barrier();"), testing::StartsWith(at + ":2: "));
+    EXPECT_THAT(with("", "atomicAdd(guide.number, 1u);"), testing::StartsWith(at + ":2: "));
+
+    folder.write("in/solver.glsl", "void solve(Guide guide) {}\n");
+    EXPECT_EQ(
+        error(R"({"simulation": {"solver": "solver.glsl"}})"),
+        at + ": has no function void solveGuide(Guide guide)");
+    folder.write("in/solver.glsl", "// @parameter longest_substep 1 [0, 1] s: x\n");
+    EXPECT_EQ(
+        error(R"({"simulation": {"solver": "solver.glsl"}})"),
+        at + ": has a parameter 'longest_substep' that must be a number of at least 1e-05 s, the "
+             "longest substep of /simulation/substeps 0");
+}
+
+TEST_F(SceneExtensions, CurvesSeeTheirInterfaceAlone) {
+    const auto with = [&](const std::string& text) {
+        folder.write("in/curve.glsl", text);
+        return error(R"({"strands": {"curve": "curve.glsl"}})");
+    };
+    const auto body = [&](const std::string& statement) {
+        return with(
+            "HairCurvePoint curveHair(HairSegment segment, float t) {\n    " + statement +
+            "\n    return HairCurvePoint(segment.from, segment.to);\n}\n");
+    };
+    const std::string at = "in/s.json: /strands/curve: in/curve.glsl";
+    EXPECT_EQ(body(""), "no error");
+    EXPECT_EQ(
+        body("float x = float(gl_VertexIndex);"),
+        at + ":2: a stage's own input such as gl_FragCoord is not permitted in a file that a scene "
+             "names");
+    for (const char* const own :
+         {"kCurve", "splineWeights(t).x", "hairbenchPush", "guideVertex(0u).x", "gl_Position.x"})
+        EXPECT_THAT(body("float x = " + std::string(own) + ";"), testing::StartsWith(at + ":2: "))
+            << own;
+    EXPECT_THAT(
+        with("vec4 curveWeights(float t) { return vec4(t); }\n"
+             "HairCurvePoint curveHair(HairSegment segment, float t) {\n"
+             "    return HairCurvePoint(segment.from, segment.to);\n}\n"),
+        HasSubstr("'curveWeights' has the name of one of the program's own functions: rename it"));
+    EXPECT_EQ(
+        with("vec3 curve(HairSegment segment, float t) { return segment.from; }\n"),
+        at + ": has no function HairCurvePoint curveHair(HairSegment segment, float t)");
+    EXPECT_EQ(
+        with("vec3 curveHair(HairSegment segment, float t) { return segment.from; }\n"),
+        at + ":1: 'curveHair' : overloaded functions must have the same return type; expected "
+             "HairCurvePoint curveHair(HairSegment segment, float t)");
 }
 
 TEST_F(SceneExtensions, LoopsHaveConditionsOfEveryForm) {
@@ -425,6 +525,29 @@ TEST_F(SceneExtensions, DeclarationsHaveAForm) {
         at + "'a' is declared twice");
 }
 
+// Files of shading, offsets and curves are linked into the same stages.
+TEST_F(SceneExtensions, FilesOfOneStageHaveDifferentNames) {
+    const auto with = [&](const std::string& name, const std::string& constant) {
+        folder.write(
+            "in/offset.glsl", "// @parameter reach 0.02 [0, 0.1] m: most\nconst float kOne = 1.0;\n"
+                              "vec3 offsetHair(HairPlace place) { return vec3(reach * kOne); }\n");
+        folder.write(
+            "in/curve.glsl",
+            "// @parameter " + name + " 0.02 [0, 0.1] m: x\nconst float " + constant +
+                " = 2.0;\nHairCurvePoint curveHair(HairSegment segment, float t) {\n"
+                "    return HairCurvePoint(segment.from, segment.to * " +
+                constant + ");\n}\n");
+        return error(R"({"strands": {"curve": "curve.glsl", "offset_function": "offset.glsl"}})");
+    };
+    EXPECT_EQ(with("wide", "kTwo"), "no error");
+    EXPECT_EQ(
+        with("reach", "kTwo"), "in/s.json: /strands/curve: declares 'reach' as the file of "
+                               "/strands/offset_function does: rename one");
+    EXPECT_EQ(
+        with("wide", "kOne"), "in/s.json: /strands/curve: in/curve.glsl: 'kOne' is a constant of "
+                              "another file too: rename one");
+}
+
 TEST_F(SceneExtensions, OffsetsDeclareHowFarTheyReach) {
     folder.write("in/offset.glsl", "vec3 offsetHair(HairPlace place) { return vec3(0.0); }\n");
     EXPECT_THAT(
@@ -436,7 +559,7 @@ TEST_F(SceneExtensions, OffsetsDeclareHowFarTheyReach) {
 // The shipped extensions compile, and the documentation page names them.
 TEST(ShippedExtensions, AreDocumentedAndCompile) {
     const std::string page = textOf(HAIRBENCH_SOURCE_DIR "/docs/extending.md");
-    for (const char* const name : {"toon", "crimped", "vortex"}) {
+    for (const char* const name : {"toon", "crimped", "vortex", "mass_spring", "helix"}) {
         const std::filesystem::path path = std::filesystem::path(HAIRBENCH_SCENES_DIR) /
                                            "extended" / (std::string(name) + ".json");
         const scene::Scene read = scene::loadScene(path);

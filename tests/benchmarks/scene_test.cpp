@@ -142,7 +142,7 @@ const BadScene kBadFields[] = {
      ": /strands/tessalation: unknown key (did you mean 'tessellation'?); known: backend, "
      "source, interpolation, blend, collision_rule, collision, randomness, density, tessellation, "
      "width, root_width, tip_width, curl, variation, offsets, offset_function, "
-     "offset_parameters, opacity, texture, curve, taper, "
+     "offset_parameters, opacity, texture, curve, curve_parameters, taper, "
      "taper_start, submission"},
     {R"({"sweeep": {}})", ": /sweeep: unknown key (did you mean 'sweep'?); known: description, "
                           "seed, groom, simulation, strands, "

@@ -433,4 +433,34 @@ TEST_F(WrongOutcome, OfAForceThatTearsHairIsNoMeasurement) {
         "guide [0-9]+, vertex [0-9]+ is [0-9.e+]+ times as far along it as at rest");
 }
 
+// A solver that fails is a case that failed; the other cases of the sweep are measured.
+TEST_F(WrongOutcome, OfASolverIsThatOfItsCaseAlone) {
+    folder_.write(
+        "wrong.glsl", "void solveGuide(Guide guide) { setGuidePosition(1u, vec3(0.0) / "
+                      "guideRestLength(0u)); }\n");
+    folder_.write("rest.glsl", "void solveGuide(Guide guide) {}\n");
+    const fs::path file =
+        folder_.write("wrong.json", R"({"base": ")" HAIRBENCH_SCENES_DIR R"(/smoke.json",
+            "groom": {"guides": 40}, "strands": {"density": 1, "tessellation": 1},
+            "run": {"warmup": 2, "frames": 2, "max_time": 0},
+            "sweep": {"/render/msaa": null,
+                      "/simulation/solver": ["wrong.glsl", "rest.glsl", "shape"]}})");
+    const Outcome run = hairbench(
+        "run '" + file.string() + "' --allow-outside --no-pictures --out " + quoted("r.json"));
+    EXPECT_NE(run.status, 0) << run.output;
+    const nlohmann::json cases = nlohmann::json::parse(textOf(folder_.file("r.json"))).at("cases");
+    ASSERT_EQ(cases.size(), 3u);
+    EXPECT_EQ(cases[0].at("status"), "failed");
+    EXPECT_THAT(cases[0].dump(), HasSubstr("vertex 1 has no finite position"));
+    EXPECT_EQ(cases[1].at("status"), "ok");
+    EXPECT_EQ(cases[2].at("status"), "ok");
+
+    folder_.write("wrong.glsl", "void solveGuide(Guide guide) {\n    gravity();\n}\n");
+    const Outcome refused = hairbench("validate '" + file.string() + "' --allow-outside");
+    EXPECT_NE(refused.status, 0);
+    EXPECT_THAT(
+        refused.output,
+        testing::ContainsRegex("/simulation/solver: .*wrong.glsl:2: 'gravity' : no matching"));
+}
+
 }  // namespace

@@ -989,6 +989,8 @@ FIELDS = [
     ("/groom/grow/mask", ".png"),
     ("/groom/grow/length_map", ".png"),
     ("/simulation/force", ".glsl"),
+    ("/simulation/solver", ".glsl"),
+    ("/strands/curve", ".glsl"),
     ("/strands/offset_function", ".glsl"),
     ("/strands/offsets", ".hgl"),
     ("/strands/texture", ".png"),
@@ -1136,7 +1138,7 @@ def glsl(random, place):
     elif way == 12:
         text = random.choice(sorted((ROOT / "scenes/extended").glob("*.glsl"))).read_bytes()
         text = damaged(random, text)
-        field = random.choice(["model", "force", "offset"])
+        field = random.choice(["model", "force", "offset", "solver", "curve"])
         place.write("a.glsl", text)
         return extended(place, field)
     elif way == 13:
@@ -1158,6 +1160,10 @@ def extended(place, field):
         return scene(place, shading={"model": "a.glsl"})
     if field == "force":
         return scene(place, simulation={"force": "a.glsl"})
+    if field == "solver":
+        return scene(place, simulation={"solver": "a.glsl"})
+    if field == "curve":
+        return scene(place, strands={"curve": "a.glsl"})
     return scene(place, strands={"offset_function": "a.glsl"})
 
 

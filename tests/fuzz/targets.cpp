@@ -366,7 +366,8 @@ engine::CompiledShader compiledForce(const hair::Extension& extension) {
 void readExtension(std::string_view bytes) {
     using hair::ExtensionKind;
     for (const ExtensionKind kind :
-         {ExtensionKind::shading, ExtensionKind::offset, ExtensionKind::force}) {
+         {ExtensionKind::shading, ExtensionKind::offset, ExtensionKind::force,
+          ExtensionKind::solver, ExtensionKind::curve}) {
         const hair::Extension read = hair::parseExtension(kind, "fuzzed.glsl", std::string(bytes));
         for (const hair::ExtensionParameter& each : read.parameters)
             for (int i = 0; i < (each.is_vector ? 3 : 1); ++i)

@@ -208,7 +208,14 @@ TEST_F(FramesHazards, AreNoneInAnySceneOrFeatureAndNoBarrierIsSuperfluous) {
     extended.strands.offset_function = "extended/crimped.glsl";
     extended.shading.model = hair::ShadingModel::extension;
     extended.shading.model_file = "extended/toon.glsl";
+    extended.strands.curve = hair::Curve::extension;
+    extended.strands.curve_file = "extended/helix.glsl";
     silent("a scene's own functions", extended);
+    extended.simulation.solver = hair::Solver::extension;
+    extended.simulation.solver_file = "extended/mass_spring.glsl";
+    extended.simulation.substeps = 2;
+    extended.simulation.collision.parts = hair::CollisionParts::segments;
+    silent("a scene's own functions and solver", extended);
     // Strands of a groom file that keep their residuals to the mean of their guides.
     const TemporaryFolder folder;
     for (const hair::Backend backend : {hair::Backend::tessellation, hair::Backend::expanded}) {

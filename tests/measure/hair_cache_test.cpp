@@ -185,6 +185,26 @@ TEST_F(HairCacheTest, CasesWithOtherHairShareWhatIsTheSameAlone) {
     }
 }
 
+// The text of a solver's file counts, not its name.
+TEST_F(HairCacheTest, AnEditedSolverSettlesAnew) {
+    HairCache cache;
+    hair::Settings settings = settledCase(hair::Solver::extension);
+    settings.groom.grow.mesh = std::string(kScenes) + "/assets/head.glb";
+    settings.simulation.solver_file = "mine.glsl";
+    const auto hashOf = [&](const std::string& body) {
+        folder_.write("mine.glsl", "void solveGuide(Guide guide) { " + body + " }\n");
+        return Case(device(), settings, folder_.path(), &cache).stateHash();
+    };
+    const std::string still = hashOf("");
+    const std::size_t made = cache.made();
+    const std::string lifted =
+        hashOf("setGuidePosition(1u, guideRest(1u) + vec3(0.0, 0.01, 0.0));");
+    EXPECT_NE(lifted, still);
+    EXPECT_EQ(cache.made(), made + 1);
+    EXPECT_EQ(hashOf(""), still);
+    EXPECT_EQ(cache.made(), made + 1);
+}
+
 // A state without settling is not kept.
 TEST_F(HairCacheTest, KeepsNoStateThatTookNoTime) {
     HairCache cache = onDisk();

@@ -1,8 +1,19 @@
 // The quick part of `hairbench physics`: the solvers' promises, on every build.
 #include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <string_view>
+
+#include <glm/geometric.hpp>
+#include <gmock/gmock.h>
 
 #include "benchmarks/physics/checks.h"
+#include "benchmarks/physics/theory.h"
+#include "hair/simulation/solvers.h"
+#include "tests/error_text.h"
 #include "tests/gpu_fixture.h"
+#include "tests/temporary_folder.h"
 
 namespace benchmarks::physics {
 namespace {
@@ -137,6 +148,158 @@ TEST_P(EverySolver, EndsInTheSameBitsTwice) {
     Findings findings("state_hash", solver());
     checkStateHash(device(), solver(), findings);
     expectPass(findings);
+}
+
+// ---- A solver from a file -----------------------------------------------------------------------
+
+// Masses on springs: scenes/extended/mass_spring.glsl.
+class MassSpring : public GpuTest {
+protected:
+    static const CheckedSolver& solver() {
+        static const CheckedSolver solver(HAIRBENCH_SCENES_DIR "/extended/mass_spring.glsl");
+        return solver;
+    }
+
+    // Springs along the strand alone, with this modulus in Pa.
+    static hair::SimulationSettings springs(float modulus, float damping) {
+        hair::SimulationSettings settings = freeHair(solver());
+        for (hair::ExtensionValue& each : settings.solver_parameters.values) {
+            if (each.name == "stretch_modulus") each.value.x = modulus;
+            if (each.name == "bend_modulus" || each.name == "twist_modulus") each.value.x = 0.0f;
+            if (each.name == "damping") each.value.x = damping;
+        }
+        return settings;
+    }
+
+    static double measured(const Findings& findings, std::string_view quantity) {
+        for (const Outcome& each : findings.outcomes())
+            if (each.quantity.name == quantity) return each.measured;
+        return std::numeric_limits<double>::quiet_NaN();
+    }
+};
+
+TEST_F(MassSpring, PassesTheChecksThatEverySolverPasses) {
+    for (const char* const name : {"free_fall", "terminal_speed", "state_hash"}) {
+        Findings findings(name, solver());
+        std::ranges::find(allChecks(), std::string_view(name), &Check::name)
+            ->run(device(), solver(), findings);
+        expectPass(findings);
+        EXPECT_EQ(findings.outcomes().front().solver, "mass_spring.glsl");
+    }
+}
+
+// Other checks measure it and judge nothing.
+TEST_F(MassSpring, PromisesNothingElse) {
+    Findings findings("length", solver());
+    checkLength(device(), solver(), findings);
+    for (const Outcome& each : findings.outcomes()) EXPECT_EQ(each.verdict, Verdict::reported);
+    EXPECT_LT(measured(findings, "greatest error of a segment's length"), 0.01);
+}
+
+// A segment of length l with n vertices below its upper end bears (n - 1/2) l of the hair's length,
+// because the last vertex has half a segment. A spring of E S / l stretches under m g by m g l / (E
+// S): the strain is rho g l (n - 1/2) / E. Positions are rounded by 2^-25 of 0.15 m at most: a
+// strain of 4e-7, of at least 1.4e-3 here; friction leaves about as much.
+TEST_F(MassSpring, HangsAsLongAsItsSpringsAreStretched) {
+    constexpr std::uint32_t kSegments = 7;
+    constexpr double kSegment = 0.15 / kSegments;
+    constexpr float kModulus = 1e5f;
+    hair::SimulationSettings settings = springs(kModulus, 0.0f);
+    settings.friction = 0.3f;
+    Experiment experiment(device(), straightStrand(kSegments, 0.15, {0.0, -1.0, 0.0}), settings);
+    ASSERT_TRUE(experiment.settle(1e-8, 10.0));
+    const std::vector<glm::dvec3> points = experiment.positions();
+    for (std::uint32_t i = 1; i <= kSegments; ++i) {
+        const double strain = glm::distance(points[i], points[i - 1]) / kSegment - 1.0;
+        const double expected = double{settings.material.density} * kGravity * kSegment *
+                                (kSegments - i + 0.5) / kModulus;
+        EXPECT_NEAR(strain, expected, 1e-3 * expected + 2e-6) << i;
+    }
+}
+
+// One mass on a spring. Its period is that of the stretched length, and a bob on a stiff spring
+// swings slower by the strain's order squared. An explicit step of h shortens the period by (w h)^2
+// / 24, 1e-6; the crossings' times are as exact as those of the check `pendulum`.
+TEST_F(MassSpring, SwingsLikeAPendulum) {
+    constexpr double kLength = 0.1;  // m
+    const hair::SimulationSettings settings = springs(1e6f, 0.0f);
+    Experiment experiment(device(), straightStrand(1, kLength, {0.0, -1.0, 0.0}), settings);
+    const double stretched =
+        kLength * (1.0 + double{settings.material.density} * kGravity * kLength / 2.0 / 1e6);
+    const double expected = std::sqrt(kGravity / stretched) / (2.0 * kPi);
+    const auto frequency = measureFrequency(
+        experiment, {.shape = std::array{0.0, 1.0},
+                     .segment = kLength,
+                     .direction = {0.0, -1.0, 0.0},
+                     .sideways = {1.0, 0.0, 0.0},
+                     .expected_frequency = expected});
+    ASSERT_TRUE(frequency);
+    EXPECT_NEAR(*frequency / expected, 1.0, 0.002);
+}
+
+// A bob that falls from the horizontal, without friction and damping: kinetic energy, the weight's
+// and the spring's, over m g L. An explicit step conserves a nearby energy, off by w h / 2 of the
+// elastic part: w = sqrt(k / m) = 390/s, h = 1/2040 s, and the spring's energy is below (3 m g)^2 /
+// 2 k, 0.003 of m g L.
+TEST_F(MassSpring, KeepsItsEnergy) {
+    constexpr double kLength = 0.1;  // m
+    hair::SimulationSettings settings = springs(1e6f, 0.0f);
+    settings.time_step = hair::simulation::stepOf(settings).sub;
+    settings.substeps = 1;
+    Experiment experiment(device(), straightStrand(1, kLength, {1.0, 0.0, 0.0}), settings);
+    // Divided by the mass, rho S L / 2: the spring's stiffness is E S / L.
+    const double stiffness = 2.0 * 1e6 / (double{settings.material.density} * kLength * kLength);
+    glm::dvec3 before = experiment.positions()[1];
+    double farthest = 0.0, lowest = 0.0;
+    for (std::uint32_t i = 0; i < experiment.stepsIn(3.0); ++i) {
+        experiment.advance(1);
+        const glm::dvec3 after = experiment.positions()[1];
+        const glm::dvec3 middle = 0.5 * (before + after);
+        const glm::dvec3 velocity = (after - before) / experiment.substep();
+        const double stretch = glm::length(middle) - kLength;
+        const double energy = 0.5 * glm::dot(velocity, velocity) + kGravity * middle.y +
+                              0.5 * stiffness * stretch * stretch;
+        farthest = worst(farthest, std::abs(energy) / (kGravity * kLength));
+        lowest = std::min(lowest, middle.y);
+        before = after;
+    }
+    EXPECT_LT(farthest, 0.003);
+    EXPECT_LT(lowest, -0.99 * kLength);
+}
+
+// The file limits substeps to 0.5 ms, so that all steps have similar ones, in which its springs are
+// not softened. The tolerance is the one that rods promise.
+TEST_F(MassSpring, MovesTheSameAtAnyTimeStep) {
+    hair::SimulationSettings settings = defaultHair(solver());
+    const Trajectory coarse = playRelease(device(), settings, 8);
+    settings.time_step = 1.0f / 480.0f;
+    EXPECT_LT(differenceOf(playRelease(device(), settings, 8), coarse), 0.02);
+}
+
+// Finer segments than a step can bear become softer, and no vertex leaves.
+TEST_F(MassSpring, IsStableWithStiffSpringsAndShortSegments) {
+    hair::SimulationSettings settings = springs(1e9f, 1e-3f);
+    settings.friction = 0.05f;
+    Experiment experiment(device(), straightStrand(63, 0.15, {1.0, 0.0, 0.0}), settings);
+    experiment.advance(experiment.stepsIn(2.0));
+    for (const glm::dvec3& point : experiment.positions()) EXPECT_LT(glm::length(point), 0.3);
+}
+
+TEST(CheckedSolvers, AreFilesToo) {
+    const std::string file = HAIRBENCH_SCENES_DIR "/extended/mass_spring.glsl";
+    const std::vector<CheckedSolver> chosen = chosenSolvers({"rod", file});
+    ASSERT_EQ(chosen.size(), 2u);
+    EXPECT_EQ(nameOf(chosen[0]), "rod");
+    EXPECT_EQ(nameOf(chosen[1]), "mass_spring.glsl");
+    EXPECT_FALSE(lack(chosen[1], Need::bending));
+    EXPECT_TRUE(lack(chosen[1], Need::iterations));
+    EXPECT_EQ(chosenSolvers({}).size(), checkedSolvers().size());
+    const TemporaryFolder folder;
+    const std::string wrong = folder.write("wrong.glsl", "void solve(Guide guide) {}\n").string();
+    EXPECT_EQ(
+        errorText([&] { chosenSolvers({wrong}); }),
+        "--solver " + wrong + ": /simulation/solver: " + wrong +
+            ": has no function void solveGuide(Guide guide)");
 }
 
 }  // namespace

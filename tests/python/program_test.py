@@ -309,6 +309,58 @@ class Render(InFolder):
         self.assertEqual(raised.exception.pointer, "/render/msaa")
 
 
+class Pictures(InFolder):
+    SETS = {"/render/width": 64, "/render/height": 36}
+    AXES = {"/render/msaa": [1, 4], "/simulation/wind/strength": [0, 20]}
+
+    @staticmethod
+    def mean_difference(picture, reference):
+        """Returns the mean difference of display values, from 0 to 1."""
+        return numpy.abs(picture.astype(float) - reference.astype(float)).mean() / 255
+
+    def test_are_measured_against_the_same_case_with_other_values(self):
+        need_device(self)
+        result = hairbench.measure_pictures(
+            SMOKE, self.mean_difference, reference_sets={"/render/msaa": 4}, axes=self.AXES, frame=20,
+            sets=self.SETS, at_most=0.0, progress=None)
+        pictures = hairbench.render(
+            SMOKE, axes=self.AXES, frame=20, sets=self.SETS, progress=None)
+        frame = result.frame()
+        self.assertEqual(
+            list(frame.columns),
+            ["case", "/render/msaa", "/simulation/wind/strength", "metric", "value", "limit",
+             "passed"])
+        self.assertEqual(list(frame["case"]), list(pictures))
+        self.assertEqual(set(frame["metric"]), {"mean_difference"})
+        for row in result.rows:
+            strength = row["/simulation/wind/strength"]
+            expected = self.mean_difference(
+                pictures[row["case"]], pictures[f"smoke/msaa:4/strength:{strength}"])
+            self.assertEqual(row["value"], expected)
+            self.assertEqual(row["passed"], row["/render/msaa"] == 4)
+            self.assertEqual(row["value"] > 0, row["/render/msaa"] == 1)
+            self.assertTrue((result.pictures[row["case"]] == pictures[row["case"]]).all())
+        self.assertFalse(result.passed)
+
+    def test_are_measured_against_a_picture_by_several_metrics(self):
+        need_device(self)
+        still = hairbench.render(
+            SMOKE, linear=True, progress=None, sets={**self.SETS, "/render/msaa": 1})
+        metrics = {"largest": lambda picture, reference: abs(picture - reference).max(),
+                   "unknown": lambda picture, reference: float("nan")}
+        made = {"reference": still, "linear": True, "axes": {"/render/msaa": [1]},
+                "sets": self.SETS, "progress": None}
+        result = hairbench.measure_pictures(SMOKE, metrics, at_most={"largest": 0.0}, **made)
+        self.assertEqual([row["value"] == 0.0 for row in result.rows], [True, False])
+        self.assertEqual([row["passed"] for row in result.rows], [True, None])
+        self.assertTrue(result.passed)
+        self.assertFalse(hairbench.measure_pictures(SMOKE, metrics, at_most=1.0, **made).passed)
+        with self.assertRaisesRegex(ValueError, "either reference or reference_sets"):
+            hairbench.measure_pictures(SMOKE, metrics, **{**made, "reference": None})
+        with self.assertRaisesRegex(ValueError, "smoke/msaa:1: the reference has the shape"):
+            hairbench.measure_pictures(SMOKE, metrics, **{**made, "reference": still[1:]})
+
+
 class Physics(InFolder):
     def test_gives_the_outcomes(self):
         need_device(self)

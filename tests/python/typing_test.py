@@ -15,7 +15,7 @@ from support import REPOSITORY, hairbench, skip_without
 MODULE = REPOSITORY / "benchmarks" / "python"
 
 RIGHT = '''
-from typing import cast
+from typing import Any, cast
 
 import numpy
 
@@ -33,6 +33,12 @@ print(played.positions["smoke"].shape)
 height, width, colours = hairbench.render("smoke", frame=3, linear=True).shape
 for name, picture in hairbench.render("smoke", axes={"/render/msaa": [1, 4]}).items():
     print(name.upper(), picture.shape)
+def darker(picture: numpy.ndarray[Any, Any], reference: numpy.ndarray[Any, Any]) -> float:
+    return float((picture < reference).mean())
+
+judged = hairbench.measure_pictures(
+    "smoke", {"darker": darker}, reference_sets={"/render/msaa": 8}, axes={"/render/msaa": [1, 4]}, at_most=0.1)
+print(judged.passed, judged.frame(), judged.pictures["smoke"].shape)
 print(hairbench.physics(solver="rod").frame(), hairbench.gate("a", "b", "smoke", probes=True).passed)
 groom = hairbench.read_groom("x.hair", scale=0.01, guides=200)
 hairbench.write_groom("x.ply", hairbench.Groom(groom.points * 2, groom.offsets))
@@ -43,7 +49,7 @@ WRONG = (
     ('hairbench.run("smoke", axes={"/strands/densty": [4, 8]})', "/strands/densty"),
     ('hairbench.run("smoke", sets={"/simulation/wind/strenght": 3})', "/simulation/wind/strenght"),
     ('hairbench.run("smoke", sets={"/strands/density": "many"})', "/strands/density"),
-    ('hairbench.run("smoke", sets={"/simulation/solver": "rot"})', "rot"),
+    ('hairbench.run("smoke", sets={"/simulation/wind/mode": "drug"})', "drug"),
     ('hairbench.run("smoke", axes={"/strands/density": 4})', "/strands/density"),
     ('hairbench.run("smoke", max_tme=0)', "max_tme"),
     ('hairbench.simulate("smoke", out="x", frame=3)', "frame"),
@@ -52,6 +58,8 @@ WRONG = (
     ('hairbench.gate("a", "b", "smoke", pair=12)', "pair"),
     ('hairbench.read_groom("x.hair", guide=3)', "guide"),
     ('hairbench.render("smoke").items()', "items"),
+    ('hairbench.measure_pictures("smoke", lambda a, b: 1.0, reference_sets={"/render/msa": 8})', "/render/msa"),
+    ('hairbench.measure_pictures("smoke", len, reference_sets={"/render/msaa": 8})', "measure_pictures"),
 )
 
 

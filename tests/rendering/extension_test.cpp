@@ -4,9 +4,11 @@
 #include <set>
 #include <string>
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <sys/resource.h>
 
+#include "benchmarks/scene/scene.h"
 #include "engine/files.h"
 #include "engine/pipeline.h"
 #include "engine/run_tool.h"
@@ -15,6 +17,7 @@
 #include "hair/rendering/renderer.h"
 #include "hair/simulation/simulation.h"
 #include "tests/error_text.h"
+#include "tests/flip_errors.h"
 #include "tests/gpu_fixture.h"
 #include "tests/largest_difference.h"
 #include "tests/rendering/pictures.h"
@@ -298,6 +301,235 @@ TEST_F(OffsetExtensions, KnowStrandsApart) {
     EXPECT_GE(seen.size(), 7u);
 }
 
+// ---- Curves of strands --------------------------------------------------------------------------
+
+class CurveExtensions : public GpuTest {
+protected:
+    static StrandSettings curvedBy(const std::string& text) {
+        StrandSettings strands{.density = 3, .tessellation = 4};
+        strands.curve = Curve::extension;
+        strands.curve_file = "test.glsl";
+        strands.curve_parameters = read(ExtensionKind::curve, text);
+        return strands;
+    }
+    static StrandSettings helices() {
+        StrandSettings strands = curvedBy(textOf(HAIRBENCH_SCENES_DIR "/extended/helix.glsl"));
+        strands.curve_parameters.values = {
+            {"least_turn", false, glm::vec3(3.0f)}, {"most_turn", false, glm::vec3(120.0f)}};
+        return strands;
+    }
+    static rendering::StrandPoints
+    evaluate(const groom::Groom& groom, const StrandSettings& strands) {
+        const rendering::DeviceHair hair(device(), groom);
+        return rendering::evaluateStrandPoints(device(), {.strands = strands}, hair.view());
+    }
+
+    // Point i of a helix of radius 1 cm about y that turns by 50 degrees and falls by 4 mm from
+    // each vertex to the next; i may be between two.
+    static glm::dvec3 onHelix(double i) {
+        const double angle = i * 50.0 / 180.0 * 3.14159265358979;
+        return {0.01 * std::cos(angle), -0.004 * i, 0.01 * std::sin(angle)};
+    }
+    static constexpr std::uint32_t kVertices = 10;
+    static groom::Groom helix() {
+        std::vector<glm::vec3> points;
+        for (std::uint32_t i = 0; i < kVertices; ++i) points.emplace_back(onHelix(i));
+        return rendering::oneTriangle(points);
+    }
+    // Greatest distance of a strand from the helix in segments `first` to `last`, m.
+    static double
+    farthest(const rendering::StrandPoints& points, std::uint32_t first, std::uint32_t last) {
+        double farthest = 0.0;
+        for (std::uint32_t segment = first; segment <= last; ++segment)
+            for (std::uint32_t i = 0; i <= 4; ++i)
+                farthest = std::max(
+                    farthest, glm::distance(
+                                  glm::dvec3(points.at(0, 1, segment, i).position),
+                                  onHelix(segment + i / 4.0)));
+        return farthest;
+    }
+};
+
+constexpr const char* kCatmullRom = R"(
+HairCurvePoint curveHair(HairSegment s, float t) {
+    vec3 slope = 0.5 * (s.to - s.before);
+    vec3 square = 0.5 * (2.0 * s.before - 5.0 * s.from + 4.0 * s.to - s.after);
+    vec3 cube = 0.5 * (3.0 * (s.from - s.to) + s.after - s.before);
+    return HairCurvePoint(
+        s.from + t * (slope + t * (square + t * cube)), slope + t * (2.0 * square + 3.0 * t * cube));
+}
+)";
+
+// The program's own curve is the reference. Both round about ten numbers of up to 0.3 m.
+TEST_F(CurveExtensions, CatmullRomByAFileIsCatmullRom) {
+    const groom::Groom groom = rendering::uprightGroom();
+    for (const groom::Groom& each : {groom, helix()}) {
+        StrandSettings strands = curvedBy(kCatmullRom);
+        const auto by_file = evaluate(each, strands);
+        strands.curve = Curve::catmull_rom;
+        strands.curve_parameters = {};
+        const auto built_in = evaluate(each, strands);
+        ASSERT_EQ(by_file.records.size(), built_in.records.size());
+        for (std::size_t i = 0; i < by_file.records.size(); ++i) {
+            EXPECT_LT(
+                glm::distance(by_file.records[i].position, built_in.records[i].position), 3e-7f);
+            EXPECT_LT(
+                glm::distance(by_file.records[i].tangent, built_in.records[i].tangent), 3e-7f);
+            EXPECT_EQ(by_file.records[i].along, built_in.records[i].along);
+            EXPECT_EQ(by_file.records[i].width, built_in.records[i].width);
+        }
+    }
+}
+
+// The end segments have a mirrored vertex, which is not of the helix; they are arcs of circles. A
+// Catmull-Rom curve leaves a circle of radius r that turns by a from point to point by r (1 - (9
+// cos(a / 2) - cos(3 a / 2)) / 8) in the middle of a segment, 1.2 % at 50 degrees. Second
+// differences of 7 mm round by 1e-9 m, and the axis turns by 1e-6 or so: positions by 3e-8 m.
+TEST_F(CurveExtensions, HelicesGoThroughAllOfAHelix) {
+    StrandSettings strands = helices();
+    const auto points = evaluate(helix(), strands);
+    EXPECT_LT(farthest(points, 1, kVertices - 3), 2e-7);
+    EXPECT_LT(farthest(points, 0, kVertices - 2), 1e-3);
+    strands.curve = Curve::catmull_rom;
+    strands.curve_parameters = {};
+    EXPECT_GT(farthest(evaluate(helix(), strands), 1, kVertices - 3), 1e-4);
+    // d position / d t of the helix, between vertices 4 and 5.
+    const auto& middle = points.at(0, 1, 4, 2);
+    const glm::dvec3 slope = (onHelix(4.5 + 1e-4) - onHelix(4.5 - 1e-4)) / 2e-4;
+    EXPECT_LT(glm::distance(glm::dvec3(middle.tangent), slope), 1e-6);
+}
+
+// Vertices without any order, and those of a straight line.
+TEST_F(CurveExtensions, HelicesMeetInEveryVertex) {
+    for (const groom::Groom& groom : {rendering::tangledGroom(8), rendering::uprightGroom()}) {
+        StrandSettings strands = helices();
+        const auto points = evaluate(groom, strands);
+        strands.curve = Curve::catmull_rom;
+        strands.curve_parameters = {};
+        const auto known = evaluate(groom, strands);
+        ASSERT_EQ(points.records.size(), known.records.size());
+        for (std::size_t i = 0; i < points.records.size(); ++i) {
+            ASSERT_LT(glm::length(points.records[i].tangent), 100.0f);
+            if (i % 5 == 0 || i % 5 == 4) {
+                EXPECT_LT(
+                    glm::distance(points.records[i].position, known.records[i].position), 1e-6f)
+                    << i;
+            }
+        }
+    }
+}
+
+// No strand leaves the bounds by which it is culled.
+TEST_F(CurveExtensions, StayBesideTheirSegment) {
+    const groom::Groom groom =
+        rendering::oneTriangle({{0.0f, 0.0f, 0.0f}, {0.0f, 0.1f, 0.0f}, {0.0f, 0.3f, 0.0f}});
+    const auto far = evaluate(groom, curvedBy(R"(
+HairCurvePoint curveHair(HairSegment s, float t) {
+    return HairCurvePoint(vec3(1e6, s.from.y, 0.0), vec3(0.0, float(s.number), float(s.count)));
+}
+)"));
+    // The longest edge of both segments is 0.2 m.
+    EXPECT_NEAR(far.at(0, 0, 0, 2).position.x, 0.2f, 1e-6f);
+    EXPECT_NEAR(far.at(0, 0, 1, 2).position.x, 0.2f, 1e-6f);
+    EXPECT_EQ(far.at(0, 0, 1, 2).tangent, glm::vec3(0.0f, 1.0f, 2.0f));
+    for (const char* const value : {"vec3(t) / 0.0", "vec3(0.0) / 0.0", "vec3(3e38) * 3.0"}) {
+        const auto wrong = evaluate(
+            groom, curvedBy(
+                       "HairCurvePoint curveHair(HairSegment s, float t) { vec3 v = " +
+                       std::string(value) + "; return HairCurvePoint(v, v); }\n"));
+        EXPECT_LT(glm::distance(wrong.at(0, 0, 1, 2).position, glm::vec3(0.0f, 0.2f, 0.0f)), 1e-6f)
+            << value;
+        EXPECT_LT(glm::distance(wrong.at(0, 0, 1, 2).tangent, glm::vec3(0.0f, 0.2f, 0.0f)), 1e-6f)
+            << value;
+    }
+}
+
+TEST_F(CurveExtensions, LoopsThatNeverEndEnd) {
+    const auto points = evaluate(rendering::uprightGroom(), curvedBy(R"(
+HairCurvePoint curveHair(HairSegment s, float t) {
+    float count = 0.0;
+    while (true) count += 1.0;
+    return HairCurvePoint(s.from, vec3(count / 4096.0, 0.0, 0.0));
+}
+)"));
+    for (const auto& record : points.records) EXPECT_EQ(record.tangent.x, 1.0f);
+}
+
+// The shipped scene. Bounds as for the program's own curves: an edge in a thousand pixels, and mean
+// FLIP errors by the back ends that draw from points (docs/rendering.md).
+TEST_F(CurveExtensions, AreDrawnAlikeByEveryBackEnd) {
+    Settings settings =
+        benchmarks::scene::loadScene(HAIRBENCH_SCENES_DIR "/extended/helix.json").settings;
+    settings.simulation.settle_steps = 0;
+    settings.render.width = 480;
+    settings.render.height = 270;
+    settings.render.ssaa = settings.render.msaa = 1;
+    const auto draw = [&](const Settings& drawn) {
+        benchmarks::measure::Case played(device(), drawn, HAIRBENCH_SCENES_DIR "/extended");
+        engine::FrameLoop loop(device(), engine::Timing::overlapped);
+        loop.frame([&](engine::Passes& passes) { played.frame(passes); });
+        loop.finish();
+        return played.picture();
+    };
+    const Pixels expected = draw(rendering::with(settings, Backend::tessellation));
+    Settings spline = settings;
+    spline.strands.curve = Curve::bspline;
+    spline.strands.curve_file.clear();
+    spline.strands.curve_parameters = {};
+    EXPECT_GT(
+        rendering::differingPixels(expected, draw(rendering::with(spline, Backend::tessellation))),
+        2000u);
+    for (const Backend backend : {Backend::pulling_geometry, Backend::pulling})
+        EXPECT_LE(
+            rendering::differingPixels(expected, draw(rendering::with(settings, backend))),
+            480u * 270u / 1000u)
+            << backendName(backend);
+    if (pythonInterpreter().empty()) return;
+    const TemporaryFolder folder;
+    const auto written = [&](Backend backend) {
+        const Settings drawn = rendering::with(settings, backend);
+        return rendering::writePicture(
+            folder.file(std::string(backendName(backend)) + ".png"), drawn, draw(drawn));
+    };
+    const auto reference = written(Backend::tessellation);
+    const std::vector<double> errors = flipErrors(
+        {{reference, written(Backend::expanded)}, {reference, written(Backend::software)}});
+    EXPECT_LE(errors[0], 0.005);
+    EXPECT_LE(errors[1], 0.02);
+}
+
+// A curve and an offset are linked into the same shaders.
+TEST_F(CurveExtensions, ShareShadersWithOffsets) {
+    const auto moved = [&](const std::string& name) {
+        Settings settings{
+            .strands = curvedBy(
+                "// @parameter " + name +
+                " 0.03 [0, 1] m: x\nHairCurvePoint curveHair(HairSegment s, float t) {\n"
+                "    return HairCurvePoint(mix(s.from, s.to, t) + vec3(" +
+                name + ", 0., 0.), s.to - s.from);\n}\n")};
+        settings.strands.curve_parameters.values = {{name, false, glm::vec3(0.004f)}};
+        settings.strands.offset_function = "other.glsl";
+        settings.strands.offset_parameters = read(
+            ExtensionKind::offset,
+            "// @parameter reach 0.02 [0, 1] m: most\n"
+            "vec3 offsetHair(HairPlace place) { return vec3(0.0, 0.0, reach); }\n",
+            {{"reach", false, glm::vec3(0.01f)}});
+        const rendering::DeviceHair hair(device(), rendering::uprightGroom(), settings);
+        return rendering::evaluateStrandPoints(device(), settings, hair.view());
+    };
+    const auto unmoved = evaluate(rendering::uprightGroom(), {.density = 3, .tessellation = 4});
+    const glm::vec3 by = moved("aside").at(0, 1, 3, 2).position - unmoved.at(0, 1, 3, 2).position;
+    EXPECT_LT(glm::distance(by, glm::vec3(0.004f, 0.01f, 0.0f)), 1e-6f);
+}
+
+TEST_F(CurveExtensions, AFileThatWasNotReadIsAnError) {
+    StrandSettings strands;
+    strands.curve = Curve::extension;
+    EXPECT_EQ(
+        errorText([&] { evaluate(helix(), strands); }),
+        "/strands/curve: names a file that was not read");
+}
+
 // ---- The driver's compiler ----------------------------------------------------------------------
 
 class ExtendedPipelines : public GpuTest {};
@@ -419,6 +651,202 @@ TEST_F(ForceExtensions, DoNotActWhileHairSettles) {
             groom, with(settings, "vec3 accelerateGuide(GuidePoint point) { return vec3(9.0); }\n"),
             0),
         groom.points);
+}
+
+// ---- Solvers ------------------------------------------------------------------------------------
+
+class SolverExtensions : public GpuTest {
+protected:
+    static SimulationSettings with(SimulationSettings settings, const std::string& text) {
+        settings.solver = Solver::extension;
+        settings.solver_file = "test.glsl";
+        settings.solver_parameters = read(ExtensionKind::solver, text);
+        return settings;
+    }
+
+    static std::vector<glm::vec3>
+    after(const groom::Groom& groom, const SimulationSettings& settings, int steps) {
+        simulation::Simulation moved(device(), groom, settings, 1);
+        simulation::advance(device(), moved, steps);
+        return moved.readPositions();
+    }
+};
+
+// Follow the leader, written against the interface alone: the program's own `ftl` is the reference,
+// without the two parts that the file leaves out. It also pushes vertices out of bodies once, so
+// the program's push afterwards finds nothing but rounding. Both round differently, by less than
+// 1e-7 m a step.
+TEST_F(SolverExtensions, FollowTheLeaderByAFileIsFollowTheLeader) {
+    const char* const text = R"(
+void solveGuide(Guide guide) {
+    vec3 leader = guidePosition(0u);
+    for (uint v = 1u; v < guide.vertices; ++v) {
+        vec3 edge = guidePredicted(v) - leader;
+        leader = outOfBodies(v, leader + guideRestLength(v) / length(edge) * edge);
+        setGuidePosition(v, leader);
+    }
+}
+)";
+    const groom::Groom groom = simulation::wavyGroom(70, 12);
+    SimulationSettings own;
+    own.solver = Solver::ftl;
+    own.ftl.velocity_correction = 0.0f;
+    own.global.stiffness = 0.0f;
+    own.substeps = 3;
+    own.colliders = {{.a = {0.0f, -0.05f, 0.0f}, .b = {0.1f, -0.05f, 0.0f}, .radius = 0.04f}};
+    own.collision.friction = 0.3f;
+    own.motion.keyframes = {
+        {.time = 0.0f}, {.time = 0.2f, .rotation = {20, 30, 0}, .translation = {0.05f, 0, 0}}};
+    for (const WindMode mode : {WindMode::thesis, WindMode::drag}) {
+        own.wind.mode = mode;
+        own.wind.strength = 8.0f;
+        own.wind.speed = 3.0f;
+        simulation::Simulation built_in(device(), groom, own, 1);
+        simulation::Simulation by_file(device(), groom, with(own, text), 1);
+        simulation::advance(device(), built_in, 15);
+        simulation::advance(device(), by_file, 15);
+        EXPECT_GT(largestDifference(built_in.readPositions(), groom.points), 0.02);
+        EXPECT_LT(largestDifference(by_file.readPositions(), built_in.readPositions()), 1e-4);
+        EXPECT_EQ(by_file.readContacts(), built_in.readContacts());
+        EXPECT_GT(std::ranges::count(by_file.readContacts(), true), 10);
+    }
+}
+
+// x = sum of 0.001 m n over the substeps n = 1, 2, ...: exact if the file's count survives.
+TEST_F(SolverExtensions, RememberWhatTheyWrote) {
+    const groom::Groom groom = simulation::straightGroom(3, 4);
+    SimulationSettings settings = with(simulation::nothingActs(), R"(
+void solveGuide(Guide guide) {
+    for (uint v = 1u; v < guide.vertices; ++v)
+        for (uint place = 0u; place < 5u; ++place) {
+            vec4 count = guideMemory(v, place) + vec4(float(place), 1.0, 0.0, 0.0);
+            setGuideMemory(v, place, count);
+            if (place == 3u) setGuidePosition(v, guideBefore(v) + vec3(0.001 * count.y, 0.0, 0.0));
+            if (place == 4u && guideMemory(v, place) != vec4(0.0)) setGuidePosition(v, vec3(9.0));
+        }
+    setGuideMemory(guide.vertices, 0u, vec4(1e6));
+}
+)");
+    settings.substeps = 2;
+    settings.settle_steps = 1;
+    simulation::Simulation moved(device(), groom, settings, 1);
+    const auto at = [&](std::size_t vertex) {
+        return double{moved.readPositions()[vertex].x} - double{groom.points[vertex].x};
+    };
+    simulation::advance(device(), moved, 4);
+    EXPECT_NEAR(at(2), 0.001 * 10 * 11 / 2, 1e-6);
+    EXPECT_NEAR(at(11), 0.001 * 10 * 11 / 2, 1e-6);
+    moved.reset();
+    simulation::advance(device(), moved, 4);
+    EXPECT_NEAR(at(2), 0.001 * 10 * 11 / 2, 1e-6);
+    moved.setState(groom.points, groom.points);
+    simulation::advance(device(), moved, 1);
+    EXPECT_NEAR(at(2), 0.003, 1e-6);
+}
+
+TEST_F(SolverExtensions, CannotMoveWhatIsHeldOrNotTheirs) {
+    const groom::Groom groom = simulation::straightGroom(3, 4);
+    simulation::Simulation moved(
+        device(), groom, with(simulation::nothingActs(), R"(
+void solveGuide(Guide guide) {
+    for (uint v = 0u; v < 9u; ++v) setGuidePosition(v, vec3(float(guide.number), 7.0, 0.0));
+    setGuidePosition(4294967295u, vec3(5.0));
+    if (guidePosition(guide.vertices) != vec3(0.0) || guideMass(77u) != 0.0 || !guideHeld(0u))
+        setGuidePosition(1u, vec3(0.0));
+}
+)"),
+        1);
+    moved.pin(std::array{6u});
+    simulation::advance(device(), moved, 2);
+    const std::vector<glm::vec3> points = moved.readPositions();
+    for (std::size_t i = 0; i < points.size(); ++i) {
+        if (i % 4 == 0 || i == 6)
+            EXPECT_EQ(points[i], groom.points[i]) << i;
+        else
+            EXPECT_EQ(points[i], glm::vec3(static_cast<float>(i / 4), 7.0f, 0.0f)) << i;
+    }
+}
+
+// Reads every function: kinematics of a vertex on a parabola, and the settings.
+TEST_F(SolverExtensions, KnowTheGuideItsMaterialAndTheHead) {
+    const groom::Groom groom = simulation::straightGroom(2, 3, 0.05);
+    SimulationSettings settings = simulation::nothingActs();
+    settings.gravity = {0.0f, 0.0f, 3.0f};
+    settings.friction = 0.1f;
+    settings.material = {
+        .density = 1000.0f,
+        .radius = 1e-4f,
+        .ellipticity = 1.5f,
+        .youngs_modulus = 2e9f,
+        .shear_modulus = 1e9f,
+        .damping = 0.01f};
+    settings.motion.keyframes = {{.time = 0.0f, .translation = {0.2f, 0.0f, 0.0f}}};
+    settings = with(settings, R"(
+bool near(float a, float b) { return abs(a - b) <= 1e-5 * abs(b); }
+void solveGuide(Guide guide) {
+    GuideMaterial m = guideMaterial();
+    float mass = 1000.0 * 3.14159265 * 1e-8 * 0.05;
+    bool known = near(m.density, 1000.0) && near(m.radius, 1e-4) && near(m.ellipticity, 1.5) &&
+        near(m.youngs_modulus, 2e9) && near(m.shear_modulus, 1e9) && near(m.damping, 0.01);
+    known = known && near(guideMass(0u), 0.5 * mass) && near(guideMass(1u), mass) &&
+        near(guideMass(2u), 0.5 * mass) && near(guideRestLength(2u), 0.05);
+    known = known && guide.vertices == 3u && near(guide.seconds, 1.0 / 60.0) &&
+        near(guide.kept, 0.9) && guide.head.translation == vec3(0.2, 0.0, 0.0) &&
+        guide.head.rotation == vec4(0.0, 0.0, 0.0, 1.0) && guide.head_before == guide.head;
+    known = known && guideAcceleration(1u) == vec3(0.0, 0.0, 3.0) && guideYield(1u) == 1.0;
+    known = known && distance(guideRest(2u), vec3(0.2 + 0.05 * float(guide.number), -0.1, 0.0)) < 1e-6;
+    float random = guideRandom(guide, 1u);
+    known = known && random >= 0.0 && random < 1.0 && random != guideRandom(guide, 2u);
+    vec3 step = guidePredicted(1u) - guideBefore(1u);
+    vec3 own = guide.seconds * (guide.kept * guideVelocity(1u) + guide.seconds * vec3(0, 0, 3));
+    known = known && distance(step, own) < 1e-7;
+    if (known) setGuidePosition(1u, guidePredicted(1u));
+}
+)");
+    constexpr int kSteps = 6;
+    double z = 0.0, moved = 0.0;
+    for (int i = 0; i < kSteps; ++i) {
+        moved = 0.9 * moved + 3.0 / 3600.0;
+        z += moved;
+    }
+    EXPECT_NEAR(after(groom, settings, kSteps)[4].z, z, 1e-6);
+}
+
+// A call has 32,768 turns. Floats count to 2^24.
+TEST_F(SolverExtensions, LoopsThatNeverEndEnd) {
+    const groom::Groom groom = simulation::straightGroom(1, 2);
+    const auto moved = after(
+        groom, with(simulation::nothingActs(), R"(
+void solveGuide(Guide guide) {
+    float count = 0.0;
+    while (true) count += 1.0;
+    setGuidePosition(1u, vec3(count / 32768.0, 0.0, 0.0));
+}
+)"),
+        1);
+    EXPECT_EQ(moved[1].x, 1.0f);
+}
+
+// By default a step is one substep; a file's parameter chooses more.
+TEST_F(SolverExtensions, ChooseTheirSubsteps) {
+    SimulationSettings settings = with(
+        {}, "// @parameter longest_substep 0.004 [0.0001, 0.1] s: x\nvoid solveGuide(Guide guide) "
+            "{}\n");
+    settings.solver_parameters.values = {{"longest_substep", false, glm::vec3(0.004f)}};
+    EXPECT_EQ(simulation::stepOf(settings).count, 5u);
+    settings.solver_parameters.values = {{"longest_substep", false, glm::vec3(0.1f)}};
+    EXPECT_EQ(simulation::stepOf(settings).count, 1u);
+    settings.substeps = 3;
+    EXPECT_EQ(simulation::stepOf(settings).count, 3u);
+}
+
+TEST_F(SolverExtensions, AFileThatWasNotReadIsAnError) {
+    SimulationSettings settings;
+    settings.solver = Solver::extension;
+    settings.solver_file = "test.glsl";
+    EXPECT_EQ(
+        errorText([&] { after(simulation::straightGroom(1, 3), settings, 1); }),
+        "/simulation/solver: names a file that was not read");
 }
 
 }  // namespace

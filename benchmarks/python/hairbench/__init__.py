@@ -4,8 +4,8 @@ from typing import TYPE_CHECKING
 
 from .groom import Groom, read_groom, write_groom
 from .program import (
-    GateResult, PhysicsResult, ProgramError, RunResult, Simulation, gate, physics, program, render, run,
-    scenes, simulate)
+    GateResult, PhysicsResult, PictureResult, ProgramError, RunResult, Simulation, gate,
+    measure_pictures, physics, program, render, run, scenes, simulate)
 from .report import read_probes, read_report
 
 if TYPE_CHECKING:
@@ -14,8 +14,8 @@ if TYPE_CHECKING:
 __version__ = "0.1.0"  # of the program that this module belongs to
 
 __all__ = [
-    "Axes", "GateResult", "Groom", "PhysicsResult", "ProgramError", "RunResult", "Sets", "Simulation",
-    "gate", "physics", "program", "read_groom", "read_probes", "read_report", "render", "run",
+    "Axes", "GateResult", "Groom", "PhysicsResult", "PictureResult", "ProgramError", "RunResult", "Sets",
+    "Simulation", "gate", "measure_pictures", "physics", "program", "read_groom", "read_probes", "read_report", "render", "run",
     "scenes", "simulate", "write_groom",
 ]
 

@@ -32,6 +32,7 @@ Progress = Callable[[str], object]  # called with each line that the program pri
 # Defaults. If None were allowed too, a checker would not say which pointer is wrong.
 NO_AXES: Axes = {}
 NO_SETS: Sets = {}
+NO_LIMITS: Mapping[str, float] = {}
 
 PROGRAM_VARIABLE = "HAIRBENCH_PROGRAM"
 PACKAGE = Path(__file__).resolve().parent
@@ -397,6 +398,19 @@ def simulate(
         written, table)
 
 
+def draw(
+        pattern: str, scene: AnyPath, arguments: Sequence[str], progress: Progress | None
+) -> list[tuple[dict[str, Any], numpy.ndarray[Any, Any]]]:
+    """Returns each case that `hairbench render` drew to files of this name, and its first picture."""
+    import numpy
+
+    with tempfile.TemporaryDirectory(prefix="hairbench-") as folder:
+        written = json.loads(succeed(
+            ["render", os.fspath(scene), "--json", "--out", str(Path(folder) / pattern),
+             *arguments], progress).text)
+        return [(case, numpy.load(case["pictures"][0]["file"])) for case in written["cases"]]
+
+
 @overload
 def render(
         scene: AnyPath, *, frame: int = 0, linear: bool = False,
@@ -428,18 +442,85 @@ def render(
     With `axes` returns case's name -> such an array. Raises ProgramError if the program fails or is
     interrupted.
     """
-    import numpy
-
-    with tempfile.TemporaryDirectory(prefix="hairbench-") as folder:
-        file = Path(folder) / ("{case}.npy" if axes else "picture.npy")
-        arguments = [
-            "render", os.fspath(scene), "--json", "--frame", str(frame), "--out", str(file),
-            *(["--linear"] if linear else []), *scene_arguments(axes, sets),
-            *option_arguments(options)]
-        written = json.loads(succeed(arguments, progress).text)
-        pictures = {case["name"]: numpy.load(case["pictures"][0]["file"])
-                    for case in written["cases"]}
+    drawn = draw("{case}.npy" if axes else "picture.npy", scene, [
+        "--frame", str(frame), *(["--linear"] if linear else []), *scene_arguments(axes, sets),
+        *option_arguments(options)], progress)
+    pictures = {case["name"]: picture for case, picture in drawn}
     return pictures if axes else next(iter(pictures.values()))
+
+
+PictureMetric = Callable[["numpy.ndarray[Any, Any]", "numpy.ndarray[Any, Any]"], float]
+
+
+@dataclass(frozen=True)
+class PictureResult:
+    """Metrics of every case's picture: case's name -> picture, and a row per case and metric."""
+
+    pictures: dict[str, numpy.ndarray[Any, Any]] = field(repr=False)
+    rows: list[dict[str, Any]] = field(repr=False)
+
+    @property
+    def passed(self) -> bool:
+        """Returns whether no value is above its limit, or NaN with one."""
+        return all(row["passed"] is not False for row in self.rows)
+
+    def frame(self) -> pandas.DataFrame:
+        """Returns a row per case and metric: `case`, the value on each axis under its pointer,
+        `metric`, `value`, `limit` and `passed`, which are None without a limit."""
+        import pandas
+        return pandas.DataFrame(self.rows)
+
+
+def measure_pictures(
+        scene: AnyPath, metric: PictureMetric | Mapping[str, PictureMetric], *,
+        reference: numpy.ndarray[Any, Any] | None = None, reference_sets: Sets = NO_SETS,
+        axes: Axes = NO_AXES, sets: Sets = NO_SETS,
+        at_most: float | Mapping[str, float] = NO_LIMITS, frame: int = 0, linear: bool = False,
+        progress: Progress | None = to_stderr, **options: Unpack[RenderOptions]) -> PictureResult:
+    """Draws a frame of every case of a sweep, and its distance from a reference by metrics of one's own.
+
+    metric     function of a picture and its reference, arrays as render() returns; or several by name
+    reference  a picture for all cases; or instead
+    reference_sets  pointer -> value: each case's reference is the case with these values
+    axes, sets, frame, linear, options  as for render()
+    at_most    greatest value that passes, for all metrics or by name; NaN never passes
+
+    Raises ProgramError if the program fails or is interrupted, ValueError without a reference or if one
+    has another shape than its picture, and whatever a metric raises.
+    """
+    if (reference is None) == (not reference_sets):
+        raise ValueError("expected either reference or reference_sets")
+    metrics = metric if isinstance(metric, Mapping) else {
+        getattr(metric, "__name__", type(metric).__name__): metric}
+    common = ["--frame", str(frame), *(["--linear"] if linear else []), *option_arguments(options)]
+    drawn = draw("{case}.npy", scene, [*common, *scene_arguments(axes, sets)], progress)
+
+    from .report import axis_value
+
+    def key(case: dict[str, Any]) -> tuple[Any, ...]:
+        return tuple((pointer, axis_value(value)) for pointer, value in sorted(case["axes"].items())
+                     if pointer not in reference_sets)
+
+    wanted: dict[tuple[Any, ...], numpy.ndarray[Any, Any]] = {}
+    if reference is None:
+        changed: Any = {**axes, **{pointer: [value] for pointer, value in reference_sets.items()}}
+        wanted = {key(case): picture for case, picture in draw(
+            "{case}.npy", scene, [*common, *scene_arguments(changed, sets)], progress)}
+    rows = []
+    for case, picture in drawn:
+        expected = wanted[key(case)] if reference is None else reference
+        if expected.shape != picture.shape:
+            raise ValueError(
+                f"{case['name']}: the reference has the shape {expected.shape}, not {picture.shape}")
+        for name, of in metrics.items():
+            value = float(of(picture, expected))
+            limit = at_most.get(name) if isinstance(at_most, Mapping) else at_most
+            rows.append({
+                "case": case["name"],
+                **{pointer: axis_value(each) for pointer, each in case["axes"].items()},
+                "metric": name, "value": value, "limit": limit,
+                "passed": None if limit is None else value <= limit})
+    return PictureResult({case["name"]: picture for case, picture in drawn}, rows)
 
 
 def gate(
