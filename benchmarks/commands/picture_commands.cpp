@@ -56,6 +56,8 @@ casesToPlay(const SweepOptions& options, bool sweeps, scene::AssetStore& assets)
     if (!options.filter.empty() || !options.shard.empty())
         throw needsCasePlace(options.filter.empty() ? "--shard" : "--filter");
     if (options.resume) throw needsCasePlace("--resume");
+    for (const std::string& axis : options.scene.axes)
+        if (scene::parseAxis(axis).values.size() > 1) throw needsCasePlace("--axis " + axis);
     scene::Scene scene = scene::loadScene(options.scene.scene, options.scene.outside);
     run::PlannedCase only{
         .spec = scene::singleCase(scene, options.scene, &assets), .directory = scene.directory};

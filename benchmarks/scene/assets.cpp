@@ -242,13 +242,31 @@ std::optional<hair::groom::StrandSet> loadOffsets(
     return hair::groom::importStrands(file, 0, checkOf(reach, file));
 }
 
+namespace {
+
+// Returns a file's strands where they are at its end.
+hair::groom::StrandSet
+lastOf(const std::filesystem::path& file, const hair::groom::NamedFileCheck& check) {
+    hair::groom::StrandSet strands = hair::groom::importStrands(file, 0, check);
+    if (!hair::groom::strandImporterOf(file).read_samples) return strands;
+    const hair::groom::StrandSamples samples = hair::groom::importStrandSamples(file, check);
+    if (samples.times.size() < 2 || samples.ends != strands.ends) return strands;
+    strands.points.assign(
+        samples.points.end() - static_cast<std::ptrdiff_t>(samples.ends.back()),
+        samples.points.end());
+    strands.metres_per_unit = samples.metres_per_unit;
+    return strands;
+}
+
+}  // namespace
+
 std::optional<hair::groom::StrandSet> loadProbeReference(
     const hair::Settings& settings, const hair::groom::Groom& groom,
     const std::filesystem::path& directory, const Reach& reach) {
     const std::string& name = settings.run.probes.reference;
     if (name.empty()) return std::nullopt;
     const std::filesystem::path file = directory / name;
-    hair::groom::StrandSet strands = hair::groom::importStrands(file, 0, checkOf(reach, file));
+    hair::groom::StrandSet strands = lastOf(file, checkOf(reach, file));
     const auto refuse = [&](const std::string& what) {
         throw engine::Error("/run/probes/reference", name + " has " + what);
     };

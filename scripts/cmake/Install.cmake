@@ -30,6 +30,12 @@ install(DIRECTORY benchmarks/reference DESTINATION share/hairbench/benchmarks
 install(DIRECTORY hair/groom/formats DESTINATION share/hairbench/hair/groom
     FILES_MATCHING PATTERN "*.py" PATTERN "__pycache__" EXCLUDE)
 
+# The wheel has the module where Python finds it.
+if(NOT SKBUILD)
+    install(DIRECTORY benchmarks/python/hairbench DESTINATION share/hairbench/python
+        PATTERN "__pycache__" EXCLUDE)
+endif()
+
 if(TARGET help_files)
     set(help_dir "${PROJECT_BINARY_DIR}/help")  # benchmarks/CMakeLists.txt
     install(FILES "${help_dir}/hairbench" DESTINATION share/bash-completion/completions)

@@ -236,6 +236,7 @@ exportUsdaWith(const StrandSet& strands, const ExportExtras& extras, std::ostrea
 }
 
 UsdBinary::UsdBinary() : text_(folder_.path() / "strands.usda", std::ios::binary) {
+    requireScripts("USD");
     text_.exceptions(std::ios::badbit | std::ios::failbit);
 }
 

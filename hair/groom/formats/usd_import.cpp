@@ -165,7 +165,20 @@ std::vector<std::filesystem::path> librariesOf(const std::filesystem::path& inte
     return all;
 }
 
+engine::Error missingEnvironment(const std::string& what, const std::string& reason) {
+    return engine::Error(
+        what + " needs the project's Python environment: run " +
+        engine::makesPythonEnvironment("python") + " (" + reason + ')');
+}
+
 }  // namespace
+
+void requireScripts(const std::string& what) {
+    const std::filesystem::path python = engine::pythonInterpreter("python", "HAIRBENCH_PYTHON");
+    // A name without a folder is looked for when it is run.
+    if (python.has_parent_path() && !std::filesystem::exists(python))
+        throw missingEnvironment(what, "there is no " + python.string());
+}
 
 std::vector<std::byte> runScript(
     const FormatScript& tool, const std::vector<std::string>& arguments,
@@ -188,9 +201,7 @@ std::vector<std::byte> runScript(
         if (error.code() != std::errc::no_such_file_or_directory)
             throw engine::Error(
                 "the program for " + tool.what + " can't be started: " + error.code().message());
-        throw engine::Error(
-            tool.what + " needs the project's Python environment: run " +
-            engine::makesPythonEnvironment("python") + " (" + error.what() + ')');
+        throw missingEnvironment(tool.what, error.what());
     } catch (const engine::Error& error) {
         const std::string reason = error.what();
         if (!reason.starts_with(python)) throw;

@@ -31,6 +31,9 @@ std::vector<std::byte> runScript(
     const FormatScript& tool, const std::vector<std::string>& arguments,
     engine::ChildLimits limits);
 
+// Throws engine::Error if the environment is missing. `what` is for the message: "USD".
+void requireScripts(const std::string& what);
+
 // Reads the curves of every UsdGeomBasisCurves and UsdGeomNurbsCurves in a stage of Universal Scene
 // Description (.usd, .usda, .usdc, .usdz) by usd_curves.py; its comments have the details. Throws
 // engine::Error if the project's Python environment is missing, for a file without a path, and with
