@@ -102,7 +102,9 @@ double energyOf(
     const hair::SimulationSettings& settings, double length) {
     const std::size_t count = after.size();
     const double segment = length / static_cast<double>(count - 1);
-    const bool rod = !lack(settings.solver, Need::material);
+    // A file's solver may store elastic energy in any way, so none is counted.
+    const bool rod =
+        settings.solver != hair::Solver::extension && !lack(settings.solver, Need::material);
     std::vector<glm::dvec3> points{after[0]};
     double energy = 0.0;
     for (std::size_t i = 1; i < count; ++i) {
