@@ -31,7 +31,9 @@ after = lambda name: words[words.index(name) + 1]
 axes = [words[i + 1].split("=") for i, word in enumerate(words) if word == "-a"]
 sets = [part for i, word in enumerate(words) if word == "--set" for part in (word, words[i + 1])]
 out = pathlib.Path(after("-o" if words[0] == "render" else "--out"))
-asked = ["run", words[1], "--list", *sets] if words[0] == "render" else [*words, "--list"]
+# `render` draws one case, whatever the scene sweeps: so each set field is an axis with one value.
+one = ["-a" if part == "--set" else part for part in sets]
+asked = ["run", words[1], "--list", *one] if words[0] == "render" else [*words, "--list"]
 listed = subprocess.run([{program!r}, *asked], capture_output=True, text=True)
 if listed.returncode:
     sys.exit("not known to hairbench: " + listed.stderr)
