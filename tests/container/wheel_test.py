@@ -56,10 +56,12 @@ def check_notebooks(place, wheel):
     python = "/root/jupyter/bin/python"
     root.inside(place, ["python3", "-m", "venv", "--system-site-packages", "/root/jupyter"])
     root.inside(place, [python, "-m", "pip", "install", "--quiet", "--no-index", "--no-deps", f"/root/{wheel.name}"])
+    # Debian's Jupyter starts Debian's Python unless it is told of another one.
+    root.inside(place, [python, "-m", "ipykernel", "install", "--sys-prefix", "--name", "hairbench"])
     for name in NOTEBOOKS:
         shutil.copy(REPOSITORY / "docs" / name, place / "root")
-        root.inside(place, [python, "-m", "jupyter", "nbconvert", "--to", "notebook", "--execute",
-                            "--output", f"done-{name}", f"/root/{name}"])
+        root.inside(place, [python, "-m", "nbconvert", "--to", "notebook", "--execute",
+                            "--ExecutePreprocessor.kernel_name=hairbench", "--output", f"done-{name}", f"/root/{name}"])
         cells = json.loads((place / "root" / f"done-{name}").read_text())["cells"]
         outputs = [output for cell in cells for output in cell.get("outputs", [])]
         if not any("image/png" in output.get("data", {}) for output in outputs):
