@@ -139,8 +139,7 @@ const Table& tableOf(const StrandSettings*) {
              Curve::extension, &S::curve_file,
              "bspline: uniform cubic B-spline through root and tip; bspline_unpinned: the "
              "thesis's, which floats off the scalp; catmull_rom: through every vertex; a file of "
-             "GLSL "
-             "(.glsl), relative to the scene file: docs/extending.md"),
+             "GLSL (.glsl), relative to the scene file: docs/extending.md"),
          parameters(
              "curve_parameters", &S::curve_parameters,
              "parameters of the file that curve names, with the names, ranges and units that it "

@@ -119,9 +119,9 @@ void addPictureCommands(const CommandLine& line) {
                 .add_option(
                     "--export", options.recording.out,
                     "file to write; .usda, .usdc, .abc, .npy (NumPy's, float32 [frame, strand, "
-                    "point, 3], "
-                    "m) and .npz (positions, times, metadata) hold every frame, other formats (see "
-                    "'groom convert') the last; with {case} in its name, all cases of the sweep "
+                    "point, 3], m) and .npz (positions, times, metadata) hold every frame, other "
+                    "formats (see 'groom convert') the last; with {case} in its name, all cases of "
+                    "the sweep "
                     "are played, each into its file")
                 ->type_name("FILE");
             command

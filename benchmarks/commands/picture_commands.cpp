@@ -78,17 +78,20 @@ std::vector<std::filesystem::path> filesOf(
     return files;
 }
 
-// Returns the record of a sweep's finished cases, beside its files. `identity` has the options of
-// the command that its files depend on. A scene alone needs none.
+// Returns the record of a sweep's finished cases, beside its files; each shard has its own, so that
+// they may run at once. `identity` has the options of the command that its files depend on. A scene
+// alone needs none.
 std::optional<run::SweepRecord> recordOf(
     const SweepOptions& options, bool sweeps, const std::filesystem::path& pattern,
     const engine::Device& device, scene::Json identity) {
     if (!sweeps) return std::nullopt;
     identity["device"] = device.info().name;
     identity["driver"] = device.info().driver_version;
-    const std::string scene = options.scene.scene.stem().string();
+    identity["filter"] = options.filter;
+    std::string name = options.scene.scene.stem().string();
+    if (!options.shard.empty()) name += "_part_" + options.shard;
     return std::make_optional<run::SweepRecord>(
-        run::journalFile(scene::caseFile(pattern, "", scene)), std::move(identity), options.resume);
+        run::journalFile(scene::caseFile(pattern, "", name)), std::move(identity), options.resume);
 }
 
 // Returns what an earlier sweep kept of each case, if its files are there; null: it is to be

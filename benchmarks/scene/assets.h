@@ -118,9 +118,9 @@ std::optional<hair::groom::StrandSet> loadOffsets(
     const hair::Settings& settings, const std::filesystem::path& directory,
     const Reach& reach = {});
 
-// Loads the strands of /run/probes/reference, in metres, where they are at the file's end;
-// nothing if it is empty. Throws
-// engine::Error also if they are not as many as the guides, with as many points.
+// Loads the strands of /run/probes/reference, in metres, where they are at the file's end; nothing
+// if it is empty. Throws engine::Error also if they are not as many as the guides, with as many
+// points.
 std::optional<hair::groom::StrandSet> loadProbeReference(
     const hair::Settings& settings, const hair::groom::Groom& groom,
     const std::filesystem::path& directory, const Reach& reach = {});

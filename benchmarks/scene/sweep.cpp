@@ -306,11 +306,12 @@ void setField(Scene& scene, const std::string& argument) {
     }
 }
 
-// Throws if an axis gives the field of "POINTER=VALUE" another value in every case.
-void requireEffect(const Scene& scene, const std::string& argument, std::span<const Axis> axes) {
+// Throws if one of a case's axes replaces the field of "POINTER=VALUE".
+void requireEffect(
+    const Scene& scene, const std::string& argument, const std::vector<AxisValue>& axes) {
     const std::string pointer = argument.substr(0, argument.find('='));
-    for (const Axis& axis : axes)
-        if (std::ranges::count(fields(axis), pointer))
+    for (const AxisValue& axis : axes)
+        if (axis.pointer == pointer)
             throw engine::Error(
                 scene.path.string(), "--set " + argument +
                                          ": the sweep varies this field; --axis " + argument +
@@ -336,9 +337,8 @@ std::vector<CaseSpec> selectCases(
     for (const std::string& set : options.sets) setField(scene, set);
     std::vector<Axis> overrides;
     for (const std::string& axis : options.axes) overrides.push_back(parseAxis(axis));
-    const std::vector<Axis> axes = withOverrides(scene, overrides);
-    for (const std::string& set : options.sets) requireEffect(scene, set, axes);
     std::vector<CaseSpec> cases = expand(scene, overrides);
+    for (const std::string& set : options.sets) requireEffect(scene, set, cases.front().axes);
 
     if (!options.reads_assets) return cases;
     std::set<std::string> checked;

@@ -22,8 +22,7 @@ constexpr std::array kActions{
     ActionRow{
         Action::open_scene, "File", "Open...", kCtrl | ImGuiKey_O, "Ctrl+O",
         "asks for a file: a scene or screenshot to open, or hair, a mesh or an environment for "
-        "this "
-        "scene"},
+        "this scene"},
     ActionRow{
         Action::save_scene, "File", "Save scene", kCtrl | ImGuiKey_S, "Ctrl+S",
         "writes exactly the state shown as a scene that the runner plays to the same picture"},

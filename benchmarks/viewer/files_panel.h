@@ -51,7 +51,8 @@ inline constexpr std::uint32_t kThumbnailWidth = 256;  // px
 inline constexpr std::uint32_t kThumbnailHeight = 144;
 
 // Pictures of scenes, drawn one at a time by another process of this program and kept in a folder.
-// The name of a picture's file is a hash of the scene, of its files and of the program.
+// The name of a picture's file is a hash of the scene, and of the names, sizes and times of its
+// files and of the program.
 class Thumbnails {
 public:
     struct Options {

@@ -52,8 +52,8 @@ vec3 guideAcceleration(uint vertex);
 // The displacement in the substep if nothing holds the hair together: from a velocity, m/s, by
 // friction, acceleration and the air's drag. 0 for a held vertex.
 vec3 guideDrift(uint vertex, vec3 velocity);
-// Where the vertex is at the end if nothing holds the hair together: guideBefore() and
-// guideDrift() by guideVelocity(). A held vertex is where it is.
+// The vertex at the end of the substep, without forces that hold the hair together: guideBefore()
+// plus guideDrift() by guideVelocity(). For a held vertex, guidePosition().
 vec3 guidePredicted(uint vertex);
 // The factor on a displacement across the hair by forces that guideDrift() does not have: the drag
 // of air on it, in (0, 1]. 1 without drag.

@@ -267,8 +267,15 @@ TEST_F(SimulateCli, ContinuesASweep) {
     for (std::string line; std::getline(table, line);) rows.push_back(line.substr(line.find(',')));
     ASSERT_EQ(rows.size(), 1u + 2 * 21);
     for (std::size_t i = 1; i <= 21; ++i) EXPECT_EQ(rows[i], rows[i + 21]) << i;
+    // A part leaves the other's journal alone, and the whole sweep takes no part's.
+    write("0.3", "0.7");
+    EXPECT_EQ(hairbench(command + "20 --shard 2/2").status, 2);
+    EXPECT_EQ(hairbench(command + "20 --shard 1/2").status, 0);
+    EXPECT_TRUE(fs::exists(folder_.file("nods_part_2_2.abc.journal")));
+    write("10", "20");
     EXPECT_EQ(hairbench(command + "20").status, 0);
     EXPECT_NE(textOf(folder_.file(first)), "kept");
+    EXPECT_TRUE(fs::exists(folder_.file("nods_part_2_2.abc.journal")));
     const Outcome one = simulate("one.npy", "--resume");
     EXPECT_EQ(one.status, 2);
     EXPECT_THAT(one.output, HasSubstr("--resume: needs {case} in the name of the file"));

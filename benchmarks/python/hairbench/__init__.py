@@ -15,8 +15,8 @@ __version__ = "0.1.0"  # of the program that this module belongs to
 
 __all__ = [
     "Axes", "GateResult", "Groom", "PhysicsResult", "PictureResult", "ProgramError", "RunResult", "Sets",
-    "Simulation", "gate", "measure_pictures", "physics", "program", "read_groom", "read_probes", "read_report", "render", "run",
-    "scenes", "simulate", "write_groom",
+    "Simulation", "gate", "measure_pictures", "physics", "program", "read_groom", "read_probes",
+    "read_report", "render", "run", "scenes", "simulate", "write_groom",
 ]
 
 
