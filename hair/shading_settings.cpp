@@ -65,7 +65,8 @@ const Table& tableOf(const ShadowSettings*) {
              "depth of the first opacity layer; each layer is twice as deep as the one before it"),
          number(
              "stopped", &S::stopped, 0, 1, "1",
-             "fraction of the light that a strand stops, for phong, kajiya_kay and meshes"),
+             "fraction of the light that a strand stops, for phong and kajiya_kay, and for meshes "
+             "unless the model is dual_scattering"),
          number(
              "softness", &S::softness, 0, 16, "px",
              "radius in a light's map over which its shadow is averaged")});

@@ -284,6 +284,27 @@ FiberAverages averageOverFiber(const Fiber& fiber, double theta) {
     return averageOverSlices(fiber, slicesOf(fiber, theta), {&own, 1});
 }
 
+// A fibre meets cos theta of the light from an angle theta, and a ring of directions at theta is
+// proportional to cos theta.
+glm::dvec3 surfaceTransmittance(const ShadingSettings& shading) {
+    if (shading.model != ShadingModel::dual_scattering)
+        return glm::dvec3(1 - double{shading.shadows.stopped});
+    constexpr int kAngles = 32;
+    const Fiber fiber = makeFiber(shading);
+    const double power = 1 - double{shading.tip_lightening} / 2;
+    const std::vector<AbsorptionShare> strands =
+        strandsAround(fiber.absorption, power, double{shading.strand_variation});
+    glm::dvec3 passed(0);
+    double met = 0;
+    for (int i = 0; i < kAngles; ++i) {
+        const double theta = (i + 0.5) / kAngles * kPi / 2;
+        const double weight = square(std::cos(theta));
+        passed += weight * averageOverSlices(fiber, slicesOf(fiber, theta), strands).forward;
+        met += weight;
+    }
+    return double{shading.density_factor} * passed / met;
+}
+
 OwnPowers ownPowers(const ShadingSettings& shading) {
     const double variation{shading.strand_variation};
     return {

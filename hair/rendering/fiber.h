@@ -97,6 +97,11 @@ struct FiberAverages {
 
 FiberAverages averageOverFiber(const Fiber& fiber, double theta);
 
+// Returns the part of the light that a strand lets through to surfaces behind it. With dual
+// scattering this is density_factor times a_f of the mean strand, for light from all directions;
+// with other models it is 1 - /shading/shadows/stopped.
+glm::dvec3 surfaceTransmittance(const ShadingSettings& shading);
+
 // Powers of the strands' own colours (shaders/strands/own_color.glsl): the colour c^a belongs to
 // a^2 times the absorption (hair/rendering/render_assets.h).
 struct OwnPowers {

@@ -20,6 +20,7 @@
 #include "engine/target.h"
 #include "engine/transfer.h"
 #include "hair/rendering/environment.h"
+#include "hair/rendering/fiber.h"
 
 namespace hair::rendering {
 namespace {
@@ -166,7 +167,7 @@ glm::vec3 meanColor(const Settings& settings, const RenderAssets& assets) {
 constexpr std::size_t kPictureStride = (sizeof(gpu::PictureParameters) + 15) / 16 * 16;
 
 static_assert(offsetof(gpu::ShadowMap, corner) == 80 && sizeof(gpu::ShadowMap) == 116);
-static_assert(offsetof(gpu::ShadowParameters, softness) == 192 * 116 + 8);
+static_assert(offsetof(gpu::ShadowParameters, softness) == 192 * 116 + 4);
 
 constexpr VkFormat kLayerFormat = VK_FORMAT_R32G32B32A32_SFLOAT;
 constexpr VkImageLayout kRead = VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL;
@@ -383,7 +384,9 @@ ShadowPass::ShadowPass(
       hair_layers_(device, opacityOfHair(hair_maps_ ? &atlas_ : nullptr)),
       sampler_(device, {.filter = VK_FILTER_NEAREST}),
       images_{{&mesh_depths_, &sampler_}, {&hair_depths_, &sampler_}, {&hair_layers_, &sampler_}},
-      mesh_color_(meanColor(settings, assets)), written_(maps_.size() * kPictureStride) {
+      mesh_color_(meanColor(settings, assets)),
+      transmittance_(surfaceTransmittance(settings.shading)),
+      written_(maps_.size() * kPictureStride) {
     const engine::MemoryRows rows = ShadowPass::rows(settings, plan);
     light_pictures_.reserve(maps_.size());
     for (std::uint32_t slot = 0; slot < engine::FrameLoop::kMaxSlots; ++slot) {
@@ -418,8 +421,8 @@ void ShadowPass::writeParameters(
     const ShadowSettings& shadows = settings_.shading.shadows;
     gpu::ShadowParameters parameters{};
     parameters.side = static_cast<float>(atlas_.side);
-    parameters.stopped = shadows.stopped;
     parameters.softness = shadows.softness;
+    parameters.transmittance = transmittance_;
     parameters.mesh_color = mesh_color_;
     // The map has room for samples round a point: those of the filter, and strands a texel wide.
     const float margin = std::max(shadows.softness, 0.5f) + 1.0f;

@@ -140,6 +140,7 @@ private:
     engine::Sampler sampler_;
     std::vector<engine::SampledImage> images_;
     glm::vec3 mesh_color_;
+    glm::vec3 transmittance_;
     // Values of the frame that is recorded:
     std::vector<LightPicture> light_pictures_;
     std::vector<std::byte> written_;  // into pictures_

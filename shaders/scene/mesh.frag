@@ -34,12 +34,12 @@ vec3 surfaceNormal() {
 
 // The part of a light that reaches the point. Shadow lookups use the triangle's own normal, because
 // the shadow map holds the depths of the flat triangle.
-float visiblePart(PictureParameters picture, uint light) {
-    if (kMeshShadows == 0u && kHairShadows == kHairShadowsNone) return 1.0;
+vec3 visiblePart(PictureParameters picture, uint light) {
+    if (kMeshShadows == 0u && kHairShadows == kHairShadowsNone) return vec3(1.0);
     vec3 flat_normal = cross(dFdx(position), dFdy(position));
     flat_normal /= max(length(flat_normal), 1e-30);
     Receiver receiver =
-        Receiver(position, flat_normal, vec3(0.0), 0.0, opaqueTransmittance(picture));
+        Receiver(position, flat_normal, vec3(0.0), 0.0, surfaceTransmittance(picture));
     return visibility(lightPath(picture, light, receiver));
 }
 
@@ -49,7 +49,7 @@ vec3 shadeMatt(PictureParameters picture, vec3 base_color, vec3 normal) {
     float ambient = kEnvironment != 0u ? 0.0 : picture.ambient;
     for (uint i = 0u; i < kLightCount; ++i) {
         LightSample light = lightAt(pictureLight(picture, i), position);
-        float lit = visiblePart(picture, i) * mattResponse(light, normal);
+        vec3 lit = visiblePart(picture, i) * mattResponse(light, normal);
         sum += base_color * (ambient + picture.diffuse * lit) * light.color;
     }
     if (kEnvironment != 0u)
@@ -74,7 +74,7 @@ vec3 shadeSurface(PictureParameters picture, Surface surface, vec3 normal, vec3 
         LightSample light = lightAt(pictureLight(picture, i), position);
         around += light.color;
         float matt = mattResponse(light, normal);
-        float visible = visiblePart(picture, i);
+        vec3 visible = visiblePart(picture, i);
         if (isRectangle(light)) {
             RectangleReflection of =
                 rectangleBrdf(surface, normal, to_eye, light.to_light, light.corners);
@@ -83,7 +83,7 @@ vec3 shadeSurface(PictureParameters picture, Surface surface, vec3 normal, vec3 
             continue;
         }
         vec3 f = surfaceBrdf(widened(surface, light), normal, to_eye, light.to_light);
-        float lit = visible * matt;
+        vec3 lit = visible * matt;
         sum += kSurfacePi * f * lit * light.color;
     }
     vec3 straight = reflectance(surface);

@@ -305,15 +305,15 @@ LightPath lightPath(PictureParameters picture, uint light, Receiver receiver) {
     return pathFromMap(shadows, map, receiver);
 }
 
-// The part of the light that each strand in between lets through, for opaque shading models: those
-// of the thesis and of meshes.
-vec3 opaqueTransmittance(PictureParameters picture) {
+// The part of the light that each strand in between lets through, for receivers that are no fibres:
+// meshes, and strands of the thesis's models and of Kajiya and Kay's.
+vec3 surfaceTransmittance(PictureParameters picture) {
     if (kHairShadows == kHairShadowsNone) return vec3(0.0);
-    return vec3(1.0 - ShadowReference(picture.shadows).parameters.stopped);
+    return ShadowReference(picture.shadows).parameters.transmittance;
 }
 
-// The part of the light that reaches a point, for a path with opaqueTransmittance(). For strands at
-// random it is exp(-stopped n).
-float visibility(LightPath path) { return path.meshes * (path.direct + path.scattered.g); }
+// The part of the light that reaches a point, for a path with surfaceTransmittance(). For strands
+// at random it is exp(-(1 - transmittance) n).
+vec3 visibility(LightPath path) { return path.meshes * (path.direct + path.scattered); }
 
 #endif

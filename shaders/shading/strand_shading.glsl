@@ -52,8 +52,8 @@ Receiver receiverOf(StrandFragment fragment, vec3 transmittance) {
 
 float visiblePart(PictureParameters picture, uint light, StrandFragment fragment) {
     if (kMeshShadows == 0u && kHairShadows == kHairShadowsNone) return 1.0;
-    vec3 transmittance = opaqueTransmittance(picture);
-    return visibility(lightPath(picture, light, receiverOf(fragment, transmittance)));
+    vec3 transmittance = surfaceTransmittance(picture);
+    return visibility(lightPath(picture, light, receiverOf(fragment, transmittance))).g;
 }
 
 // A model's two terms for one light, without colour.
@@ -267,8 +267,8 @@ HairLight hairLight(HairPoint point, uint light) {
     float visible = 1.0;
     if (kMeshShadows != 0u || kHairShadows != kHairShadowsNone) {
         Receiver receiver = Receiver(point.position, vec3(0.0), point.tangent, point.width,
-                                     opaqueTransmittance(extended_picture));
-        visible = visibility(lightPath(extended_picture, light, receiver));
+                                     surfaceTransmittance(extended_picture));
+        visible = visibility(lightPath(extended_picture, light, receiver)).g;
     }
     return HairLight(at.to_light, at.color, visible);
 }

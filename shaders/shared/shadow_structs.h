@@ -27,8 +27,9 @@ struct ShadowMap {
 struct ShadowParameters {
     ShadowMap maps[kMostMaps];  // [light]; from kMostLights on, further maps of some lights
     float side;  // of one part of the atlas, texels
-    float stopped;  // part of the light that a strand blocks
     float softness;  // texels
+    // Part of the light that each strand lets through to meshes, and to strands of opaque models
+    vec3 transmittance;
     vec3 mesh_color;  // light that meshes send back, linear; in display RGB if light is not linear
 };
 

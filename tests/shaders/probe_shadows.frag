@@ -20,7 +20,7 @@ void main() {
         picture, probe.light,
         Receiver(
             probe.position, probe.normal, probe.tangent, probe.width,
-            opaqueTransmittance(picture)));
-    path = vec4(found.meshes, found.strands, visibility(found), found.direct);
+            surfaceTransmittance(picture)));
+    path = vec4(found.meshes, found.strands, visibility(found).g, found.direct);
     behind = vec4(found.scatter_count, found.ended.g, found.returned.g, found.multiple_scattering);
 }

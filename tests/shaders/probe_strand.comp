@@ -17,8 +17,8 @@ struct Receiver {
     vec3 transmittance;
 };
 LightPath lightPath(PictureParameters picture, uint light, Receiver receiver) { return kFreePath; }
-vec3 opaqueTransmittance(PictureParameters picture) { return vec3(0.0); }
-float visibility(LightPath path) { return path.meshes; }
+vec3 surfaceTransmittance(PictureParameters picture) { return vec3(0.0); }
+vec3 visibility(LightPath path) { return vec3(path.meshes); }
 
 #include "shading/strand_shading.glsl"
 
