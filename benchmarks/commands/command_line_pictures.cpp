@@ -14,6 +14,13 @@ Coverage: share of a square round the hair that the hair covers, without the hea
 isolated frames. With --reference, whole levels are compared with the path-traced level 0, lit by one
 directional light at each angle from the camera; popping is the change over the last 0.05 of the level.)";
 
+constexpr const char* kShimmerNotes =
+    R"(The hair of one frame stands still; the camera turns about its target and up vector. The truth has 64
+samples per pixel and sampled coverage. All figures are means over the views, the pixels and the
+colours, in thousandths of the display's range. Shimmer: the magnitude of the change from one view to
+the next, minus the truth's change. Change: the magnitude of the truth's change. Error: the magnitude
+of the difference from the truth. Cases that differ in their sampling alone share the truth.)";
+
 void addSweepOptions(CLI::App& command, SweepOptions& options) {
     addSceneOptions(command, options.scene);
     command
@@ -213,6 +220,27 @@ void addPictureCommands(const CommandLine& line) {
                 .add_option(
                     "--samples", options.samples, "samples per pixel of the reference (default 64)")
                 ->check(CLI::Range(1u, 1u << 20));
+        });
+    addCommand<ShimmerOptions>(
+        line, line.app,
+        {.name = "shimmer",
+         .description = "turns the camera and measures how much still hair shimmers",
+         .examples =
+             {"hairbench shimmer portraits/layers -a /render/msaa=1,4",
+              "hairbench shimmer msaa --turn 6 --steps 12 --json"},
+         .notes = kShimmerNotes},
+        measureShimmer, [](CLI::App& command, ShimmerOptions& options) {
+            addSceneOptions(command, options.scene);
+            command.add_option("--filter", options.filter, "draw the cases whose name matches")
+                ->type_name("REGEX");
+            command
+                .add_option("--turn", options.turn, "angle of the whole turn, degrees (default 12)")
+                ->check(CLI::Range(-360.0, 360.0));
+            command.add_option("--steps", options.steps, "number of equal steps (default 24)")
+                ->check(CLI::Range(1u, 10000u));
+            command.add_option(
+                "--frame", options.frame, "frame whose hair is drawn, from 0 (default 0)");
+            command.add_flag("--json", options.json, "print JSON");
         });
 }
 

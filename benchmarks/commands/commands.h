@@ -268,6 +268,16 @@ struct DiffOptions {
 };
 int diffPictures(const DiffOptions& options);
 
+struct ShimmerOptions {
+    scene::SceneOptions scene;
+    std::string filter;  // of the cases' names; empty: all
+    double turn = 12.0;  // degrees about /camera/target
+    std::uint32_t steps = 24;  // from one view to the next
+    std::uint32_t frame = 0;
+    bool json = false;
+};
+int measureShimmer(const ShimmerOptions& options);
+
 struct LodOptions {
     scene::SceneOptions scene;
     std::filesystem::path out;  // empty: results/local/lod.json

@@ -2,6 +2,7 @@
 #include <filesystem>
 #include <iostream>
 #include <sstream>
+#include <span>
 #include <string>
 
 #include <nlohmann/json.hpp>
@@ -429,6 +430,82 @@ int walkLod(const LodOptions& options) {
     }
     finish();
     return report.interrupted ? report::kInterrupted : report::kOk;
+}
+
+// ---- hairbench shimmer --------------------------------------------------------------------------
+
+int measureShimmer(const ShimmerOptions& options) {
+    measure::HairCache cache = measure::userHairCache(options.scene.cache);
+    const std::vector<run::PlannedCase> cases =
+        run::planRun(options.scene, options.filter, "", &cache.assets()).cases;
+    if (cases.empty()) {
+        std::cerr << "hairbench: no case's name matches '" << options.filter << "'\n";
+        return report::kNothingRan;
+    }
+    for (const run::PlannedCase& each : cases)
+        if (!each.spec.settings.render.hair)
+            throw engine::Error("/render/hair", "is false: nothing to compare");
+
+    const engine::Device device(options.scene.device);
+    std::cerr << report::versionOnDevice(device) << '\n';
+    const lod::TurnPath path{.degrees = options.turn, .steps = options.steps};
+    std::vector<lod::ShimmerCase> measured;
+    bool interrupted = false;
+    const auto finish = [&] {
+        if (options.json) {
+            const scene::Json document = {
+                {"schema", "hairbench-shimmer/1.0.0"},
+                {"scene", options.scene.scene.string()},
+                {"device", device.info().name},
+                {"frame", options.frame},
+                {"turn", path.degrees},
+                {"steps", path.steps},
+                {"interrupted", interrupted},
+                {"cases", lod::shimmerJson(measured)}};
+            std::cout << document.dump(2, ' ', false, scene::Json::error_handler_t::replace)
+                      << '\n';
+        } else {
+            std::cout << lod::shimmerTable(measured);
+        }
+        if (interrupted)
+            std::cerr << "interrupted after " << measured.size() << " of " << cases.size()
+                      << " cases\n";
+    };
+    const engine::InterruptMessage last_words([&] {
+        interrupted = true;
+        finish();
+    });
+    try {
+        lod::TurnTruth truth;
+        for (const run::PlannedCase& each : cases) {
+            const hair::Settings& settings = each.spec.settings;
+            measure::Case hair(device, settings, each.directory, &cache);
+            simulateTo(device, hair, options.frame);
+            const auto with_progress = [&](const std::string& what, const auto& draw) {
+                measure::Progress progress(path.steps + std::size_t{1});
+                draw([&](double degrees) {
+                    progress.begin(what + ", " + report::shortNumber(degrees) + " degrees");
+                });
+                progress.clear();
+            };
+            std::span<const lod::Picture> pictures;
+            with_progress("truth", [&](const auto& begin) {
+                pictures = truth.pictures(device, hair, settings, path, begin);
+            });
+            with_progress(each.spec.name, [&](const auto& begin) {
+                measured.push_back(
+                    {.name = each.spec.name,
+                     .axes = each.spec.axes,
+                     .figures = lod::shimmerOf(device, hair, settings, path, pictures, begin)});
+            });
+            for (const std::string& message : device.messages().take())
+                std::cerr << message << '\n';
+        }
+    } catch (const engine::Interrupted&) {
+        interrupted = true;
+    }
+    finish();
+    return interrupted ? report::kInterrupted : report::kOk;
 }
 
 // ---- hairbench physics --------------------------------------------------------------------------

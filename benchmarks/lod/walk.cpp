@@ -19,6 +19,7 @@
 #include "benchmarks/report/text.h"
 #include "engine/float_pictures.h"
 #include "engine/process.h"
+#include "hair/fields.h"
 #include "hair/rendering/strand_plan.h"
 
 namespace benchmarks::lod {
@@ -67,13 +68,19 @@ LightErrors lightErrors(
 
 }  // namespace
 
+namespace {
+
+glm::quat aboutUp(const hair::CameraSettings& camera, double degrees) {
+    return glm::angleAxis(static_cast<float>(glm::radians(degrees)), glm::normalize(camera.up));
+}
+
+}  // namespace
+
 hair::Settings litFrom(hair::Settings settings, double angle) {
     const hair::CameraSettings& camera = settings.camera;
     const glm::vec3 to_camera = glm::normalize(camera.position - camera.target);
-    const glm::quat turn =
-        glm::angleAxis(static_cast<float>(glm::radians(angle)), glm::normalize(camera.up));
     settings.shading.lights = {
-        {.type = hair::LightType::directional, .direction = -(turn * to_camera)}};
+        {.type = hair::LightType::directional, .direction = -(aboutUp(camera, angle) * to_camera)}};
     settings.render.background = glm::vec3(0.0f);
     settings.render.environment.clear();
     settings.render.tone_map = hair::ToneMap::srgb;
@@ -234,16 +241,39 @@ std::vector<float> FrozenView::radiance() {
 
 namespace {
 
-// Root mean square of difference(i), i running over the colours of all pixels.
-template <class Difference>
-double rootMeanSquareOf(std::size_t bytes, Difference difference) {
+// Mean of term(difference(i)), i running over the colours of all pixels.
+template <class Difference, class Term>
+double meanOf(std::size_t bytes, Difference difference, Term term) {
     double sum = 0.0;
     for (std::size_t i = 0; i < bytes; ++i) {
         if (i % 4 == 3) continue;  // alpha
-        const double d = difference(i) / 255.0;
-        sum += d * d;
+        sum += term(difference(i) / 255.0);
     }
-    return std::sqrt(sum / (0.75 * static_cast<double>(bytes)));
+    return sum / (0.75 * static_cast<double>(bytes));
+}
+
+template <class Difference>
+double rootMeanSquareOf(std::size_t bytes, Difference difference) {
+    return std::sqrt(meanOf(bytes, difference, [](double d) { return d * d; }));
+}
+
+template <class Difference>
+double meanMagnitudeOf(std::size_t bytes, Difference difference) {
+    return meanOf(bytes, difference, [](double d) { return std::abs(d); });
+}
+
+double meanMagnitude(std::span<const std::uint8_t> a, std::span<const std::uint8_t> b) {
+    assert(a.size() == b.size());
+    return meanMagnitudeOf(a.size(), [&](std::size_t i) { return int{a[i]} - int{b[i]}; });
+}
+
+// The change of pictures from a to b at a place, less that of the full ones.
+auto excessChange(
+    std::span<const std::uint8_t> a, std::span<const std::uint8_t> b,
+    std::span<const std::uint8_t> full_a, std::span<const std::uint8_t> full_b) {
+    assert(a.size() == b.size() && a.size() == full_a.size() && a.size() == full_b.size());
+    return
+        [=](std::size_t i) { return (int{b[i]} - int{a[i]}) - (int{full_b[i]} - int{full_a[i]}); };
 }
 
 }  // namespace
@@ -256,10 +286,13 @@ double rootMeanSquare(std::span<const std::uint8_t> a, std::span<const std::uint
 double popping(
     std::span<const std::uint8_t> a, std::span<const std::uint8_t> b,
     std::span<const std::uint8_t> full_a, std::span<const std::uint8_t> full_b) {
-    assert(a.size() == b.size() && a.size() == full_a.size() && a.size() == full_b.size());
-    return rootMeanSquareOf(a.size(), [&](std::size_t i) {
-        return (int{b[i]} - int{a[i]}) - (int{full_b[i]} - int{full_a[i]});
-    });
+    return rootMeanSquareOf(a.size(), excessChange(a, b, full_a, full_b));
+}
+
+double shimmerBetween(
+    std::span<const std::uint8_t> a, std::span<const std::uint8_t> b,
+    std::span<const std::uint8_t> full_a, std::span<const std::uint8_t> full_b) {
+    return meanMagnitudeOf(a.size(), excessChange(a, b, full_a, full_b));
 }
 
 double whiteShare(std::span<const std::uint8_t> picture) {
@@ -477,6 +510,101 @@ void walk(
         full_before = std::move(full_picture);
         steps.push_back(step);
     }
+}
+
+// ---- Walk round the hair ------------------------------------------------------------------------
+
+hair::CameraSettings cameraTurned(const hair::CameraSettings& camera, double degrees) {
+    hair::CameraSettings turned = camera;
+    turned.position = camera.target + aboutUp(camera, degrees) * (camera.position - camera.target);
+    return turned;
+}
+
+hair::Settings supersampled(hair::Settings settings) {
+    settings.render.msaa = 4;
+    settings.render.ssaa = 4;
+    settings.render.coverage = hair::Coverage::sampled;
+    if (settings.strands.opacity == 1.0f) settings.render.transparency = hair::Transparency::none;
+    return settings;
+}
+
+namespace {
+
+// Calls draw(index) with the hair seen from each view of the path.
+void drawTurn(
+    FrozenView& view, const hair::CameraSettings& camera, const TurnPath& path,
+    const std::function<void(double)>& begin,
+    const std::function<void(std::size_t, Picture)>& drawn) {
+    for (std::uint32_t i = 0; i <= path.steps; ++i) {
+        const double degrees = path.degrees * i / path.steps;
+        begin(degrees);
+        view.setCamera(cameraTurned(camera, degrees));
+        view.draw();
+        drawn(i, view.picture());
+    }
+}
+
+}  // namespace
+
+const std::vector<Picture>& TurnTruth::pictures(
+    const engine::Device& device, const measure::Case& hair, const hair::Settings& settings,
+    const TurnPath& path, const std::function<void(double)>& begin) {
+    const hair::Settings wanted = supersampled(settings);
+    if (settings_ && !hair::differ(*settings_, wanted)) return pictures_;
+    settings_.reset();
+    pictures_.clear();
+    FrozenView view(device, hair, wanted);
+    drawTurn(view, settings.camera, path, begin, [&](std::size_t, Picture picture) {
+        pictures_.push_back(std::move(picture));
+    });
+    settings_ = wanted;
+    return pictures_;
+}
+
+Shimmer shimmerOf(
+    const engine::Device& device, const measure::Case& hair, const hair::Settings& settings,
+    const TurnPath& path, std::span<const Picture> truth,
+    const std::function<void(double)>& begin) {
+    assert(truth.size() == path.steps + std::size_t{1});
+    Shimmer sum;
+    Picture before;
+    FrozenView view(device, hair, settings);
+    drawTurn(view, settings.camera, path, begin, [&](std::size_t i, Picture picture) {
+        sum.error += meanMagnitude(picture, truth[i]) / (path.steps + 1);
+        if (i > 0) {
+            sum.shimmer += shimmerBetween(before, picture, truth[i - 1], truth[i]) / path.steps;
+            sum.change += meanMagnitude(truth[i - 1], truth[i]) / path.steps;
+        }
+        before = std::move(picture);
+    });
+    return sum;
+}
+
+scene::Json shimmerJson(const std::vector<ShimmerCase>& cases) {
+    scene::Json array = scene::Json::array();
+    for (const ShimmerCase& each : cases) {
+        scene::Json axes = scene::Json::object();
+        for (const scene::AxisValue& axis : each.axes) axes[axis.pointer] = axis.value.json();
+        array.push_back(
+            {{"name", each.name},
+             {"axes", axes},
+             {"shimmer", each.figures.shimmer},
+             {"change", each.figures.change},
+             {"error", each.figures.error}});
+    }
+    return array;
+}
+
+std::string shimmerTable(const std::vector<ShimmerCase>& cases) {
+    std::vector<report::Column> columns{
+        {"case", false}, {"shimmer, 1/1000"}, {"change, 1/1000"}, {"error, 1/1000"}};
+    for (const ShimmerCase& each : cases) {
+        const std::array cells{
+            engine::shownText(each.name), thousandths(each.figures.shimmer),
+            thousandths(each.figures.change), thousandths(each.figures.error)};
+        for (std::size_t i = 0; i < columns.size(); ++i) columns[i].cells.push_back(cells[i]);
+    }
+    return report::columnsText(columns);
 }
 
 }  // namespace benchmarks::lod

@@ -12,6 +12,7 @@
 #include "benchmarks/report/report.h"
 #include "benchmarks/scene/json.h"
 #include "benchmarks/scene/scene.h"
+#include "benchmarks/scene/sweep.h"
 #include "engine/frame_loop.h"
 #include "hair/rendering/renderer.h"
 
@@ -92,6 +93,11 @@ double rootMeanSquare(std::span<const std::uint8_t> a, std::span<const std::uint
 // Returns the change by level of detail between two steps of a path, beyond the change that the
 // steps make in any case: the root mean square of (b - a) - (full_b - full_a).
 double popping(
+    std::span<const std::uint8_t> a, std::span<const std::uint8_t> b,
+    std::span<const std::uint8_t> full_a, std::span<const std::uint8_t> full_b);
+
+// Returns the mean magnitude of (b - a) - (full_b - full_a).
+double shimmerBetween(
     std::span<const std::uint8_t> a, std::span<const std::uint8_t> b,
     std::span<const std::uint8_t> full_a, std::span<const std::uint8_t> full_b);
 
@@ -207,5 +213,62 @@ hair::CameraSettings cameraAt(const hair::CameraSettings& camera, double distanc
 void walk(
     const engine::Device& device, measure::Case& hair, const hair::Settings& settings,
     const LodPath& path, const std::function<void(double)>& begin, std::vector<LodStep>& steps);
+
+// How much a still subject shimmers while the camera walks round it: what its pictures change by
+// from one view to the next, beyond what supersampled pictures change by.
+
+// Views along an arc about the camera's target and up vector that begins at the scene's camera.
+struct TurnPath {
+    double degrees = 12.0;  // of the whole arc
+    std::uint32_t steps = 24;  // from one view to the next
+};
+
+// Means over the steps of the path and over red, green and blue of all pixels, in display values
+// from 0 to 1.
+struct Shimmer {
+    double shimmer = 0.0;  // shimmerBetween() the views of each step
+    double change = 0.0;  // mean magnitude of the truth's change in a step
+    double error = 0.0;  // mean magnitude of the difference from the truth, over the views
+};
+
+// Returns the scene's camera turned by an angle, in degrees, about its target and up vector. A
+// positive angle moves it to its right.
+hair::CameraSettings cameraTurned(const hair::CameraSettings& camera, double degrees);
+
+// Returns the settings with 64 samples per pixel, 16 of them shaded, and sampled coverage; without
+// transparency if hair is opaque.
+hair::Settings supersampled(hair::Settings settings);
+
+// The supersampled pictures of one path, which cases share that differ in their sampling alone.
+class TurnTruth {
+public:
+    // Draws the views of the path unless they are those of the call before. `hair` is a case in
+    // the same frame each time. Calls `begin` with each angle. Throws Interrupted.
+    const std::vector<Picture>& pictures(
+        const engine::Device& device, const measure::Case& hair, const hair::Settings& settings,
+        const TurnPath& path, const std::function<void(double)>& begin);
+
+private:
+    std::optional<hair::Settings> settings_;  // of `pictures_`
+    std::vector<Picture> pictures_;
+};
+
+// Draws the frozen hair of the case from every view of the path and compares it with the truth,
+// which has the same path. Calls `begin` with each angle. Throws Interrupted.
+Shimmer shimmerOf(
+    const engine::Device& device, const measure::Case& hair, const hair::Settings& settings,
+    const TurnPath& path, std::span<const Picture> truth, const std::function<void(double)>& begin);
+
+// A case's name, its values on the axes of the sweep, and its figures.
+struct ShimmerCase {
+    std::string name;
+    std::vector<scene::AxisValue> axes;
+    Shimmer figures;
+};
+
+scene::Json shimmerJson(const std::vector<ShimmerCase>& cases);
+
+// Text for a terminal: a row per case.
+std::string shimmerTable(const std::vector<ShimmerCase>& cases);
 
 }  // namespace benchmarks::lod

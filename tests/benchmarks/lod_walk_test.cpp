@@ -23,7 +23,67 @@ TEST(LodPath, CameraKeepsItsDirection) {
     EXPECT_EQ(moved.target, camera.target);
 }
 
+TEST(Turn, MovesTheCameraOnACircleAboutItsUpVector) {
+    hair::CameraSettings camera;
+    camera.position = {0.0f, 1.0f, 2.0f};
+    camera.target = {0.0f, 1.0f, 0.0f};
+    camera.up = {0.0f, 3.0f, 0.0f};
+    const hair::CameraSettings turned = lod::cameraTurned(camera, 90.0);
+    EXPECT_NEAR(turned.position.x, 2.0f, 1e-6f);
+    EXPECT_NEAR(turned.position.y, 1.0f, 1e-6f);
+    EXPECT_NEAR(turned.position.z, 0.0f, 1e-6f);
+    EXPECT_EQ(turned.target, camera.target);
+}
+
+TEST(Turn, TruthHas64SamplesAndNeedsNoTransparencyForOpaqueHair) {
+    hair::Settings settings;
+    settings.render.coverage = hair::Coverage::analytic;
+    settings.render.transparency = hair::Transparency::fragment_list;
+    const hair::RenderSettings opaque = lod::supersampled(settings).render;
+    EXPECT_EQ(opaque.msaa * opaque.ssaa * opaque.ssaa, 64u);
+    EXPECT_EQ(opaque.coverage, hair::Coverage::sampled);
+    EXPECT_EQ(opaque.transparency, hair::Transparency::none);
+    settings.strands.opacity = 0.5f;
+    EXPECT_EQ(lod::supersampled(settings).render.transparency, hair::Transparency::fragment_list);
+}
+
 class LodWalkTest : public GpuTest {};
+
+// Samples at the same places of the pixels see other strands in each view. The mean of more samples
+// differs less from the truth, so that its error and its shimmer are smaller.
+TEST_F(LodWalkTest, MoreSamplesShimmerLess) {
+    hair::Settings settings;
+    settings.simulation.solver = hair::Solver::none;
+    settings.strands.density = 8;
+    settings.render.width = 64;
+    settings.render.height = 48;
+    const measure::Case hair(device(), settings, HAIRBENCH_SOURCE_DIR "/scenes");
+    const lod::TurnPath path{.degrees = 2.0, .steps = 2};
+    lod::TurnTruth truth;
+    std::vector<double> begun;
+    const auto begin = [&](double degrees) { begun.push_back(degrees); };
+    const auto figures = [&](std::uint32_t ssaa) {
+        settings.render.ssaa = ssaa;
+        return lod::shimmerOf(
+            device(), hair, settings, path, truth.pictures(device(), hair, settings, path, begin),
+            begin);
+    };
+    const lod::Shimmer one = figures(1);
+    EXPECT_EQ(begun, (std::vector{0.0, 1.0, 2.0, 0.0, 1.0, 2.0}));
+    const lod::Shimmer four = figures(2);
+    EXPECT_EQ(begun.size(), 9u) << "the truth is drawn once for both";
+    EXPECT_GT(one.change, 0.0);
+    EXPECT_EQ(four.change, one.change);
+    EXPECT_GT(four.error, 0.0);
+    EXPECT_GT(one.error, four.error);
+    EXPECT_GT(four.shimmer, 0.0);
+    EXPECT_GT(one.shimmer, four.shimmer);
+
+    settings = lod::supersampled(settings);
+    const lod::Shimmer full = figures(4);
+    EXPECT_EQ(full.shimmer, 0.0);
+    EXPECT_EQ(full.error, 0.0);
+}
 
 TEST_F(LodWalkTest, ComparesWithFullDetail) {
     hair::Settings settings;
