@@ -222,6 +222,8 @@ report::CaseResult compileCase(
         result.status = report::Status::failed;
         result.reason = error.what();
     }
+    for (const std::string& message : device.messages().take())
+        result.trust.warnings.push_back("validation: " + message);
     return result;
 }
 
@@ -262,11 +264,17 @@ int compileShaders(const ShadersOptions& options) {
         report.interrupted = true;
         finish();
     });
-    for (const run::PlannedCase& each : plan.cases) {
-        progress.begin(each.spec.name);
-        report.cases.push_back(compileCase(device, each, cache));
+    try {
+        for (const run::PlannedCase& each : plan.cases) {
+            engine::checkInterrupted();
+            progress.begin(each.spec.name);
+            report.cases.push_back(compileCase(device, each, cache));
+        }
+    } catch (const engine::Interrupted&) {
+        report.interrupted = true;
     }
     finish();
+    if (report.interrupted) return report::kInterrupted;
     const bool any_ran = std::ranges::any_of(
         report.cases, [](const auto& each) { return each.status == report::Status::ok; });
     return any_ran ? report::kOk : report::kNothingRan;
