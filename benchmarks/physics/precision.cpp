@@ -294,8 +294,8 @@ std::string invarianceTables(const PhysicsReport& report) {
             if (curve.check != check.name || curve.rows.empty()) continue;
             const Series& varied = curve.columns.front();
             const auto value = [&](double number) {
-                return varied.unit == "count" ? report::shortNumber(number)
-                                              : "1/" + report::shortNumber(1.0 / number);
+                return varied.unit == "count" ? report::plainNumber(number)
+                                              : "1/" + report::plainNumber(1.0 / number);
             };
             if (!headed) {
                 text += "\n| " + varied.name + " |";
