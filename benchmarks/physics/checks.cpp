@@ -289,6 +289,7 @@ constexpr Check kChecks[] = {
     {"cantilever", [](const engine::Device& device, const CheckedSolver& solver,
                       Findings& findings) { checkCantilever(device, solver, kGammas, findings); }},
     {"convergence", checkConvergence},
+    {"curled_cantilever", checkCurledCantilever},
     {"bending_frequency", checkBendingFrequency},
     {"bending_decay", checkBendingDecay},
     {"turning_head", checkTurningHead},

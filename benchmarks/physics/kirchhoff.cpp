@@ -463,8 +463,10 @@ planarForce(const PlanarRod& rod, std::span<const double> angles, std::span<cons
     for (std::size_t i = count; i-- > 0;) {
         below += loads[i];
         force[i] += segment * glm::dot(normalAt(angles[i]), below);
-        const double above = i == 0 ? 2.0 * (angles[0] - rod.clamp) : angles[i] - angles[i - 1];
-        const double next = i + 1 < count ? angles[i + 1] - angles[i] : 0.0;
+        const double natural = rod.turn / static_cast<double>(count);
+        const double above = i == 0 ? 2.0 * (angles[0] - rod.clamp - natural / 2.0)
+                                    : angles[i] - angles[i - 1] - natural;
+        const double next = i + 1 < count ? angles[i + 1] - angles[i] - natural : 0.0;
         force[i] += rod.stiffness / segment * (next - above);
     }
     return force;

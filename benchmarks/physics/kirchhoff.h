@@ -92,6 +92,7 @@ struct PlanarRod {
     double stiffness;  // EI, N m^2; 0: a chain
     double length;  // m
     double clamp;  // rad
+    double turn = 0.0;  // natural curvature times length, towards a growing angle, rad
     glm::dvec2 root{0.0};  // m
     std::vector<double> masses;  // [segment], of the vertex at its lower end, kg
     // Acceleration of a mass at a position (x, y), m/s^2.

@@ -283,6 +283,11 @@ TEST(PhysicsTheory, ARodOfSegmentsRestsAsByShooting) {
     ASSERT_TRUE(sagged);
     const glm::dvec2 end = planarPoints(level, *sagged).back();
     EXPECT_NEAR(-end.y / end.x / cantileverRatio(10.0), 1.0, 1e-3);
+    level.turn = -0.5;
+    const auto curled = planarRest(level, *sagged);
+    ASSERT_TRUE(curled);
+    const glm::dvec2 lower = planarPoints(level, *curled).back();
+    EXPECT_NEAR(-lower.y / lower.x / cantileverRatio(10.0, 0.5), 1.0, 1e-3);
 
     settings.wind.mode = hair::WindMode::drag;
     settings.wind.speed = 2.0f;

@@ -141,6 +141,12 @@ TEST_F(Physics, RodRestsAndFluttersWhereTheElasticaDoes) {
     EXPECT_EQ(findings.outcomes().back().quantity.name, "swing of hair that flutters / length");
 }
 
+TEST_F(Physics, RodSagsWithItsCurlAsKirchhoffs) {
+    Findings findings("curled_cantilever", hair::Solver::rod);
+    checkCurledCantilever(device(), hair::Solver::rod, findings);
+    expectPass(findings);
+}
+
 TEST_F(Physics, RodHangsFromATurningHeadAsKirchhoffs) {
     Findings findings("turning_head", hair::Solver::rod);
     checkTurningHead(device(), hair::Solver::rod, findings);
