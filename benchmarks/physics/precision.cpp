@@ -309,8 +309,7 @@ std::string invarianceTables(const PhysicsReport& report) {
             text += "| " + curve.solver + (rest ? ", at rest |" : ", in motion |");
             for (const auto& row : curve.rows) text += ' ' + report::shortNumber(row[1]) + " |";
 
-            // The order between the two finest runs that rounding does not decide.
-            std::optional<double> order, finest;
+            std::optional<double> finest;
             std::optional<double> tolerance;
             std::string verdict;
             for (const Outcome& outcome : report.outcomes) {
@@ -323,14 +322,21 @@ std::string invarianceTables(const PhysicsReport& report) {
                 tolerance = outcome.tolerance;
                 if (verdict != "fail") verdict = verdictName(outcome.verdict);
             }
+            // The middle of the orders between neighbouring runs, except those within rounding.
+            std::vector<double> orders;
             for (std::size_t i = 1; finest && i < curve.rows.size(); ++i)
                 if (curve.rows[i][1] > kRounding)
-                    order = observedOrder(
-                        {coarseness(varied, curve.rows[i - 1][0]),
-                         coarseness(varied, curve.rows[i][0])},
-                        {curve.rows[i - 1][1], curve.rows[i][1]}, *finest);
-            text += order ? ' ' + report::plainNumber(std::round(*order * 10.0) / 10.0) + " |"
-                          : std::string(" none |");
+                    orders.push_back(observedOrder(
+                                         {coarseness(varied, curve.rows[i - 1][0]),
+                                          coarseness(varied, curve.rows[i][0])},
+                                         {curve.rows[i - 1][1], curve.rows[i][1]}, *finest)
+                                         .value_or(0.0));
+            std::ranges::sort(orders);
+            const double order = orders.empty() ? 0.0 : orders[orders.size() / 2];
+            if (order > 0.0)
+                text += ' ' + report::plainNumber(std::round(order * 10.0) / 10.0) + " |";
+            else
+                text += orders.empty() ? " rounding |" : " none |";
             text += tolerance ? ' ' + report::shareText(*tolerance) + ": " + verdict + " |\n"
                               : std::string(" |\n");
         }
