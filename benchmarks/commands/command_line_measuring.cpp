@@ -387,15 +387,31 @@ void addCheckCommands(const CommandLine& line) {
         {.name = "physics",
          .description = "checks the solvers against theory and writes a report",
          .examples =
-             {"hairbench physics", "hairbench physics --solver rod --check 'cantilever|catenary'"}},
+             {"hairbench physics", "hairbench physics --solver rod --check 'cantilever|catenary'",
+              "hairbench physics --invariance", "hairbench physics --work-precision"}},
         checkPhysics, [](CLI::App& command, PhysicsOptions& options) {
             addRepeated(
                 command, "--solver", options.solvers,
                 "solver to check, or a file of GLSL with one; repeatable (default all of the "
                 "program's)")
                 ->type_name("NAME|FILE");
-            command.add_option("--check", options.check, "run the checks whose name matches")
-                ->type_name("REGEX");
+            CLI::Option* const check =
+                command.add_option("--check", options.check, "run the checks whose name matches")
+                    ->type_name("REGEX");
+            CLI::Option* const invariance =
+                command
+                    .add_flag(
+                        "--invariance", options.invariance,
+                        "print how far hair is from that of the finest step, substep, mesh and "
+                        "number of iterations, at rest and in motion")
+                    ->excludes(check);
+            command
+                .add_flag(
+                    "--work-precision", options.work_precision,
+                    "measure error and time of each solver over substeps and iterations, and "
+                    "recommend a solver for a given error")
+                ->excludes(check)
+                ->excludes(invariance);
             command
                 .add_option(
                     "--out", options.out, "report file (default results/local/physics.json)")

@@ -104,6 +104,8 @@ int renderScene(const RenderOptions& options);
 struct PhysicsOptions {
     std::vector<std::string> solvers;  // names or files; empty: all except none
     std::string check;  // regex of check names
+    bool invariance = false;  // tables of invariance instead of the checks
+    bool work_precision = false;  // errors and times instead of the checks
     std::filesystem::path out;  // empty: results/local/physics.json
     engine::DeviceOptions device;
     std::vector<std::string> command;  // for the report

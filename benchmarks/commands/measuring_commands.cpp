@@ -525,8 +525,14 @@ constexpr std::uint64_t kSeed = 1;
 }  // namespace
 
 int checkPhysics(const PhysicsOptions& options) {
-    const std::vector<physics::CheckedSolver> solvers = physics::chosenSolvers(options.solvers);
-    const std::vector<physics::Check> checks = physics::chosenChecks(options.check);
+    std::vector<physics::CheckedSolver> solvers = physics::chosenSolvers(options.solvers);
+    std::vector<physics::Check> checks = physics::chosenChecks(options.check);
+    if (options.invariance || options.work_precision) {
+        const auto instead =
+            options.invariance ? physics::invarianceChecks() : physics::workChecks();
+        checks.assign(instead.begin(), instead.end());
+        solvers = physics::withVariants(solvers);
+    }
     if (checks.empty()) {
         std::cerr << "hairbench: no check's name matches '" << options.check << "'\n";
         return report::kNothingRan;
@@ -541,8 +547,12 @@ int checkPhysics(const PhysicsOptions& options) {
         .environment =
             report::describeEnvironment(device, options.command, kSeed, options.device.validation)};
     const auto finish = [&] {
+        if (options.work_precision) physics::recommendSolvers(report);
         engine::writeFileAtomically(out, physics::physicsReportText(report));
-        std::cout << physics::physicsTable(report) << "report: " << out.string() << '\n';
+        std::cout << physics::physicsTable(report);
+        if (options.invariance) std::cout << physics::invarianceTables(report) << '\n';
+        if (options.work_precision) std::cout << physics::workTables(report) << '\n';
+        std::cout << "report: " << out.string() << '\n';
         if (report.interrupted) std::cerr << "interrupted\n";
     };
     const engine::InterruptMessage last_words([&] {

@@ -61,7 +61,7 @@ std::string nameOf(const CheckedSolver& solver) {
     if (!solver.file.empty()) return std::filesystem::path(solver.file).filename().string();
     const auto& all = checkedSolvers();
     const auto found = std::ranges::find(all, solver.solver, &hair::Named<hair::Solver>::value);
-    return found == all.end() ? "none" : found->name;
+    return found == all.end() ? "none" : found->name + solver.variant;
 }
 
 // Checks that a solver passes if it moves guides as shaders/extension/solver.glsl tells.
@@ -275,6 +275,8 @@ namespace {
 constexpr unsigned kMasses[] = {1, 2, 3, 5};
 // The ratios at which Romero et al. 2021 and the tables of docs/physics.md are evaluated.
 constexpr double kGammas[] = {0.1, 1.0, 5.0, 10.0, 50.0, 100.0, 1000.0};
+constexpr double kSteadySpeeds[] = {0.7, 1.5, 2.5, 4.0, 6.0};  // m/s
+constexpr double kSteadyLengths[] = {0.07, 0.1, 0.15, 0.18};  // m
 
 constexpr Check kChecks[] = {
     {"projectile", checkProjectile},
@@ -282,16 +284,23 @@ constexpr Check kChecks[] = {
     {"pendulum", [](const engine::Device& device, const CheckedSolver& solver,
                     Findings& findings) { checkPendulum(device, solver, kMasses, findings); }},
     {"hanging_chain", checkHangingChain},
+    {"large_swing", checkLargeSwing},
     {"catenary", checkCatenary},
     {"cantilever", [](const engine::Device& device, const CheckedSolver& solver,
                       Findings& findings) { checkCantilever(device, solver, kGammas, findings); }},
     {"convergence", checkConvergence},
+    {"curled_cantilever", checkCurledCantilever},
     {"bending_frequency", checkBendingFrequency},
     {"bending_decay", checkBendingDecay},
+    {"turning_head", checkTurningHead},
     {"clamp_twist", checkClampTwist},
     {"bend_twist", checkBendTwist},
     {"lateral_buckling", checkLateralBuckling},
     {"drag_deflection", checkDragDeflection},
+    {"steady_drag",
+     [](const engine::Device& device, const CheckedSolver& solver, Findings& findings) {
+         checkSteadyDrag(device, solver, kSteadySpeeds, kSteadyLengths, findings);
+     }},
     {"terminal_speed", checkTerminalSpeed},
     {"stick_slip", checkStickSlip},
     {"slide", checkSlide},
@@ -482,131 +491,6 @@ void checkEnergy(const engine::Device& device, const CheckedSolver& solver, Find
         {"growth with generalized_alpha without friction", "1", parameters},
         greatestGrowth(samples, static_cast<std::size_t>(std::lround(kEnergyWindow / step))),
         kEnergyTolerance);
-}
-
-namespace {
-
-// ---- Invariance to step, substeps, segments, iterations -----------------------------------------
-
-// Checks whether hair moves the same for all steps, numbers of segments and numbers of iterations.
-// Default hair is released from the horizontal; the finest run is the reference.
-
-constexpr double kInvarianceTolerance = 0.02;  // between 1/60 s and 1/480 s, promised for rods
-constexpr std::uint32_t kInvarianceSegments = 16;
-// For generalized_alpha from 8 substeps on. The reference in double precision has 0.0023 at 8, and
-// halving the substep quarters that. The tolerance adds as much again for 32 bits.
-constexpr double kSecondOrderTolerance = 0.005;
-
-// Reports differences from the last run, as a curve and as single values.
-void reportDifferences(
-    Findings& findings, const Parameter& varied, const std::vector<double>& values,
-    const std::vector<Trajectory>& runs) {
-    std::vector<std::vector<double>> rows;
-    for (std::size_t i = 0; i + 1 < runs.size(); ++i) {
-        const double difference = differenceOf(runs[i], runs.back());
-        findings.deviation(
-            {"difference from the finest / length",
-             "1",
-             {{varied.name, values[i], varied.unit},
-              {"finest " + varied.name, values.back(), varied.unit}}},
-            difference);
-        rows.push_back({values[i], difference});
-    }
-    findings.curve(
-        "difference from the finest", {{varied.name, varied.unit}, {"difference / length", "1"}},
-        std::move(rows));
-}
-
-}  // namespace
-
-void checkStepInvariance(
-    const engine::Device& device, const CheckedSolver& solver, Findings& findings) {
-    std::vector<double> steps;
-    std::vector<Trajectory> runs;
-    for (const double rate : {30.0, 60.0, 120.0, 240.0, 480.0, 1000.0}) {
-        hair::SimulationSettings settings = defaultHair(solver);
-        settings.time_step = static_cast<float>(1.0 / rate);
-        steps.push_back(1.0 / rate);
-        runs.push_back(playRelease(device, settings, kInvarianceSegments));
-    }
-    reportDifferences(findings, {.name = "time_step", .unit = "s"}, steps, runs);
-    std::optional<double> tolerance;
-    if (!lack(solver, Need::material)) tolerance = kInvarianceTolerance;
-    findings.deviation(
-        {"difference / length",
-         "1",
-         {{"time_step", steps[1], "s"}, {"other time_step", steps[4], "s"}}},
-        differenceOf(runs[1], runs[4]), tolerance);
-
-    // Drag acts in every substep, so the same promise holds with it.
-    const auto playInAir = [&](double step) {
-        hair::SimulationSettings settings = defaultHair(solver);
-        settings.time_step = static_cast<float>(step);
-        settings.wind.mode = hair::WindMode::drag;
-        return playRelease(device, settings, kInvarianceSegments);
-    };
-    findings.deviation(
-        {"difference in still air / length",
-         "1",
-         {{"time_step", steps[1], "s"}, {"other time_step", steps[4], "s"}}},
-        differenceOf(playInAir(steps[1]), playInAir(steps[4])), tolerance);
-}
-
-// The effect of the substep's length alone: numerical damping.
-void checkSubstepInvariance(
-    const engine::Device& device, const CheckedSolver& solver, Findings& findings) {
-    std::vector<double> counts;
-    std::vector<Trajectory> runs;
-    for (const std::uint32_t substeps : {1u, 2u, 4u, 8u, 16u, 32u, 64u}) {
-        hair::SimulationSettings settings = defaultHair(solver);
-        settings.substeps = substeps;
-        counts.push_back(substeps);
-        runs.push_back(playRelease(device, settings, kInvarianceSegments));
-    }
-    reportDifferences(findings, {.name = "substeps", .unit = "count"}, counts, runs);
-    if (solver != hair::Solver::rod) return;
-
-    // A second-order method has less numerical damping. Its own finest run is the reference.
-    const auto play = [&](std::uint32_t substeps) {
-        hair::SimulationSettings settings = defaultHair(solver);
-        settings.rod.integrator = hair::RodIntegrator::generalized_alpha;
-        settings.substeps = substeps;
-        return playRelease(device, settings, kInvarianceSegments);
-    };
-    const Trajectory finest = play(64);
-    for (const std::uint32_t substeps : {4u, 8u, 16u})
-        findings.deviation(
-            {"difference with generalized_alpha / length",
-             "1",
-             {{"substeps", static_cast<double>(substeps), "count"},
-              {"finest substeps", 64.0, "count"}}},
-            differenceOf(play(substeps), finest),
-            substeps >= 8 ? std::optional(kSecondOrderTolerance) : std::nullopt);
-}
-
-void checkSegmentInvariance(
-    const engine::Device& device, const CheckedSolver& solver, Findings& findings) {
-    std::vector<double> counts;
-    std::vector<Trajectory> runs;
-    for (const std::uint32_t segments : {8u, 16u, 32u, 64u, 128u}) {
-        counts.push_back(segments);
-        runs.push_back(playRelease(device, defaultHair(solver), segments));
-    }
-    reportDifferences(findings, {.name = "segments", .unit = "count"}, counts, runs);
-}
-
-void checkIterationInvariance(
-    const engine::Device& device, const CheckedSolver& solver, Findings& findings) {
-    if (const auto why = lack(solver, Need::iterations)) return findings.skip(*why);
-    std::vector<double> counts;
-    std::vector<Trajectory> runs;
-    for (const std::uint32_t iterations : {1u, 2u, 4u, 8u, 16u, 32u}) {
-        hair::SimulationSettings settings = defaultHair(solver);
-        setIterations(settings, iterations);
-        counts.push_back(iterations);
-        runs.push_back(playRelease(device, settings, kInvarianceSegments));
-    }
-    reportDifferences(findings, {.name = "iterations", .unit = "count"}, counts, runs);
 }
 
 namespace {

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <array>
+#include <cstdint>
 #include <limits>
 #include <optional>
 #include <span>
@@ -165,6 +167,8 @@ void checkPendulum(
     const engine::Device&, const CheckedSolver&, std::span<const unsigned> masses, Findings&);
 // First period of a hanging chain.
 void checkHangingChain(const engine::Device&, const CheckedSolver&, Findings&);
+// Period of a chain that swings far, at several time steps.
+void checkLargeSwing(const engine::Device&, const CheckedSolver&, Findings&);
 // Rest shape of a chain between two pins.
 void checkCatenary(const engine::Device&, const CheckedSolver&, Findings&);
 // Sag of a clamped hair under its weight, for these ratios of weight to stiffness.
@@ -174,8 +178,12 @@ void checkCantilever(
 void checkConvergence(const engine::Device&, const CheckedSolver&, Findings&);
 // First frequency of a clamped hair without weight.
 void checkBendingFrequency(const engine::Device&, const CheckedSolver&, Findings&);
-// Half-life of the same vibration against the material's damping.
+// Half-life of the same vibration against the material's damping, and against the integrator's.
 void checkBendingDecay(const engine::Device&, const CheckedSolver&, Findings&);
+// Rest shape of level and raised hair with a natural curvature.
+void checkCurledCantilever(const engine::Device&, const CheckedSolver&, Findings&);
+// Hair on a head that turns steadily stays in its state at rest.
+void checkTurningHead(const engine::Device&, const CheckedSolver&, Findings&);
 // Checks that a curl follows its root's rotation about its own axis.
 void checkClampTwist(const engine::Device&, const CheckedSolver&, Findings&);
 // Distance of a hanging curl from its plane, and the curvature at which it leaves the plane.
@@ -184,6 +192,11 @@ void checkBendTwist(const engine::Device&, const CheckedSolver&, Findings&);
 void checkLateralBuckling(const engine::Device&, const CheckedSolver&, Findings&);
 // Rest position of hanging hair in wind, at any time step.
 void checkDragDeflection(const engine::Device&, const CheckedSolver&, Findings&);
+// Hanging hair of these lengths, m, in these winds, m/s: its rest position, or its flutter where
+// the elastica's steady state is unstable.
+void checkSteadyDrag(
+    const engine::Device&, const CheckedSolver&, std::span<const double> speeds,
+    std::span<const double> lengths, Findings&);
 // The speed at which the air bears falling hair.
 void checkTerminalSpeed(const engine::Device&, const CheckedSolver&, Findings&);
 
@@ -206,5 +219,37 @@ void checkSegmentInvariance(const engine::Device&, const CheckedSolver&, Finding
 void checkIterationInvariance(const engine::Device&, const CheckedSolver&, Findings&);
 // Checks that two equal runs end with the same bits.
 void checkStateHash(const engine::Device&, const CheckedSolver&, Findings&);
+
+// ---- Invariance in one table, and work over precision -------------------------------------------
+
+// The four checks of invariance, of hair at rest too.
+std::span<const Check> invarianceChecks();
+
+// The solvers, and those of their methods that promise more: `shape with energy`, `rod with
+// generalized_alpha`.
+std::vector<CheckedSolver> withVariants(std::span<const CheckedSolver> solvers);
+
+// The order p of errors c^p - finest^p at two values of the coarseness c. Absent if there is none
+// between 0.001 and 8.
+std::optional<double> observedOrder(
+    const std::array<double, 2>& coarseness, const std::array<double, 2>& errors, double finest);
+
+// Tables in Markdown, of these checks' differences: one for each varied parameter, a line for each
+// solver at rest and in motion.
+std::string invarianceTables(const PhysicsReport& report);
+
+// Error of two motions against references of the same physics, and time of a strand on the device,
+// with each of these numbers of substeps of 1/60 s and of iterations: a curve for each motion.
+void checkWorkPrecision(
+    const engine::Device&, const CheckedSolver&, std::span<const std::uint32_t> substeps,
+    std::span<const std::uint32_t> iterations, Findings&);
+std::span<const Check> workChecks();
+
+// Adds the cheapest solver of the report for each motion and errors of 1, 5 and 20 % of the length.
+void recommendSolvers(PhysicsReport& report);
+
+// Tables in Markdown: each solver's least error, and its least time for these errors with its
+// substeps and iterations.
+std::string workTables(const PhysicsReport& report);
 
 }  // namespace benchmarks::physics

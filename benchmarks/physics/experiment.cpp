@@ -214,6 +214,7 @@ hair::SimulationSettings defaultHair(const CheckedSolver& solver) {
     settings.solver_file = solver.file;
     settings.solver_parameters = solver.parameters;
     settings.gravity = {0.0f, static_cast<float>(-kGravity), 0.0f};
+    if (solver.adjust != nullptr) solver.adjust(settings);
     return settings;
 }
 
@@ -232,6 +233,17 @@ hair::SimulationSettings chain(const CheckedSolver& solver, double length) {
     const double softer = gammaOf(settings.material, length) / kChainGamma;
     settings.material.youngs_modulus *= static_cast<float>(softer);
     settings.material.shear_modulus *= static_cast<float>(softer);
+    return settings;
+}
+
+// K = EI / (lambda l^4). hair/simulation/stiffness.h has it as -4 * 10 ln(1 - k) / (2 h0^2) at
+// segments of l0.
+hair::SimulationSettings withEnergy(hair::SimulationSettings settings) {
+    const double square = std::pow(hair::simulation::kReferenceStep, 2.0);
+    const double stiffness = bendingStiffness(settings.material) / lineDensity(settings.material) /
+                             std::pow(hair::simulation::kReferenceSegment, 4.0);
+    settings.local.method = hair::LocalMethod::energy;
+    settings.local.stiffness = static_cast<float>(-std::expm1(-square * stiffness / 20.0));
     return settings;
 }
 
@@ -297,35 +309,30 @@ namespace {
 
 // ---- Release from the horizontal ----------------------------------------------------------------
 
-constexpr int kSamples = 60;
-constexpr double kInterval = 1.0 / 30.0;  // s
 constexpr std::uint32_t kPoints = 8;
 
 // Tolerance, as a fraction of a step, for an integer number of steps: the step's length is rounded.
 constexpr double kNoFraction = 1e-3;
 
-std::vector<glm::dvec3> every(const std::vector<glm::dvec3>& points, std::uint32_t stride) {
+}  // namespace
+
+std::vector<glm::dvec3> eighthsOf(std::span<const glm::dvec3> points) {
     std::vector<glm::dvec3> some;
-    for (std::size_t i = 0; i < points.size(); i += stride) some.push_back(points[i]);
+    for (std::size_t i = 0; i < points.size(); i += points.size() / kPoints)
+        some.push_back(points[i]);
     return some;
 }
 
-}  // namespace
-
-Trajectory playRelease(
-    const engine::Device& device, const hair::SimulationSettings& settings,
-    std::uint32_t segments) {
-    Experiment experiment(
-        device, straightStrand(segments, kTrajectoryLength, {1.0, 0.0, 0.0}), settings);
+Trajectory sampleTrajectory(Experiment& experiment) {
     Trajectory trajectory;
     std::uint32_t step = 0;
     const auto goTo = [&](std::uint32_t target) {
         experiment.advance(target - step);
         step = target;
-        return every(experiment.positions(), segments / kPoints);
+        return eighthsOf(experiment.positions());
     };
-    for (int i = 1; i <= kSamples; ++i) {
-        const double steps = i * kInterval / experiment.timeStep();
+    for (int i = 1; i <= kTrajectorySamples; ++i) {
+        const double steps = i * kTrajectoryInterval / experiment.timeStep();
         const auto whole = static_cast<std::uint32_t>(steps + kNoFraction);
         std::vector<glm::dvec3> sample = goTo(whole);
         const double fraction = steps - whole;
@@ -337,6 +344,23 @@ Trajectory playRelease(
         trajectory.push_back(std::move(sample));
     }
     return trajectory;
+}
+
+Trajectory playRelease(
+    const engine::Device& device, const hair::SimulationSettings& settings,
+    std::uint32_t segments) {
+    Experiment experiment(
+        device, straightStrand(segments, kTrajectoryLength, {1.0, 0.0, 0.0}), settings);
+    return sampleTrajectory(experiment);
+}
+
+Trajectory restTrajectory(
+    const engine::Device& device, const hair::SimulationSettings& settings, std::uint32_t segments,
+    double seconds) {
+    Experiment experiment(
+        device, straightStrand(segments, kTrajectoryLength, {0.0, -1.0, 0.0}), settings);
+    experiment.settle(1e-7, seconds);
+    return {eighthsOf(experiment.positions())};
 }
 
 double differenceOf(const Trajectory& a, const Trajectory& b) {

@@ -30,6 +30,8 @@ struct CheckedSolver {
 
     hair::Solver solver;
     std::string file;  // empty: one of the program's
+    std::string variant;  // behind its name: settings other than the defaults
+    void (*adjust)(hair::SimulationSettings&) = nullptr;  // makes these settings; null: none
     hair::ExtensionParameters parameters;
 };
 
@@ -113,6 +115,10 @@ hair::SimulationSettings freeHair(const CheckedSolver& solver);
 // once.
 hair::SimulationSettings chain(const CheckedSolver& solver, double length);
 
+// The hair with the energy method for the local constraint of `shape`. The stiffness is that of the
+// material, so that theory predicts the same rest as for rods.
+hair::SimulationSettings withEnergy(hair::SimulationSettings settings);
+
 // Friction that reduces the velocity to exp(-rate) in 1 s. `rate` in 1/s.
 float frictionOf(double rate);
 
@@ -149,6 +155,20 @@ using Trajectory = std::vector<std::vector<glm::dvec3>>;
 // interpolated linearly between them. `segments` is a multiple of 8.
 Trajectory playRelease(
     const engine::Device& device, const hair::SimulationSettings& settings, std::uint32_t segments);
+
+inline constexpr int kTrajectorySamples = 60;
+inline constexpr double kTrajectoryInterval = 1.0 / 30.0;  // s
+
+// Points at eighths of a strand whose number of segments is a multiple of 8.
+std::vector<glm::dvec3> eighthsOf(std::span<const glm::dvec3> points);
+
+// The same samples of a strand that is already in motion.
+Trajectory sampleTrajectory(Experiment& experiment);
+
+// The strand hangs until it is at rest, at most this long: one sample.
+Trajectory restTrajectory(
+    const engine::Device& device, const hair::SimulationSettings& settings, std::uint32_t segments,
+    double seconds);
 
 // Greatest distance of a point at any time, relative to the strand's length.
 double differenceOf(const Trajectory& a, const Trajectory& b);

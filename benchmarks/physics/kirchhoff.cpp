@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <utility>
 
 #include <glm/ext/quaternion_double.hpp>
 #include <glm/geometric.hpp>
@@ -361,6 +362,285 @@ std::optional<PressedRod> pressedRod(double force_ratio) {
         .pressure = forces.y,
         .shear = std::abs(forces.x),
         .middle = {std::abs(middle[2]), middle[3]}};
+}
+
+namespace {
+
+// ---- A rod of segments in its plane -------------------------------------------------------------
+
+// A square matrix, row by row.
+class Dense {
+public:
+    explicit Dense(std::size_t size) : size_(size), entries_(size * size, 0.0) {}
+
+    std::size_t size() const { return size_; }
+    double& operator()(std::size_t row, std::size_t column) {
+        return entries_[row * size_ + column];
+    }
+    double operator()(std::size_t row, std::size_t column) const {
+        return entries_[row * size_ + column];
+    }
+    std::vector<double>& entries() { return entries_; }
+
+private:
+    std::size_t size_;
+    std::vector<double> entries_;
+};
+
+Dense operator*(const Dense& a, const Dense& b) {
+    Dense product(a.size());
+    for (std::size_t i = 0; i < a.size(); ++i)
+        for (std::size_t k = 0; k < a.size(); ++k) {
+            const double factor = a(i, k);
+            for (std::size_t j = 0; j < a.size(); ++j) product(i, j) += factor * b(k, j);
+        }
+    return product;
+}
+
+// Scales the matrix to the norm 1 and returns its norm (of Frobenius).
+double normalise(Dense& matrix) {
+    double squares = 0.0;
+    for (const double entry : matrix.entries()) squares += entry * entry;
+    const double norm = std::sqrt(squares);
+    for (double& entry : matrix.entries()) entry /= norm;
+    return norm;
+}
+
+// Gauss's elimination with row pivots: the columns become the solutions of matrix * x = column.
+void solve(Dense matrix, std::vector<std::vector<double>>& columns) {
+    const std::size_t size = matrix.size();
+    for (std::size_t i = 0; i < size; ++i) {
+        std::size_t pivot = i;
+        for (std::size_t row = i + 1; row < size; ++row)
+            if (std::abs(matrix(row, i)) > std::abs(matrix(pivot, i))) pivot = row;
+        for (std::size_t j = 0; j < size; ++j) std::swap(matrix(i, j), matrix(pivot, j));
+        for (auto& column : columns) std::swap(column[i], column[pivot]);
+        for (std::size_t row = i + 1; row < size; ++row) {
+            const double factor = matrix(row, i) / matrix(i, i);
+            for (std::size_t j = i; j < size; ++j) matrix(row, j) -= factor * matrix(i, j);
+            for (auto& column : columns) column[row] -= factor * column[i];
+        }
+    }
+    for (auto& column : columns)
+        for (std::size_t i = size; i-- > 0;) {
+            for (std::size_t j = i + 1; j < size; ++j) column[i] -= matrix(i, j) * column[j];
+            column[i] /= matrix(i, i);
+        }
+}
+
+glm::dvec2 tangentAt(double angle) { return {std::sin(angle), -std::cos(angle)}; }
+glm::dvec2 normalAt(double angle) { return {std::cos(angle), std::sin(angle)}; }
+
+// Where the air presses on a segment, as parts of its length, each on half of it: where its mass
+// is. In its middle alone, a zigzag would not be damped.
+constexpr double kPressed[] = {0.0, 1.0};
+
+// The generalised force on each angle, N m, at these rates, 1/s.
+std::vector<double>
+planarForce(const PlanarRod& rod, std::span<const double> angles, std::span<const double> rates) {
+    const std::size_t count = angles.size();
+    const double segment = rod.length / static_cast<double>(count);
+    std::vector<double> force(count);
+    std::vector<glm::dvec2> loads;  // on vertices and on whole segments, N
+    glm::dvec2 point = rod.root;
+    glm::dvec2 velocity(0.0);
+    for (std::size_t i = 0; i < count; ++i) {
+        const glm::dvec2 normal = normalAt(angles[i]);
+        const double turning = segment * rates[i];
+        double pressure = 0.0;
+        if (rod.pressure)
+            for (const double part : kPressed) {
+                const double across = glm::dot(rod.wind - velocity, normal) - part * turning;
+                const double half = 0.5 * segment * rod.pressure(across);
+                pressure += half;
+                force[i] += segment * (part - 1.0) * half;  // of the whole, which is added below
+            }
+        point += segment * tangentAt(angles[i]);
+        velocity += turning * normal;
+        loads.push_back(rod.masses[i] * rod.field(point) + pressure * normal);
+    }
+    glm::dvec2 below(0.0);
+    for (std::size_t i = count; i-- > 0;) {
+        below += loads[i];
+        force[i] += segment * glm::dot(normalAt(angles[i]), below);
+        const double natural = rod.turn / static_cast<double>(count);
+        const double above = i == 0 ? 2.0 * (angles[0] - rod.clamp - natural / 2.0)
+                                    : angles[i] - angles[i - 1] - natural;
+        const double next = i + 1 < count ? angles[i + 1] - angles[i] - natural : 0.0;
+        force[i] += rod.stiffness / segment * (next - above);
+    }
+    return force;
+}
+
+// The derivatives of the generalised force, [angle] -> change of all forces, by central
+// differences.
+std::vector<std::vector<double>>
+forceSlopes(const PlanarRod& rod, std::span<const double> angles, bool by_rates) {
+    constexpr double kStep = 1e-5;
+    std::vector<std::vector<double>> slopes;
+    std::vector<double> at(angles.begin(), angles.end());
+    std::vector<double> rates(at.size(), 0.0);
+    std::vector<double>& varied = by_rates ? rates : at;
+    for (std::size_t i = 0; i < at.size(); ++i) {
+        const double middle = varied[i];
+        varied[i] = middle + kStep;
+        std::vector<double> slope = planarForce(rod, at, rates);
+        varied[i] = middle - kStep;
+        const std::vector<double> less = planarForce(rod, at, rates);
+        varied[i] = middle;
+        for (std::size_t j = 0; j < slope.size(); ++j)
+            slope[j] = (slope[j] - less[j]) / (2.0 * kStep);
+        slopes.push_back(std::move(slope));
+    }
+    return slopes;
+}
+
+// l^2 times the mass below both segments.
+Dense levers(const PlanarRod& rod) {
+    const std::size_t count = rod.masses.size();
+    const double square = std::pow(rod.length / static_cast<double>(count), 2.0);
+    Dense lever(count);
+    double below = 0.0;
+    for (std::size_t i = count; i-- > 0;) {
+        below += square * rod.masses[i];
+        for (std::size_t k = 0; k <= i; ++k) lever(i, k) = lever(k, i) = below;
+    }
+    return lever;
+}
+
+Dense massMatrix(const Dense& lever, std::span<const double> angles) {
+    Dense mass(angles.size());
+    for (std::size_t i = 0; i < angles.size(); ++i)
+        for (std::size_t k = 0; k < angles.size(); ++k)
+            mass(i, k) = lever(i, k) * std::cos(angles[i] - angles[k]);
+    return mass;
+}
+
+// The angles' second derivatives by time, 1/s^2.
+std::vector<double> planarAcceleration(
+    const PlanarRod& rod, std::span<const double> angles, std::span<const double> rates) {
+    const Dense lever = levers(rod);
+    std::vector<std::vector<double>> columns{planarForce(rod, angles, rates)};
+    for (std::size_t i = 0; i < angles.size(); ++i)
+        for (std::size_t k = 0; k < angles.size(); ++k)
+            columns[0][i] += lever(i, k) * std::sin(angles[k] - angles[i]) * rates[k] * rates[k];
+    solve(massMatrix(lever, angles), columns);
+    return std::move(columns[0]);
+}
+
+}  // namespace
+
+PlanarRod
+planarHair(const hair::SimulationSettings& settings, std::size_t segments, double length) {
+    const glm::dvec2 gravity(glm::dvec3(settings.gravity));
+    PlanarRod rod{
+        .stiffness = bendingStiffness(settings.material),
+        .length = length,
+        .clamp = 0.0,
+        .masses = std::vector<double>(
+            segments, lineDensity(settings.material) * length / static_cast<double>(segments)),
+        .field = [gravity](const glm::dvec2&) { return gravity; }};
+    rod.masses.back() /= 2.0;
+    if (settings.wind.mode != hair::WindMode::drag) return rod;
+    rod.wind = {double{settings.wind.speed}, 0.0};
+    rod.pressure = [settings](double across) {
+        return std::copysign(dragPerLength(settings, std::abs(across)), across);
+    };
+    return rod;
+}
+
+std::vector<glm::dvec2> planarPoints(const PlanarRod& rod, std::span<const double> angles) {
+    std::vector<glm::dvec2> points{rod.root};
+    for (const double angle : angles)
+        points.push_back(
+            points.back() + rod.length / static_cast<double>(angles.size()) * tangentAt(angle));
+    return points;
+}
+
+std::optional<std::vector<double>> planarRest(const PlanarRod& rod, std::vector<double> angles) {
+    constexpr double kMost = 0.3;  // rad in a step
+    const std::vector<double> still(angles.size(), 0.0);
+    for (int i = 0; i < 100; ++i) {
+        const auto slopes = forceSlopes(rod, angles, false);
+        Dense matrix(angles.size());
+        for (std::size_t column = 0; column < angles.size(); ++column)
+            for (std::size_t row = 0; row < angles.size(); ++row)
+                matrix(row, column) = -slopes[column][row];
+        std::vector<std::vector<double>> change{planarForce(rod, angles, still)};
+        solve(std::move(matrix), change);
+        double greatest = 0.0;
+        for (const double each : change[0]) greatest = worst(greatest, std::abs(each));
+        if (!std::isfinite(greatest)) return {};
+        const double scale = kMost / std::max(greatest, kMost);
+        for (std::size_t j = 0; j < angles.size(); ++j) angles[j] += scale * change[0][j];
+        if (greatest < 1e-9) return angles;
+    }
+    return {};
+}
+
+double planarGrowth(const PlanarRod& rod, std::span<const double> rest) {
+    // M a'' = K a + C a'. In units of the fastest rate, the matrix has entries of similar size.
+    const std::size_t count = rest.size();
+    const Dense mass = massMatrix(levers(rod), rest);
+    std::vector<std::vector<double>> by_angles = forceSlopes(rod, rest, false);
+    std::vector<std::vector<double>> by_rates = forceSlopes(rod, rest, true);
+    solve(mass, by_angles);
+    solve(mass, by_rates);
+    double greatest = 0.0;
+    for (const auto& column : by_angles)
+        for (const double entry : column) greatest = std::max(greatest, std::abs(entry));
+    const double unit = std::sqrt(greatest);
+    Dense small(2 * count);  // A times a short time
+    const double time = 0.1 / (unit * static_cast<double>(count));
+    for (std::size_t i = 0; i < count; ++i) {
+        small(i, count + i) = time * unit;
+        for (std::size_t j = 0; j < count; ++j) {
+            small(count + i, j) = time * by_angles[j][i] / unit;
+            small(count + i, count + j) = time * by_rates[j][i];
+        }
+    }
+    // exp of the short time by its series, whose terms fall by 0.2 and more.
+    Dense power(2 * count);
+    Dense term(2 * count);
+    for (std::size_t i = 0; i < 2 * count; ++i) power(i, i) = term(i, i) = 1.0;
+    for (int i = 1; i <= 16; ++i) {
+        term = term * small;
+        for (double& entry : term.entries()) entry /= i;
+        for (std::size_t j = 0; j < power.entries().size(); ++j)
+            power.entries()[j] += term.entries()[j];
+    }
+    // ln |exp(A t)| at t, 2 t, 4 t ... up to some 1,000 s.
+    double logarithm = std::log(normalise(power));
+    double span = time;
+    double before = 0.0;
+    while (span < 1000.0) {
+        before = logarithm;
+        power = power * power;
+        logarithm = 2.0 * logarithm + std::log(normalise(power));
+        span *= 2.0;
+    }
+    return (logarithm - before) / (span / 2.0);
+}
+
+void advancePlanar(
+    const PlanarRod& rod, std::vector<double>& angles, std::vector<double>& rates, double step) {
+    const auto moved = [](const std::vector<double>& from, double by,
+                          const std::vector<double>& along) {
+        std::vector<double> to = from;
+        for (std::size_t i = 0; i < to.size(); ++i) to[i] += by * along[i];
+        return to;
+    };
+    const auto a1 = planarAcceleration(rod, angles, rates);
+    const auto r2 = moved(rates, step / 2.0, a1);
+    const auto a2 = planarAcceleration(rod, moved(angles, step / 2.0, rates), r2);
+    const auto r3 = moved(rates, step / 2.0, a2);
+    const auto a3 = planarAcceleration(rod, moved(angles, step / 2.0, r2), r3);
+    const auto r4 = moved(rates, step, a3);
+    const auto a4 = planarAcceleration(rod, moved(angles, step, r3), r4);
+    for (std::size_t i = 0; i < angles.size(); ++i) {
+        angles[i] += step / 6.0 * (rates[i] + 2.0 * r2[i] + 2.0 * r3[i] + r4[i]);
+        rates[i] += step / 6.0 * (a1[i] + 2.0 * a2[i] + 2.0 * a3[i] + a4[i]);
+    }
 }
 
 }  // namespace benchmarks::physics

@@ -1,14 +1,18 @@
 #pragma once
 
+#include <cstddef>
+#include <functional>
 #include <optional>
+#include <span>
+#include <vector>
 
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 
 #include "hair/settings.h"
 
-// Equilibria of Kirchhoff's inextensible rods, and their limits: shooting from the tip, in double
-// precision.
+// Equilibria of Kirchhoff's inextensible rods, and their limits: shooting from the tip, or rods of
+// many short segments, in double precision.
 namespace benchmarks::physics {
 
 // Stiffness of a cross-section, N m^2.
@@ -75,5 +79,46 @@ struct PressedRod {
 // tan sqrt(P) = sqrt(P)). Absent if Q / P does not reach the value before the rod itself touches
 // the ground.
 std::optional<PressedRod> pressedRod(double force_ratio);
+
+// A clamped rod of equal, rigid segments with elastic joints, which moves in the x-y plane. The
+// unknowns are the angles of its segments from -y towards +x, so its length never changes:
+//   sum_k M_ik a''_k = Q_i + sum_k l^2 mu_ik sin(a_k - a_i) a'_k^2,   M_ik = l^2 mu_ik cos(a_i -
+//   a_k)
+// mu_ik is the mass below both segments, l a segment's length, and Q_i the generalised force: the
+// joints' moments EI / l times their bend (twice that at the clamp), the field on the masses, and
+// the air's pressure along each segment, normal to it. With the masses of a continuous
+// rod (half of a segment's at the tip), its error falls with the square of l.
+struct PlanarRod {
+    double stiffness;  // EI, N m^2; 0: a chain
+    double length;  // m
+    double clamp;  // rad
+    double turn = 0.0;  // natural curvature times length, towards a growing angle, rad
+    glm::dvec2 root{0.0};  // m
+    std::vector<double> masses;  // [segment], of the vertex at its lower end, kg
+    // Acceleration of a mass at a position (x, y), m/s^2.
+    std::function<glm::dvec2(const glm::dvec2&)> field;
+    glm::dvec2 wind{0.0};  // velocity of the air, m/s
+    // Force per length, N/m, of a flow across the rod, m/s; an odd function. Empty: no air.
+    std::function<double(double)> pressure{};
+};
+
+// A hair of the settings' material that hangs from a clamp at the origin under their weight, in
+// their air if its mode is `drag`. Its rest shape is straight. m
+PlanarRod planarHair(const hair::SimulationSettings& settings, std::size_t segments, double length);
+
+// Vertices at these angles, from the root on, m.
+std::vector<glm::dvec2> planarPoints(const PlanarRod& rod, std::span<const double> angles);
+
+// The angles at rest near these, by Newton's method. Absent if there are none.
+std::optional<std::vector<double>> planarRest(const PlanarRod& rod, std::vector<double> angles);
+
+// The growth rate of small motions about a state at rest, 1/s: the greatest real part of the
+// eigenvalues. Positive: the state is unstable in its plane. It is the limit of ln |exp(A t)| / t
+// of the linear equations y' = A y, which repeated squaring finds without eigenvalues.
+double planarGrowth(const PlanarRod& rod, std::span<const double> rest);
+
+// Advances a moving rod by Runge and Kutta's method of fourth order.
+void advancePlanar(
+    const PlanarRod& rod, std::vector<double>& angles, std::vector<double>& rates, double step);
 
 }  // namespace benchmarks::physics

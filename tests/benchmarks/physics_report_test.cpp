@@ -131,5 +131,49 @@ TEST(PhysicsTable, HasALinePerOutcomeAndCountsThem) {
     EXPECT_THAT(table, HasSubstr("2 pass, 1 fail, 1 reported, 1 skipped\n"));
 }
 
+// Errors c^p - finest^p, by hand: p = 2 has (16 - 1) / (4 - 1) = 5, p = 1 has (4 - 1) / (2 - 1)
+// = 3.
+TEST(Invariance, FindsTheOrderOfErrors) {
+    EXPECT_NEAR(observedOrder({4.0, 2.0}, {15.0, 3.0}, 1.0).value_or(0.0), 2.0, 1e-9);
+    EXPECT_NEAR(observedOrder({4.0, 2.0}, {3.0, 1.0}, 1.0).value_or(0.0), 1.0, 1e-9);
+    EXPECT_FALSE(observedOrder({4.0, 2.0}, {1.0, 1.0}, 1.0));
+    EXPECT_FALSE(observedOrder({4.0, 2.0}, {kNan, 1.0}, 1.0));
+}
+
+TEST(Invariance, HasALineForEachSolverAtRestAndInMotion) {
+    Findings findings("step_invariance", hair::Solver::rod);
+    findings.deviation(
+        {"at rest, difference from the finest / length",
+         "1",
+         {{"time_step", 0.04, "s"}, {"finest time_step", 0.01, "s"}}},
+        0.003, 0.01);
+    findings.curve(
+        "at rest, difference from the finest", {{"time_step", "s"}, {"difference / length", "1"}},
+        {{0.04, 0.003}, {0.02, 0.001}});
+    const std::string tables =
+        invarianceTables({.outcomes = findings.outcomes(), .curves = findings.curves()});
+    EXPECT_THAT(tables, HasSubstr("| time_step | 1/25 | 1/50 | order | promise |"));
+    EXPECT_THAT(tables, HasSubstr("| rod, at rest | 0.00300 | 0.00100 | 1 | 1.0 %: pass |"));
+}
+
+TEST(WorkPrecision, RecommendsTheCheapestForAnError) {
+    const std::vector<Series> columns{
+        {"substeps", "count"}, {"iterations", "count"}, {"error", "1"}, {"time", "us"}};
+    Findings dear("work_precision", hair::Solver::rod);
+    dear.curve(
+        "hair", columns, {{1.0, 2.0, 0.3, 1.0}, {8.0, 2.0, 0.04, 8.0}, {9.0, 2.0, 0.04, 9.0}});
+    Findings cheap("work_precision", hair::Solver::ftl);
+    cheap.curve("hair", columns, {{1.0, 0.0, 0.15, 0.5}});
+    PhysicsReport report;
+    report.curves = {dear.curves()[0], cheap.curves()[0]};
+    recommendSolvers(report);
+    ASSERT_EQ(report.outcomes.size(), 2u);  // nothing reaches 1 %
+    EXPECT_EQ(report.outcomes[0].solver, "rod");
+    EXPECT_EQ(report.outcomes[0].measured, 8.0);
+    EXPECT_EQ(report.outcomes[1].solver, "ftl");
+    EXPECT_EQ(report.outcomes[1].quantity.parameters[0].value, 0.2);
+    EXPECT_THAT(workTables(report), HasSubstr("| rod | 4.0 % |  | 8.00 (8 x 2) | 8.00 (8 x 2) |"));
+}
+
 }  // namespace
 }  // namespace benchmarks::physics

@@ -1,5 +1,6 @@
 #include <cmath>
 #include <numeric>
+#include <tuple>
 
 #include <gmock/gmock.h>
 
@@ -270,6 +271,91 @@ TEST(PhysicsTheory, APressedRodBeginsAsEulersColumn) {
     // Under more compression, the rod lies on the ground beside its tip.
     EXPECT_TRUE(pressedRod(0.3));
     EXPECT_FALSE(pressedRod(0.6));
+}
+
+// The same rods by shooting. Segments of length l are off by a part of the order of (l / L)^2,
+// 2e-4.
+TEST(PhysicsTheory, ARodOfSegmentsRestsAsByShooting) {
+    hair::SimulationSettings settings = freeHair(hair::Solver::rod);
+    PlanarRod level = planarHair(settings, 64, lengthOf(settings.material, 10.0));
+    level.clamp = kPi / 2.0;
+    const auto sagged = planarRest(level, std::vector<double>(64, kPi / 2.0));
+    ASSERT_TRUE(sagged);
+    const glm::dvec2 end = planarPoints(level, *sagged).back();
+    EXPECT_NEAR(-end.y / end.x / cantileverRatio(10.0), 1.0, 1e-3);
+    level.turn = -0.5;
+    const auto curled = planarRest(level, *sagged);
+    ASSERT_TRUE(curled);
+    const glm::dvec2 lower = planarPoints(level, *curled).back();
+    EXPECT_NEAR(-lower.y / lower.x / cantileverRatio(10.0, 0.5), 1.0, 1e-3);
+
+    settings.wind.mode = hair::WindMode::drag;
+    settings.wind.speed = 2.0f;
+    const PlanarRod hair = planarHair(settings, 64, 0.1);
+    const auto rest = planarRest(hair, std::vector<double>(64, 0.5));
+    ASSERT_TRUE(rest);
+    EXPECT_LT(
+        glm::distance(planarPoints(hair, *rest).back(), draggedTip(settings, 2.0, 0.1)),
+        1e-3 * 0.1);
+}
+
+// A standing rod falls over where Greenhill's column does, w L^3 / EI = 7.837; below, it swings
+// without growth. In air with the pressure c u all its modes lose c / 2 lambda per second.
+TEST(PhysicsTheory, ARodOfSegmentsGrowsAndDecaysAsTheoryHasIt) {
+    const hair::SimulationSettings settings = freeHair(hair::Solver::rod);
+    PlanarRod rod{};
+    for (const double gamma : {7.7, 8.0}) {
+        rod = planarHair(settings, 32, lengthOf(settings.material, gamma));
+        rod.clamp = kPi;
+        const double growth = planarGrowth(rod, std::vector<double>(32, kPi));
+        if (gamma < 7.837)
+            EXPECT_LT(growth, 0.01);
+        else
+            EXPECT_GT(growth, 0.1);
+    }
+    rod.clamp = 0.0;
+    const double pressure = 1e-4;  // N s / m^2
+    for (const double sign : {1.0, -1.0}) {
+        rod.pressure = [&](double across) { return sign * pressure * across; };
+        EXPECT_NEAR(
+            planarGrowth(rod, std::vector<double>(32, 0.0)),
+            -sign * pressure / (2.0 * lineDensity(settings.material)), 0.1);
+    }
+}
+
+// A pendulum released at 90 degrees: T = 4 sqrt(l / g) K(sin 45), with K by the arithmetic and
+// geometric mean of 1 and cos 45. Three masses keep their energy.
+TEST(PhysicsTheory, AChainOfSegmentsSwingsFar) {
+    PlanarRod chain{
+        .stiffness = 0.0, .length = 0.2, .clamp = 0.0, .masses = {1.0}, .field = [](const auto&) {
+            return glm::dvec2(0.0, -9.81);
+        }};
+    std::vector<double> angles{kPi / 2.0};
+    std::vector<double> rates{0.0};
+    double mean = 1.0;
+    double other = std::cos(kPi / 4.0);
+    for (int i = 0; i < 6; ++i)
+        std::tie(mean, other) = std::pair((mean + other) / 2.0, std::sqrt(mean * other));
+    const double quarter = kPi / (2.0 * mean) * std::sqrt(0.2 / 9.81);
+    for (int i = 0; i < 1000; ++i) advancePlanar(chain, angles, rates, quarter / 1000.0);
+    EXPECT_NEAR(angles[0], 0.0, 1e-9);
+
+    chain.masses = {1.0, 2.0, 0.5};
+    angles = {1.5, 1.0, 2.0};
+    rates = {0.0, 0.0, 0.0};
+    const auto energy = [&] {
+        const auto points = planarPoints(chain, angles);
+        double sum = 0.0;
+        glm::dvec2 velocity(0.0);
+        for (std::size_t i = 0; i < 3; ++i) {
+            velocity += 0.2 / 3.0 * rates[i] * glm::dvec2(std::cos(angles[i]), std::sin(angles[i]));
+            sum += chain.masses[i] * (0.5 * glm::dot(velocity, velocity) + 9.81 * points[i + 1].y);
+        }
+        return sum;
+    };
+    const double before = energy();
+    for (int i = 0; i < 2000; ++i) advancePlanar(chain, angles, rates, 5e-4);
+    EXPECT_NEAR(energy(), before, 1e-6);
 }
 
 // Two steps by hand: x1 = v h + a h^2, x2 = 2 x1 - x0 + a h^2.

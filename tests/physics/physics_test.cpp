@@ -132,6 +132,45 @@ TEST_F(Physics, RodRestsInWindLikeAnElastica) {
     expectPass(findings);
 }
 
+// The elastica of 7 cm is stable at both speeds, that of 15 cm flutters at 6 m/s.
+TEST_F(Physics, RodRestsAndFluttersWhereTheElasticaDoes) {
+    Findings findings("steady_drag", hair::Solver::rod);
+    checkSteadyDrag(
+        device(), hair::Solver::rod, std::array{2.5, 6.0}, std::array{0.07, 0.15}, findings);
+    expectPass(findings);
+    EXPECT_EQ(findings.outcomes().back().quantity.name, "swing of hair that flutters / length");
+}
+
+TEST_F(Physics, RodSagsWithItsCurlAsKirchhoffs) {
+    Findings findings("curled_cantilever", hair::Solver::rod);
+    checkCurledCantilever(device(), hair::Solver::rod, findings);
+    expectPass(findings);
+}
+
+TEST_F(Physics, RodHangsFromATurningHeadAsKirchhoffs) {
+    Findings findings("turning_head", hair::Solver::rod);
+    checkTurningHead(device(), hair::Solver::rod, findings);
+    expectPass(findings);
+}
+
+TEST_F(Physics, RodSwingsFarAsAChainOfLinks) {
+    Findings findings("large_swing", hair::Solver::rod);
+    checkLargeSwing(device(), hair::Solver::rod, findings);
+    expectPass(findings);
+}
+
+// The least work: errors fall with the substep, and the cheapest solver of an error is named.
+TEST_F(Physics, WorkAndPrecisionOfARod) {
+    Findings findings("work_precision", hair::Solver::rod);
+    checkWorkPrecision(device(), hair::Solver::rod, std::array{2u, 8u}, std::array{2u}, findings);
+    ASSERT_EQ(findings.curves().size(), 2u);
+    for (const Curve& curve : findings.curves()) {
+        ASSERT_EQ(curve.rows.size(), 2u);
+        EXPECT_GT(curve.rows[0][2], curve.rows[1][2]) << curve.name;
+        EXPECT_GT(curve.rows[1][3], 0.0);
+    }
+}
+
 TEST_P(EverySolver, IsBorneByAirAtTheTerminalSpeed) {
     Findings findings("terminal_speed", solver());
     checkTerminalSpeed(device(), solver(), findings);
