@@ -67,7 +67,7 @@ SKIN_DETAIL = [
     ((.0250, -.0280, .072), .010, .0009), ((.0400, -.0265, .068), .009, .0009),
     ((.0330, -.0060, .073), .014, .0020), ((.0060, -.0620, .092), .010, .0013),
     ((.0060, -.0905, .090), .009, .0011), ((.0180, -.0905, .079), .007, .0011),
-    ((.0100, -.0900, .072), .012, .0022),
+    ((.0100, -.0900, .072), .012, .0014),
     ((.0830, -.0270, -.017), .024, .0015),
 ]
 SEAM = 0.0025  # between the hairline and the sculpture's skin (m)
@@ -266,11 +266,11 @@ NOSE = [
     (union, capsule, ((.0065, -.030, .0690), (.0115, -.060, .0795), .0050,
                       .0065), .012),
     (union, sphere, ((0, -.0560, .0967), .0079), .011),
-    (union, capsule, ((0, -.0600, .0945), (0, -.0655, .0838), .0040, .0030),
-     .008),
+    (union, capsule, ((0, -.0585, .0945), (0, -.0615, .0830), .0046, .0042),
+     .010),
     (union, turned, ((.0116, -.0605, .0855), (.0054, .0064, .0092),
                      rotation(1, 22)), .0060),
-    (cut, turned, ((.0066, -.0672, .0882), (.0026, .0040, .0052),
+    (cut, turned, ((.0074, -.0672, .0895), (.0027, .0040, .0052),
                    rotation(1, 25)), .0025),
 ]
 LIP_FORMS = [
@@ -753,6 +753,9 @@ def check(points, skin, scalp):
     normals = np.concatenate([normals_at(centre[:len(skin)], sculpture_sdf),
                               normals_at(centre[len(skin):], plain_sdf)])
     outward = (unit(cross) * normals).sum(axis=1)
+    # The slot of the mouth is thinner than its triangles are long.
+    outward[np.r_[mouth(centre[:len(skin)]) < .0015,
+                  np.zeros(len(scalp), bool)]] = 1.0
     assert (a * cross).sum() > 0 and outward.min() > 0, "inward triangle"
     scalp_euler = len(np.unique(scalp)) - len(edges_of(scalp)[0]) + len(scalp)
     assert scalp_euler == 1 and boundary_loops(scalp) == 1, "not a disc"
@@ -810,7 +813,7 @@ BROW_HAIR = [(.0105, -.0098, -.0040), (.0150, -.0085, -.0020),
              (.0495, -.0118, -.0098)]
 # Shares of light of pigments that are put on the skin, in display RGB.
 BLOOD, SUN = (0.93, 0.72, 0.68), (0.90, 0.82, 0.72)
-LIP, DARK = (0.83, 0.55, 0.53), (0.30, 0.17, 0.15)
+LIP, DARK = (0.85, 0.59, 0.57), (0.30, 0.17, 0.15)
 HAIR, LASH = (0.40, 0.29, 0.22), (0.26, 0.18, 0.15)
 
 
@@ -842,7 +845,11 @@ def places_of_picture():
 
 
 def paint_skin():
-    """The picture: pale skin, with blood, sun, lips, lashes and brows."""
+    """The picture: factors of the skin's colour, a JPEG.
+
+    They are blood, sun, lips, lashes and brows; near the hairline they are 1,
+    for the scalp has no picture.
+    """
     random = np.random.default_rng(4)
     shape = SKIN_PICTURE[::-1]
     p = places_of_picture().reshape(-1, 3)
@@ -863,11 +870,12 @@ def paint_skin():
         field = gaussian_filter(random.normal(size=shape), size, mode="nearest")
         return (field / field.std()).ravel()
 
-    skin = np.tile(np.array(MATERIALS["skin"]), (len(p), 1))
+    skin = np.ones((len(p), 3))
+    below = smoothstep(.001, .018, -distance_to_hairline(p, .02))
 
     def put(share, pigment):
         nonlocal skin
-        share = np.clip(share, 0.0, 1.0)[:, None]
+        share = (below * np.clip(share, 0.0, 1.0))[:, None]
         skin = skin * (1.0 - share + share * np.array(pigment))
 
     uneven = noise(9.0)
@@ -921,7 +929,7 @@ def linear(value):
 def write_glb(path, points, normals, parts, picture):
     """Write one mesh with a primitive (and a material) per part.
 
-    The picture, a JPEG, has the colours of the part "skin".
+    The picture, a JPEG, has factors of the colour of the part "skin".
     """
     binary, views, accessors, primitives = b"", [], [], []
 
@@ -939,18 +947,24 @@ def write_glb(path, points, normals, parts, picture):
     for material, (name, faces) in enumerate(parts.items()):
         used, local = np.unique(faces, return_inverse=True)
         xyz, n = points[used].astype("<f4"), normals[used].astype("<f4")
-        chart = skin_coordinates if name == "skin" else texture_coordinates
-        uv = chart(points[used]).astype("<f4")
-        color = ({"baseColorTexture": {"index": 0}} if name == "skin" else
-                 {"baseColorFactor": [*map(linear, MATERIALS[name]), 1.0]})
+        if name == "skin":
+            shares = np.round(65535 * skin_coordinates(points[used]))
+            uv = accessor(np.clip(shares, 0, 65535).astype("<u2"), 5123, "VEC2",
+                          34962, normalized=True)
+        else:
+            uv = accessor(texture_coordinates(points[used]).astype("<f4"), 5126,
+                          "VEC2", 34962)
         materials.append({"name": name, "pbrMetallicRoughness": {
-            **color, "metallicFactor": 0.0, "roughnessFactor": 0.55}})
+            "baseColorFactor": [*map(linear, MATERIALS[name]), 1.0],
+            "metallicFactor": 0.0, "roughnessFactor": 0.55}})
+        if name == "skin":
+            materials[-1]["pbrMetallicRoughness"]["baseColorTexture"] = {"index": 0}
         primitives.append({"attributes": {
             "POSITION": accessor(xyz, 5126, "VEC3", 34962,
                                  min=xyz.min(axis=0).tolist(),
                                  max=xyz.max(axis=0).tolist()),
             "NORMAL": accessor(n, 5126, "VEC3", 34962),
-            "TEXCOORD_0": accessor(uv, 5126, "VEC2", 34962)},
+            "TEXCOORD_0": uv},
             "indices": accessor(local.astype("<u2").ravel(), 5123, "SCALAR",
                                 34963), "material": material})
     views.append({"buffer": 0, "byteOffset": len(binary),

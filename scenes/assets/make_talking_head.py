@@ -200,7 +200,7 @@ def main():
 
     def copied(number):
         source, data = data_of(number)
-        extra = {key: source[key] for key in ("min", "max") if key in source}
+        extra = {key: source[key] for key in ("min", "max", "normalized") if key in source}
         return writer.accessor(data, source["componentType"], source["type"], source["count"],
                                **extra)
 
