@@ -898,7 +898,7 @@ def paint_skin():
                        if operation is union))
     lip = smoothstep(.0011, .0002, lip) * smoothstep(.0250, .0215, x)
     put(lip * (.85 + .08 * noise(1.0)), LIP)
-    gap = np.abs(y - parting(x)) / .0009
+    gap = np.abs(y - parting(x)) / .0012
     put(.95 * np.exp(-gap ** 4) * front * smoothstep(.0240, .0215, x), DARK)
     nostril = NOSE[-1][2]
     put(smoothstep(.0008, -.0004, turned(p, *nostril)) * .8, DARK)

@@ -84,10 +84,10 @@ def fringe_lengths(size):
     direction = directions(size)
     azimuth = np.degrees(np.arctan2(np.abs(direction[:, 0]), direction[:, 2]))
     over = np.arctan2(direction[:, 1], direction[:, 2])  # 0 in front, up
-    down = 0.105 * (over - np.radians(19.0)) + 0.010
+    down = 0.105 * (over - np.radians(9.0)) + 0.020
     down = down * (0.90 + 0.14 * noise(direction, 26.0, 3)
                    + 0.07 * noise(direction, 60.0, 5))
-    aside = smoothstep(34.0, 64.0, azimuth)
+    aside = smoothstep(38.0, 66.0, azimuth)
     behind = smoothstep(78.0, 92.0, np.degrees(np.abs(over)))
     share = np.maximum(aside ** 1.5, behind)
     length = np.clip(down, 0.02, FRINGE_LENGTH) / FRINGE_LENGTH
