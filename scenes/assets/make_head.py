@@ -823,8 +823,11 @@ def skin_coordinates(points):
     Left and right share the picture, which therefore has no seam.
     """
     q = points - STAR
-    return np.stack([np.arctan2(np.abs(q[:, 0]), q[:, 2]) / np.pi,
-                     (SKIN_TOP - points[:, 1]) / SKIN_HEIGHT], axis=1)
+    # The walls of the mouth are as dark as the line between the lips.
+    hidden = (mouth(folded(points)) < .0006) & (points[:, 2] < .074)
+    u = np.where(hidden, 0.0, np.arctan2(np.abs(q[:, 0]), q[:, 2]) / np.pi)
+    y = np.where(hidden, parting(0.0), points[:, 1])
+    return np.stack([u, (SKIN_TOP - y) / SKIN_HEIGHT], axis=1)
 
 
 def places_of_picture():

@@ -43,8 +43,9 @@ def smoothstep(low, high, x):
 
 
 # Of the line between the lips, where make_head.py cuts its slot: x, y (m).
-PARTING = [(0.0, -0.0900), (0.0055, -0.0893), (0.0130, -0.0898), (0.0205, -0.0907),
-           (0.0245, -0.0912), (1.0, -0.0912)]
+PARTING = [(0.0, -0.0900), (0.0015, -0.08967), (0.0030, -0.08946), (0.0045, -0.08933),
+           (0.0060, -0.0893), (0.0075, -0.08932), (0.0090, -0.08941), (0.0105, -0.08953),
+           (0.0120, -0.08969), (0.0135, -0.08986), (0.0232, -0.09104), (1.0, -0.09104)]
 
 
 def parting(x):
@@ -59,7 +60,7 @@ def jaw_weight(x, y, z):
     """Return how much of a point of the head the jaw carries."""
     down = math.degrees(math.atan2(JAW[1] - y, z - JAW[2]))  # 0: forward, 90: down
     # Lips part at the slot between them, the cheeks stretch over many degrees.
-    side = smoothstep(0.019, 0.042, abs(x))
+    side = smoothstep(0.0215, 0.042, abs(x))
     reach = 0.0002 + 0.020 * side
     lips = smoothstep(-reach, reach + 0.016 * side, parting(x) - y)
     behind = smoothstep(26.0, 56.0, down)
