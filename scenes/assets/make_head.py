@@ -806,7 +806,7 @@ def texture_directions(coordinates):
 
 SKIN_PICTURE = 640, 1024  # px, across and down
 SKIN_TOP, SKIN_HEIGHT = 0.10, 0.40  # of the picture (m)
-# Of the brows' hair, outward: x, lower and upper edge y (m).
+# Outline of a brow's hair, outward: x, lower and upper edge y (m).
 BROW_HAIR = [(.0105, -.0098, -.0040), (.0150, -.0085, -.0020),
              (.0210, -.0064, -.0002), (.0290, -.0044, .0008),
              (.0370, -.0040, .0000), (.0440, -.0072, -.0042),

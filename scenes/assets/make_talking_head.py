@@ -42,7 +42,7 @@ def smoothstep(low, high, x):
     return t * t * (3 - 2 * t)
 
 
-# Of the line between the lips, where make_head.py cuts its slot: x, y (m).
+# Line between the lips, where make_head.py cuts its slot: x, y (m).
 PARTING = [(0.0, -0.0900), (0.0015, -0.08967), (0.0030, -0.08946), (0.0045, -0.08933),
            (0.0060, -0.0893), (0.0075, -0.08932), (0.0090, -0.08941), (0.0105, -0.08953),
            (0.0120, -0.08969), (0.0135, -0.08986), (0.0232, -0.09104), (1.0, -0.09104)]
