@@ -8,7 +8,8 @@ It writes two files next to this script (or into ``output_directory``):
 
 * ``head.glb``             binary glTF, one mesh with two primitives whose
                            materials are named ``skin`` and ``scalp``, with
-                           texture coordinates (see texture_coordinates())
+                           texture coordinates (see texture_coordinates() and
+                           skin_coordinates()) and a picture of the skin
 * ``head_colliders.json``  capsules that approximate the head for simulation
 
 Conventions: metres, +y up, the face looks toward +z, mirror symmetric about
@@ -27,6 +28,7 @@ scalp is star-shaped from that point.  The script is deterministic and asserts
 what hair code relies on.
 """
 import heapq
+import io
 import json
 import math
 import pathlib
@@ -35,7 +37,9 @@ import sys
 import typing
 
 import numpy as np
+from PIL import Image
 from scipy.interpolate import CubicSpline, PchipInterpolator
+from scipy.ndimage import gaussian_filter, zoom
 from scipy.spatial import cKDTree
 from skimage.measure import marching_cubes
 
@@ -63,6 +67,7 @@ SKIN_DETAIL = [
     ((.0250, -.0280, .072), .010, .0009), ((.0400, -.0265, .068), .009, .0009),
     ((.0330, -.0060, .073), .014, .0020), ((.0060, -.0620, .092), .010, .0013),
     ((.0060, -.0905, .090), .009, .0011), ((.0180, -.0905, .079), .007, .0011),
+    ((.0100, -.0900, .072), .012, .0014),
     ((.0830, -.0270, -.017), .024, .0015),
 ]
 SEAM = 0.0025  # between the hairline and the sculpture's skin (m)
@@ -261,11 +266,11 @@ NOSE = [
     (union, capsule, ((.0065, -.030, .0690), (.0115, -.060, .0795), .0050,
                       .0065), .012),
     (union, sphere, ((0, -.0560, .0967), .0079), .011),
-    (union, capsule, ((0, -.0590, .0955), (0, -.0675, .0855), .0042, .0050),
-     .006),
+    (union, capsule, ((0, -.0585, .0945), (0, -.0615, .0830), .0046, .0042),
+     .010),
     (union, turned, ((.0116, -.0605, .0855), (.0054, .0064, .0092),
                      rotation(1, 22)), .0060),
-    (cut, turned, ((.0064, -.0680, .0888), (.0026, .0038, .0052),
+    (cut, turned, ((.0074, -.0672, .0895), (.0027, .0040, .0052),
                    rotation(1, 25)), .0025),
 ]
 LIP_FORMS = [
@@ -291,6 +296,9 @@ LIPS = [
                   (.0245, -.0912, .0738)),
                  (.0010, .0010, .0010, .0009, .0006), 6, True), .003),
 ]
+MOUTH_WIDTH = .0232  # of a half (m)
+PARTING = CubicSpline((0, .0055, .0130, .0205, .0245),
+                      (-.0900, -.0893, -.0898, -.0907, -.0912))
 
 
 def apply_rows(d, p, rows):
@@ -363,12 +371,31 @@ def add_ear(d, p):
                               (.0044, .0056, .0042)), .0035)
 
 
+def parting(x):
+    """Height y of the line between the lips (m)."""
+    return PARTING(np.clip(np.abs(x), 0.0, MOUTH_WIDTH))
+
+
+def mouth(p):
+    """A slot between the lips that goes back into the head.
+
+    It is thin where the lips meet and a little higher behind them, and ends at
+    the corners of the mouth.  There is nothing in it.
+    """
+    x, z = np.abs(p[:, 0]), p[:, 2]
+    plan = ellipsoid(np.stack([x, 0.0 * x, z - .066], axis=1), np.zeros(3),
+                     np.array([MOUTH_WIDTH, 1.0, .036]))
+    inside = smoothstep(0.0, .010, -plan)
+    height = np.abs(p[:, 1] - parting(x)) - (.00045 + .00055 * inside)
+    return np.maximum(np.maximum(height, plan), .058 - z)
+
+
 def add_face(d, p):
     d = apply_rows(add_clay(d, p, FORMS), p, EYES)
     for *ridge, thickness in EDGES:
         d = d - thickness * edge(p, *ridge)
     d = add_clay(apply_rows(d, p, NOSE), p, LIP_FORMS)
-    return apply_rows(d, p, LIPS)
+    return cut(apply_rows(d, p, LIPS), mouth(p), .0006)
 
 
 def folded(points):
@@ -427,7 +454,9 @@ PLAIN_HEAD = Form(
 SCULPTURE = Form(
     sculpture_sdf, [np.r_[0:.05:.0010, .05:.062:.002, .062:.096:.0012,
                           .096:.21:.006],
-                    np.r_[-.306:-.138:.006, -.138:-.002:.0010, -.002:.1:.004],
+                    np.r_[-.306:-.138:.006, -.138:-.094:.0010,
+                          -.094:-.086:.0004, -.086:-.002:.0010,
+                          -.002:.1:.004],
                     np.r_[-.1307:-.045:.0049, -.045:.02:.0013, .02:.05:.003,
                           .05:.115:.0010]],
     SKIN_DETAIL)
@@ -513,7 +542,10 @@ def simplify(points, faces, detail):
         for w in ring(a):
             heapq.heappush(heap, entry(a, w))
     alive = sorted(set().union(*star))
-    used, faces = np.unique([faces[i] for i in alive], return_inverse=True)
+    # A triangle in the plane of symmetry would be its own mirror image.
+    used, faces = np.unique([faces[i] for i in alive
+                             if not all(seam[v] for v in faces[i])],
+                            return_inverse=True)
     return points[used], faces.reshape(-1, 3)
 
 
@@ -721,6 +753,9 @@ def check(points, skin, scalp):
     normals = np.concatenate([normals_at(centre[:len(skin)], sculpture_sdf),
                               normals_at(centre[len(skin):], plain_sdf)])
     outward = (unit(cross) * normals).sum(axis=1)
+    # The slot of the mouth is thinner than its triangles are long.
+    outward[np.r_[mouth(centre[:len(skin)]) < .0015,
+                  np.zeros(len(scalp), bool)]] = 1.0
     assert (a * cross).sum() > 0 and outward.min() > 0, "inward triangle"
     scalp_euler = len(np.unique(scalp)) - len(edges_of(scalp)[0]) + len(scalp)
     assert scalp_euler == 1 and boundary_loops(scalp) == 1, "not a disc"
@@ -767,6 +802,126 @@ def texture_directions(coordinates):
             + x[:, None] * np.array([1.0, 0.0, 0.0]))
 
 
+# ---- the picture of the skin ------------------------------------------------
+
+SKIN_PICTURE = 640, 1024  # px, across and down
+SKIN_TOP, SKIN_HEIGHT = 0.10, 0.40  # of the picture (m)
+# Outline of a brow's hair, outward: x, lower and upper edge y (m).
+BROW_HAIR = [(.0105, -.0098, -.0040), (.0150, -.0085, -.0020),
+             (.0210, -.0064, -.0002), (.0290, -.0044, .0008),
+             (.0370, -.0040, .0000), (.0440, -.0072, -.0042),
+             (.0495, -.0118, -.0098)]
+# Shares of light of pigments that are put on the skin, in display RGB.
+BLOOD, SUN = (0.93, 0.72, 0.68), (0.90, 0.82, 0.72)
+LIP, DARK = (0.85, 0.59, 0.57), (0.30, 0.17, 0.15)
+HAIR, LASH = (0.40, 0.29, 0.22), (0.26, 0.18, 0.15)
+
+
+def skin_coordinates(points):
+    """A cylinder's: u is 0 in front and 1 behind on both sides, v is down.
+
+    Left and right share the picture, which therefore has no seam.
+    """
+    q = points - STAR
+    # The walls of the mouth are as dark as the line between the lips.
+    hidden = (mouth(folded(points)) < .0006) & (points[:, 2] < .074)
+    u = np.where(hidden, 0.0, np.arctan2(np.abs(q[:, 0]), q[:, 2]) / np.pi)
+    y = np.where(hidden, parting(0.0), points[:, 1])
+    return np.stack([u, (SKIN_TOP - y) / SKIN_HEIGHT], axis=1)
+
+
+def places_of_picture():
+    """[row][column] points of the sculpture that the picture's pixels show."""
+    width, height = (size // 2 for size in SKIN_PICTURE)
+    v, u = np.meshgrid((np.arange(height) + .5) / height,
+                       (np.arange(width) + .5) / width, indexing="ij")
+    out = np.stack([np.sin(np.pi * u), 0 * u, np.cos(np.pi * u)], axis=-1)
+    foot = np.zeros_like(out) + [0, 0, STAR[2]]
+    foot[..., 1] = np.maximum(SKIN_TOP - SKIN_HEIGHT * v, BUST_Y + .001)
+    out, foot = out.reshape(-1, 3), foot.reshape(-1, 3)
+    far = np.full(len(out), .20)
+    for _ in range(40):  # from outside inward
+        far = far - .8 * np.clip(sculpture_sdf(foot + far[:, None] * out),
+                                 -.02, .02)
+    points = (foot + far[:, None] * out).reshape(height, width, 3)
+    return zoom(points, (2, 2, 1), order=1, mode="nearest", grid_mode=True)
+
+
+def paint_skin():
+    """The picture: factors of the skin's colour, a JPEG.
+
+    They are blood, sun, lips, lashes and brows; near the hairline they are 1,
+    for the scalp has no picture.
+    """
+    random = np.random.default_rng(4)
+    shape = SKIN_PICTURE[::-1]
+    p = places_of_picture().reshape(-1, 3)
+    x, y = p[:, 0], p[:, 1]
+    front = smoothstep(.02, .05, p[:, 2])
+
+    def round_(centre, radii):
+        return np.exp(-spread(p, np.array(centre), np.array(radii)) ** 2)
+
+    def along(curve, width):
+        cx, cy = np.transpose(curve)
+        end = smoothstep(0.0, .004, np.minimum(x - cx[0], cx[-1] - x))
+        t = (y - CubicSpline(cx, cy)(np.clip(x, cx[0], cx[-1]))) / width
+        return front * end * np.exp(-t * t)
+
+    def noise(mm):
+        size = mm / 1000 / (SKIN_HEIGHT / SKIN_PICTURE[1])
+        field = gaussian_filter(random.normal(size=shape), size, mode="nearest")
+        return (field / field.std()).ravel()
+
+    skin = np.ones((len(p), 3))
+    below = smoothstep(.001, .018, -distance_to_hairline(p, .02))
+
+    def put(share, pigment):
+        nonlocal skin
+        share = (below * np.clip(share, 0.0, 1.0))[:, None]
+        skin = skin * (1.0 - share + share * np.array(pigment))
+
+    uneven = noise(9.0)
+    put(.12 + .055 * uneven + .02 * noise(2.5)
+        + .62 * round_((.046, -.052, .056), (.021, .017, .022))
+        + .55 * round_((0, -.057, .100), (.013, .011, .014))
+        + .35 * round_((0, -.118, .084), (.018, .010, .016))
+        + .55 * smoothstep(.006, -.010, sphere(p, EAR + [.008, 0, 0], .031))
+        + .30 * round_((0, -.175, .03), (.05, .03, .06)), BLOOD)
+    put(.15 + .045 * noise(14.0) + .35 * round_((0, .03, .08), (.05, .03, .05))
+        + .3 * round_((0, -.24, .02), (.1, .05, .1)), SUN)
+    # Round the eyes the skin is thin.
+    put(.5 * round_((.0310, -.0320, .072), (.016, .008, .02))
+        + .4 * along(CREASE, .0035), (.86, .78, .78))
+    spots = noise(.55) > 2.75
+    put(.35 * spots * round_((.030, -.045, .07), (.032, .022, .03)), (.80, .64, .52))
+
+    # Lips: where the surface is that of their tubes.
+    lip = np.minimum(*(tube(p, *arguments) for operation, _, arguments, _ in LIPS
+                       if operation is union))
+    lip = smoothstep(.0011, .0002, lip) * smoothstep(.0250, .0215, x)
+    put(lip * (.85 + .08 * noise(1.0)), LIP)
+    gap = np.abs(y - parting(x)) / .0012
+    put(.95 * np.exp(-gap ** 4) * front * smoothstep(.0240, .0215, x), DARK)
+    nostril = NOSE[-1][2]
+    put(smoothstep(.0008, -.0004, turned(p, *nostril)) * .8, DARK)
+
+    put(.9 * along(LASHES, .0006), LASH)
+    hair = np.array(BROW_HAIR)
+    low, high = (np.interp(x, hair[:, 0], hair[:, i]) for i in (1, 2))
+    thick = np.clip(np.minimum(y - low, high - y) / .0022, -.35, 1.0) + .35
+    ends = smoothstep(-.001, .005, x - hair[0, 0]) * smoothstep(
+        -.001, .006, hair[-1, 0] - x)
+    put(.62 * np.sqrt(np.maximum(thick, 0.0) / 1.35) * ends * front
+        * np.clip(1 + .12 * noise(.7), 0, 1.3), HAIR)
+
+    picture = np.clip(skin, 0.0, 1.0).reshape(*shape, 3)
+    file = io.BytesIO()
+    Image.fromarray(np.round(255 * picture).astype(np.uint8)).save(
+        file, "JPEG", quality=88, subsampling=0)
+    return file.getvalue()
+
+
 def linear(value):
     """Return the linear value of an sRGB channel (IEC 61966-2-1)."""
     if value <= 0.04045:
@@ -774,8 +929,11 @@ def linear(value):
     return ((value + 0.055) / 1.055) ** 2.4
 
 
-def write_glb(path, points, normals, parts):
-    """Write one mesh with a primitive (and a material) per part."""
+def write_glb(path, points, normals, parts, picture):
+    """Write one mesh with a primitive (and a material) per part.
+
+    The picture, a JPEG, has factors of the colour of the part "skin".
+    """
     binary, views, accessors, primitives = b"", [], [], []
 
     def accessor(data, component, kind, target, **extra):
@@ -788,27 +946,42 @@ def write_glb(path, points, normals, parts):
                           **extra})
         return len(accessors) - 1
 
-    for material, faces in enumerate(parts.values()):
+    materials = []
+    for material, (name, faces) in enumerate(parts.items()):
         used, local = np.unique(faces, return_inverse=True)
         xyz, n = points[used].astype("<f4"), normals[used].astype("<f4")
-        uv = texture_coordinates(points[used]).astype("<f4")
+        if name == "skin":
+            shares = np.round(65535 * skin_coordinates(points[used]))
+            uv = accessor(np.clip(shares, 0, 65535).astype("<u2"), 5123, "VEC2",
+                          34962, normalized=True)
+        else:
+            uv = accessor(texture_coordinates(points[used]).astype("<f4"), 5126,
+                          "VEC2", 34962)
+        materials.append({"name": name, "pbrMetallicRoughness": {
+            "baseColorFactor": [*map(linear, MATERIALS[name]), 1.0],
+            "metallicFactor": 0.0, "roughnessFactor": 0.55}})
+        if name == "skin":
+            materials[-1]["pbrMetallicRoughness"]["baseColorTexture"] = {"index": 0}
         primitives.append({"attributes": {
             "POSITION": accessor(xyz, 5126, "VEC3", 34962,
                                  min=xyz.min(axis=0).tolist(),
                                  max=xyz.max(axis=0).tolist()),
             "NORMAL": accessor(n, 5126, "VEC3", 34962),
-            "TEXCOORD_0": accessor(uv, 5126, "VEC2", 34962)},
+            "TEXCOORD_0": uv},
             "indices": accessor(local.astype("<u2").ravel(), 5123, "SCALAR",
                                 34963), "material": material})
+    views.append({"buffer": 0, "byteOffset": len(binary),
+                  "byteLength": len(picture)})
+    binary += picture + bytes(-len(picture) % 4)
     text = json.dumps({
         "asset": {"version": "2.0", "generator": "make_head.py"},
         "scene": 0, "scenes": [{"nodes": [0]}],
         "nodes": [{"mesh": 0, "name": "head"}],
         "meshes": [{"name": "head", "primitives": primitives}],
-        "materials": [{"name": name, "pbrMetallicRoughness": {
-            "baseColorFactor": [*map(linear, MATERIALS[name]), 1.0],
-            "metallicFactor": 0.0, "roughnessFactor": 0.55}}
-            for name in parts],
+        "materials": materials,
+        "images": [{"mimeType": "image/jpeg", "bufferView": len(views) - 1}],
+        "samplers": [{"wrapS": 33071, "wrapT": 33071}],
+        "textures": [{"sampler": 0, "source": 0}],
         "accessors": accessors, "bufferViews": views,
         "buffers": [{"byteLength": len(binary)}]}).encode()
     text += b" " * (-len(text) % 4)
@@ -847,7 +1020,7 @@ def main():
                        normals_at(points, sculpture_sdf))
     check(points, skin, scalp)
     write_glb(out / "head.glb", points, normals,
-              {"skin": skin, "scalp": scalp})
+              {"skin": skin, "scalp": scalp}, paint_skin())
     write_colliders(out / "head_colliders.json", points[np.unique(scalp)])
 
 

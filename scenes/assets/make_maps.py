@@ -4,8 +4,10 @@ Run (needs what make_head.py needs): python3 make_maps.py [output_directory]
 
 * ``hairline_mask.png``  density of roots: a natural hairline
 * ``taper_lengths.png``  lengths: a short cut, tapered at the sides and nape
+* ``fringe_lengths.png`` lengths: a fringe to the brows, longer beside the face
+* ``braid_mask.png``     density of roots: the hairline without the sideburns
 
-Both are grey, 8 bits.  See make_head.texture_coordinates() for what is where.
+All four are grey, 8 bits.  See make_head.texture_coordinates() for what is where.
 
 * ``strand_bands.png``   across and along a strand: dark roots, light tips
 """
@@ -55,10 +57,41 @@ def hairline_mask(size):
                     smoothstep(-0.001, 0.010, distance - wander), 0.0)
 
 
+def braid_mask(size):
+    """The hairline's, without roots before and below the ears."""
+    direction = directions(size)
+    azimuth = np.degrees(np.arctan2(np.abs(direction[:, 0]), direction[:, 2]))
+    at_ears = smoothstep(48.0, 58.0, azimuth) * smoothstep(128.0, 112.0, azimuth)
+    above = 17.0 + 5.0 * noise(direction, 30.0, 6)
+    free = at_ears * smoothstep(above + 5.0, above, elevation(direction))
+    return hairline_mask(size) * (1.0 - free)
+
+
 def taper_lengths(size):
     """1 on top, a tenth at the ears and the nape."""
     height = elevation(directions(size))
     return 0.1 + 0.9 * smoothstep(-32.0, 38.0, height)
+
+
+FRINGE_LENGTH = 0.27  # where the picture is white (m)
+
+
+def fringe_lengths(size):
+    """From a root in front down to the brows; at the sides and behind 1.
+
+    Locks differ by a tenth, and the middle is shorter than what frames it.
+    """
+    direction = directions(size)
+    azimuth = np.degrees(np.arctan2(np.abs(direction[:, 0]), direction[:, 2]))
+    over = np.arctan2(direction[:, 1], direction[:, 2])  # 0 in front, up
+    down = 0.105 * (over - np.radians(9.0)) + 0.020
+    down = down * (0.90 + 0.14 * noise(direction, 26.0, 3)
+                   + 0.07 * noise(direction, 60.0, 5))
+    aside = smoothstep(38.0, 66.0, azimuth)
+    behind = smoothstep(78.0, 92.0, np.degrees(np.abs(over)))
+    share = np.maximum(aside ** 1.5, behind)
+    length = np.clip(down, 0.02, FRINGE_LENGTH) / FRINGE_LENGTH
+    return length + share * (1.0 - length)
 
 
 def strand_bands(width, height):
@@ -109,7 +142,9 @@ def main():
     default = pathlib.Path(__file__).resolve().parent
     out = pathlib.Path(sys.argv[1]) if len(sys.argv) > 1 else default
     write_png(out / "hairline_mask.png", hairline_mask(1024).reshape(1024, 1024))
+    write_png(out / "braid_mask.png", braid_mask(512).reshape(512, 512))
     write_png(out / "taper_lengths.png", taper_lengths(256).reshape(256, 256))
+    write_png(out / "fringe_lengths.png", fringe_lengths(256).reshape(256, 256))
     write_png(out / "strand_bands.png", strand_bands(16, 256))
 
 

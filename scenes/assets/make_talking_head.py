@@ -5,10 +5,9 @@ Run (Python 3.9+, nothing else):
     python3 make_talking_head.py [output_directory]
 
 It reads ``head.glb`` beside this script and writes ``head_talk.glb`` next to it
-(or into ``output_directory``).  Positions, normals, triangles and the scalp's
-texture coordinates are those of ``head.glb`` to the bit, so hair that grows on
-one grows on the other.  The skin's texture coordinates, which nothing uses, are
-left out to save 126 KB.
+(or into ``output_directory``).  Positions, normals, triangles, texture coordinates
+and the skin's picture are those of ``head.glb`` to the bit, so hair that grows on
+one grows on the other.
 
 * Joints: ``bust``, which stands still; ``neck`` and ``head``, which take two
   fifths and three fifths of each nod and turn; ``jaw``, a child of the head.
@@ -43,12 +42,30 @@ def smoothstep(low, high, x):
     return t * t * (3 - 2 * t)
 
 
+# Line between the lips, where make_head.py cuts its slot: x, y (m).
+PARTING = [(0.0, -0.0900), (0.0015, -0.08967), (0.0030, -0.08946), (0.0045, -0.08933),
+           (0.0060, -0.0893), (0.0075, -0.08932), (0.0090, -0.08941), (0.0105, -0.08953),
+           (0.0120, -0.08969), (0.0135, -0.08986), (0.0232, -0.09104), (1.0, -0.09104)]
+
+
+def parting(x):
+    x = abs(x)
+    for (x0, y0), (x1, y1) in zip(PARTING, PARTING[1:]):
+        if x <= x1:
+            return y0 + (y1 - y0) * (x - x0) / (x1 - x0)
+    return PARTING[-1][1]
+
+
 def jaw_weight(x, y, z):
     """Return how much of a point of the head the jaw carries."""
     down = math.degrees(math.atan2(JAW[1] - y, z - JAW[2]))  # 0: forward, 90: down
-    # The lips part within a few degrees, the cheeks stretch over many.
-    side = smoothstep(0.014, 0.040, abs(x))
-    upper = smoothstep(25.0 - 6 * side, 29.0 + 24 * side, down)
+    # Lips part at the slot between them, the cheeks stretch over many degrees.
+    side = smoothstep(0.0215, 0.042, abs(x))
+    reach = 0.0002 + 0.020 * side
+    lips = smoothstep(-reach, reach + 0.016 * side, parting(x) - y)
+    behind = smoothstep(26.0, 56.0, down)
+    at_lips = smoothstep(0.044, 0.058, z)
+    upper = at_lips * lips + (1 - at_lips) * behind
     throat = 1 - smoothstep(66.0, 112.0, down)
     front = smoothstep(0.0, 0.045, z - JAW[2])
     return upper * throat * front
@@ -177,9 +194,14 @@ def main():
         view = document["bufferViews"][source["bufferView"]]
         return source, binary[view["byteOffset"]:view["byteOffset"] + view["byteLength"]]
 
+    def picture(image):
+        view = document["bufferViews"][image["bufferView"]]
+        at = view["byteOffset"]
+        return {**image, "bufferView": writer.view(binary[at:at + view["byteLength"]])}
+
     def copied(number):
         source, data = data_of(number)
-        extra = {key: source[key] for key in ("min", "max") if key in source}
+        extra = {key: source[key] for key in ("min", "max", "normalized") if key in source}
         return writer.accessor(data, source["componentType"], source["type"], source["count"],
                                **extra)
 
@@ -188,9 +210,7 @@ def main():
         source, data = data_of(primitive["attributes"]["POSITION"])
         flat = struct.unpack(f"<{3 * source['count']}f", data)
         points = [flat[i:i + 3] for i in range(0, len(flat), 3)]
-        is_scalp = document["materials"][primitive["material"]]["name"] == "scalp"
-        names = ["POSITION", "NORMAL"] + (["TEXCOORD_0"] if is_scalp else [])
-        attributes = {name: copied(primitive["attributes"][name]) for name in names}
+        attributes = {name: copied(number) for name, number in primitive["attributes"].items()}
         weights = [in_bytes(joint_weights(p)) for p in points]
         attributes["JOINTS_0"] = writer.accessor(
             bytes((0, 1, 2, 3)) * len(points), 5121, "VEC4", len(points))
@@ -232,7 +252,9 @@ def main():
             "samplers": [{"input": times, "output": values} for _, _, times, values in tracks],
             "channels": [{"sampler": i, "target": {"node": node, "path": path}}
                          for i, (node, path, _, _) in enumerate(tracks)]}],
-        "materials": document["materials"], "accessors": writer.accessors,
+        "materials": document["materials"], "textures": document["textures"],
+        "samplers": document["samplers"], "images": [picture(i) for i in document["images"]],
+        "accessors": writer.accessors,
         "bufferViews": writer.views, "buffers": [{"byteLength": len(writer.binary)}]}).encode()
     text += b" " * (-len(text) % 4)
     (out / "head_talk.glb").write_bytes(
