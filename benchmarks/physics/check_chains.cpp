@@ -258,7 +258,7 @@ void checkLargeSwing(
         }
         const double period = periodOf(sums, experiment.timeStep());
         std::optional<double> tolerance;
-        if (solver == hair::Solver::rod) tolerance = kSwingTolerance;
+        if (solver != hair::Solver::ftl) tolerance = kSwingTolerance;
         Outcome& outcome = findings.compare(
             {"first period",
              "s",
