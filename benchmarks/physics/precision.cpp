@@ -38,7 +38,7 @@ constexpr double kSecondOrderTolerance = 0.005;
 constexpr float kRestWind = 1.5f;  // m/s; the elastica of kTrajectoryLength is stable in it
 constexpr double kRestFriction = 10.0;  // 1/s, to settle soon; it does not act at rest
 constexpr double kRestPatience = 5.0;  // s
-// Of the length: promised for forces that are in balance at any step and iteration.
+// A part of the length, promised for forces that are in balance at any step and iteration.
 constexpr double kBalancedTolerance = 0.01;
 
 // Plays the hair in a state and returns where it was.
