@@ -172,7 +172,7 @@ TEST(WorkPrecision, RecommendsTheCheapestForAnError) {
     EXPECT_EQ(report.outcomes[0].measured, 8.0);
     EXPECT_EQ(report.outcomes[1].solver, "ftl");
     EXPECT_EQ(report.outcomes[1].quantity.parameters[0].value, 0.2);
-    EXPECT_THAT(workTables(report), HasSubstr("| rod | 4.0 % |  | 8.00 (8 x 2) | 8.00 (8 x 2) |"));
+    EXPECT_THAT(workTables(report), HasSubstr("| rod | 4.0 % | | 8.00 (8 x 2) | 8.00 (8 x 2) |"));
 }
 
 }  // namespace

@@ -615,6 +615,8 @@ GateOptions = TypedDict("GateOptions", {
 PhysicsOptions = TypedDict("PhysicsOptions", {
     "solver": 'Option',
     "check": 'Option',
+    "invariance": 'bool',
+    "work_precision": 'bool',
     "device": 'Option',
     "validate": 'bool',
     "device_timeout": 'Option',
