@@ -400,6 +400,13 @@ void addCheckCommands(const CommandLine& line) {
                 .add_option(
                     "--out", options.out, "report file (default results/local/physics.json)")
                 ->type_name("FILE");
+            command
+                .add_flag(
+                    "--papers", options.papers,
+                    "play the published results of scenes/papers beside their figures instead of "
+                    "the checks")
+                ->excludes("--check")
+                ->excludes("--solver");
             addDeviceOptions(command, options.device);
         });
 

@@ -106,6 +106,7 @@ struct PhysicsOptions {
     std::string check;  // regex of check names
     std::filesystem::path out;  // empty: results/local/physics.json
     engine::DeviceOptions device;
+    bool papers = false;  // the published results instead of the checks
     std::vector<std::string> command;  // for the report
 };
 int checkPhysics(const PhysicsOptions& options);
