@@ -124,18 +124,18 @@ void stepPositionBasedRod(
 // their distance. An angular spring has a tension proportional to the angle of deviation. The
 // matrix has seven diagonals and is decomposed directly.
 //
-// The rest is ours, because we had no access to the paper's equations. Springs against bending and
-// torsion join particles two and three apart, as in Selle, Lentine and Fedkiw 2008, A mass spring
-// model for hair simulation. Every spring has the energy E A L / 2 (d / L - 1)^2 with its rest
-// length L: the one constant is a modulus, so that hair does not depend on its segments. The
-// integrity spring has the energy m kappa_I / 2 |x - x_ghost|^2. The angular spring turns the
-// segment that ends in the particle. Its energy is lambda kappa_a l / 2 angle^2, with the angle
-// between the directions of the segment and of its ghost; it acts as a couple on both particles of
-// the segment. A step is implicit Euler. Each iteration is a Newton step with the positive part of
-// each spring's Hessian: a spring shorter than its rest length is stiff only along itself. The
-// seven diagonals consist of 3 x 3 blocks. Orientations are only the directions of the edges, for
-// air. The paper's hair-hair contact on a grid is not here: /simulation/hair_hair has it for every
-// solver.
+// The rest is ours and was not compared with the paper's equations, which arXiv has. Springs
+// against bending and torsion join particles two and three apart, as in Selle, Lentine and Fedkiw
+// 2008, A mass spring model for hair simulation. Every spring has the energy E A L / 2 (d / L -
+// 1)^2 with its rest length L: the one constant is a modulus, so that hair does not depend on its
+// segments. The integrity spring has the energy m kappa_I / 2 |x - x_ghost|^2. The angular spring
+// turns the segment that ends in the particle. Its energy is lambda kappa_a l / 2 angle^2, with the
+// angle between the directions of the segment and of its ghost; it acts as a couple on both
+// particles of the segment. A step is implicit Euler. Each iteration is a Newton step with the
+// positive part of each spring's Hessian: a spring shorter than its rest length is stiff only along
+// itself. The seven diagonals consist of 3 x 3 blocks. Orientations are only the directions of the
+// edges, for air. The paper's hair-hair contact on a grid is not here: /simulation/hair_hair has it
+// for every solver.
 
 struct AugmentedMassSpringParameters {
     double substep = 1.0 / 480.0;  // s

@@ -112,6 +112,7 @@ Axes = TypedDict("Axes", {
     "/simulation/ftl/velocity_correction": 'Values[Number]',
     "/simulation/rod/iterations": 'Values[Integer]',
     "/simulation/rod/integrator": 'Values[Literal["implicit_euler", "generalized_alpha"]]',
+    "/simulation/stable_cosserat/method": 'Values[Literal["direct", "descent"]]',
     "/simulation/stable_cosserat/iterations": 'Values[Integer]',
     "/simulation/stable_cosserat/stretch_modulus": 'Values[Number]',
     "/simulation/position_based_rod/iterations": 'Values[Integer]',
@@ -371,6 +372,7 @@ Sets = TypedDict("Sets", {
     "/simulation/ftl/velocity_correction": 'Number',
     "/simulation/rod/iterations": 'Integer',
     "/simulation/rod/integrator": 'Literal["implicit_euler", "generalized_alpha"]',
+    "/simulation/stable_cosserat/method": 'Literal["direct", "descent"]',
     "/simulation/stable_cosserat/iterations": 'Integer',
     "/simulation/stable_cosserat/stretch_modulus": 'Number',
     "/simulation/position_based_rod/iterations": 'Integer',
@@ -615,6 +617,7 @@ GateOptions = TypedDict("GateOptions", {
 PhysicsOptions = TypedDict("PhysicsOptions", {
     "solver": 'Option',
     "check": 'Option',
+    "papers": 'bool',
     "device": 'Option',
     "validate": 'bool',
     "device_timeout": 'Option',
