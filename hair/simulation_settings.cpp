@@ -73,7 +73,13 @@ const Table& tableOf(const RodSettings*) {
 const Table& tableOf(const StableCosseratSettings*) {
     using S = StableCosseratSettings;
     static const Table table = tableWith<S>(
-        {number(
+        {choice(
+             "method", &S::method,
+             {{CosseratMethod::direct, "direct"}, {CosseratMethod::descent, "descent"}},
+             "direct: each iteration solves all positions of a strand at once and orientations "
+             "exactly; descent: the paper's way, vertex by vertex with an approximate multiplier, "
+             "and with the first segment held at its follicle's angle"),
+         number(
              "iterations", &S::iterations, 1, 256, "count",
              "iterations per substep, each a solve of the positions and a sweep over the "
              "orientations"),

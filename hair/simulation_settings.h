@@ -62,7 +62,10 @@ struct RodSettings {
 const Table& tableOf(const RodSettings*);
 
 // Hsu, Wang, Wu and Yuksel 2025, Stable Cosserat rods: hair/reference/compared_rods.h.
+enum class CosseratMethod { direct, descent };
+
 struct StableCosseratSettings {
+    CosseratMethod method = CosseratMethod::direct;
     std::uint32_t iterations = 8;
     float stretch_modulus = 1e6f;
 };

@@ -413,6 +413,15 @@ void addCheckCommands(const CommandLine& line) {
                 ->excludes(check)
                 ->excludes(invariance);
             command
+                .add_flag(
+                    "--papers", options.papers,
+                    "play the published results of scenes/papers beside their figures instead of "
+                    "the checks")
+                ->excludes(check)
+                ->excludes(invariance)
+                ->excludes("--work-precision")
+                ->excludes("--solver");
+            command
                 .add_option(
                     "--out", options.out, "report file (default results/local/physics.json)")
                 ->type_name("FILE");

@@ -106,6 +106,7 @@ struct PhysicsOptions {
     std::string check;  // regex of check names
     bool invariance = false;  // tables of invariance instead of the checks
     bool work_precision = false;  // errors and times instead of the checks
+    bool papers = false;  // the published results instead of the checks
     std::filesystem::path out;  // empty: results/local/physics.json
     engine::DeviceOptions device;
     std::vector<std::string> command;  // for the report

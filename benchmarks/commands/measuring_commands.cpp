@@ -559,7 +559,10 @@ int checkPhysics(const PhysicsOptions& options) {
         report.interrupted = true;
         finish();
     });
-    physics::runChecks(device, checks, solvers, report);
+    if (options.papers)
+        physics::playPapers(device, report);
+    else
+        physics::runChecks(device, checks, solvers, report);
     finish();
     return physics::exitStatus(report);
 }

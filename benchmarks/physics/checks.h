@@ -156,6 +156,29 @@ void runChecks(
     const engine::Device& device, std::span<const Check> checks,
     std::span<const CheckedSolver> solvers, PhysicsReport& report);
 
+// ---- Published results --------------------------------------------------------------------------
+
+// Whether all of a paper's figures are played, or those that take seconds of the host's time.
+enum class PaperSize { whole, small };
+
+// The scenes of scenes/papers beside their papers' figures. A figure that the authors' code or
+// theory gives is a gate; the others are reported. Each throws engine::Error if its scene is
+// missing.
+
+// Hsu et al. 2025: the authors' cantilever, and its convergence by iterations.
+void playStableCosserat(const engine::Device&, PaperSize, Findings&);
+// Amador Herrera et al. 2024: sag by the integrity springs' stiffness, and time of their strands.
+void playAugmentedMassSpring(const engine::Device&, PaperSize, Findings&);
+// Mueller, Kim and Chentanez 2012: lengths, and the swing with and without corrected velocities.
+void playFollowTheLeader(const engine::Device&, PaperSize, Findings&);
+// Han and Harada 2012: sag by iterations, and time of their strands.
+void playShapeConstraints(const engine::Device&, PaperSize, Findings&);
+// Kugelstadt and Schoemer 2016: a straight rod bends and twists to a helix.
+void playPositionBasedRod(const engine::Device&, PaperSize, Findings&);
+
+// Plays all papers whole and adds their results to the report, as runChecks() does.
+void playPapers(const engine::Device& device, PhysicsReport& report);
+
 // ---- Against theory -----------------------------------------------------------------------------
 
 // Compares a free vertex with Verlet's exact parabola.

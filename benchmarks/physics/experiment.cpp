@@ -364,6 +364,7 @@ Trajectory restTrajectory(
 }
 
 double differenceOf(const Trajectory& a, const Trajectory& b) {
+    if (a.size() != b.size()) return std::nan("");
     double greatest = 0.0;
     for (std::size_t i = 0; i < a.size(); ++i)
         greatest = worst(greatest, greatestDistance(a[i], b[i]));

@@ -361,14 +361,18 @@ constexpr int kTimedRounds = 5;
 constexpr double kChainAngle = kPi / 3.0;  // of the tip
 constexpr double kErrors[] = {0.01, 0.05, 0.2};  // of the length
 
-// Root mean square of the distances of all points at all times, over the length.
+// Root mean square of the distances of all points at all times, over the length. NaN if they are
+// not of one size.
 double meanDifference(const Trajectory& a, const Trajectory& b) {
+    if (a.size() != b.size()) return std::nan("");
     double sum = 0.0;
     double count = 0.0;
-    for (std::size_t i = 0; i < a.size(); ++i)
+    for (std::size_t i = 0; i < a.size(); ++i) {
+        if (a[i].size() != b[i].size()) return std::nan("");
         for (std::size_t point = 0; point < a[i].size(); ++point, ++count)
             sum += std::pow(glm::distance(a[i][point], b[i][point]), 2.0);
-    return a.size() == b.size() ? std::sqrt(sum / count) / kTrajectoryLength : std::nan("");
+    }
+    return std::sqrt(sum / count) / kTrajectoryLength;
 }
 
 std::vector<double> curvedAngles(std::uint32_t segments) {

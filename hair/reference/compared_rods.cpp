@@ -90,6 +90,7 @@ struct CosseratStep {
     std::vector<glm::dvec3> predicted;  // y, m
     std::vector<glm::dvec3> positions;  // m
     std::vector<glm::dmat3> drag;  // 1/s
+    std::vector<glm::dvec3> drifts{};  // displacements by the velocities alone, m
 
     std::size_t size() const { return rest.lengths.size(); }
     double mean() const {
@@ -104,6 +105,9 @@ struct CosseratStep {
     void predict(std::span<const glm::dvec3> accelerations, const RodRoot& root, const RodAir* air);
     void orient();
     void place();
+    void guess();
+    void descend();
+    void turn();
     void finish();
 };
 
@@ -120,7 +124,9 @@ void CosseratStep::predict(
     state.root = root.rotation * rest.points[0] + root.translation;
     state.orientations[0] = root.rotation * rest.orientations[0];
     predicted = {state.root};
+    drifts = {glm::dvec3(0.0)};
     for (std::size_t i = 1; i < size(); ++i) {
+        drifts.push_back(h * parameters.velocity_kept * state.velocities[i]);
         glm::dvec3 velocity = parameters.velocity_kept * state.velocities[i] + h * accelerations[i];
         if (air) velocity = withDrag(velocity, drag[i], air->velocities[i], h);
         const auto pin = state.pins.find(i);
@@ -193,6 +199,65 @@ void CosseratStep::place() {
     }
 }
 
+// The angular velocities, which these rods do not have, keep the last step's drift over its time.
+void CosseratStep::guess() {
+    for (std::size_t i = 1; i < size(); ++i) {
+        const glm::dvec3 external = predicted[i] - before[i] - drifts[i];
+        const double size2 = glm::dot(external, external);
+        if (size2 > 0.0 && !state.pins.contains(i)) {
+            const glm::dvec3 gained = drifts[i] - parameters.substep * state.angular_velocities[i];
+            const double share = std::clamp(glm::dot(gained, external) / size2, 0.0, 1.0);
+            positions[i] = before[i] + drifts[i] + share * external;
+        }
+        state.angular_velocities[i] = drifts[i] / parameters.substep;
+    }
+    state.orientations[1] = state.orientations[0];
+}
+
+// Moves each vertex by Newton's step of the energy in it alone, which is quadratic.
+void CosseratStep::descend() {
+    const double per_square = 1.0 / (parameters.substep * parameters.substep);
+    const double shortest = kLeastSpringLength * mean();
+    for (std::size_t i = 1; i < size(); ++i) {
+        if (state.pins.contains(i)) continue;
+        const glm::dvec3 ahead = positions[i] - predicted[i];
+        // The gradient has the true drag across; the Hessian has it in all directions.
+        glm::dvec3 gradient =
+            rest.masses[i] * per_square * (ahead + parameters.substep * (drag[i] * ahead));
+        double hessian = rest.masses[i] * per_square * (1.0 + dragAt(i));
+        for (const std::size_t end : {i, i + 1}) {
+            if (end >= size()) continue;
+            const double spring =
+                parameters.stretch_stiffness / std::max(rest.lengths[end], shortest);
+            const glm::dvec3 stretched = positions[end] - positions[end - 1] -
+                                         rest.lengths[end] * thirdAxis(state.orientations[end]);
+            gradient += (end == i ? spring : -spring) * stretched;
+            hessian += spring;
+        }
+        positions[i] -= gradient / hessian;
+    }
+}
+
+// The paper's closed form, as printed.
+void CosseratStep::turn() {
+    std::vector<glm::dquat>& orientations = state.orientations;
+    for (std::size_t i = 2; i < size(); ++i) {
+        const glm::dvec4 here = toVector(orientations[i]);
+        const glm::dmat4 above = rOfSecond(rest, orientations, i);
+        glm::dvec4 b = glm::transpose(above) * pullAt(rest, i, above * here);
+        if (i + 1 < size()) {
+            const glm::dmat4 below = rOfFirst(rest, orientations, i + 1);
+            b += glm::transpose(below) * pullAt(rest, i + 1, below * here);
+        }
+        const glm::dquat v(
+            0.0, -2.0 * parameters.stretch_stiffness * (positions[i] - positions[i - 1]));
+        const double lambda = glm::length(v) + glm::length(b);
+        const glm::dquat q =
+            v * toQuaternion(b) * glm::dquat(0.0, 0.0, 0.0, 1.0) + lambda * toQuaternion(b);
+        if (glm::length(q) > 0.0) orientations[i] = glm::normalize(q);
+    }
+}
+
 void CosseratStep::finish() {
     for (std::size_t i = 1; i < size(); ++i) {
         state.velocities[i] = state.pins.contains(i)
@@ -217,10 +282,19 @@ void stepStableCosserat(
         .positions = {},
         .drag = std::vector(rest.lengths.size(), glm::dmat3(0.0))};
     step.predict(accelerations, root, air);
-    step.orient();
-    for (std::uint32_t i = 0; i < parameters.iterations; ++i) {
-        step.place();
+    const bool descends = parameters.method == CosseratMethod::descent;
+    if (descends)
+        step.guess();
+    else
         step.orient();
+    for (std::uint32_t i = 0; i < parameters.iterations; ++i) {
+        if (descends) {
+            step.descend();
+            step.turn();
+        } else {
+            step.place();
+            step.orient();
+        }
     }
     step.finish();
 }

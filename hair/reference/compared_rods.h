@@ -7,6 +7,7 @@
 #include <glm/vec3.hpp>
 
 #include "hair/reference/rod.h"
+#include "hair/settings.h"
 
 // References for the GPU's rod solvers that serve for comparison with `rod`. They share no code
 // with the GPU's.
@@ -27,11 +28,20 @@ namespace hair::reference {
 // q = (v b e3 + lambda b) / (lambda^2 - |v|^2), with v = -2 k_ss (x_i - x_(i-1)) / l, the sum b of
 // its neighbours' pulls, and the multiplier lambda of |q| = 1.
 //
-// Ours: positions are the exact minimum for these orientations, by a tridiagonal system; the paper
-// descends vertex by vertex. lambda is exact; the paper takes |v| + |b|. Each sweep over the
-// orientations goes from the root down with the neighbours' newest values, and the first is at y. A
-// hair's stiffnesses against bending and twisting differ. With r the rotation from one frame to the
-// other and K the greater of both stiffnesses over the joint's length,
+// The method `descent` is the paper's. Each iteration goes twice from the root down: it moves every
+// vertex to the least energy with everything else fixed, and then turns every segment with lambda =
+// |v| + |b|. It starts, as in Chen et al. 2024, Vertex block descent, from the drift plus a share s
+// of the free motion's external part e, s = clamp(a . e / |e|^2), with the last step's change a of
+// the drift. The first segment keeps its follicle's angle, as the pinned segments of the authors'
+// scenes, so that its lower end hangs on a spring.
+//
+// The method `direct` is ours: positions are the exact minimum for these orientations, by a
+// tridiagonal system. lambda is exact. Each sweep over the orientations goes from the root down
+// with the neighbours' newest values, and the first is at y. The first segment is joined to its
+// follicle.
+//
+// Ours in both: a hair's stiffnesses against bending and twisting differ. With r the rotation from
+// one frame to the other and K the greater of both stiffnesses over the joint's length,
 //     E_bt = 4 K (1 - |r.w|) - 2 sum over x, y, z of (K - K_c) r_c^2,
 // which is the paper's energy for K_bend = K_twist, and K_c angle^2 / 2 for small angles. The sum
 // is linearised at the current iterate: E_bt is concave in it, so every update still lowers the
@@ -40,6 +50,7 @@ namespace hair::reference {
 // modulus, 10^4 times as great, positions and orientations would hold each other.
 
 struct StableCosseratParameters {
+    CosseratMethod method = CosseratMethod::direct;
     double substep = 1.0 / 960.0;  // s
     double velocity_kept = 1.0;
     double stretch_stiffness = 0.0;  // modulus times cross-section, N: k_ss / l
@@ -113,18 +124,18 @@ void stepPositionBasedRod(
 // their distance. An angular spring has a tension proportional to the angle of deviation. The
 // matrix has seven diagonals and is decomposed directly.
 //
-// The rest is ours, because we had no access to the paper's equations. Springs against bending and
-// torsion join particles two and three apart, as in Selle, Lentine and Fedkiw 2008, A mass spring
-// model for hair simulation. Every spring has the energy E A L / 2 (d / L - 1)^2 with its rest
-// length L: the one constant is a modulus, so that hair does not depend on its segments. The
-// integrity spring has the energy m kappa_I / 2 |x - x_ghost|^2. The angular spring turns the
-// segment that ends in the particle. Its energy is lambda kappa_a l / 2 angle^2, with the angle
-// between the directions of the segment and of its ghost; it acts as a couple on both particles of
-// the segment. A step is implicit Euler. Each iteration is a Newton step with the positive part of
-// each spring's Hessian: a spring shorter than its rest length is stiff only along itself. The
-// seven diagonals consist of 3 x 3 blocks. Orientations are only the directions of the edges, for
-// air. The paper's hair-hair contact on a grid is not here: /simulation/hair_hair has it for every
-// solver.
+// The rest is ours and was not compared with the paper's equations, which arXiv has. Springs
+// against bending and torsion join particles two and three apart, as in Selle, Lentine and Fedkiw
+// 2008, A mass spring model for hair simulation. Every spring has the energy E A L / 2 (d / L -
+// 1)^2 with its rest length L: the one constant is a modulus, so that hair does not depend on its
+// segments. The integrity spring has the energy m kappa_I / 2 |x - x_ghost|^2. The angular spring
+// turns the segment that ends in the particle. Its energy is lambda kappa_a l / 2 angle^2, with the
+// angle between the directions of the segment and of its ghost; it acts as a couple on both
+// particles of the segment. A step is implicit Euler. Each iteration is a Newton step with the
+// positive part of each spring's Hessian: a spring shorter than its rest length is stiff only along
+// itself. The seven diagonals consist of 3 x 3 blocks. Orientations are only the directions of the
+// edges, for air. The paper's hair-hair contact on a grid is not here: /simulation/hair_hair has it
+// for every solver.
 
 struct AugmentedMassSpringParameters {
     double substep = 1.0 / 480.0;  // s

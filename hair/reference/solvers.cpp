@@ -240,7 +240,8 @@ void stepStableCosseratRod(RodState& state, const RodRest& rest, const RodStep& 
     const StableCosseratSettings& settings = step.settings.stable_cosserat;
     stepStableCosserat(
         state, rest, step.accelerations, step.root,
-        {.substep = step.step.sub,
+        {.method = settings.method,
+         .substep = step.step.sub,
          .velocity_kept = keptFactor(step.settings, step.step),
          .stretch_stiffness = double{settings.stretch_modulus} * std::numbers::pi * radius * radius,
          .iterations = settings.iterations},

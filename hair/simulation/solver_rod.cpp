@@ -517,7 +517,8 @@ RodMethod stableCosseratMethod(const SimulationSettings& settings) {
         .scratch_rows = gpu::kStableCosseratScratchRows,
         .iterations = settings.stable_cosserat.iterations,
         .stretching =
-            double{settings.stable_cosserat.stretch_modulus} / double{settings.material.density}};
+            double{settings.stable_cosserat.stretch_modulus} / double{settings.material.density},
+        .cosserat = settings.stable_cosserat.method};
 }
 
 RodMethod positionBasedMethod(const SimulationSettings& settings) {
@@ -561,6 +562,7 @@ RodSolver::RodSolver(
                 {gpu::kRodSegmentsConstant, segmentsOf(settings)},
                 {gpu::kRodAlphaConstant, method.integrator != RodIntegrator::implicit_euler},
                 {gpu::kRodDampedConstant, method.damping > 0.0},
+                {gpu::kCosseratDescentConstant, method.cosserat == CosseratMethod::descent},
                 {gpu::kSkinnedRootsConstant, hasSkinnedRoots(settings)}},
            .push_size = sizeof(gpu::SubstepPush)}),
       adopt_(

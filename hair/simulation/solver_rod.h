@@ -64,6 +64,7 @@ struct RodMethod {
     double angular = 0.0;
     RodIntegrator integrator = RodIntegrator::implicit_euler;
     double damping = 0.0;  // of `rod`: material damping, s
+    CosseratMethod cosserat = CosseratMethod::direct;  // of `stable_cosserat`
 };
 
 // `rod`: rods that neither stretch nor shear; hair/reference/rod.h.

@@ -183,4 +183,7 @@ const uint kRodNoSegments = 0u;  // segments do not collide with bodies
 const uint kRodSegments = 1u;
 const uint kRodSegmentsAtRest = 2u;  // pushed no farther out than they are at rest
 
+// Constant of simulation/stable_cosserat.comp.
+const uint kCosseratDescentConstant = 12u;
+
 #endif

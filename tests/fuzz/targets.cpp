@@ -615,6 +615,7 @@ std::vector<Target> allTargets() {
         {"scene",
          readScene,
          {{"scenes", {".json"}},
+          {"scenes/papers", {".json"}},
           {"scenes/portraits", {".json"}},
           {"scenes/truth", {".json"}},
           {"tests/fuzz/seeds/scene", {}}}});

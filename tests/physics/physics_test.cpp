@@ -39,6 +39,38 @@ void expectPass(const Findings& findings) {
 
 using Physics = GpuTest;
 
+// ---- Published results --------------------------------------------------------------------------
+
+using Papers = GpuTest;
+
+Findings played(
+    const engine::Device& device, void (*play)(const engine::Device&, PaperSize, Findings&),
+    Solver solver) {
+    Findings findings("paper", solver);
+    play(device, PaperSize::small, findings);
+    return findings;
+}
+
+TEST_F(Papers, TheCantileverOfStableCosseratRods) {
+    expectPass(played(device(), playStableCosserat, Solver::stable_cosserat));
+}
+
+TEST_F(Papers, IntegritySpringsHoldStrandsUp) {
+    expectPass(played(device(), playAugmentedMassSpring, Solver::augmented_mass_spring));
+}
+
+TEST_F(Papers, FollowingTheLeaderKeepsLengths) {
+    expectPass(played(device(), playFollowTheLeader, Solver::ftl));
+}
+
+TEST_F(Papers, MoreIterationsOfShapeConstraintsAreStiffer) {
+    expectPass(played(device(), playShapeConstraints, Solver::shape));
+}
+
+TEST_F(Papers, APositionBasedRodBendsAndTwistsToAHelix) {
+    expectPass(played(device(), playPositionBasedRod, Solver::position_based_rod));
+}
+
 class EverySolver : public GpuTest, public testing::WithParamInterface<hair::Named<hair::Solver>> {
 protected:
     hair::Solver solver() const { return GetParam().value; }

@@ -129,6 +129,25 @@ TEST_P(EveryGpuRod, TakesTheReferencesSteps) {
             }
 }
 
+// The same for the paper's descent, whose orientations are rounded in each of four iterations.
+TEST_F(GpuRod, DescendsAsTheReferenceDoes) {
+    for (const std::uint32_t vertices : {2u, 3u, 17u, 65u})
+        for (const bool in_wind : {false, true}) {
+            SimulationSettings settings = rodSettings(Solver::stable_cosserat);
+            settings.time_step = 1.0f / 480.0f;
+            settings.stable_cosserat = {
+                .method = CosseratMethod::descent, .iterations = 4, .stretch_modulus = 1e6f};
+            settings.friction = 0.02f;
+            if (in_wind) {
+                settings.wind.mode = WindMode::drag;
+                settings.wind.speed = 2.0f;
+            }
+            const groom::Groom groom = wavyGroom(10, vertices, 0.2 / (vertices - 1.0));
+            EXPECT_LT(departure(groom, settings, 1), 1e-4) << vertices << ' ' << in_wind;
+            EXPECT_LT(departure(groom, settings, 100), 2e-4) << vertices << ' ' << in_wind;
+        }
+}
+
 // An elliptic section bends and twists as in the reference, at rest and bent by its weight.
 TEST_F(GpuRod, TakesTheReferencesStepsWithAnEllipticSection) {
     for (const float ellipticity : {1.0f, 1.8f, 6.0f})

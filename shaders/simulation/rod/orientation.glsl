@@ -37,7 +37,7 @@ vec4 pullFromBelow(
     return multiply(multiply(frame, conjugate(pull)), conjugate(half_rotation));
 }
 
-// Newton steps of the multiplier; from 1.5 times its value, they leave only rounding errors.
+// Newton steps that leave only rounding errors: they begin at most at 1.5 times the multiplier.
 const uint kMultiplierSteps = 3u;
 
 // The unit quaternion q that maximises b . q + edge . d3(q), where d3 is the third axis of its
@@ -45,8 +45,9 @@ const uint kMultiplierSteps = 3u;
 // -|edge|, so that
 //     q = with / t + against / (t + 4 |edge|),
 // with the parts of b in both eigenspaces. Hebden's iteration finds the t > 0 at which q has unit
-// length: More and Sorensen 1983, Computing a trust region step. b must not be 0.
-vec4 balancedOrientation(vec4 b, vec3 edge) {
+// length: More and Sorensen 1983, Computing a trust region step. b must not be 0. Without steps it
+// is the paper's: t = |b|.
+vec4 balancedOrientation(vec4 b, vec3 edge, uint steps) {
     float size = length(edge);
     float gap = 4.0 * size;
     vec4 mapped = -multiply(multiply(vec4(edge, 0.0), b), vec4(0.0, 0.0, 1.0, 0.0));
@@ -57,7 +58,7 @@ vec4 balancedOrientation(vec4 b, vec3 edge) {
     float against2 = dot(against, against);
     float t = length(b);
     float least = max(sqrt(with2), 1.0e-7 * t);
-    for (uint i = 0; i < kMultiplierSteps; ++i) {
+    for (uint i = 0; i < steps; ++i) {
         float nearer = with2 / (t * t);
         float farther = against2 / ((t + gap) * (t + gap));
         float size2 = nearer + farther;
