@@ -226,7 +226,7 @@ namespace {
 
 // Both are differences of positions in 32 bits: a unit in the last place of 0.3 m on 15 mm.
 constexpr double kInextensible = 1e-5;
-constexpr double kSwingTime = 3.0;  // s
+constexpr double kFallTime = 3.0;  // s
 
 struct Swing {
     double stretch = 0.0;  // greatest |l / l0 - 1| after any step
@@ -242,7 +242,7 @@ Swing swingOf(
     Experiment experiment(device, paper.groom, settings);
     Swing swing;
     bool returns = false;
-    for (std::uint32_t i = 0; i < experiment.stepsIn(kSwingTime); ++i) {
+    for (std::uint32_t i = 0; i < experiment.stepsIn(kFallTime); ++i) {
         experiment.advance(1);
         const std::vector<glm::dvec3> points = experiment.positions();
         for (std::size_t k = 1; k < points.size(); ++k)
