@@ -328,6 +328,8 @@ TEST(Cli, PhysicsRefusesWhatItDoesNotKnow) {
                                  "augmented_mass_spring"));
     EXPECT_EQ(hairbench("physics --check '['").status, 2);
     EXPECT_EQ(hairbench("physics --check none_at_all").status, 14);
+    for (const char* const both : {"--invariance --check slide", "--invariance --work-precision"})
+        EXPECT_EQ(hairbench(std::string("physics ") + both).status, 2) << both;
 }
 
 TEST(Cli, NothingMatchesTheFilter) {
