@@ -62,8 +62,8 @@ constexpr double kRestingLength = 1.0103;  // m
 // Half of the last digit in both coordinates, and rounding of 32 bits over 48 steps.
 constexpr double kTipTolerance = 1.5e-4;  // m
 constexpr double kLengthTolerance = 1e-4;  // relative: half of the last digit, and rounding
-// At rest an iteration changes nothing, so that their number does not matter: differences are what
-// 20 s leave of the motion, and rounding.
+// At rest an iteration changes nothing, so that the number of iterations does not matter. The
+// tolerance allows for motion that is left after 20 s, and for rounding.
 constexpr double kSameRest = 1e-4;  // m
 // Height of the tip at 0.4 s by a separate program of the paper's equations, in double precision.
 struct Descent {
@@ -332,7 +332,7 @@ void playShapeConstraints(const engine::Device& device, PaperSize size, Findings
 
 namespace {
 
-// Of the length. The helix has no weight, so it is at rest as it was groomed.
+// A fraction of the length. The helix has no weight, so it is at rest as it was groomed.
 constexpr double kHelixTolerance = 0.01;
 constexpr double kHelixPatience = 4.0;  // s
 

@@ -1068,7 +1068,8 @@ def scenes(random, place):
         place.write("scene.json", "{" + keys + ', "seed": ' + "9" * random.choice([10, 400, 500_000]) + "}")
         return ["validate", str(place.inside / "scene.json")]
     elif way == 10:
-        names = sorted((ROOT / "scenes").glob("*.json")) + sorted((ROOT / "scenes/truth").glob("*.json"))
+        folders = [ROOT / "scenes", ROOT / "scenes/papers", ROOT / "scenes/truth"]
+        names = [each for folder in folders for each in sorted(folder.glob("*.json"))]
         names = [each for each in names if each.name != "scene.schema.json"]
         text = damaged_json(random, json.loads(random.choice(names).read_text()))
         return ["validate", place.write("scene.json", text)]
