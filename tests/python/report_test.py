@@ -184,14 +184,15 @@ class MeasuredReport(unittest.TestCase):
 
 
 class Figures(unittest.TestCase):
-    PAGES = ("README.md", "docs/performance.md", "docs/paper.md")
+    PAGES = ("README.md", "docs/performance.md", "docs/paper.md", "docs/work_precision.svg")
 
     def setUp(self):
         folder = tempfile.TemporaryDirectory()
         self.addCleanup(folder.cleanup)
         self.root = Path(folder.name)
+        (work,) = (REPOSITORY / "results").glob("physics-work-llvmpipe-*.json")
         for name in (*self.PAGES, "scripts/figures",
-                     *(f"results/{each.name}" for each in (MEASURED, MEASURED_ON_A_GPU))):
+                     *(f"results/{each.name}" for each in (MEASURED, MEASURED_ON_A_GPU, work))):
             (self.root / name).parent.mkdir(exist_ok=True)
             shutil.copy(REPOSITORY / name, self.root / name)
 
