@@ -35,6 +35,11 @@ namespace benchmarks::commands {
 
 namespace {
 
+int sayNothingMatches(const std::string& filter) {
+    std::cerr << "hairbench: no case's name matches '" << filter << "'\n";
+    return report::kNothingRan;
+}
+
 void printReport(const run::FinishedRun& finished, const std::filesystem::path& out) {
     std::cout << finished.summary << "report: " << engine::shownText(out.string()) << '\n';
 }
@@ -65,11 +70,9 @@ int conclude(
 }
 
 int printNothingToRun(const run::RunOptions& options, const run::RunPlan& plan) {
-    if (options.shard.empty())
-        std::cerr << "hairbench: no case's name matches '" << options.filter << "'\n";
-    else
-        std::cerr << "hairbench: none of the " << plan.case_count << " cases is in shard "
-                  << options.shard << '\n';
+    if (options.shard.empty()) return sayNothingMatches(options.filter);
+    std::cerr << "hairbench: none of the " << plan.case_count << " cases is in shard "
+              << options.shard << '\n';
     return report::kNothingRan;
 }
 
@@ -232,10 +235,7 @@ report::CaseResult compileCase(
 int compileShaders(const ShadersOptions& options) {
     measure::HairCache cache = measure::userHairCache(options.scene.cache);
     const run::RunPlan plan = run::planRun(options.scene, options.filter, "", &cache.assets());
-    if (plan.cases.empty()) {
-        std::cerr << "hairbench: no case's name matches '" << options.filter << "'\n";
-        return report::kNothingRan;
-    }
+    if (plan.cases.empty()) return sayNothingMatches(options.filter);
     const std::filesystem::path out = options.out.empty() ? std::filesystem::path("results/local") /
                                                                 ("shaders-" + plan.name + ".json")
                                                           : options.out;
@@ -314,10 +314,7 @@ void ablateAll(
 int ablateScene(const AblateOptions& options) {
     measure::HairCache cache = measure::userHairCache(options.scene.cache);
     const run::RunPlan plan = run::planRun(options.scene, options.filter, "", &cache.assets());
-    if (plan.cases.empty()) {
-        std::cerr << "hairbench: no case's name matches '" << options.filter << "'\n";
-        return report::kNothingRan;
-    }
+    if (plan.cases.empty()) return sayNothingMatches(options.filter);
     const std::filesystem::path out = options.out.empty() ? std::filesystem::path("results/local") /
                                                                 ("ablation-" + plan.name + ".json")
                                                           : options.out;
@@ -446,10 +443,7 @@ int measureShimmer(const ShimmerOptions& options) {
     measure::HairCache cache = measure::userHairCache(options.scene.cache);
     const std::vector<run::PlannedCase> cases =
         run::planRun(options.scene, options.filter, "", &cache.assets()).cases;
-    if (cases.empty()) {
-        std::cerr << "hairbench: no case's name matches '" << options.filter << "'\n";
-        return report::kNothingRan;
-    }
+    if (cases.empty()) return sayNothingMatches(options.filter);
     for (const run::PlannedCase& each : cases)
         if (!each.spec.settings.render.hair)
             throw engine::Error("/render/hair", "is false: nothing to compare");

@@ -431,8 +431,8 @@ void solve(Dense matrix, std::vector<std::vector<double>>& columns) {
 glm::dvec2 tangentAt(double angle) { return {std::sin(angle), -std::cos(angle)}; }
 glm::dvec2 normalAt(double angle) { return {std::cos(angle), std::sin(angle)}; }
 
-// Where the air presses on a segment, as parts of its length, each on half of it: where its mass
-// is. In its middle alone, a zigzag would not be damped.
+// The air presses on both ends of a segment, half of it on each, because the mass is there.
+// Pressure on its middle alone would not damp a zigzag. The places are parts of its length.
 constexpr double kPressed[] = {0.0, 1.0};
 
 // The generalised force on each angle, N m, at these rates, 1/s.

@@ -409,6 +409,7 @@ constexpr Paper kPapers[] = {
 
 void playPapers(const engine::Device& device, PhysicsReport& report) {
     for (const Paper& paper : kPapers) {
+        if (report.interrupted) return;
         const CheckedSolver solver(paper.solver);
         runChecks(device, std::span(&paper.check, 1), std::span(&solver, 1), report);
     }

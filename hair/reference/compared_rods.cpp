@@ -103,6 +103,7 @@ struct CosseratStep {
     }
 
     void predict(std::span<const glm::dvec3> accelerations, const RodRoot& root, const RodAir* air);
+    glm::dvec4 neighboursPull(std::size_t i) const;
     void orient();
     void place();
     void guess();
@@ -136,16 +137,23 @@ void CosseratStep::predict(
     positions = predicted;
 }
 
+// b, the pull of the neighbours' orientations on that of segment i.
+glm::dvec4 CosseratStep::neighboursPull(std::size_t i) const {
+    const std::vector<glm::dquat>& orientations = state.orientations;
+    const glm::dvec4 here = toVector(orientations[i]);
+    const glm::dmat4 above = rOfSecond(rest, orientations, i);
+    glm::dvec4 b = glm::transpose(above) * pullAt(rest, i, above * here);
+    if (i + 1 < size()) {
+        const glm::dmat4 below = rOfFirst(rest, orientations, i + 1);
+        b += glm::transpose(below) * pullAt(rest, i + 1, below * here);
+    }
+    return b;
+}
+
 void CosseratStep::orient() {
     std::vector<glm::dquat>& orientations = state.orientations;
     for (std::size_t i = 1; i < size(); ++i) {
-        const glm::dvec4 here = toVector(orientations[i]);
-        const glm::dmat4 above = rOfSecond(rest, orientations, i);
-        glm::dvec4 b = glm::transpose(above) * pullAt(rest, i, above * here);
-        if (i + 1 < size()) {
-            const glm::dmat4 below = rOfFirst(rest, orientations, i + 1);
-            b += glm::transpose(below) * pullAt(rest, i + 1, below * here);
-        }
+        const glm::dvec4 b = neighboursPull(i);
         if (glm::length(b) == 0.0) continue;
         orientations[i] = balancedOrientation(
             toQuaternion(b), parameters.stretch_stiffness * (positions[i] - positions[i - 1]));
@@ -242,13 +250,7 @@ void CosseratStep::descend() {
 void CosseratStep::turn() {
     std::vector<glm::dquat>& orientations = state.orientations;
     for (std::size_t i = 2; i < size(); ++i) {
-        const glm::dvec4 here = toVector(orientations[i]);
-        const glm::dmat4 above = rOfSecond(rest, orientations, i);
-        glm::dvec4 b = glm::transpose(above) * pullAt(rest, i, above * here);
-        if (i + 1 < size()) {
-            const glm::dmat4 below = rOfFirst(rest, orientations, i + 1);
-            b += glm::transpose(below) * pullAt(rest, i + 1, below * here);
-        }
+        const glm::dvec4 b = neighboursPull(i);
         const glm::dquat v(
             0.0, -2.0 * parameters.stretch_stiffness * (positions[i] - positions[i - 1]));
         const double lambda = glm::length(v) + glm::length(b);

@@ -10,7 +10,8 @@
 // Rows of the scratch memory. kPredicted: a vertex's displacement without the strand's forces, and
 // w its weight against all below it. kCentre: the displacement with the least energy of all that
 // hangs on the vertex, and w its weight against the segment above; the descent does not use it or
-// the weights. kMoved: the vertex's displacement. kDrag: the tangent and the strength of the drag across it.
+// the weights. kMoved: the vertex's displacement. kDrag: the tangent and the strength of the drag
+// across it.
 const uint kScratchRows = kStableCosseratScratchRows;
 const uint kPredicted = 0u;
 const uint kCentre = 1u;
