@@ -183,6 +183,37 @@ const Table& tableOf(const LodSettings*) {
     return table;
 }
 
+// ---- Copies -------------------------------------------------------------------------------------
+
+const Table& tableOf(const CopySettings*) {
+    using S = CopySettings;
+    static const Table table = tableWith<S>(
+        {number("count", &S::count, 1, 128, "count", "heads with the same hair, in a square grid"),
+         number("spacing", &S::spacing, 0, 100, "m", "distance between neighbouring heads"),
+         choice(
+             "motion", &S::motion, {{CopyMotion::shared, "shared"}, {CopyMotion::own, "own"}},
+             "shared: one simulation moves the hair of all heads; own: each head has a simulation, "
+             "with its own seed of the wind and a motion that `delay` shifts"),
+         number(
+             "delay", &S::delay, 0, 1000, "s",
+             "with motion own: each head is this much further in /simulation/motion than the one "
+             "before")});
+    return table;
+}
+
+std::vector<glm::vec3> copyOffsets(const CopySettings& settings) {
+    std::uint32_t columns = 1;
+    while (columns * columns < settings.count) ++columns;
+    std::vector<glm::vec3> offsets;
+    for (std::uint32_t i = 0; i < settings.count; ++i) {
+        const std::uint32_t column = i % columns;
+        const float steps = static_cast<float>((column + 1) / 2);
+        const float right = column % 2 == 1 ? steps : -steps;
+        offsets.push_back(settings.spacing * glm::vec3(right, 0.0f, -static_cast<float>(i / columns)));
+    }
+    return offsets;
+}
+
 // ---- Picture ------------------------------------------------------------------------------------
 
 const Table& tableOf(const CameraSettings*) {
@@ -409,6 +440,7 @@ const Table& tableOf(const Settings*) {
          group("simulation", &S::simulation, "how the guides move"),
          group("strands", &S::strands, "how strands are made from guides"),
          group("lod", &S::lod, "level of detail"),
+         group("copies", &S::copies, "several heads"),
          group("shading", &S::shading, "how strands are lit"),
          group("camera", &S::camera, "the camera"), group("render", &S::render, "the picture"),
          group("run", &S::run, "how the scene is measured")});

@@ -114,6 +114,31 @@ struct LodSettings {
 
 const Table& tableOf(const LodSettings*);
 
+// ---- Copies -------------------------------------------------------------------------------------
+
+// What copies of the head do. shared: one simulation moves all of them; own: each has a simulation
+// with its own wind and its own time in the head's motion.
+enum class CopyMotion { shared, own };
+
+// Several heads with the same hair: copyOffsets().
+struct CopySettings {
+    std::uint32_t count = 1;
+    float spacing = 0.5f;
+    CopyMotion motion = CopyMotion::shared;
+    float delay = 0.37f;
+};
+
+const Table& tableOf(const CopySettings*);
+
+// Number of copies that move differently.
+inline std::uint32_t motions(const CopySettings& settings) {
+    return settings.motion == CopyMotion::own ? settings.count : 1;
+}
+
+// Returns where the copies stand, m. The first is at the origin. Rows of equal length go back along
+// -z, and each is filled from its middle, right and left in turn. A full grid is as wide as deep.
+std::vector<glm::vec3> copyOffsets(const CopySettings& settings);
+
 // ---- Picture ------------------------------------------------------------------------------------
 
 struct CameraSettings {
@@ -227,6 +252,7 @@ struct Settings {
     SimulationSettings simulation;
     StrandSettings strands;
     LodSettings lod;
+    CopySettings copies;
     ShadingSettings shading;
     CameraSettings camera;
     RenderSettings render;

@@ -191,6 +191,8 @@ LadderWalk::LadderWalk(
     const engine::Device& device, const StillHair& hair, const hair::Settings& settings,
     CaseAblation& result)
     : device_(device), watch_(device), result_(result) {
+    if (settings.copies.count > 1)
+        throw engine::Error("/copies/count", "costs of stages are measured on one head");
     for (StopPlan& plan : planStops(settings, watch_.address())) addStop(std::move(plan), hair);
     if (settings.strands.texture.empty())
         std::ranges::move(coverageWarnings(result_.stops), std::back_inserter(result_.warnings));

@@ -17,6 +17,7 @@
 #include "benchmarks/reference/picture_errors.h"
 #include "benchmarks/report/statistics.h"
 #include "benchmarks/report/text.h"
+#include "engine/error.h"
 #include "engine/float_pictures.h"
 #include "engine/process.h"
 #include "hair/fields.h"
@@ -211,7 +212,10 @@ zoomedOn(const hair::rendering::StrandView& view, const hair::CameraSettings& ca
 FrozenView::FrozenView(
     const engine::Device& device, const measure::Case& hair, const hair::Settings& settings)
     : device_(device), view_(hair.view()), renderer_(hair.rendererOf(settings)),
-      loop_(device, engine::Timing::isolated) {}
+      loop_(device, engine::Timing::isolated) {
+    if (settings.copies.count > 1)
+        throw engine::Error("/copies/count", "pictures are compared for one head");
+}
 
 void FrozenView::draw() {
     engine::checkInterrupted();

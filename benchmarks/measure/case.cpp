@@ -41,6 +41,15 @@ hair::simulation::Simulation simulationOf(
     return cache->simulation(device, groom, settings, field_meshes, deforming);
 }
 
+// The simulation of a head of /copies. Hands pull only the first one.
+hair::SimulationSettings
+ofHead(const hair::Settings& settings, hair::SimulationSettings simulation, std::uint32_t head) {
+    const float delay = settings.copies.delay * static_cast<float>(head);
+    for (hair::Keyframe& key : simulation.motion.keyframes) key.time -= delay;
+    if (head > 0) simulation.pulls.clear();
+    return simulation;
+}
+
 }  // namespace
 
 Case::Case(
@@ -58,12 +67,30 @@ Case::Case(
       simulation_(simulationOf(
           device, groom_, settings_, scene::loadFieldMeshes(settings_, mesh_, directory),
           deforming_.get(), cache)),
+      others_(simulationsOfOthers(cache)),
       fixed_step_(double{settings_.simulation.time_step}),
       groom_buffers_(std::make_unique<hair::rendering::GroomBuffers>(groomBuffers(settings_))),
       renderer_(std::make_unique<hair::rendering::Renderer>(
           device, settings_, view(),
           scene::loadRenderAssets(settings_, pointerTo(mesh_), directory))) {
-    if (settings_.run.interpolate && simulation_.moves()) simulation_.interpolate();
+    if (settings_.run.interpolate && simulation_.moves())
+        forSimulations([](hair::simulation::Simulation& each) { each.interpolate(); });
+}
+
+std::vector<std::unique_ptr<hair::simulation::Simulation>>
+Case::simulationsOfOthers(HairCache* cache) const {
+    std::vector<std::unique_ptr<hair::simulation::Simulation>> others;
+    const std::vector<hair::groom::Mesh> field_meshes =
+        scene::loadFieldMeshes(settings_, mesh_, directory_);
+    for (std::uint32_t head = 1; head < motions(settings_.copies); ++head) {
+        hair::Settings own = settings_;
+        own.simulation = ofHead(settings_, settings_.simulation, head);
+        own.seed = settings_.seed + head;
+        others.push_back(std::unique_ptr<hair::simulation::Simulation>(
+            new hair::simulation::Simulation(simulationOf(
+                device_, groom_, own, field_meshes, deforming_.get(), cache))));
+    }
+    return others;
 }
 
 std::optional<hair::groom::StrandSet> Case::probeReference() const {
@@ -80,7 +107,7 @@ void Case::setDrawing(const hair::Settings& unread) {
     const hair::Settings settings = scene::withExtensions(unread, directory_);
     auto buffers = std::make_unique<hair::rendering::GroomBuffers>(groomBuffers(settings));
     auto renderer = std::make_unique<hair::rendering::Renderer>(
-        device_, settings, viewOf(*buffers),
+        device_, settings, viewOf(*buffers, simulation_),
         scene::loadRenderAssets(settings, pointerTo(mesh_), directory_));
     groom_buffers_ = std::move(buffers);
     renderer_ = std::move(renderer);
@@ -93,7 +120,10 @@ void Case::setCamera(const hair::CameraSettings& camera) {
 }
 
 void Case::carryOn(const hair::SimulationSettings& settings) {
-    simulation_.carryOn(settings);
+    std::uint32_t head = 0;
+    forSimulations([&](hair::simulation::Simulation& each) {
+        each.carryOn(ofHead(settings_, settings, head++));
+    });
     const auto force = settings_.simulation.force_parameters.file;
     const auto solver = settings_.simulation.solver_parameters.file;
     settings_.simulation = settings;
@@ -102,42 +132,43 @@ void Case::carryOn(const hair::SimulationSettings& settings) {
 }
 
 void Case::simulate(engine::Passes& passes) {
-    using engine::PassKind;
+    using hair::simulation::Simulation;
+    const auto record = [&](const char* name, auto each) {
+        passes.pass(name, engine::PassKind::compute, [&](engine::Commands& commands) {
+            forSimulations([&](Simulation& simulation) { each(simulation, commands); });
+        });
+    };
     const bool blows = settings_.simulation.solver != hair::Solver::none;
     const std::uint32_t steps =
         simulation_.moves() ? fixed_step_.stepsFor(double{settings_.run.frame_time}) : 0;
     // Interpolation needs the positions before the last step, so every step changes the copy.
     const bool between = settings_.run.interpolate && simulation_.moves();
     for (std::uint32_t i = 0; i < steps; ++i) {
-        if (blows) {
-            passes.pass("wind", engine::PassKind::compute, [&](engine::Commands& commands) {
-                simulation_.recordWind(commands);
+        if (blows)
+            record("wind", [](Simulation& each, engine::Commands& commands) {
+                each.recordWind(commands);
             });
-        }
-        if (simulation_.hasVolume()) {
-            passes.pass("volume", engine::PassKind::compute, [&](engine::Commands& commands) {
-                simulation_.recordVolume(commands);
+        if (simulation_.hasVolume())
+            record("volume", [](Simulation& each, engine::Commands& commands) {
+                each.recordVolume(commands);
             });
-        }
-        if (blows && simulation_.hasForce()) {
-            passes.pass("force", engine::PassKind::compute, [&](engine::Commands& commands) {
-                simulation_.recordForce(commands);
+        if (blows && simulation_.hasForce())
+            record("force", [](Simulation& each, engine::Commands& commands) {
+                each.recordForce(commands);
             });
-        }
-        if (blows && simulation_.hasPulls()) {
+        if (blows && simulation_.hasPulls())
             passes.pass("pull", engine::PassKind::compute, [&](engine::Commands& commands) {
                 simulation_.recordPulls(commands);
             });
-        }
-        passes.pass("simulate", engine::PassKind::compute, [&](engine::Commands& commands) {
-            simulation_.recordStep(
-                commands,
-                between || i == 0 ? hair::simulation::Copy::other : hair::simulation::Copy::same);
+        const auto into =
+            between || i == 0 ? hair::simulation::Copy::other : hair::simulation::Copy::same;
+        record("simulate", [&](Simulation& each, engine::Commands& commands) {
+            each.recordStep(commands, into);
         });
     }
     if (between)
-        passes.pass("interpolate", engine::PassKind::compute, [&](engine::Commands& commands) {
-            simulation_.recordInterpolation(commands, fixed_step_.remainder());
+        record("interpolate", [&](Simulation& each, engine::Commands& commands) {
+            each.recordInterpolation(commands, fixed_step_.remainder());
         });
 }
 
@@ -154,29 +185,40 @@ void Case::frame(engine::Passes& passes) {
     draw(passes);
 }
 
-void Case::draw(engine::Passes& passes) { renderer_->record(passes, view()); }
+void Case::draw(engine::Passes& passes) {
+    findViews(views_);  // without an allocation in every frame
+    renderer_->record(passes, views_);
+}
 
 void Case::recordReset(engine::Passes& passes) {
     passes.asyncCompute(0, [&] {
         passes.pass("reset", engine::PassKind::compute, [&](engine::Commands& commands) {
-            simulation_.recordReset(commands);
+            forSimulations(
+                [&](hair::simulation::Simulation& each) { each.recordReset(commands); });
         });
     });
     fixed_step_.reset();
 }
 
 void Case::reset() {
-    simulation_.reset();
+    forSimulations([](hair::simulation::Simulation& each) { each.reset(); });
     fixed_step_.reset();
 }
 
 std::vector<glm::vec3> Case::guides() const {
-    std::vector<glm::vec3> positions = simulation_.readPositions();
+    std::vector<glm::vec3> first = soundGuides(simulation_);
+    for (const auto& other : others_) soundGuides(*other);
+    return first;
+}
+
+std::vector<glm::vec3>
+Case::soundGuides(const hair::simulation::Simulation& simulation) const {
+    std::vector<glm::vec3> positions = simulation.readPositions();
     const auto broken = hair::simulation::findBroken(
         positions, groom_.points, groom_.vertices_per_strand,
         hair::simulation::mostStretch(settings_.simulation));
     if (!broken) return positions;
-    const double frame = simulation_.time() / double{settings_.run.frame_time};
+    const double frame = simulation.time() / double{settings_.run.frame_time};
     std::ostringstream what;
     what.precision(3);
     what << "after " << std::llround(frame) << " frames the simulation has failed: guide "
@@ -220,7 +262,11 @@ std::vector<float> Case::radiance() const {
 }
 
 std::string Case::stateHash() const {
-    const std::vector<glm::vec3> positions = guides();
+    std::vector<glm::vec3> positions = soundGuides(simulation_);
+    for (const auto& other : others_) {
+        const std::vector<glm::vec3> more = soundGuides(*other);
+        positions.insert(positions.end(), more.begin(), more.end());
+    }
     return report::hashBytes(std::as_bytes(std::span(positions)));
 }
 
@@ -263,8 +309,10 @@ std::vector<std::pair<std::string, std::uint64_t>> Case::counts() const {
     if (settings_.render.hair) {
         if (settings_.strands.source == hair::StrandSource::groom)
             counts.emplace_back("groom_strands", groom_.bindings.size());
-        counts.emplace_back("strands", plan().strands());
-        counts.emplace_back("segments", plan().drawnSegments());
+        const std::uint32_t heads = renderer_->heads();
+        if (heads > 1) counts.emplace_back("heads", heads);
+        counts.emplace_back("strands", heads * plan().strands());
+        counts.emplace_back("segments", heads * plan().drawnSegments());
     }
     return counts;
 }
@@ -274,17 +322,30 @@ std::optional<hair::rendering::BackendChoice> Case::backend() const {
     return renderer_->backend();
 }
 
-hair::rendering::StrandView Case::view() const { return viewOf(*groom_buffers_); }
+hair::rendering::StrandView Case::view() const { return viewOf(*groom_buffers_, simulation_); }
 
-hair::rendering::StrandView Case::viewOf(const hair::rendering::GroomBuffers& buffers) const {
+std::vector<hair::rendering::StrandView> Case::views() const {
+    std::vector<hair::rendering::StrandView> views;
+    findViews(views);
+    return views;
+}
+
+void Case::findViews(std::vector<hair::rendering::StrandView>& views) const {
+    views.assign(1, view());
+    for (const auto& other : others_) views.push_back(viewOf(*groom_buffers_, *other));
+}
+
+hair::rendering::StrandView Case::viewOf(
+    const hair::rendering::GroomBuffers& buffers,
+    const hair::simulation::Simulation& simulation) const {
     hair::rendering::StrandView view = buffers.view();
-    const hair::simulation::GuideView guides = simulation_.guides();
+    const hair::simulation::GuideView guides = simulation.guides();
     view.guides = guides.positions;
     view.contacts = guides.contacts;
     view.bodies = guides.bodies;
-    view.head = hair::simulation::toMatrix(simulation_.drawnPose());
-    view.time = simulation_.drawnTime();
-    view.carried = glm::dmat4(hair::simulation::toMatrix(simulation_.drawnCarried()));
+    view.head = hair::simulation::toMatrix(simulation.drawnPose());
+    view.time = simulation.drawnTime();
+    view.carried = glm::dmat4(hair::simulation::toMatrix(simulation.drawnCarried()));
     return view;
 }
 

@@ -28,7 +28,8 @@ namespace benchmarks::measure {
 class HairCache;
 
 // One set of settings, ready to play: the groom, its simulation and its renderer. Owns all GPU
-// objects that it uses; its destructor frees them.
+// objects that it uses; its destructor frees them. If the heads of /copies have a simulation each,
+// then guides(), strands(), head() and probes are those of the first head.
 class Case {
 public:
     // File names in the settings are relative to `directory`. Data in `cache` is reused, and new
@@ -115,6 +116,8 @@ public:
     // and drawing, but not in the effects of /groom, /simulation, /seed and /strands.
     hair::rendering::Renderer rendererOf(const hair::Settings& settings) const;
     hair::rendering::StrandView view() const;
+    // For Renderer::record(): of all heads, or one for each.
+    std::vector<hair::rendering::StrandView> views() const;
 
     const hair::rendering::StrandPlan& plan() const { return renderer_->plan(); }
     std::optional<hair::rendering::ExpectedCounts> expected() const {
@@ -129,7 +132,20 @@ public:
 
 private:
     hair::rendering::GroomBuffers groomBuffers(const hair::Settings& settings) const;
-    hair::rendering::StrandView viewOf(const hair::rendering::GroomBuffers& buffers) const;
+    std::vector<std::unique_ptr<hair::simulation::Simulation>>
+    simulationsOfOthers(HairCache* cache) const;
+    hair::rendering::StrandView viewOf(
+        const hair::rendering::GroomBuffers& buffers,
+        const hair::simulation::Simulation& simulation) const;
+    // The guides of a simulation; throws as guides() does.
+    std::vector<glm::vec3> soundGuides(const hair::simulation::Simulation& simulation) const;
+    void findViews(std::vector<hair::rendering::StrandView>& views) const;
+    // Calls each(simulation) for the simulations of all heads.
+    template <class Each>
+    void forSimulations(Each each) {
+        each(simulation_);
+        for (const auto& other : others_) each(*other);
+    }
 
     const engine::Device& device_;
     hair::Settings settings_;
@@ -137,10 +153,13 @@ private:
     std::optional<hair::groom::Mesh> mesh_;
     hair::groom::Groom groom_;
     std::unique_ptr<hair::groom::DeformingMesh> deforming_;  // null: the mesh keeps its shape
-    hair::simulation::Simulation simulation_;
+    hair::simulation::Simulation simulation_;  // of the first head, or of all heads
+    // Those of the other heads, if each has its own.
+    std::vector<std::unique_ptr<hair::simulation::Simulation>> others_;
     hair::simulation::FixedStep fixed_step_;
     std::unique_ptr<hair::rendering::GroomBuffers> groom_buffers_;
     std::unique_ptr<hair::rendering::Renderer> renderer_;
+    std::vector<hair::rendering::StrandView> views_;  // of the last picture recorded
 };
 
 // Describes fragments missing from the last picture because its fragment lists were full; empty if

@@ -161,9 +161,12 @@ CaseMemory caseMemory(
         drawn.strands.backend = chooseBackend(device, settings, plan, {}).backend;
 
     const std::uint64_t mesh_file = fileBytes(directory, grownOn(settings));
-    CaseMemory memory{.rows = Simulation::rows(device.info(), size, settings.simulation)};
+    CaseMemory memory;
     engine::MemoryRows& rows = memory.rows;
-    if (settings.run.interpolate) rows.add(GuideInterpolation::rows(size.vertices()));
+    for (std::uint32_t i = 0; i < motions(settings.copies); ++i) {
+        rows.add(Simulation::rows(device.info(), size, settings.simulation));
+        if (settings.run.interpolate) rows.add(GuideInterpolation::rows(size.vertices()));
+    }
     rows.add(GroomBuffers::rows(settings, size));
     rows.add(Renderer::rows(device, drawn, plan, size));
     // A vertex takes at least its position in a file.

@@ -526,6 +526,9 @@ MitsubaExport exportMitsuba(
             scene.path.string(),
             "/shading/model: " + settings.shading.model_file +
                 " is the scene's own, and only fibres can be path-traced: set another model");
+    if (settings.copies.count > 1)
+        throw engine::Error(
+            scene.path.string(), "/copies/count: a path-traced reference has one head");
     MitsubaParts parts;
     MitsubaExport result;
     measure::Case played(device, settings, scene.directory, &cache);

@@ -345,7 +345,7 @@ std::vector<std::uint8_t> drawn(
     const engine::Device& device, const measure::Case& test_case, const hair::Settings& settings) {
     hair::rendering::Renderer renderer = test_case.rendererOf(settings);
     engine::FrameLoop loop(device, engine::Timing::isolated);
-    loop.frame([&](engine::Passes& passes) { renderer.record(passes, test_case.view()); });
+    loop.frame([&](engine::Passes& passes) { renderer.record(passes, test_case.views()); });
     loop.finish();
     return engine::readOutput(device, renderer.target());
 }
@@ -426,10 +426,12 @@ measure::StrandCounts
 countsOf(const measure::Case& test_case, const hair::Settings& settings, const Covered& covered) {
     const hair::rendering::StrandPlan& plan = test_case.plan();
     const hair::groom::Groom& groom = test_case.groom();
+    const std::uint32_t heads = settings.copies.count;
+    const std::uint64_t vertices = std::uint64_t{groom.strand_count} * groom.vertices_per_strand;
     return {
-        .guide_vertices = std::uint64_t{groom.strand_count} * groom.vertices_per_strand,
-        .root_triangles = plan.triangles,
-        .strands = plan.strands(),
+        .guide_vertices = motions(settings.copies) * vertices,
+        .root_triangles = std::uint64_t{heads} * plan.triangles,
+        .strands = heads * plan.strands(),
         .segments = plan.segments,
         .pieces = plan.forced_tessellation,
         .covered_samples = covered.samples,

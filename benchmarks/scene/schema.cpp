@@ -253,6 +253,33 @@ Broken lightsHaveRoomForTheirMaps(const hair::Settings& s) {
            std::to_string(hair::gpu::kMostFurtherMaps) + " are permitted";
 }
 
+// Heads are drawn one after the other, and one set of shadow maps serves all that move alike.
+Broken headsAreDrawnOneByOne(const hair::Settings& s) {
+    if (s.copies.count == 1) return {};
+    const hair::Transparency kind = s.render.transparency;
+    if (kind != hair::Transparency::none && kind != hair::Transparency::alpha_to_coverage)
+        return "is above 1, but /render/transparency blends the fragments of one head only";
+    if (s.render.show == hair::Show::overdraw || s.render.show == hair::Show::density)
+        return "is above 1, but /render/show counts the fragments of one head only";
+    if (!s.shading.shadows.meshes && s.shading.shadows.hair == hair::HairShadows::none) return {};
+    for (std::size_t i = 0; i < s.shading.lights.size(); ++i) {
+        const hair::LightSettings& light = s.shading.lights[i];
+        if (light.shadows && light.type != hair::LightType::directional)
+            return "is above 1, but /shading/lights/" + std::to_string(i) +
+                   " is near and casts shadows, which differ from head to head";
+    }
+    return {};
+}
+
+Broken headsMoveByThemselves(const hair::Settings& s) {
+    if (motions(s.copies) == 1) return {};
+    if (!s.simulation.animation.clip.empty())
+        return "is own, but /simulation/animation/clip deforms all heads alike";
+    if (s.groom.cache.mode != hair::CacheMode::none)
+        return "is own, but /groom/cache moves all heads alike";
+    return {};
+}
+
 struct Rule {
     const char* pointer;
     Broken (*broken)(const hair::Settings&);
@@ -274,6 +301,8 @@ constexpr Rule kRules[] = {
     {"/simulation/pulls", pullKeysAscend},
     {"/simulation/motion/repeat", repeatedMotionCloses},
     {"/lod/near_distance", lodDistancesAscend},
+    {"/copies/count", headsAreDrawnOneByOne},
+    {"/copies/motion", headsMoveByThemselves},
     {"/camera/near_plane", planesAscend},
     {"/camera/target", cameraLooksSomewhere},
     {"/camera/up", upStandsOut},

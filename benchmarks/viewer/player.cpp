@@ -39,6 +39,8 @@ Effect effectOf(const hair::Settings& before, const hair::Settings& after) {
     if (before.seed != after.seed || hair::differ(before.groom, after.groom) ||
         hair::differ(before.run, after.run))
         return Effect::everything;
+    const bool own = motions(before.copies) > 1 || motions(after.copies) > 1;
+    if (own && hair::differ(before.copies, after.copies)) return Effect::everything;
     hair::SimulationSettings& simulation = same.simulation;
     if (!hair::differ(before.simulation, simulation)) return Effect::drawing;
     simulation.wind = before.simulation.wind;
@@ -263,7 +265,7 @@ void Player::drawFrame(
     play(timing, [&](engine::Passes& passes) {
         if (simulate) passes.asyncCompute(1, [&] { simulate(passes); });
         if (renderer)
-            renderer->record(passes, case_->view());
+            renderer->record(passes, case_->views());
         else
             case_->draw(passes);
     });

@@ -4,8 +4,10 @@
 #include <cassert>
 #include <cmath>
 #include <cstddef>
+#include <cstring>
 #include <iterator>
 #include <limits>
+#include <numeric>
 #include <numbers>
 #include <string>
 #include <utility>
@@ -217,15 +219,29 @@ namespace {
 
 using Last = engine::Target::Last;
 
-engine::MemoryRows pictureRows() {
+// Bytes from the parameters of one picture to those of the next.
+constexpr std::size_t kHeadStride = (sizeof(gpu::PictureParameters) + 15) / 16 * 16;
+
+engine::MemoryRows pictureRows(std::size_t heads) {
     return {
         "shading",
-        {{"picture parameters", sizeof(gpu::PictureParameters), engine::FrameLoop::kMaxSlots,
+        {{"picture parameters", heads * kHeadStride, engine::FrameLoop::kMaxSlots,
           engine::Usage::upload}}};
 }
 
-engine::Buffer parameterBuffer(const engine::Device& device) {
-    return {device, pictureRows()["picture parameters"]};
+engine::Buffer parameterBuffer(const engine::Device& device, std::size_t heads = 1) {
+    return {device, pictureRows(heads)["picture parameters"]};
+}
+
+// The lights in the frame of each head: [head][light].
+std::vector<gpu::Light> lightsOfHeads(const Settings& settings) {
+    std::vector<gpu::Light> lights;
+    for (const glm::vec3& offset : copyOffsets(settings.copies)) {
+        Settings seen = settings;
+        for (LightSettings& light : seen.shading.lights) light.position -= offset;
+        std::ranges::copy(makeLights(seen), std::back_inserter(lights));
+    }
+    return lights;
 }
 
 Settings withBackend(Settings settings, Backend backend) {
@@ -283,8 +299,10 @@ engine::MemoryRows Renderer::rows(
         lit.shading.lights.resize(
             settings.shading.lights.size() + settings.shading.environment_lights,
             LightSettings{.type = LightType::directional});
-    engine::MemoryRows rows = pictureRows();
-    rows.add("shading", {{"lights", engine::bytesOf<gpu::Light>(lit.shading.lights.size())}});
+    const std::size_t heads = settings.copies.count;
+    engine::MemoryRows rows = pictureRows(heads);
+    rows.add(
+        "shading", {{"lights", engine::bytesOf<gpu::Light>(heads * lit.shading.lights.size())}});
     rows.add(targetRows(rendered(settings)));
     rows.add(HairOpticsBuffers::rows(settings.shading));
     rows.add(ShadowPass::rows(lit, plan));
@@ -312,7 +330,7 @@ Renderer::Renderer(
       backend_(chooseBackend(device, settings, plan_, stages)),
       settings_(litByEnvironment(withBackend(settings, backend_.backend), assets)),
       target_(device, rendered(settings_)),
-      lights_(engine::makeBuffer(device, makeLights(settings_), "lights", "shading")),
+      lights_(engine::makeBuffer(device, lightsOfHeads(settings_), "lights", "shading")),
       optics_(device, settings_), points_(makePoints(device, settings_, plan_)),
       shadows_(device, settings_, plan_, assets, pointerTo(points_)),
       environment_(device, settings_, assets),
@@ -323,26 +341,58 @@ Renderer::Renderer(
       overlay_(device, settings_, assets),
       resolve_(device, settings_.render, target_.description()) {
     backend_.variant = strands_.backendVariant();
-    for (engine::Buffer& parameters : parameters_) parameters = parameterBuffer(device);
+    for (const glm::vec3& offset : copyOffsets(settings_.copies)) heads_.push_back({offset});
+    order_.resize(heads_.size());
+    written_.resize(heads_.size() * kHeadStride);
+    for (engine::Buffer& parameters : parameters_)
+        parameters = parameterBuffer(device, heads_.size());
     if (settings_.render.hair && FramesPass::isNeeded(view)) frames_.emplace(device, view);
     if (view.deforming) skin_.emplace(device, settings_, plan_, view);
 }
 
-void Renderer::record(engine::Passes& passes, const StrandView& view) {
-    const gpu::PictureParameters picture_parameters = pictureParameters(
-        settings_, plan_, view,
-        {.guide_normals = frames_ ? frames_->normals().address() : 0,
-         .guide_turns = frames_ ? frames_->turns().address() : 0,
-         .root_corrections = skin_ ? skin_->corrections().address() : 0,
-         .lights = lights_.address(),
-         .optics = optics_.address(),
-         .shadows = shadows_.address(passes.slot()),
-         .environment = environment_.address(),
-         .fragments = strands_.fragments()});
-    const engine::Buffer& parameters = parameters_[passes.slot()];
-    parameters.write(picture_parameters);
-    const std::uint64_t picture = parameters.address();
+std::optional<ExpectedCounts> Renderer::expected() const {
+    std::optional<ExpectedCounts> counts = strands_.expected();
+    if (!counts) return counts;
+    counts->tessellation_control_patches *= heads();
+    for (auto* count :
+         {&counts->tessellation_evaluation_invocations, &counts->geometry_invocations,
+          &counts->geometry_primitives})
+        if (*count) **count *= heads();
+    return counts;
+}
 
+void Renderer::writePictures(std::uint32_t slot, std::span<const StrandView> views) {
+    const std::size_t lights_per_head = settings_.shading.lights.size();
+    for (std::uint32_t i = 0; i < heads(); ++i) {
+        Head& head = heads_[i];
+        const std::uint32_t motion = views.size() > 1 ? i : 0;
+        head.parameters = pictureParameters(
+            settings_, plan_, views[motion],
+            {.guide_normals = frames_ ? frames_->normals().address() : 0,
+             .guide_turns = frames_ ? frames_->turns().address() : 0,
+             .root_corrections = skin_ ? skin_->corrections().address() : 0,
+             .lights = lights_.address() + i * lights_per_head * sizeof(gpu::Light),
+             .optics = optics_.address(),
+             .shadows = shadows_.address(slot, motion),
+             .environment = environment_.address(),
+             .fragments = strands_.fragments()},
+            head.offset);
+        head.address = parameters_[slot].address() + i * kHeadStride;
+        std::memcpy(&written_[i * kHeadStride], &head.parameters, sizeof head.parameters);
+    }
+    parameters_[slot].write(std::span<const std::byte>(written_));
+    const auto distance = [&](std::uint32_t i) {
+        return glm::distance(heads_[i].offset, settings_.camera.position);
+    };
+    std::iota(order_.begin(), order_.end(), 0u);
+    std::ranges::sort(order_, [&](std::uint32_t a, std::uint32_t b) {
+        return std::pair(distance(a), a) < std::pair(distance(b), b);
+    });
+}
+
+// Records what a head's picture needs of its hair before anything is drawn.
+void Renderer::recordShape(
+    engine::Passes& passes, const StrandView& view, const StrandPicture& picture) {
     if (frames_) {
         passes.pass("frames", engine::PassKind::compute, [&](engine::Commands& commands) {
             frames_->record(commands, view);
@@ -354,19 +404,34 @@ void Renderer::record(engine::Passes& passes, const StrandView& view) {
     }
     if (skin_ && settings_.render.hair) {
         passes.pass("skin", engine::PassKind::compute, [&](engine::Commands& commands) {
-            skin_->record(commands, picture, picture_parameters, passes.slot());
+            skin_->record(commands, picture.address, picture.parameters, passes.slot());
         });
     }
-    const StrandPicture drawn{
-        .address = picture, .parameters = picture_parameters, .images = strand_images_};
-    const bool joined = passes.joins() && strands_.joinsScene();
+}
+
+void Renderer::record(engine::Passes& passes, std::span<const StrandView> views) {
+    assert(views.size() == 1 || views.size() == heads_.size());
+    writePictures(passes.slot(), views);
+    const bool joined = passes.joins() && strands_.joinsScene() && heads_.size() == 1;
     const bool shadows_need_points = shadows_.drawsHair();
-    if (shadows_need_points || joined) recordPoints(passes, drawn);
-    shadows_.record(passes, meshes_, view, picture_parameters);
-    if (joined)
-        recordJoined(passes, view, drawn);
-    else
-        recordApart(passes, view, drawn, shadows_need_points ? Points::recorded : Points::needed);
+    for (const std::uint32_t i : order_) {
+        const bool is_first = i == order_.front();
+        const std::uint32_t motion = views.size() > 1 ? i : 0;
+        const StrandView& view = views[motion];
+        const StrandPicture picture = pictureOf(heads_[i]);
+        const bool moves = is_first || views.size() > 1;
+        if (moves) recordShape(passes, view, picture);
+        if ((moves && shadows_need_points) || joined) recordPoints(passes, picture);
+        if (moves) shadows_.record(passes, meshes_, view, picture.parameters, motion);
+        if (joined)
+            recordJoined(passes, view, picture);
+        else
+            recordApart(
+                passes, picture,
+                moves && shadows_need_points ? Points::recorded : Points::needed,
+                {.first = is_first, .last = i == order_.back()});
+    }
+    if (!joined) recordOverlays(passes, views);
     const engine::Resolve resolve = target_.resolve();
     if (resolve == engine::Resolve::compute || (resolve == engine::Resolve::attachment && !joined))
         passes.pass("resolve", resolve_.kind(), [&](engine::Commands& commands) {
@@ -388,11 +453,6 @@ void Renderer::recordPoints(
     });
 }
 
-void Renderer::drawScene(engine::Commands& commands, const StrandPicture& picture) const {
-    meshes_.draw(commands, picture.address, shadows_.images());
-    environment_.draw(commands, picture.address);
-}
-
 void Renderer::recordJoined(
     engine::Passes& passes, const StrandView& view, const StrandPicture& picture) const {
     const engine::PassKind kind = strands_.passKind();
@@ -400,7 +460,8 @@ void Renderer::recordJoined(
         "strands", kind, [&](engine::Commands& commands) { strands_.prepare(commands, picture); });
     passes.pass("scene", engine::PassKind::graphics, [&](engine::Commands& commands) {
         target_.beginRendering(commands, engine::Load::clear, background(), Last::yes);
-        drawScene(commands, picture);
+        meshes_.draw(commands, picture.address, shadows_.images());
+        environment_.draw(commands, picture.address);
     });
     passes.pass("strands", kind, [&](engine::Commands& commands) {
         strands_.draw(commands, picture);
@@ -414,10 +475,10 @@ void Renderer::recordJoined(
 }
 
 void Renderer::recordApart(
-    engine::Passes& passes, const StrandView& view, const StrandPicture& picture,
-    Points points) const {
+    engine::Passes& passes, const StrandPicture& picture, Points points, Turn turn) const {
     const bool resolves = target_.resolve() != engine::Resolve::none;
-    const Last after_strands = resolves || !overlay_.empty() ? Last::no : Last::yes;
+    const bool completes = turn.last && !resolves && overlay_.empty();
+    const Last after_strands = completes ? Last::yes : Last::no;
     const Last after_scene = settings_.render.hair ? Last::no : after_strands;
     // The scene and the points wait for the simulation alone: one barrier in front of the scene is
     // enough for both if the points' bounds are cleared before it. A GPU can then work on both at
@@ -428,21 +489,26 @@ void Renderer::recordApart(
             points_->clear(commands);
         });
     passes.pass("scene", engine::PassKind::graphics, [&](engine::Commands& commands) {
-        target_.beginRendering(commands, engine::Load::clear, background(), after_scene);
-        drawScene(commands, picture);
+        const engine::Load load = turn.first ? engine::Load::clear : engine::Load::keep;
+        target_.beginRendering(commands, load, background(), after_scene);
+        meshes_.draw(commands, picture.address, shadows_.images());
+        if (turn.first) environment_.draw(commands, picture.address);
         target_.endRendering(commands, after_scene);
     });
     if (points == Points::needed)
         recordPoints(passes, picture, clears_early ? Bounds::cleared : Bounds::old);
     if (settings_.render.hair) strands_.record(passes, target_, picture, after_strands);
-    if (!overlay_.empty()) {
-        const Last last = resolves ? Last::no : Last::yes;
-        passes.pass("overlay", engine::PassKind::graphics, [&](engine::Commands& commands) {
-            target_.beginRendering(commands, engine::Load::keep, {}, last);
-            overlay_.draw(commands, picture.address, view);
-            target_.endRendering(commands, last);
-        });
-    }
+}
+
+void Renderer::recordOverlays(engine::Passes& passes, std::span<const StrandView> views) const {
+    if (overlay_.empty()) return;
+    const Last last = target_.resolve() != engine::Resolve::none ? Last::no : Last::yes;
+    passes.pass("overlay", engine::PassKind::graphics, [&](engine::Commands& commands) {
+        target_.beginRendering(commands, engine::Load::keep, {}, last);
+        for (std::size_t i = 0; i < heads_.size(); ++i)
+            overlay_.draw(commands, heads_[i].address, views[views.size() > 1 ? i : 0]);
+        target_.endRendering(commands, last);
+    });
 }
 
 // ---- Points of strands --------------------------------------------------------------------------

@@ -85,7 +85,9 @@ private:
     std::optional<BodyWires> bodies_;
 };
 
-// Draws pictures of a head of hair, in these passes: frames (if strands have offsets or residuals),
+// Draws pictures of a head of hair, or of copies of it (copyOffsets), one after the other, so that
+// their strands share the memory of one head. Shadows of a head fall on that head alone. The
+// passes are: frames (if strands have offsets or residuals),
 // skin (if the mesh under the hair deforms), points (if a back end draws from them), mesh_shadow
 // and hair_shadow (if asked for), scene, strands, composite (if fragments are blended at the end),
 // overlay (if asked for) and resolve (if the picture is not the rendered image). If passes may
@@ -107,7 +109,11 @@ public:
     Renderer(const Renderer&) = delete;  // its parts point at one another
     Renderer& operator=(const Renderer&) = delete;
 
-    void record(engine::Passes& passes, const StrandView& view);
+    // `views`: of all heads, or one for each of motions().
+    void record(engine::Passes& passes, std::span<const StrandView> views);
+    void record(engine::Passes& passes, const StrandView& view) {
+        record(passes, std::span(&view, 1));
+    }
 
     // Takes effect from the next picture on.
     void setCamera(const CameraSettings& camera) { settings_.camera = camera; }
@@ -115,28 +121,50 @@ public:
     const engine::Target& target() const { return target_; }
     const StrandPlan& plan() const { return plan_; }
     const BackendChoice& backend() const { return backend_; }
-    std::optional<ExpectedCounts> expected() const { return strands_.expected(); }
+    std::uint32_t heads() const { return static_cast<std::uint32_t>(heads_.size()); }
+    // Of all heads.
+    std::optional<ExpectedCounts> expected() const;
     const StrandBlend& blend() const { return strands_.blend(); }
 
 private:
     std::array<float, 3> background() const;
-    enum class Points { recorded, needed };  // in this frame
+    enum class Points { recorded, needed };  // of this head
     enum class Bounds { cleared, old };  // of the points
+    struct Head {
+        glm::vec3 offset{0.0f};  // m
+        gpu::PictureParameters parameters{};  // in the frame that is recorded
+        std::uint64_t address = 0;  // of the parameters on the device
+    };
+    StrandPicture pictureOf(const Head& head) const {
+        return {
+            .address = head.address, .parameters = head.parameters, .images = strand_images_};
+    }
+    void writePictures(std::uint32_t slot, std::span<const StrandView> views);
+    void recordShape(
+        engine::Passes& passes, const StrandView& view, const StrandPicture& picture);
     void recordPoints(
         engine::Passes& passes, const StrandPicture& picture, Bounds bounds = Bounds::old) const;
-    void drawScene(engine::Commands& commands, const StrandPicture& picture) const;
     void recordJoined(
         engine::Passes& passes, const StrandView& view, const StrandPicture& picture) const;
+    // Which of the heads is drawn: the first clears the target, the last completes the picture.
+    struct Turn {
+        bool first = true;
+        bool last = true;
+    };
     void recordApart(
-        engine::Passes& passes, const StrandView& view, const StrandPicture& picture,
-        Points points) const;
+        engine::Passes& passes, const StrandPicture& picture, Points points, Turn turn) const;
+    void recordOverlays(engine::Passes& passes, std::span<const StrandView> views) const;
 
     StrandPlan plan_;
     BackendChoice backend_;
     Settings settings_;  // with the back end that was chosen
     engine::Target target_;
-    std::array<engine::Buffer, engine::FrameLoop::kMaxSlots> parameters_;  // gpu::PictureParameters
-    engine::Buffer lights_;  // gpu::Light
+    std::vector<Head> heads_;
+    std::vector<std::uint32_t> order_;  // of heads, nearest first
+    std::vector<std::byte> written_;  // into parameters_
+    // gpu::PictureParameters [head], kPictureStride apart
+    std::array<engine::Buffer, engine::FrameLoop::kMaxSlots> parameters_;
+    engine::Buffer lights_;  // gpu::Light [head][light]
     HairOpticsBuffers optics_;
     std::optional<FramesPass> frames_;
     std::optional<SkinnedHead> skin_;

@@ -355,7 +355,7 @@ void checkAtlas(const engine::Device& device, const ShadowAtlas& atlas) {
 // ---- The pass -----------------------------------------------------------------------------------
 
 engine::MemoryRows ShadowPass::rows(const Settings& settings, const StrandPlan& plan) {
-    constexpr std::uint32_t kSlots = engine::FrameLoop::kMaxSlots;
+    const std::uint32_t slots = engine::FrameLoop::kMaxSlots * motions(settings.copies);
     constexpr engine::Usage kUpload = engine::Usage::upload;
     const std::size_t maps = mapsOfLights(settings).size();
     const ShadowAtlas atlas{static_cast<std::uint32_t>(maps), settings.shading.shadows.resolution};
@@ -363,8 +363,8 @@ engine::MemoryRows ShadowPass::rows(const Settings& settings, const StrandPlan& 
     const bool has_hair = hasHairMaps(settings) && plan.strands() > 0;
     engine::MemoryRows rows(
         "shadows",
-        {{"shadow parameters", sizeof(gpu::ShadowParameters), kSlots, kUpload},
-         {"lights' pictures", std::max<std::size_t>(maps, 1) * kPictureStride, kSlots, kUpload}});
+        {{"shadow parameters", sizeof(gpu::ShadowParameters), slots, kUpload},
+         {"lights' pictures", std::max<std::size_t>(maps, 1) * kPictureStride, slots, kUpload}});
     rows.add(depthOfMeshes(has_meshes ? &atlas : nullptr));
     rows.add(depthOfHair(has_hair ? &atlas : nullptr));
     rows.add(opacityOfHair(has_hair ? &atlas : nullptr));
@@ -389,10 +389,11 @@ ShadowPass::ShadowPass(
       written_(maps_.size() * kPictureStride) {
     const engine::MemoryRows rows = ShadowPass::rows(settings, plan);
     light_pictures_.reserve(maps_.size());
-    for (std::uint32_t slot = 0; slot < engine::FrameLoop::kMaxSlots; ++slot) {
-        parameters_[slot] = {device, rows["shadow parameters"]};
-        parameters_[slot].write(gpu::ShadowParameters{});
-        pictures_[slot] = {device, rows["lights' pictures"]};
+    const std::size_t places = place(0, motions(settings.copies));
+    for (std::size_t i = 0; i < places; ++i) {
+        parameters_.emplace_back(device, rows["shadow parameters"]);
+        parameters_.back().write(gpu::ShadowParameters{});
+        pictures_.emplace_back(device, rows["lights' pictures"]);
     }
     runOnce(device, [&](engine::Commands& commands) {
         for (const engine::SampledImage& sampled : images_)
@@ -417,7 +418,7 @@ ShadowPass::ShadowPass(
 }
 
 void ShadowPass::writeParameters(
-    std::uint32_t slot, const StrandView& view, const gpu::PictureParameters& of) {
+    std::size_t place, const StrandView& view, const gpu::PictureParameters& of) {
     const ShadowSettings& shadows = settings_.shading.shadows;
     gpu::ShadowParameters parameters{};
     parameters.side = static_cast<float>(atlas_.side);
@@ -455,14 +456,14 @@ void ShadowPass::writeParameters(
         picture.pixel_near = widens ? light_view.texel_near : 0.0f;
         picture.pixel_slope = widens ? light_view.texel_slope : 0.0f;
         if (settings_.render.transparency == Transparency::none) picture.opacity = 1.0f;
-        picture.shadows = parameters_[slot].address() + offsetof(gpu::ShadowParameters, maps) +
+        picture.shadows = parameters_[place].address() + offsetof(gpu::ShadowParameters, maps) +
                           map * sizeof(gpu::ShadowMap);
-        const std::size_t place = i * kPictureStride;
-        std::memcpy(&written_[place], &picture, sizeof picture);
-        light_pictures_.push_back({pictures_[slot].address() + place, picture});
+        const std::size_t offset = i * kPictureStride;
+        std::memcpy(&written_[offset], &picture, sizeof picture);
+        light_pictures_.push_back({pictures_[place].address() + offset, picture});
     }
-    parameters_[slot].write(parameters);
-    pictures_[slot].write(std::span<const std::byte>(written_));
+    parameters_[place].write(parameters);
+    pictures_[place].write(std::span<const std::byte>(written_));
 }
 
 void ShadowPass::drawMeshes(engine::Commands& commands, const SceneMeshes& meshes) const {
@@ -511,9 +512,9 @@ void ShadowPass::drawHair(engine::Commands& commands) const {
 
 void ShadowPass::record(
     engine::Passes& passes, const SceneMeshes& meshes, const StrandView& view,
-    const gpu::PictureParameters& picture) {
+    const gpu::PictureParameters& picture, std::uint32_t motion) {
     if (maps_.empty()) return;
-    writeParameters(passes.slot(), view, picture);
+    writeParameters(place(passes.slot(), motion), view, picture);
     if (mesh_maps_) {
         passes.pass("mesh_shadow", engine::PassKind::graphics, [&](engine::Commands& commands) {
             drawMeshes(commands, meshes);

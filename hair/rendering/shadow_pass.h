@@ -103,13 +103,16 @@ public:
     bool drawsHair() const { return hair_maps_; }
 
     // Records the passes "mesh_shadow" and "hair_shadow", if asked for. `picture` is the camera's:
-    // levels of detail are those of its lod_eye.
+    // levels of detail are those of its lod_eye. `motion`: below motions(); which of them `view`
+    // shows. The maps are those of the motion recorded last.
     void record(
         engine::Passes& passes, const SceneMeshes& meshes, const StrandView& view,
-        const gpu::PictureParameters& picture);
+        const gpu::PictureParameters& picture, std::uint32_t motion = 0);
 
     // Address of gpu::ShadowParameters, once recorded.
-    std::uint64_t address(std::uint32_t slot) const { return parameters_[slot].address(); }
+    std::uint64_t address(std::uint32_t slot, std::uint32_t motion = 0) const {
+        return parameters_[place(slot, motion)].address();
+    }
 
     // Depth of meshes, depth of hair, opacity of hair, in this order; in SHADER_READ_ONLY_OPTIMAL
     // once recorded. If there are no such shadows, images have one pixel.
@@ -121,8 +124,11 @@ private:
         std::uint64_t address;  // of `parameters` on the device
         gpu::PictureParameters parameters;
     };
-    void
-    writeParameters(std::uint32_t slot, const StrandView& view, const gpu::PictureParameters& of);
+    static std::size_t place(std::uint32_t slot, std::uint32_t motion) {
+        return std::size_t{motion} * engine::FrameLoop::kMaxSlots + slot;
+    }
+    void writeParameters(
+        std::size_t place, const StrandView& view, const gpu::PictureParameters& of);
     void drawMeshes(engine::Commands& commands, const SceneMeshes& meshes) const;
     void drawHair(engine::Commands& commands) const;
 
@@ -132,8 +138,8 @@ private:
     bool mesh_maps_;
     bool hair_maps_;
     ShadowAtlas atlas_;
-    std::array<engine::Buffer, engine::FrameLoop::kMaxSlots> parameters_;
-    std::array<engine::Buffer, engine::FrameLoop::kMaxSlots> pictures_;
+    std::vector<engine::Buffer> parameters_;  // [place()]
+    std::vector<engine::Buffer> pictures_;  // [place()]
     engine::Image mesh_depths_;
     engine::Image hair_depths_;
     engine::Image hair_layers_;

@@ -36,16 +36,19 @@ static_assert(sizeof(gpu::PictureParameters) == 436);
 
 gpu::PictureParameters pictureParameters(
     const Settings& settings, const StrandPlan& plan, const StrandView& view,
-    const PictureBuffers& buffers) {
+    const PictureBuffers& buffers, const glm::vec3& offset) {
+    CameraSettings camera = settings.camera;
+    camera.position -= offset;
+    camera.target -= offset;
     const RenderSettings& render = settings.render;
     const ShadingSettings& shading = settings.shading;
     const float aspect = static_cast<float>(render.width) / static_cast<float>(render.height);
-    const float view_height = 2.0f * std::tan(glm::radians(settings.camera.field_of_view) / 2.0f);
+    const float view_height = 2.0f * std::tan(glm::radians(camera.field_of_view) / 2.0f);
     return {
-        .view_projection = viewProjection(settings.camera, aspect),
+        .view_projection = viewProjection(camera, aspect),
         .head = view.head,
-        .eye = settings.camera.position,
-        .lod_eye = settings.camera.position,
+        .eye = camera.position,
+        .lod_eye = camera.position,
         .lod_near = settings.lod.near_distance,
         .lod_far = settings.lod.far_distance,
         .lod_maximum_level = settings.lod.maximum_level,

@@ -121,10 +121,10 @@ struct PictureBuffers {
 };
 
 // Returns the parameters that every shader of a picture reads. `plan` is planStrands() of the
-// settings.
+// settings. The head stands at `offset`, m; the parameters are in its frame.
 gpu::PictureParameters pictureParameters(
     const Settings& settings, const StrandPlan& plan, const StrandView& view,
-    const PictureBuffers& buffers);
+    const PictureBuffers& buffers, const glm::vec3& offset = glm::vec3(0.0f));
 
 // The pipeline state of all back ends that rasterise quads in hardware; without shaders.
 engine::GraphicsDescription strandPipeline(const BackendContext& context);

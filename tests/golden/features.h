@@ -276,6 +276,23 @@ inline const std::vector<Feature>& features() {
          "lit"},
         {"overdraw", [](Settings& s) { s.render.show = Show::overdraw; }, "tangents"},
         {"density", [](Settings& s) { s.render.show = Show::density; }, "overdraw"},
+        // Three heads at different moments of a turn, each with its own shadows.
+        {"heads",
+         [](Settings& s) {
+             lit(s);
+             s.shading.lights = {
+                 {.type = LightType::directional, .direction = {-2.0f, -3.0f, -1.0f}}};
+             s.simulation.motion = {
+                 .keyframes =
+                     {{.time = 0.0f},
+                      {.time = 0.5f, .rotation = {0.0f, 60.0f, 0.0f}},
+                      {.time = 1.0f}},
+                 .repeat = true};
+             s.copies = {.count = 3, .spacing = 0.3f, .motion = CopyMotion::own, .delay = 0.3f};
+             s.camera.position = {-0.5f, 0.25f, 0.9f};
+             s.camera.target = {0.1f, -0.05f, -0.1f};
+         },
+         "lit"},
         {"brushed", [](Settings& s) {
              s.groom.edits = {
                  {.tool = BrushTool::comb,

@@ -1,4 +1,7 @@
+#include <algorithm>
 #include <cmath>
+#include <utility>
+#include <vector>
 
 #include <glm/ext/matrix_transform.hpp>
 #include <glm/trigonometric.hpp>
@@ -105,6 +108,115 @@ TEST_F(MovedHeadTest, FrozenHairFollowsInEveryFrame) {
     settings.simulation.motion.keyframes = {{.rotation = {0.0f, 60.0f, 0.0f}}};
     // The device rounds the moved hair, and the host rounds the hair that starts there, as above.
     EXPECT_LT(differingPixels(end, drawCase(device(), settings)), 100u);
+}
+
+// ---- Several heads ------------------------------------------------------------------------------
+
+// The first head left of the middle, the second right of it, so far apart that their pictures do
+// not overlap.
+Settings twoHeads() {
+    Settings settings = small();
+    settings.copies = {.count = 2, .spacing = 0.8f};
+    settings.camera.position = {0.4f, 0.0f, 1.2f};
+    settings.camera.target = {0.4f, 0.0f, 0.0f};
+    settings.camera.field_of_view = 50.0f;
+    return settings;
+}
+
+// The same view of one of the heads.
+Settings oneHead(Settings settings, std::uint32_t head) {
+    const glm::vec3 offset = copyOffsets(settings.copies)[head];
+    settings.copies = {};
+    settings.camera.position -= offset;
+    settings.camera.target -= offset;
+    for (LightSettings& light : settings.shading.lights) light.position -= offset;
+    return settings;
+}
+
+// The left half of one picture beside the right half of another.
+Pixels halves(const Settings& settings, const Pixels& left, const Pixels& right) {
+    Pixels joined = left;
+    const std::size_t width = settings.render.width;
+    for (std::size_t i = 0; i < joined.size() / 4; ++i)
+        if (i % width >= width / 2)
+            std::copy_n(right.begin() + i * 4, 4, joined.begin() + i * 4);
+    return joined;
+}
+
+TEST(CopyOffsetsTest, RowsFillASquareFromTheirMiddles) {
+    EXPECT_EQ(copyOffsets({}), std::vector{glm::vec3(0.0f)});
+    const std::vector<glm::vec3> five{
+        {0, 0, 0}, {2, 0, 0}, {-2, 0, 0}, {0, 0, -2}, {2, 0, -2}};
+    EXPECT_EQ(copyOffsets({.count = 5, .spacing = 2.0f}), five);
+}
+
+// Each head is drawn with the parameters of its own picture, so nothing is rounded differently.
+TEST_F(MovedHeadTest, ManyHeadsAreThePicturesOfEach) {
+    for (const Backend backend : {Backend::tessellation, Backend::expanded, Backend::software})
+        for (const std::uint32_t samples : {1u, 4u}) {
+            Settings settings = with(twoHeads(), backend);
+            settings.render.msaa = samples;
+            settings.lod = {.mode = LodMode::distance, .near_distance = 0.5f, .far_distance = 4.0f};
+            const Pixels left = drawCase(device(), oneHead(settings, 0));
+            const Pixels right = drawCase(device(), oneHead(settings, 1));
+            EXPECT_GT(differingPixels(left, right), 2000u);
+            EXPECT_EQ(
+                differingPixels(drawCase(device(), settings), halves(settings, left, right)), 0u)
+                << static_cast<int>(backend) << " with " << samples << " samples";
+        }
+}
+
+TEST_F(MovedHeadTest, ManyHeadsHaveTheShadowsOfEach) {
+    Settings settings = with(twoHeads(), Backend::software);
+    settings.shading.lights = {
+        {.type = LightType::directional, .direction = {-1.0f, -1.0f, -1.0f}}};
+    settings.shading.shadows = {
+        .meshes = true, .hair = HairShadows::deep_opacity, .resolution = 256};
+    const Pixels left = drawCase(device(), oneHead(settings, 0));
+    const Pixels right = drawCase(device(), oneHead(settings, 1));
+    EXPECT_EQ(differingPixels(drawCase(device(), settings), halves(settings, left, right)), 0u);
+}
+
+// A nearer head hides a farther one, in whichever order they are drawn.
+TEST_F(MovedHeadTest, NearerHeadsHideFartherOnes) {
+    Settings settings = with(small(), Backend::software);
+    settings.copies = {.count = 2, .spacing = 0.05f};
+    settings.camera.position = {-1.0f, 0.0f, 0.0f};
+    const Pixels from_left = drawCase(device(), settings);
+    settings.copies.count = 1;
+    // Of the farther head, only hair beside the nearer head is seen.
+    const std::size_t hidden = differingPixels(from_left, drawCase(device(), settings));
+    settings.camera.position.x -= 0.05f;
+    const std::size_t seen = differingPixels(from_left, drawCase(device(), settings));
+    EXPECT_LT(hidden, seen);
+}
+
+// The second head is `delay` further in the motion, and everything else is the same.
+TEST_F(MovedHeadTest, HeadsMoveByThemselves) {
+    Settings settings = with(twoHeads(), Backend::software);
+    settings.simulation.solver = Solver::shape;
+    settings.simulation.motion = {
+        .keyframes =
+            {{.time = 0.0f}, {.time = 0.25f, .rotation = {0.0f, 40.0f, 0.0f}}, {.time = 0.5f}},
+        .repeat = true};
+    settings.copies.motion = CopyMotion::own;
+    settings.copies.delay = 0.2f;
+    const auto played = [&](const Settings& of) {
+        benchmarks::measure::Case picture(device(), of, HAIRBENCH_SOURCE_DIR "/scenes");
+        engine::FrameLoop loop(device(), engine::Timing::overlapped);
+        for (int i = 0; i < 10; ++i)
+            loop.frame([&](engine::Passes& passes) { picture.frame(passes); });
+        loop.finish();
+        return std::pair(picture.picture(), picture.stateHash());
+    };
+    const auto [both, state] = played(settings);
+    const auto [left, left_state] = played(oneHead(settings, 0));
+    Settings later = oneHead(settings, 1);
+    for (Keyframe& key : later.simulation.motion.keyframes) key.time -= settings.copies.delay;
+    const auto [right, right_state] = played(later);
+    EXPECT_NE(left_state, right_state);
+    EXPECT_NE(state, left_state);
+    EXPECT_EQ(differingPixels(both, halves(settings, left, right)), 0u);
 }
 
 }  // namespace
