@@ -232,7 +232,6 @@ class ExpandedBackend : public StrandBackend {
 public:
     explicit ExpandedBackend(const BackendContext& context)
         : points_(*context.points), is_listed_(context.output.quads == QuadKind::camera),
-          draws_(divideUp(points_.strandCount(), gpu::kExpandedStrands)),
           group_(strandGroup(context.device)),
           indices_per_strand_(6 * context.plan.segments * context.plan.forced_tessellation),
           list_(context.device, listStage(context)), pipeline_(context.device, describe(context)) {
@@ -253,35 +252,37 @@ public:
         return rowsOf(settings.strands, plan);
     }
 
-    void prepare(engine::Commands& commands, const StrandPicture&) const override {
+    void prepare(engine::Commands& commands, const StrandPicture& picture) const override {
         if (!is_listed_) return;
+        const std::uint32_t strands = points_.strandCount(picture.parameters);
         commands.bind(
             list_, gpu::ExpandedPush{
                        .pieces = commands.reads(points_.pieces()),
                        .visible = commands.writes(visible_),
                        .arguments = commands.writes(arguments_),
-                       .strands = points_.strandCount()});
-        commands.dispatchInvocations(draws_, group_);
+                       .strands = strands});
+        commands.dispatchInvocations(drawsOf(strands), group_);
     }
 
     void draw(engine::Commands& commands, const StrandPicture& picture) const override {
         const auto reads = [&](const engine::Buffer& buffer) {
             return commands.use({buffer, Access::vertex_read});
         };
+        const std::uint32_t strands = points_.strandCount(picture.parameters);
         commands.bind(
             pipeline_, gpu::ExpandedPush{
                            .picture = picture.address,
                            .points = reads(points_.points()),
                            .pieces = reads(points_.pieces()),
                            .visible = is_listed_ ? reads(visible_) : 0,
-                           .strands = points_.strandCount()});
+                           .strands = strands});
         commands.images(pipeline_, picture.images);
         if (is_listed_) {
-            commands.drawIndexed(indices_, arguments_, draws_);
+            commands.drawIndexed(indices_, arguments_, drawsOf(strands));
             return;
         }
-        const std::uint32_t whole = points_.strandCount() / gpu::kExpandedStrands;
-        const std::uint32_t rest = points_.strandCount() % gpu::kExpandedStrands;
+        const std::uint32_t whole = strands / gpu::kExpandedStrands;
+        const std::uint32_t rest = strands % gpu::kExpandedStrands;
         if (whole > 0)
             commands.drawIndexed(
                 indices_,
@@ -294,6 +295,10 @@ public:
     std::optional<ExpectedCounts> expected() const override { return std::nullopt; }
 
 private:
+    static std::uint32_t drawsOf(std::uint32_t strands) {
+        return divideUp(strands, gpu::kExpandedStrands);
+    }
+
     // If segments have end points of their own, a line is a segment; otherwise it is a strand.
     static PieceLines strandLines(const StrandSettings& strands, const StrandPlan& plan) {
         if (strands.taper == Taper::segment)
@@ -306,8 +311,7 @@ private:
     }
 
     static engine::MemoryRows rowsOf(const StrandSettings& strands, const StrandPlan& plan) {
-        const std::uint64_t draws =
-            (plan.strands() + gpu::kExpandedStrands - 1) / gpu::kExpandedStrands;
+        const std::uint32_t draws = drawsOf(static_cast<std::uint32_t>(plan.strands()));
         engine::MemoryRows rows(
             "strands", {{"strands' list", engine::bytesOf<std::uint32_t>(plan.strands())},
                         {"strands' draws", engine::bytesOf<gpu::IndexedCommand>(draws)}});

@@ -100,9 +100,8 @@ MeshSizes meshSizes(const engine::DeviceInfo& device) {
              limits.maxPreferredMeshWorkGroupInvocations})};
 }
 
-std::uint32_t
-countBlocks(const StrandPlan& plan, const StrandSettings& strands, std::uint32_t points) {
-    const std::uint32_t split = strands.taper == Taper::segment ? 1 : 0;
+std::uint32_t countBlocks(const StrandPlan& plan, Taper taper, std::uint32_t points) {
+    const std::uint32_t split = taper == Taper::segment ? 1 : 0;
     const std::uint32_t ends = plan.forced_tessellation + split;  // of a segment
     const std::uint32_t whole = points / (plan.segments * ends + 1 - split);
     std::uint64_t blocks = divideUp(plan.forced_density, std::max(whole, 1u));
@@ -115,19 +114,15 @@ countBlocks(const StrandPlan& plan, const StrandSettings& strands, std::uint32_t
 }
 
 MeshBackend::MeshBackend(const BackendContext& context)
-    : sizes_(sizesFor(context.device)),
-      push_{
-          .picture = 0,
-          .blocks = countBlocks(context.plan, context.strands, sizes_.points),
-          .reach = context.plan.reach,
-          .greatest_width = context.plan.greatest_width},
-      groups_(taskGroups(context.device, sizes_, push_.blocks)),
-      pipeline_(context.device, describe(context, sizes_)) {}
+    : sizes_(sizesFor(context.device)), plan_(context.plan), taper_(context.strands.taper),
+      pipeline_(context.device, describe(context, sizes_)) {
+    taskGroups(context.device, sizes_, countBlocks(plan_, taper_, sizes_.points));
+}
 
 void MeshBackend::check(
     const engine::Device& device, const Settings& settings, const StrandPlan& plan) {
     const MeshSizes sizes = sizesFor(device);
-    taskGroups(device, sizes, countBlocks(plan, settings.strands, sizes.points));
+    taskGroups(device, sizes, countBlocks(plan, settings.strands.taper, sizes.points));
 }
 
 std::string MeshBackend::variant() const {
@@ -138,11 +133,17 @@ std::string MeshBackend::variant() const {
 
 void MeshBackend::draw(engine::Commands& commands, const StrandPicture& picture) const {
     declareStrands(commands, picture.parameters);
-    gpu::StrandMeshPush push = push_;
-    push.picture = picture.address;
-    commands.bind(pipeline_, push);
+    StrandPlan plan = plan_;
+    plan.forced_density = picture.parameters.forced_density;
+    const std::uint32_t blocks = countBlocks(plan, taper_, sizes_.points);
+    commands.bind(
+        pipeline_, gpu::StrandMeshPush{
+                       .picture = picture.address,
+                       .blocks = blocks,
+                       .reach = plan.reach,
+                       .greatest_width = plan.greatest_width});
     commands.images(pipeline_, picture.images);
-    commands.drawMeshTasks(groups_);
+    commands.drawMeshTasks(divideUp(blocks, sizes_.task_group));
 }
 
 }  // namespace hair::rendering

@@ -28,8 +28,7 @@ MeshSizes meshSizes(const engine::DeviceInfo& device);
 
 // Returns the number of blocks of strands that mesh work groups draw at the finest level of detail.
 // Throws engine::Unsupported for more than shaders can number.
-std::uint32_t
-countBlocks(const StrandPlan& plan, const StrandSettings& strands, std::uint32_t points);
+std::uint32_t countBlocks(const StrandPlan& plan, Taper taper, std::uint32_t points);
 
 // Draws strands by task and mesh stages. The task stage culls the blocks of strands that the
 // picture can't show or the level of detail doesn't draw. The mesh stage evaluates each point of
@@ -50,8 +49,8 @@ public:
 
 private:
     MeshSizes sizes_;
-    gpu::StrandMeshPush push_;  // all except the picture's address
-    std::uint32_t groups_;  // work groups of the task stage
+    StrandPlan plan_;
+    Taper taper_;
     engine::GraphicsPipeline pipeline_;
 };
 

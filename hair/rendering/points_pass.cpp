@@ -162,11 +162,6 @@ static_assert(sizeof(gpu::PointsPush) == 56 && offsetof(gpu::PointsPush, width) 
 
 constexpr std::size_t kPointBytes = 16;  // strands/points/points.glsl
 
-std::uint32_t countStrands(const StrandPlan& plan) {
-    checkPoints(plan);
-    return static_cast<std::uint32_t>(plan.strands());
-}
-
 // kPointsPerStrand of strands/points/layout.glsl.
 std::size_t pointsPerStrand(const StrandSettings& strands, const StrandPlan& plan) {
     if (strands.taper == Taper::segment)
@@ -238,16 +233,14 @@ PointsPass::PointsPass(
     : push_{
           .width = settings.render.width * settings.render.ssaa,
           .height = settings.render.height * settings.render.ssaa,
-          .strands = countStrands(plan),
           .reach = plan.reach,
           .greatest_width = plan.greatest_width,
           .culls = culls},
       group_(strandGroup(device)),
-      invocations_(
-          plan.triangles *
-          divideUp(plan.forced_density, evaluatedBlock(device, settings.strands, plan)) *
-          divideUp(plan.segments, segmentRun(device, plan))),
+      triangles_(plan.triangles), block_(evaluatedBlock(device, settings.strands, plan)),
+      runs_(divideUp(plan.segments, segmentRun(device, plan))),
       evaluate_(device, evaluateStage(device, settings, plan)) {
+    checkPoints(plan);
     const engine::MemoryRows rows = PointsPass::rows(settings.strands, plan);
     points_ = {device, rows["strands' points"]};
     pieces_ = {device, rows["strands' pieces"]};
@@ -263,12 +256,14 @@ void PointsPass::record(
     const gpu::PictureParameters& parameters) const {
     gpu::PointsPush push = push_;
     push.picture = picture;
+    push.strands = strandCount(parameters);
     push.points = commands.writes(points_);
     push.pieces = commands.writes(pieces_);
     push.bounds = commands.writes(bounds_);
     declareStrands(commands, parameters, engine::Access::compute_read);
     commands.bind(evaluate_, push);
-    commands.dispatchInvocations(invocations_, group_);
+    const std::uint32_t blocks = divideUp(parameters.forced_density, block_);  // of a triangle
+    commands.dispatchInvocations(triangles_ * blocks * runs_, group_);
 }
 
 engine::Constants placeConstants(const StrandPlan& plan) {

@@ -97,13 +97,18 @@ public:
     const engine::Buffer& bounds() const { return bounds_; }
     // The points as a texel buffer; null if the device reads them by address.
     const engine::TexelView* texels() const { return texels_ ? &*texels_ : nullptr; }
-    std::uint32_t strandCount() const { return push_.strands; }
+    // Strands that may be drawn in a picture; at most plan.strands().
+    std::uint32_t strandCount(const gpu::PictureParameters& picture) const {
+        return triangles_ * picture.forced_density;
+    }
     std::uint64_t bytes() const { return points_.size() + pieces_.size(); }
 
 private:
     gpu::PointsPush push_;  // all except addresses
     std::uint32_t group_;  // invocations of a work group
-    std::uint32_t invocations_;  // one per block of strands and run of segments
+    std::uint32_t triangles_;
+    std::uint32_t block_;  // strands of an invocation
+    std::uint32_t runs_;  // of segments, along a strand
     engine::Buffer points_;
     std::optional<engine::TexelView> texels_;
     engine::Buffer pieces_;

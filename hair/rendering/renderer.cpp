@@ -377,6 +377,9 @@ void Renderer::writePictures(std::uint32_t slot, std::span<const StrandView> vie
              .environment = environment_.address(),
              .fragments = strands_.fragments()},
             head.offset);
+        if (plan_.lod_mode == LodMode::distance)
+            head.parameters.forced_density =
+                mostStrands(plan_, settings_.lod, views[motion], head.parameters.lod_eye);
         head.address = parameters_[slot].address() + i * kHeadStride;
         std::memcpy(&written_[i * kHeadStride], &head.parameters, sizeof head.parameters);
     }

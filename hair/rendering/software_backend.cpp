@@ -183,10 +183,11 @@ SoftwareBackend::SoftwareBackend(const BackendContext& context)
       samples_per_pixel_(checkedSamples(context.device, context.output.samples)),
       group_(strandGroup(context.device)),
       block_(culledBlock(context.device, context.strands, context.plan)),
-      blocks_(divideUp(points_.strandCount(), block_)),
       pieces_per_strand_(context.plan.segments * context.plan.forced_tessellation),
       rasterized_pieces_(
-          rasterizedPieces(context.device, points_.strandCount() * pieces_per_strand_)),
+          rasterizedPieces(
+              context.device,
+              static_cast<std::uint32_t>(context.plan.strands()) * pieces_per_strand_)),
       is_packed_(isPacked(context.device)), texels_(texelsOf(context)),
       clear_(context.device, clearStage(context)),
       reduce_tiles_(
@@ -233,7 +234,7 @@ gpu::SoftwarePush SoftwareBackend::push(const StrandPicture& picture) const {
         .picture = picture.address,
         .width = extent.width,
         .height = extent.height,
-        .strands = points_.strandCount(),
+        .strands = points_.strandCount(picture.parameters),
         .part = gpu::kFirstPart};
 }
 
@@ -249,15 +250,17 @@ void SoftwareBackend::clear(engine::Commands& commands, const StrandPicture& pic
 }
 
 gpu::SoftwarePush SoftwareBackend::ofPart(gpu::SoftwarePush constants, std::uint32_t part) const {
-    const std::uint32_t first = divideUp(blocks_, gpu::kFirstStrands);
+    const std::uint32_t first =
+        divideUp(divideUp(constants.strands, block_), gpu::kFirstStrands);
     constants.part = part;
     constants.list_begin = part == gpu::kFirstPart ? 0 : first * block_ * pieces_per_strand_;
     return constants;
 }
 
 void SoftwareBackend::cullPieces(engine::Commands& commands, gpu::SoftwarePush constants) const {
-    const std::uint32_t first = divideUp(blocks_, gpu::kFirstStrands);
-    const std::uint32_t blocks = constants.part == gpu::kFirstPart ? first : blocks_ - first;
+    const std::uint32_t all = divideUp(constants.strands, block_);
+    const std::uint32_t first = divideUp(all, gpu::kFirstStrands);
+    const std::uint32_t blocks = constants.part == gpu::kFirstPart ? first : all - first;
     if (blocks == 0) return;
     constants.points = commands.reads(points_.points());
     constants.pieces = commands.reads(points_.pieces());
@@ -282,7 +285,7 @@ void SoftwareBackend::rasterizePieces(
     constants.large = commands.writes(large_);
     commands.bind(rasterize_, constants);
     if (texels_) commands.images(rasterize_, {}, std::array{texels_, &visibility_texels_});
-    const std::uint32_t pieces = points_.strandCount() * pieces_per_strand_;
+    const std::uint32_t pieces = constants.strands * pieces_per_strand_;
     commands.dispatchInvocations(divideUp(pieces, rasterized_pieces_), group_);
 }
 

@@ -62,7 +62,6 @@ private:
     std::uint32_t samples_per_pixel_;
     std::uint32_t group_;  // invocations of a work group of passes with strands or pieces
     std::uint32_t block_;  // strands per invocation
-    std::uint32_t blocks_;
     std::uint32_t pieces_per_strand_;
     std::uint32_t rasterized_pieces_;  // at most, per invocation
     bool is_packed_;  // with 64-bit integers and atomics

@@ -192,6 +192,20 @@ planDraws(const StrandPlan& plan, Submission submission, std::uint32_t max_verti
 
 // ---- Levels by distance -------------------------------------------------------------------------
 
+std::uint32_t mostStrands(
+    const StrandPlan& plan, const LodSettings& lod, const StrandView& view, const glm::vec3& eye) {
+    // Rounding on the device may give a root a level that is finer by less than this.
+    constexpr double kRounding = 1e-4;
+    const glm::dvec3 centre = glm::dmat4(view.head) * glm::dvec4(view.centre, 1.0);
+    const double nearest = glm::distance(centre, glm::dvec3(eye)) - double{view.radius};
+    // An animation moves roots out of the sphere.
+    if (view.deforming || nearest <= double{lod.near_distance}) return plan.density;
+    const double level = levelAtDistance(lod, nearest) - kRounding;
+    const float least = view.greatest_width_scale > 0.0f ? 1.0f / view.greatest_width_scale : 0.0f;
+    const float scale = std::max(static_cast<float>(std::exp2(-level)), least);
+    return std::min(drawnStrands(plan.density, scale) + 1, plan.density);
+}
+
 DistanceLod distanceLod(
     const groom::Groom& groom, std::span<const glm::vec3> guides, const StrandView& view,
     const Settings& settings) {

@@ -101,6 +101,11 @@ float greatestWidthScale(const groom::Groom& groom, const StrandSettings& settin
 
 inline constexpr float kOutlineGrowth = 0.03f;
 
+// Returns the most strands that a root triangle draws in LodMode::distance, at most plan.density.
+// `eye`: the camera in the frame of `view`. Roots are within the strands' bounding sphere.
+std::uint32_t mostStrands(
+    const StrandPlan& plan, const LodSettings& lod, const StrandView& view, const glm::vec3& eye);
+
 // Level of detail of a head of hair in LodMode::distance, seen from /camera/position.
 struct DistanceLod {
     double mean_level = 0.0;  // over root triangles, or over the strands of a groom

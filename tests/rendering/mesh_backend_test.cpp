@@ -103,26 +103,26 @@ StrandPlan planOf(
 
 TEST(MeshBackend, FillsBlocksWithWholeStrands) {
     // 7 x 4 + 1 = 29 points per strand; four strands fit into 128.
-    EXPECT_EQ(countBlocks(planOf(136, 7, 64, 4), {}, 128), 136u * 16);
-    EXPECT_EQ(countBlocks(planOf(136, 7, 65, 4), {}, 128), 136u * 17);
+    EXPECT_EQ(countBlocks(planOf(136, 7, 64, 4), Taper::strand, 128), 136u * 16);
+    EXPECT_EQ(countBlocks(planOf(136, 7, 65, 4), Taper::strand, 128), 136u * 17);
     // 7 x 5 = 35 points if segments share none; three strands fit.
-    EXPECT_EQ(countBlocks(planOf(136, 7, 64, 4), {.taper = Taper::segment}, 128), 136u * 22);
+    EXPECT_EQ(countBlocks(planOf(136, 7, 64, 4), Taper::segment, 128), 136u * 22);
     // 127 + 1 points and 64 x 2 points fill one block; one point more takes a second block.
-    EXPECT_EQ(countBlocks(planOf(1, 127, 1, 1), {}, 128), 1u);
-    EXPECT_EQ(countBlocks(planOf(1, 128, 1, 1), {}, 128), 2u);
-    EXPECT_EQ(countBlocks(planOf(1, 64, 1, 1), {.taper = Taper::segment}, 128), 1u);
-    EXPECT_EQ(countBlocks(planOf(1, 65, 1, 1), {.taper = Taper::segment}, 128), 2u);
+    EXPECT_EQ(countBlocks(planOf(1, 127, 1, 1), Taper::strand, 128), 1u);
+    EXPECT_EQ(countBlocks(planOf(1, 128, 1, 1), Taper::strand, 128), 2u);
+    EXPECT_EQ(countBlocks(planOf(1, 64, 1, 1), Taper::segment, 128), 1u);
+    EXPECT_EQ(countBlocks(planOf(1, 65, 1, 1), Taper::segment, 128), 2u);
 }
 
 TEST(MeshBackend, CutsLongStrandsBetweenSegments) {
     // 15 segments of 8 pieces have 121 points, 16 have 129: 64 segments are five blocks.
-    EXPECT_EQ(countBlocks(planOf(2, 64, 3, 8), {}, 128), 2u * 3 * 5);
+    EXPECT_EQ(countBlocks(planOf(2, 64, 3, 8), Taper::strand, 128), 2u * 3 * 5);
     // 65 points per segment; two segments share one.
-    EXPECT_EQ(countBlocks(planOf(1, 255, 1, 64), {}, 128), 255u);
-    EXPECT_EQ(countBlocks(planOf(0, 7, 64, 4), {}, 128), 0u);
+    EXPECT_EQ(countBlocks(planOf(1, 255, 1, 64), Taper::strand, 128), 255u);
+    EXPECT_EQ(countBlocks(planOf(0, 7, 64, 4), Taper::strand, 128), 0u);
     EXPECT_NE(
         errorText([] {
-            countBlocks(planOf(1u << 20, 255, 4096, 64), {}, 128);
+            countBlocks(planOf(1u << 20, 255, 4096, 64), Taper::strand, 128);
         }).find("blocks of strands are too many"),
         std::string::npos);
 }
