@@ -3,6 +3,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <optional>
 #include <span>
 #include <string>
@@ -329,6 +330,125 @@ void checkTerminalSpeed(
          "m/s",
          {{"segments", double{kSinkingSegments}, "count"}, {"length", kSinkingLength, "m"}}},
         level, expected, kSinkingTolerance);
+}
+
+namespace {
+
+// ---- Drag along the hair ------------------------------------------------------------------------
+
+constexpr float kDragAlong = 1.5f;  // of hair in 1 m/s
+constexpr std::uint32_t kAlongSegments = 32;
+constexpr float kAlongStep = 1.0f / 240.0f;  // s
+constexpr glm::dvec3 kAlongDown{0.0, -1.0, 0.0};
+
+hair::SimulationSettings inAirAlong(const CheckedSolver& solver, double speed) {
+    hair::SimulationSettings settings = inWind(solver, speed);
+    settings.wind.drag_along = kDragAlong;
+    settings.time_step = kAlongStep;
+    return settings;
+}
+
+// Vertices that nothing holds together fall as a straight strand along itself until air bears them.
+constexpr double kAlongFall = 4.0;  // s; exp(-4.75/s 4 s) of the terminal speed is missing, 6e-9
+constexpr double kAlongMeasured = 0.5;  // s
+constexpr float kAlongFallStep = 1.0f / 60.0f;  // s
+// The acceleration left over a step must exceed half of the rounding of a position, 2.4e-7 m at 4
+// to 8 m, to change the speed: 9e-4 m/s^2 in 1/60 s, 9e-5 of gravity. Twice that is allowed.
+constexpr double kAlongFallTolerance = 2e-4;
+
+void compareFalls(const engine::Device& device, const CheckedSolver& solver, Findings& findings) {
+    hair::SimulationSettings settings = inAirAlong(solver, 0.0);
+    settings.time_step = kAlongFallStep;
+    settings.local.iterations = 0;
+    settings.length.iterations = 0;
+    Experiment experiment(
+        device, straightStrand(kAlongSegments, kSinkingLength, kAlongDown), settings);
+    experiment.advance(experiment.stepsIn(kAlongFall));
+    const double before = experiment.positions().back().y;
+    experiment.advance(experiment.stepsIn(kAlongMeasured));
+    findings.compare(
+        {"speed of a straight strand that falls along itself",
+         "m/s",
+         {{"drag_along", double{kDragAlong}, "1"}}},
+        (before - experiment.positions().back().y) / kAlongMeasured, terminalSpeedAlong(settings),
+        kAlongFallTolerance);
+    findings.value(
+        {"the same, over the speed of a level strand", "1", {}},
+        terminalSpeedAlong(settings) / terminalSpeed(settings));
+}
+
+// Air without density acts along hair only.
+constexpr double kChainInAirLength = 0.3;  // m
+// 32 links swing about 1 % slower than a chain: those of hanging_chain, 64, are 0.4 % slower, and
+// here the tension, which grows half as fast, weights the tip more. Without drag along it, the
+// period would be 13 % longer.
+constexpr double kChainInAirTolerance = 0.02;
+
+void compareChains(const engine::Device& device, const CheckedSolver& solver, Findings& findings) {
+    hair::SimulationSettings settings = chain(solver, kChainInAirLength);
+    settings.substeps = 1;
+    settings.time_step = kAlongStep;
+    settings.wind = inAirAlong(solver, 0.0).wind;
+    settings.wind.air_density = 0.0f;
+    settings.wind.direction = -kAlongDown;
+    settings.wind.speed = static_cast<float>(0.5 * terminalSpeedAlong(settings));
+    std::vector<double> shape;
+    for (std::uint32_t i = 0; i <= kAlongSegments; ++i)
+        shape.push_back(chainShapeInAir(1.0 - static_cast<double>(i) / kAlongSegments));
+    const double period = chainPeriodInAir(kChainInAirLength, kGravity);
+    Experiment experiment(
+        device, straightStrand(kAlongSegments, kChainInAirLength, kAlongDown), settings);
+    const auto frequency = measureFrequency(
+        experiment, {.shape = shape,
+                     .segment = kChainInAirLength / kAlongSegments,
+                     .direction = kAlongDown,
+                     .sideways = {1.0, 0.0, 0.0},
+                     .expected_frequency = 1.0 / period});
+    std::optional<double> tolerance;
+    if (solver == hair::Solver::shape || solver == hair::Solver::rod)
+        tolerance = kChainInAirTolerance;
+    Outcome& outcome = findings.compare(
+        {"first period of a chain in wind along it",
+         "s",
+         {{"segments", double{kAlongSegments}, "count"},
+          {"wind", double{settings.wind.speed}, "m/s"}}},
+        frequency ? 1.0 / *frequency : std::numeric_limits<double>::quiet_NaN(), period, tolerance);
+    if (!frequency) outcome.reason = "it does not swing";
+}
+
+struct AlongCase {
+    double speed;  // m/s
+    double length;  // m
+};
+constexpr AlongCase kAlongCases[] = {{2.0, 0.1}, {8.0, 0.05}};
+
+void compareElastica(
+    const engine::Device& device, const CheckedSolver& solver, Findings& findings) {
+    for (const auto& [speed, length] : kAlongCases) {
+        const hair::SimulationSettings settings = inAirAlong(solver, speed);
+        const InWind rest = restInWind(device, settings, std::array{length}, double{kAlongStep});
+        const glm::dvec3 expected(draggedTip(settings, speed, length), 0.0);
+        hair::SimulationSettings without = settings;
+        without.wind.drag_along = 0.0f;
+        const glm::dvec2 across = draggedTip(without, speed, length);
+        const std::vector<Parameter> parameters{{"wind", speed, "m/s"}, {"length", length, "m"}};
+        Outcome& outcome = findings.deviation(
+            {"tip's distance from the elastica / length", "1", parameters},
+            glm::distance(rest.tips.front(), expected) / length,
+            solver == hair::Solver::rod ? std::optional(kRodSteadyTolerance) : std::nullopt);
+        if (!rest.still && outcome.reason.empty()) outcome.reason = "still moving after 20 s";
+        findings.value(
+            {"effect of the drag along the hair on the elastica's tip / length", "1", parameters},
+            glm::distance(glm::dvec2(expected), across) / length);
+    }
+}
+
+}  // namespace
+
+void checkDragAlong(const engine::Device& device, const CheckedSolver& solver, Findings& findings) {
+    if (!lack(solver, Need::free_vertices)) compareFalls(device, solver, findings);
+    compareChains(device, solver, findings);
+    if (!lack(solver, Need::material)) compareElastica(device, solver, findings);
 }
 
 }  // namespace benchmarks::physics

@@ -518,6 +518,16 @@ Air Reference::airNow(const SimulationSettings& settings) const {
             ofStrand(positions_, strand), settings, seed_, static_cast<std::uint32_t>(strand),
             time());
         std::ranges::copy(of_strand.accelerations, std::back_inserter(air.accelerations));
+        if (settings.wind.mode == WindMode::drag) {
+            const auto now = ofStrand(positions_, strand);
+            const auto before = ofStrand(previous_, strand);
+            std::vector<glm::dvec3> velocities;
+            for (std::size_t i = 0; i < vertices_; ++i)
+                velocities.push_back((now[i] - before[i]) / step_.sub);
+            const auto along = alongAccelerations(now, velocities, of_strand.velocities, settings);
+            for (std::size_t i = 0; i < vertices_; ++i)
+                air.accelerations[strand * vertices_ + i] += along[i];
+        }
         std::ranges::copy(of_strand.velocities, std::back_inserter(air.velocities));
     }
     return air;

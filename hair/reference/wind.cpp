@@ -204,6 +204,21 @@ std::vector<glm::dmat3> dragRates(
     return rates;
 }
 
+std::vector<glm::dvec3> alongAccelerations(
+    ConstPoints positions, ConstPoints velocities, ConstPoints air,
+    const SimulationSettings& settings) {
+    const double radius = settings.material.radius;
+    const double line = std::numbers::pi * radius * radius * double{settings.material.density};
+    const double rate = std::min(
+        double{settings.wind.drag_along} * double{settings.wind.air_viscosity} / line,
+        1.0 / double{settings.time_step});
+    std::vector<glm::dvec3> accelerations;
+    const std::vector<glm::dvec3> tangents = tangentsAt(positions);
+    for (std::size_t i = 0; i < tangents.size(); ++i)
+        accelerations.push_back(rate * glm::dot(tangents[i], air[i] - velocities[i]) * tangents[i]);
+    return accelerations;
+}
+
 Air airAt(
     ConstPoints positions, const SimulationSettings& settings, std::uint32_t seed,
     std::uint32_t strand, double time) {

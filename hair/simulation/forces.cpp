@@ -27,7 +27,7 @@ namespace {
 using engine::Access;
 
 static_assert(sizeof(gpu::WindPush) == 68 && offsetof(gpu::WindPush, directions) == 16);
-static_assert(sizeof(gpu::AirPush) == 72 && offsetof(gpu::AirPush, cell) == 40);
+static_assert(sizeof(gpu::AirPush) == 76 && offsetof(gpu::AirPush, cell) == 40);
 
 engine::ComputeDescription pipelineOf(WindMode mode) {
     if (mode == WindMode::drag)
@@ -80,7 +80,9 @@ DragFactors dragFactors(const WindSettings& settings, const MaterialSettings& ma
     const double layer = double{settings.air_viscosity} / (2.0 * double{material.radius});
     return {
         .inertial = double{settings.air_density} / line,
-        .viscous = 10.0 * std::cbrt(double{settings.air_density} * layer * layer) / line};
+        .viscous = 10.0 * std::cbrt(double{settings.air_density} * layer * layer) / line,
+        .along = double{settings.drag_along} * double{settings.air_viscosity} /
+                 (double{material.radius} * line)};
 }
 
 // ---- The pass -----------------------------------------------------------------------------------
@@ -96,7 +98,8 @@ engine::MemoryRows WindPass::rows(std::uint64_t vertices, WindMode mode) {
 
 WindPass::WindPass(
     const engine::Device& device, std::uint32_t vertex_count, const SimulationSettings& settings)
-    : settings_(settings.wind), material_(settings.material), vertex_count_(vertex_count),
+    : settings_(settings.wind), material_(settings.material),
+      time_step_(double{settings.time_step}), vertex_count_(vertex_count),
       pipeline_(device, pipelineOf(settings.wind.mode)) {
     checkWind(settings_);
     if (settings_.mode == WindMode::drag)
@@ -164,8 +167,11 @@ void WindPass::recordAir(
                        .cell = cellOf(whole),
                        .fraction = origin - whole,
                        .cells_per_metre = static_cast<float>(1.0 / cell),
-                       .octaves = settings_.turbulence_octaves});
+                       .octaves = settings_.turbulence_octaves,
+                       .drag_along = static_cast<float>(
+                           std::min(dragFactors(settings_, material_).along, 1.0 / time_step_))});
     commands.uses({{guides.positions, Access::compute_read}});
+    if (settings_.drag_along > 0.0f) commands.uses({{guides.previous, Access::compute_read}});
     commands.dispatchInvocations(vertex_count_, gpu::kGuideGroupSize);
 }
 

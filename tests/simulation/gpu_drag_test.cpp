@@ -156,7 +156,8 @@ TEST_F(GpuDrag, StaysFiniteInAStorm) {
                     .turbulence = 2.0f,
                     .turbulence_scale = 0.01f,
                     .turbulence_octaves = 8,
-                    .air_density = density};
+                    .air_density = density,
+                    .drag_along = 100.0f};
                 Simulation simulation(device(), groom, settings, kSeed);
                 advance(device(), simulation, 100);
                 for (const glm::vec3& point : simulation.readPositions())
@@ -194,7 +195,8 @@ TEST_F(GpuDrag, IsBorneByASpringAtAnyStep) {
             }
 }
 
-// Every solver with all its forces, each kind of parallelism, and several substeps.
+// Every solver with all its forces, drag along the hair among them, each kind of parallelism, and
+// several substeps.
 TEST_F(GpuDrag, BrakesEverySolverAsTheReferenceSays) {
     for (const Solver solver : kSolvers)
         for (const Parallelism parallelism :
@@ -203,6 +205,7 @@ TEST_F(GpuDrag, BrakesEverySolverAsTheReferenceSays) {
             const groom::Groom groom = wavyGroom(33, 9);
             SimulationSettings settings;
             settings.wind = turbulent(6.0f).wind;
+            settings.wind.drag_along = 1.5f;
             settings.solver = solver;
             settings.parallelism = parallelism;
             settings.substeps = 3;
