@@ -253,6 +253,11 @@ const Table& tableOf(const HairHairSettings*) {
              "crowding", &S::crowding, 0.1, 100, "1",
              "density above which hair repels hair, relative to the mean density at rest"),
          number(
+             "shelter", &S::shelter, 0, 1e6, "1",
+             "hairs that each guide stands for where they slow the air that reaches the hair "
+             "behind "
+             "them, with wind of mode drag; 0: air reaches all hair undisturbed"),
+         number(
              "resolution", &S::resolution, 8, 128, "count",
              "cells along each side of the grid round the hair; cells much smaller than guide "
              "segments miss hair")});

@@ -159,12 +159,13 @@ struct CollisionSettings {
 
 const Table& tableOf(const CollisionSettings*);
 
-// Petrovic, Henne and Anderson 2005, Volumetric methods for simulation and rendering of hair. Off
-// if friction and repulsion are 0.
+// Petrovic, Henne and Anderson 2005, Volumetric methods for simulation and rendering of hair.
+// Contact is off if friction and repulsion are 0.
 struct HairHairSettings {
     float friction = 0.0f;
     float repulsion = 0.0f;
     float crowding = 1.0f;
+    float shelter = 0.0f;
     std::uint32_t resolution = 32;
 };
 

@@ -303,6 +303,7 @@ constexpr Check kChecks[] = {
      }},
     {"terminal_speed", checkTerminalSpeed},
     {"drag_along", checkDragAlong},
+    {"shelter", checkShelter},
     {"stick_slip", checkStickSlip},
     {"slide", checkSlide},
     {"contact_momentum", checkContactMomentum},

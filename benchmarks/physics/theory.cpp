@@ -285,6 +285,29 @@ double terminalSpeed(const hair::SimulationSettings& settings) {
     return slow;
 }
 
+double shelteredSpeed(const hair::SimulationSettings& settings, double speed, double area) {
+    const double diameter = 2.0 * double{settings.material.radius};
+    const double density = settings.wind.air_density;
+    // Of p = u^(2/3) by the area: 2/3 u^(-1/3) u'.
+    const auto slope = [&](double power) {
+        if (power <= 0.0) return 0.0;
+        const double u = std::pow(power, 1.5);
+        const double slowing = dragPerLength(settings, u) / (density * diameter * u);
+        return -2.0 / 3.0 * slowing / std::cbrt(u);
+    };
+    constexpr int kSteps = 1000;
+    const double h = area / kSteps;
+    double power = std::pow(speed, 2.0 / 3.0);
+    for (int i = 0; i < kSteps; ++i) {
+        const double k1 = slope(power);
+        const double k2 = slope(power + h / 2.0 * k1);
+        const double k3 = slope(power + h / 2.0 * k2);
+        const double k4 = slope(power + h * k3);
+        power = std::max(power + h / 6.0 * (k1 + 2.0 * k2 + 2.0 * k3 + k4), 0.0);
+    }
+    return std::pow(power, 1.5);
+}
+
 double terminalSpeedAlong(const hair::SimulationSettings& settings) {
     return lineDensity(settings.material) * glm::length(glm::dvec3(settings.gravity)) /
            dragAlongPerLength(settings, 1.0);

@@ -66,6 +66,12 @@ double terminalSpeed(const hair::SimulationSettings& settings);
 // viscosity and this speed is the weight per length.
 double terminalSpeedAlong(const hair::SimulationSettings& settings);
 
+// The speed of air, m/s, behind hair with this frontal area for each unit of area across the flow.
+// The air's momentum goes to the hair: rho u du/dx = -n dragPerLength(u), with the length n of hair
+// per volume (Belcher, Jerram and Hunt 2003, Adjustment of a turbulent boundary layer to a canopy
+// of roughness elements). Fourth-order Runge-Kutta in u^(2/3), which is linear in the area.
+double shelteredSpeed(const hair::SimulationSettings& settings, double speed, double area);
+
 // The tip of an inextensible rod of this material, m. It hangs straight down -y from a clamp at the
 // origin, deflected by the wind along +x. theta is the angle of the tangent t from the vertical,
 // and n is perpendicular to t. The wind's part across the rod is U cos theta; it presses with the

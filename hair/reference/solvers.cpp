@@ -518,32 +518,36 @@ Air Reference::airNow(const SimulationSettings& settings) const {
             ofStrand(positions_, strand), settings, seed_, static_cast<std::uint32_t>(strand),
             time());
         std::ranges::copy(of_strand.accelerations, std::back_inserter(air.accelerations));
-        if (settings.wind.mode == WindMode::drag) {
-            const auto now = ofStrand(positions_, strand);
-            const auto before = ofStrand(previous_, strand);
-            std::vector<glm::dvec3> velocities;
-            for (std::size_t i = 0; i < vertices_; ++i)
-                velocities.push_back((now[i] - before[i]) / step_.sub);
-            const auto along = alongAccelerations(now, velocities, of_strand.velocities, settings);
-            for (std::size_t i = 0; i < vertices_; ++i)
-                air.accelerations[strand * vertices_ + i] += along[i];
-        }
         std::ranges::copy(of_strand.velocities, std::back_inserter(air.velocities));
     }
     return air;
 }
 
-void Reference::advance(const Air& air, double then) {
+void Reference::advance(Air air, double then) {
     if (!solver_) return;
+    const VolumeState volume{
+        .vertices = vertices_,
+        .rest = rest_,
+        .positions = positions_,
+        .previous = previous_,
+        .step = step_,
+        .frame = motion_.at(then),
+        .kept = &friction_kept_};
     std::vector<glm::dvec3> accelerations = air.accelerations;
-    const std::vector<glm::dvec3> contact_accelerations = reference::volumeAccelerations(
-        settings_, {.vertices = vertices_,
-                    .rest = rest_,
-                    .positions = positions_,
-                    .previous = previous_,
-                    .step = step_,
-                    .frame = motion_.at(then),
-                    .kept = &friction_kept_});
+    if (!air.velocities.empty()) {
+        shelterAir(settings_, volume, air.velocities);
+        std::vector<glm::dvec3> velocities;
+        for (std::size_t i = 0; i < positions_.size(); ++i)
+            velocities.push_back((positions_[i] - previous_[i]) / step_.sub);
+        for (std::size_t strand = 0; strand < rest_.size() / vertices_; ++strand)
+            std::ranges::copy(
+                alongAccelerations(
+                    ofStrand(positions_, strand), ofStrand(velocities, strand),
+                    ofStrand(air.velocities, strand), settings_),
+                ofStrand(accelerations, strand).begin());
+    }
+    const std::vector<glm::dvec3> contact_accelerations =
+        reference::volumeAccelerations(settings_, volume);
     for (std::size_t i = 0; i < accelerations.size(); ++i)
         accelerations[i] += glm::dvec3(settings_.gravity) + contact_accelerations[i];
     // While hair settles, time stands still and no hand pulls.

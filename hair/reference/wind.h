@@ -102,4 +102,9 @@ struct VolumeState {
 std::vector<glm::dvec3>
 volumeAccelerations(const SimulationSettings& settings, const VolumeState& state);
 
+// Slows the air at the vertices, m/s, by the hair upstream on the straight line against the flow:
+// the equations of hair/simulation/hair_hair.h. Nothing without settings.hair_hair.shelter.
+void shelterAir(
+    const SimulationSettings& settings, const VolumeState& state, std::vector<glm::dvec3>& air);
+
 }  // namespace hair::reference

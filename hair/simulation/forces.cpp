@@ -113,9 +113,10 @@ AirAtGuides WindPass::air() const {
     const DragFactors factors = dragFactors(settings_, material_);
     return {
         .velocities = &*air_,
-        .drag = {
-            .inertial = static_cast<float>(factors.inertial),
-            .viscous = static_cast<float>(factors.viscous)}};
+        .drag =
+            {.inertial = static_cast<float>(factors.inertial),
+             .viscous = static_cast<float>(factors.viscous)},
+        .along = static_cast<float>(std::min(factors.along, 1.0 / time_step_))};
 }
 
 void WindPass::record(engine::Commands& commands, const GuideAddresses& guides, double time) const {
@@ -168,8 +169,7 @@ void WindPass::recordAir(
                        .fraction = origin - whole,
                        .cells_per_metre = static_cast<float>(1.0 / cell),
                        .octaves = settings_.turbulence_octaves,
-                       .drag_along = static_cast<float>(
-                           std::min(dragFactors(settings_, material_).along, 1.0 / time_step_))});
+                       .drag_along = air().along});
     commands.uses({{guides.positions, Access::compute_read}});
     if (settings_.drag_along > 0.0f) commands.uses({{guides.previous, Access::compute_read}});
     commands.dispatchInvocations(vertex_count_, gpu::kGuideGroupSize);

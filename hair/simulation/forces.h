@@ -59,6 +59,7 @@ DragFactors dragFactors(const WindSettings& settings, const MaterialSettings& ma
 struct AirAtGuides {
     const engine::Buffer* velocities = nullptr;  // vec4 [strand][vertex], m/s; null: no drag
     gpu::AirDrag drag{};
+    float along = 0.0f;  // rate of the drag along the hair, 1/s
 };
 
 // Throws Error for wind with a direction without length.
