@@ -288,7 +288,7 @@ double terminalSpeed(const hair::SimulationSettings& settings) {
 double shelteredSpeed(const hair::SimulationSettings& settings, double speed, double area) {
     const double diameter = 2.0 * double{settings.material.radius};
     const double density = settings.wind.air_density;
-    // Of p = u^(2/3) by the area: 2/3 u^(-1/3) u'.
+    // The derivative of p = u^(2/3) by the area, which is 2/3 u^(-1/3) u'.
     const auto slope = [&](double power) {
         if (power <= 0.0) return 0.0;
         const double u = std::pow(power, 1.5);

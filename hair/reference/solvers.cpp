@@ -543,7 +543,7 @@ void Reference::advance(Air air, double then) {
             std::ranges::copy(
                 alongAccelerations(
                     ofStrand(positions_, strand), ofStrand(velocities, strand),
-                    ofStrand(air.velocities, strand), settings_),
+                    ofStrand(air.velocities, strand), settings_, step_.whole),
                 ofStrand(accelerations, strand).begin());
     }
     const std::vector<glm::dvec3> contact_accelerations =

@@ -206,12 +206,11 @@ std::vector<glm::dmat3> dragRates(
 
 std::vector<glm::dvec3> alongAccelerations(
     ConstPoints positions, ConstPoints velocities, ConstPoints air,
-    const SimulationSettings& settings) {
+    const SimulationSettings& settings, double step) {
     const double radius = settings.material.radius;
     const double line = std::numbers::pi * radius * radius * double{settings.material.density};
     const double rate = std::min(
-        double{settings.wind.drag_along} * double{settings.wind.air_viscosity} / line,
-        1.0 / double{settings.time_step});
+        double{settings.wind.drag_along} * double{settings.wind.air_viscosity} / line, 1.0 / step);
     std::vector<glm::dvec3> accelerations;
     const std::vector<glm::dvec3> tangents = tangentsAt(positions);
     for (std::size_t i = 0; i < tangents.size(); ++i)

@@ -73,7 +73,7 @@ std::vector<glm::dmat3> dragRates(
 // vertex.
 std::vector<glm::dvec3> alongAccelerations(
     ConstPoints positions, ConstPoints velocities, ConstPoints air,
-    const SimulationSettings& settings);
+    const SimulationSettings& settings, double step);
 
 // Effects of air on a strand during a time step, except for alongAccelerations.
 struct Air {

@@ -16,6 +16,7 @@
 #include "engine/error.h"
 #include "engine/transfer.h"
 #include "hair/extension.h"
+#include "hair/simulation/solvers.h"
 #include "hair/simulation/stiffness.h"
 
 namespace hair::simulation {
@@ -98,9 +99,8 @@ engine::MemoryRows WindPass::rows(std::uint64_t vertices, WindMode mode) {
 
 WindPass::WindPass(
     const engine::Device& device, std::uint32_t vertex_count, const SimulationSettings& settings)
-    : settings_(settings.wind), material_(settings.material),
-      time_step_(double{settings.time_step}), vertex_count_(vertex_count),
-      pipeline_(device, pipelineOf(settings.wind.mode)) {
+    : settings_(settings.wind), material_(settings.material), step_(double{stepOf(settings).whole}),
+      vertex_count_(vertex_count), pipeline_(device, pipelineOf(settings.wind.mode)) {
     checkWind(settings_);
     if (settings_.mode == WindMode::drag)
         air_.emplace(engine::makeBuffer(
@@ -116,7 +116,7 @@ AirAtGuides WindPass::air() const {
         .drag =
             {.inertial = static_cast<float>(factors.inertial),
              .viscous = static_cast<float>(factors.viscous)},
-        .along = static_cast<float>(std::min(factors.along, 1.0 / time_step_))};
+        .along = static_cast<float>(std::min(factors.along, 1.0 / step_))};
 }
 
 void WindPass::record(engine::Commands& commands, const GuideAddresses& guides, double time) const {

@@ -97,7 +97,7 @@ private:
 
     WindSettings settings_;
     MaterialSettings material_;
-    double time_step_;  // s
+    double step_;  // s, a whole one
     std::uint32_t vertex_count_;
     engine::ComputePipeline pipeline_;
     std::optional<engine::Buffer> air_;  // in drag mode
