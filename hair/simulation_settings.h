@@ -105,8 +105,8 @@ const Table& tableOf(const MaterialSettings*);
 
 enum class WindMode { thesis, drag };
 
-// thesis: its equations (13) and (14). drag: air drag on a cylinder across its axis, in a wind with
-// divergence-free turbulence that the mean wind carries along (Taylor 1938).
+// thesis: its equations (13) and (14). drag: air drag on a cylinder, in a wind with divergence-free
+// turbulence that the mean wind carries along (Taylor 1938).
 struct WindSettings {
     WindMode mode = WindMode::thesis;
     float strength = 0.0f;
@@ -119,6 +119,7 @@ struct WindSettings {
     std::uint32_t turbulence_octaves = 3;
     float air_density = 1.2f;
     float air_viscosity = 1.8e-5f;
+    float drag_along = 0.0f;
 };
 
 const Table& tableOf(const WindSettings*);
@@ -158,12 +159,13 @@ struct CollisionSettings {
 
 const Table& tableOf(const CollisionSettings*);
 
-// Petrovic, Henne and Anderson 2005, Volumetric methods for simulation and rendering of hair. Off
-// if friction and repulsion are 0.
+// Petrovic, Henne and Anderson 2005, Volumetric methods for simulation and rendering of hair.
+// Contact is off if friction and repulsion are 0.
 struct HairHairSettings {
     float friction = 0.0f;
     float repulsion = 0.0f;
     float crowding = 1.0f;
+    float shelter = 0.0f;
     std::uint32_t resolution = 32;
 };
 

@@ -302,6 +302,8 @@ constexpr Check kChecks[] = {
          checkSteadyDrag(device, solver, kSteadySpeeds, kSteadyLengths, findings);
      }},
     {"terminal_speed", checkTerminalSpeed},
+    {"drag_along", checkDragAlong},
+    {"shelter", checkShelter},
     {"stick_slip", checkStickSlip},
     {"slide", checkSlide},
     {"contact_momentum", checkContactMomentum},

@@ -222,6 +222,11 @@ void checkSteadyDrag(
     std::span<const double> lengths, Findings&);
 // The speed at which the air bears falling hair.
 void checkTerminalSpeed(const engine::Device&, const CheckedSolver&, Findings&);
+// The speed of air in a bed of hair that slows it, and hair at rest there.
+void checkShelter(const engine::Device&, const CheckedSolver&, Findings&);
+// Drag along the hair: the fall of a strand along itself, a chain that swings in wind along it, and
+// hair at rest in wind.
+void checkDragAlong(const engine::Device&, const CheckedSolver&, Findings&);
 
 // Compression at which a hair pressed onto the ground slips.
 void checkStickSlip(const engine::Device&, const CheckedSolver&, Findings&);

@@ -228,6 +228,10 @@ Section operator*(double h, const Section& a) {
     return {h * a.angle, h * a.curvature, h * a.shear, h * a.tension, h * a.reach, h * a.drop};
 }
 
+double dragAlongPerLength(const hair::SimulationSettings& settings, double speed) {
+    return double{settings.wind.drag_along} * double{settings.wind.air_viscosity} * speed;  // N/m
+}
+
 // The derivative by the length z from the tip.
 Section slopeAt(const DraggedRod& rod, const Section& at) {
     const double sine = std::sin(at.angle);
@@ -238,7 +242,8 @@ Section slopeAt(const DraggedRod& rod, const Section& at) {
         .angle = at.curvature,
         .curvature = at.shear / rod.stiffness,
         .shear = pressed + at.tension * at.curvature - rod.weight * cosine,
-        .tension = rod.weight * sine - at.shear * at.curvature,
+        .tension = rod.weight * sine + dragAlongPerLength(rod.settings, rod.speed * cosine) -
+                   at.shear * at.curvature,
         .reach = cosine,
         .drop = sine};
 }
@@ -278,6 +283,34 @@ double terminalSpeed(const hair::SimulationSettings& settings) {
         (dragPerLength(settings, speed) > weight ? fast : slow) = speed;
     }
     return slow;
+}
+
+double shelteredSpeed(const hair::SimulationSettings& settings, double speed, double area) {
+    const double diameter = 2.0 * double{settings.material.radius};
+    const double density = settings.wind.air_density;
+    // The derivative of p = u^(2/3) by the area, which is 2/3 u^(-1/3) u'.
+    const auto slope = [&](double power) {
+        if (power <= 0.0) return 0.0;
+        const double u = std::pow(power, 1.5);
+        const double slowing = dragPerLength(settings, u) / (density * diameter * u);
+        return -2.0 / 3.0 * slowing / std::cbrt(u);
+    };
+    constexpr int kSteps = 1000;
+    const double h = area / kSteps;
+    double power = std::pow(speed, 2.0 / 3.0);
+    for (int i = 0; i < kSteps; ++i) {
+        const double k1 = slope(power);
+        const double k2 = slope(power + h / 2.0 * k1);
+        const double k3 = slope(power + h / 2.0 * k2);
+        const double k4 = slope(power + h * k3);
+        power = std::max(power + h / 6.0 * (k1 + 2.0 * k2 + 2.0 * k3 + k4), 0.0);
+    }
+    return std::pow(power, 1.5);
+}
+
+double terminalSpeedAlong(const hair::SimulationSettings& settings) {
+    return lineDensity(settings.material) * glm::length(glm::dvec3(settings.gravity)) /
+           dragAlongPerLength(settings, 1.0);
 }
 
 // Bisection over the tip's angle from the wind. For a long rod without weight it is tiny, so steps
@@ -405,6 +438,21 @@ std::vector<PendulumMode> pendulumModes(unsigned n, double link, double gravity)
 
 double hangingChainPeriod(double length, double gravity) {
     return 4.0 * kPi / kFirstBesselRoot * std::sqrt(length / gravity);
+}
+
+namespace {
+
+constexpr double kFirstZeroOfJ1 = 3.83170597020751;
+
+}  // namespace
+
+double chainPeriodInAir(double length, double gravity) {
+    return 4.0 * kPi / kFirstZeroOfJ1 * std::sqrt(2.0 * length / gravity);
+}
+
+double chainShapeInAir(double x) {
+    const double z = kFirstZeroOfJ1 * std::sqrt(x);
+    return z == 0.0 ? 1.0 : 2.0 * std::cyl_bessel_j(1.0, z) / z;
 }
 
 double cantileverFrequency(double stiffness, double line_density, double length) {

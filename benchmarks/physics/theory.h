@@ -62,12 +62,22 @@ double dragPerLength(const hair::SimulationSettings& settings, double speed);
 // The speed across a hair at which the drag equals its weight, m/s.
 double terminalSpeed(const hair::SimulationSettings& settings);
 
+// The speed at which a hair falls along itself, m/s: /simulation/wind/drag_along times the
+// viscosity and this speed is the weight per length.
+double terminalSpeedAlong(const hair::SimulationSettings& settings);
+
+// The speed of air, m/s, behind hair with this frontal area for each unit of area across the flow.
+// The air's momentum goes to the hair: rho u du/dx = -n dragPerLength(u), with the length n of hair
+// per volume (Belcher, Jerram and Hunt 2003, Adjustment of a turbulent boundary layer to a canopy
+// of roughness elements). Fourth-order Runge-Kutta in u^(2/3), which is linear in the area.
+double shelteredSpeed(const hair::SimulationSettings& settings, double speed, double area);
+
 // The tip of an inextensible rod of this material, m. It hangs straight down -y from a clamp at the
 // origin, deflected by the wind along +x. theta is the angle of the tangent t from the vertical,
 // and n is perpendicular to t. The wind's part across the rod is U cos theta; it presses with the
-// force f = dragPerLength() along n. Flow along the rod has no effect. The force F = T t + N n
-// through a section supports everything below it:
-//   EI theta'' = -N,  N' = -f - T theta' + w sin theta,  T' = N theta' - w cos theta,
+// force f = dragPerLength() along n, and its part along the rod pulls with e = drag_along mu U sin
+// theta. The force F = T t + N n through a section supports everything below it:
+//   EI theta'' = -N,  N' = -f - T theta' + w sin theta,  T' = N theta' - w cos theta - e,
 //   theta(0) = 0,  theta'(L) = N(L) = T(L) = 0,
 // w is the weight per length. Accurate to 6 digits for weights below 1,000 EI / L^2: shooting from
 // the tip loses a factor exp(2/3 sqrt(w L^3 / EI)).
@@ -111,6 +121,16 @@ std::vector<PendulumMode> pendulumModes(unsigned n, double link, double gravity)
 // First period of a hanging chain, s: 2 pi / (j / 2) sqrt(L / g), where j is the first root of
 // Bessel's J0 (D. Bernoulli 1738; Rayleigh 1894, Theory of sound).
 double hangingChainPeriod(double length, double gravity);
+
+// The same chain if air blows up along it and bears half of its weight. The air's force stays along
+// the chain, so it takes from the tension but not from the weight that pulls a link back. At the
+// height x above the tip, with the share a of the weight that air bears,
+//   (1 - a) x y'' + y' + w^2 / g y = 0,
+//   y = x^((1 - q) / 2) J_(q - 1)(2 sqrt(w^2 x / (g (1 - a)))),
+// with q = 1 / (1 - a): 2 for half of the weight. w = j_1 / 2 sqrt(g / (2 L)) with the first zero
+// j_1 of J_1.
+double chainPeriodInAir(double length, double gravity);
+double chainShapeInAir(double x);  // x in [0, 1] from the tip, where it is 1
 
 // First frequency of a clamped beam without weight, Hz: z^2 / (2 pi) sqrt(EI / (lambda L^4)) with
 // cos z cosh z = -1. Stiffness EI in N m^2, line density in kg/m.

@@ -523,17 +523,31 @@ Air Reference::airNow(const SimulationSettings& settings) const {
     return air;
 }
 
-void Reference::advance(const Air& air, double then) {
+void Reference::advance(Air air, double then) {
     if (!solver_) return;
+    const VolumeState volume{
+        .vertices = vertices_,
+        .rest = rest_,
+        .positions = positions_,
+        .previous = previous_,
+        .step = step_,
+        .frame = motion_.at(then),
+        .kept = &friction_kept_};
     std::vector<glm::dvec3> accelerations = air.accelerations;
-    const std::vector<glm::dvec3> contact_accelerations = reference::volumeAccelerations(
-        settings_, {.vertices = vertices_,
-                    .rest = rest_,
-                    .positions = positions_,
-                    .previous = previous_,
-                    .step = step_,
-                    .frame = motion_.at(then),
-                    .kept = &friction_kept_});
+    if (!air.velocities.empty()) {
+        shelterAir(settings_, volume, air.velocities);
+        std::vector<glm::dvec3> velocities;
+        for (std::size_t i = 0; i < positions_.size(); ++i)
+            velocities.push_back((positions_[i] - previous_[i]) / step_.sub);
+        for (std::size_t strand = 0; strand < rest_.size() / vertices_; ++strand)
+            std::ranges::copy(
+                alongAccelerations(
+                    ofStrand(positions_, strand), ofStrand(velocities, strand),
+                    ofStrand(air.velocities, strand), settings_, step_.whole),
+                ofStrand(accelerations, strand).begin());
+    }
+    const std::vector<glm::dvec3> contact_accelerations =
+        reference::volumeAccelerations(settings_, volume);
     for (std::size_t i = 0; i < accelerations.size(); ++i)
         accelerations[i] += glm::dvec3(settings_.gravity) + contact_accelerations[i];
     // While hair settles, time stands still and no hand pulls.

@@ -92,7 +92,7 @@ private:
     Air airNow(const SimulationSettings& settings) const;
     // Simulates one step, in which the head moves from its present pose to its pose at the time
     // `then`.
-    void advance(const Air& air, double then);
+    void advance(Air air, double then);
 
     template <class Points>
     auto ofStrand(Points& points, std::size_t strand) const {

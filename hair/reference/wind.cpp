@@ -204,6 +204,20 @@ std::vector<glm::dmat3> dragRates(
     return rates;
 }
 
+std::vector<glm::dvec3> alongAccelerations(
+    ConstPoints positions, ConstPoints velocities, ConstPoints air,
+    const SimulationSettings& settings, double step) {
+    const double radius = settings.material.radius;
+    const double line = std::numbers::pi * radius * radius * double{settings.material.density};
+    const double rate = std::min(
+        double{settings.wind.drag_along} * double{settings.wind.air_viscosity} / line, 1.0 / step);
+    std::vector<glm::dvec3> accelerations;
+    const std::vector<glm::dvec3> tangents = tangentsAt(positions);
+    for (std::size_t i = 0; i < tangents.size(); ++i)
+        accelerations.push_back(rate * glm::dot(tangents[i], air[i] - velocities[i]) * tangents[i]);
+    return accelerations;
+}
+
 Air airAt(
     ConstPoints positions, const SimulationSettings& settings, std::uint32_t seed,
     std::uint32_t strand, double time) {
@@ -355,6 +369,83 @@ double meanDensityAtRest(
 
 }  // namespace
 
+namespace {
+
+std::vector<glm::dvec3> velocitiesOf(const VolumeState& state) {
+    std::vector<glm::dvec3> velocities;
+    for (std::size_t i = 0; i < state.positions.size(); ++i)
+        velocities.push_back((state.positions[i] - state.previous[i]) / state.step.sub);
+    return velocities;
+}
+
+// Returns the vertices at the end of the step, in cells.
+std::vector<glm::dvec3>
+pointsInCells(const VolumeState& state, const Box& box, ConstPoints velocities) {
+    std::vector<glm::dvec3> points;
+    for (std::size_t i = 0; i < state.positions.size(); ++i) {
+        const glm::dvec3 later = state.positions[i] + state.step.whole * velocities[i];
+        const glm::dvec3 on_head =
+            glm::inverse(state.frame.rotation) * (later - state.frame.translation);
+        points.push_back(glm::clamp((on_head - box.corner) / box.cell, 2.0, box.side - 2.001));
+    }
+    return points;
+}
+
+// Returns the length of the ray from `point` in the cube of side 1 round `centre`.
+double
+lengthInside(const glm::dvec3& point, const glm::dvec3& direction, const glm::dvec3& centre) {
+    double first = 0.0;
+    double last = 1e300;
+    for (int axis = 0; axis < 3; ++axis) {
+        const double away = centre[axis] - point[axis];
+        if (std::abs(direction[axis]) < 1e-12) {
+            if (std::abs(away) > 0.5) return 0.0;
+            continue;
+        }
+        const double a = (away - 0.5) / direction[axis];
+        const double b = (away + 0.5) / direction[axis];
+        first = std::max(first, std::min(a, b));
+        last = std::min(last, std::max(a, b));
+    }
+    return std::max(last - first, 0.0);
+}
+
+}  // namespace
+
+void shelterAir(
+    const SimulationSettings& settings, const VolumeState& state, std::vector<glm::dvec3>& air) {
+    const double density = settings.wind.air_density;
+    if (settings.hair_hair.shelter == 0.0f || density == 0.0) return;
+    const Box box = boxOf(state, settings.hair_hair.resolution);
+    const std::vector<glm::dvec3> velocities = velocitiesOf(state);
+    const std::vector<glm::dvec3> points = pointsInCells(state, box, velocities);
+    const Grid grid = splat(points, velocities, sharesOf(state));
+    const double diameter = 2.0 * double{settings.material.radius};
+    double length = 0.0;
+    for (std::size_t root = 0; root < state.rest.size(); root += state.vertices)
+        length += lengthBetween(state.rest, root, root + state.vertices - 1);
+    const double area =
+        diameter * double{settings.hair_hair.shelter} * length / (box.cell * box.cell);
+    const double viscous =
+        10.0 * std::pow(double{settings.wind.air_viscosity} / (density * diameter), 2.0 / 3.0);
+    for (std::size_t p = 0; p < points.size(); ++p) {
+        const glm::dvec3 relative = air[p] - velocities[p];
+        const double speed = glm::length(relative);
+        if (speed == 0.0) continue;
+        const glm::dvec3 upstream = glm::inverse(state.frame.rotation) * (-1.0 / speed * relative);
+        double passed = 0.0;
+        for (const auto& [cell, sum] : grid) {
+            if (cell[0] % 2 == 0) continue;  // of the second grid
+            const glm::dvec3 centre = 0.5 * glm::dvec3(cell[0], cell[1], cell[2]);
+            passed += sum.share * lengthInside(points[p], upstream, centre);
+        }
+        const double power =
+            (std::pow(speed, 2.0 / 3.0) + viscous) * std::exp(-area * passed / 3.0);
+        const double left = std::pow(std::max(power - viscous, 0.0), 1.5);
+        air[p] = velocities[p] + left / speed * relative;
+    }
+}
+
 std::vector<glm::dvec3>
 volumeAccelerations(const SimulationSettings& settings, const VolumeState& state) {
     const HairHairSettings& contact = settings.hair_hair;
@@ -376,15 +467,8 @@ volumeAccelerations(const SimulationSettings& settings, const VolumeState& state
     const double repulsion =
         std::min(double(contact.repulsion), 0.5 * (box.cell / step) * (box.cell / step));
 
-    std::vector<glm::dvec3> points;
-    std::vector<glm::dvec3> velocities;
-    for (std::size_t i = 0; i < state.positions.size(); ++i) {
-        velocities.push_back((state.positions[i] - state.previous[i]) / state.step.sub);
-        const glm::dvec3 later = state.positions[i] + step * velocities[i];
-        const glm::dvec3 on_head =
-            glm::inverse(state.frame.rotation) * (later - state.frame.translation);
-        points.push_back(glm::clamp((on_head - box.corner) / box.cell, 2.0, box.side - 2.001));
-    }
+    const std::vector<glm::dvec3> velocities = velocitiesOf(state);
+    const std::vector<glm::dvec3> points = pointsInCells(state, box, velocities);
     const Grid all = splat(points, velocities, shares);
 
     const std::size_t vertices = state.vertices;

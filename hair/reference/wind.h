@@ -68,7 +68,14 @@ std::vector<glm::dmat3> dragRates(
     ConstPoints tangents, ConstPoints velocities, ConstPoints air,
     const SimulationSettings& settings);
 
-// Effects of air on a strand during a time step.
+// Returns the accelerations by drag along the hair in a time step, m/s^2: the rate drag_along mu /
+// (pi r^2 rho), at most 1 over the step, times the air's velocity along the tangent relative to the
+// vertex.
+std::vector<glm::dvec3> alongAccelerations(
+    ConstPoints positions, ConstPoints velocities, ConstPoints air,
+    const SimulationSettings& settings, double step);
+
+// Effects of air on a strand during a time step, except for alongAccelerations.
 struct Air {
     std::vector<glm::dvec3> accelerations;  // windAccelerations in thesis mode
     std::vector<glm::dvec3> velocities;  // airVelocity in drag mode; else empty
@@ -94,5 +101,10 @@ struct VolumeState {
 // settings.hair_hair is off.
 std::vector<glm::dvec3>
 volumeAccelerations(const SimulationSettings& settings, const VolumeState& state);
+
+// Slows the air at the vertices, m/s, by the hair upstream on the straight line against the flow:
+// the equations of hair/simulation/hair_hair.h. Nothing without settings.hair_hair.shelter.
+void shelterAir(
+    const SimulationSettings& settings, const VolumeState& state, std::vector<glm::dvec3>& air);
 
 }  // namespace hair::reference

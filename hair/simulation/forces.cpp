@@ -16,6 +16,7 @@
 #include "engine/error.h"
 #include "engine/transfer.h"
 #include "hair/extension.h"
+#include "hair/simulation/solvers.h"
 #include "hair/simulation/stiffness.h"
 
 namespace hair::simulation {
@@ -27,7 +28,7 @@ namespace {
 using engine::Access;
 
 static_assert(sizeof(gpu::WindPush) == 68 && offsetof(gpu::WindPush, directions) == 16);
-static_assert(sizeof(gpu::AirPush) == 72 && offsetof(gpu::AirPush, cell) == 40);
+static_assert(sizeof(gpu::AirPush) == 76 && offsetof(gpu::AirPush, cell) == 40);
 
 engine::ComputeDescription pipelineOf(WindMode mode) {
     if (mode == WindMode::drag)
@@ -80,7 +81,9 @@ DragFactors dragFactors(const WindSettings& settings, const MaterialSettings& ma
     const double layer = double{settings.air_viscosity} / (2.0 * double{material.radius});
     return {
         .inertial = double{settings.air_density} / line,
-        .viscous = 10.0 * std::cbrt(double{settings.air_density} * layer * layer) / line};
+        .viscous = 10.0 * std::cbrt(double{settings.air_density} * layer * layer) / line,
+        .along = double{settings.drag_along} * double{settings.air_viscosity} /
+                 (double{material.radius} * line)};
 }
 
 // ---- The pass -----------------------------------------------------------------------------------
@@ -96,8 +99,8 @@ engine::MemoryRows WindPass::rows(std::uint64_t vertices, WindMode mode) {
 
 WindPass::WindPass(
     const engine::Device& device, std::uint32_t vertex_count, const SimulationSettings& settings)
-    : settings_(settings.wind), material_(settings.material), vertex_count_(vertex_count),
-      pipeline_(device, pipelineOf(settings.wind.mode)) {
+    : settings_(settings.wind), material_(settings.material), step_(double{stepOf(settings).whole}),
+      vertex_count_(vertex_count), pipeline_(device, pipelineOf(settings.wind.mode)) {
     checkWind(settings_);
     if (settings_.mode == WindMode::drag)
         air_.emplace(engine::makeBuffer(
@@ -110,9 +113,10 @@ AirAtGuides WindPass::air() const {
     const DragFactors factors = dragFactors(settings_, material_);
     return {
         .velocities = &*air_,
-        .drag = {
-            .inertial = static_cast<float>(factors.inertial),
-            .viscous = static_cast<float>(factors.viscous)}};
+        .drag =
+            {.inertial = static_cast<float>(factors.inertial),
+             .viscous = static_cast<float>(factors.viscous)},
+        .along = static_cast<float>(std::min(factors.along, 1.0 / step_))};
 }
 
 void WindPass::record(engine::Commands& commands, const GuideAddresses& guides, double time) const {
@@ -164,8 +168,10 @@ void WindPass::recordAir(
                        .cell = cellOf(whole),
                        .fraction = origin - whole,
                        .cells_per_metre = static_cast<float>(1.0 / cell),
-                       .octaves = settings_.turbulence_octaves});
+                       .octaves = settings_.turbulence_octaves,
+                       .drag_along = air().along});
     commands.uses({{guides.positions, Access::compute_read}});
+    if (settings_.drag_along > 0.0f) commands.uses({{guides.previous, Access::compute_read}});
     commands.dispatchInvocations(vertex_count_, gpu::kGuideGroupSize);
 }
 

@@ -36,10 +36,22 @@ std::array<glm::dvec3, 4> windCone(const WindSettings& settings);
 // Thesis eq. 13 with simulated time instead of the frame number: sin^2(gust_rate time) + 0.5.
 double windMagnitude(const WindSettings& settings, double time);
 
-// gpu::AirDrag in double precision.
+// gpu::AirDrag in double precision, and the rate of the drag along the hair.
+//
+// Air of velocity u along a hair exerts the force c mu u per length, with c = `drag_along`. c is 4
+// pi / ln(4 nu x / (u r^2)) at a distance x from the end that the air meets (Glauert and Lighthill
+// 1955, The axisymmetric boundary layer on a long thin cylinder), and 2 pi / (ln(2 L / r) - 3/2) of
+// a hair of length L in creeping flow (Batchelor 1970, Slender-body theory), half of the drag
+// across. Its logarithm hardly varies, so c is a setting. The drag's rate c mu / (pi r^2 rho) is
+// some 1/s, as slow as hair's friction; drag across has 10 to 100/s. So the drag along the hair is
+// an explicit acceleration, taken with the velocity at the time step's start: hair at rest and hair
+// at its terminal speed feel the exact force at any step, and free hair, whose speed relative to
+// the air falls as exp(-rate t), is off by first order in the step. The rate is limited to 1 over
+// the time step, so no step reverses that speed.
 struct DragFactors {
     double inertial;
     double viscous;
+    double along;  // 1/s
 };
 DragFactors dragFactors(const WindSettings& settings, const MaterialSettings& material);
 
@@ -47,13 +59,15 @@ DragFactors dragFactors(const WindSettings& settings, const MaterialSettings& ma
 struct AirAtGuides {
     const engine::Buffer* velocities = nullptr;  // vec4 [strand][vertex], m/s; null: no drag
     gpu::AirDrag drag{};
+    float along = 0.0f;  // rate of the drag along the hair, 1/s
 };
 
 // Throws Error for wind with a direction without length.
 void checkWind(const WindSettings& settings);
 
 // The effect of air on every guide vertex in a time step. Thesis mode writes an acceleration to
-// GuideAddresses::accelerations. Drag mode writes none; solvers apply the drag of air().
+// GuideAddresses::accelerations. Drag mode writes that of the drag along the hair; solvers apply
+// the drag of air() across it.
 class WindPass {
 public:
     // Throws like checkWind.
@@ -83,6 +97,7 @@ private:
 
     WindSettings settings_;
     MaterialSettings material_;
+    double step_;  // s, a whole one
     std::uint32_t vertex_count_;
     engine::ComputePipeline pipeline_;
     std::optional<engine::Buffer> air_;  // in drag mode

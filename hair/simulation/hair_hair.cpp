@@ -22,6 +22,7 @@ static_assert(sizeof(gpu::VolumeSample) == 32);
 static_assert(sizeof(gpu::VolumeParameters) == 88 && offsetof(gpu::VolumeParameters, origin) == 32);
 static_assert(sizeof(gpu::VolumeBlock) == 8);
 static_assert(sizeof(gpu::VolumePush) == 52);
+static_assert(sizeof(gpu::ShelterPush) == 72);
 
 // Reach of the grids beyond the roots, over the longest strand's length. The thesis's length
 // constraint lets strands stretch.
@@ -111,6 +112,23 @@ parametersOf(const groom::Groom& groom, const SimulationSettings& settings, cons
         .greatest_repulsion = static_cast<float>(kGreatestPush * fastest / whole)};
 }
 
+bool touches(const HairHairSettings& settings) {
+    return settings.friction > 0.0f || settings.repulsion > 0.0f;
+}
+
+double lengthOf(const groom::Groom& groom) {
+    double length = 0.0;
+    for (std::uint32_t s = 0; s < groom.strand_count; ++s) length += strandLength(groom.strand(s));
+    return length;
+}
+
+// Returns the frontal area of the groom's hairs over that of a cell's face.
+double areaPerShare(const groom::Groom& groom, const SimulationSettings& settings) {
+    const double cell = volumeGrid(groom, settings.hair_hair.resolution).cell;
+    return 2.0 * double{settings.material.radius} * double{settings.hair_hair.shelter} *
+           lengthOf(groom) / (cell * cell);
+}
+
 std::size_t cellCount(std::size_t side) { return gpu::kVolumeGrids * side * side * side; }
 
 std::size_t cellCount(const SimulationSettings& settings) {
@@ -137,6 +155,11 @@ engine::ComputePipeline pipeline(const engine::Device& device, const std::string
 }
 
 }  // namespace
+
+bool hairActsOnHair(const SimulationSettings& settings) {
+    return settings.solver != Solver::none &&
+           (touches(settings.hair_hair) || settings.hair_hair.shelter > 0.0f);
+}
 
 VolumeGrid volumeGrid(const groom::Groom& groom, std::uint32_t resolution) {
     glm::dvec3 low(groom.points[0]);
@@ -207,11 +230,18 @@ HairHair::HairHair(
     const engine::Device& device, const groom::Groom& groom, const SimulationSettings& settings,
     const gpu::Step& step)
     : vertex_count_(static_cast<std::uint32_t>(groom.points.size())),
+      area_per_share_(areaPerShare(groom, settings)),
       sample_(pipeline(device, "simulation/volume_sample.comp")),
       splat_(pipeline(
           device,
-          "simulation/volume_splat.comp" + slices(device) + (isPacked(device) ? "+packed" : ""))),
-      force_(pipeline(device, "simulation/volume_force.comp" + slices(device))) {
+          "simulation/volume_splat.comp" + slices(device) + (isPacked(device) ? "+packed" : ""))) {
+    if (touches(settings.hair_hair))
+        force_.emplace(pipeline(device, "simulation/volume_force.comp" + slices(device)));
+    if (settings.hair_hair.shelter > 0.0f)
+        shelter_.emplace(
+            device,
+            engine::ComputeDescription{
+                .shader = "simulation/volume_shelter.comp", .push_size = sizeof(gpu::ShelterPush)});
     const engine::MemoryRows rows = HairHair::rows(sizeOf(groom), settings);
     shares_ = engine::makeBuffer(device, toFloat(lengthShares(groom)), rows, "volume shares");
     samples_ = {device, rows["volume samples"]};
@@ -233,8 +263,33 @@ void HairHair::forget(const engine::Device& device) {
     runOnce(device, [&](engine::Commands& commands) { commands.fill(kept_, 0); });
 }
 
+void HairHair::recordShelter(
+    engine::Commands& commands, const GuideAddresses& guides, const RigidMotion& later,
+    const AirAtGuides& air) const {
+    commands.bind(
+        *shelter_, gpu::ShelterPush{
+                       .guides = guides.parameters,
+                       .volume = parameters_.address(),
+                       .accelerations = commands.writes(guides.accelerations),
+                       .air = commands.writes(*air.velocities),
+                       .frame = toGpu(later),
+                       .area_per_share = static_cast<float>(area_per_share_),
+                       .viscous = air.drag.viscous / air.drag.inertial,
+                       .drag_along = air.along});
+    commands.uses(
+        {{guides.positions, Access::compute_read},
+         {samples_, Access::compute_read},
+         {blocks_, Access::compute_read},
+         {sums_, Access::compute_read}});
+    commands.dispatchInvocations(vertex_count_, gpu::kGuideGroupSize);
+}
+
 void HairHair::record(
-    engine::Commands& commands, const GuideAddresses& guides, const RigidMotion& later) const {
+    engine::Commands& commands, const GuideAddresses& guides, const RigidMotion& later,
+    const AirAtGuides& air) const {
+    // Air without density takes no momentum.
+    const bool shelters = shelter_ && air.velocities && air.drag.inertial > 0.0f;
+    if (!shelters && !force_) return;
     gpu::VolumePush push{
         .guides = guides.parameters, .volume = parameters_.address(), .frame = toGpu(later)};
     commands.fill(sums_, 0);
@@ -255,8 +310,10 @@ void HairHair::record(
          {sums_, Access::compute_write}});
     commands.dispatchInvocations(vertex_count_, gpu::kGuideGroupSize);
 
+    if (shelters) recordShelter(commands, guides, later, air);
+    if (!force_) return;
     push.accelerations = commands.writes(guides.accelerations);
-    commands.bind(force_, push);
+    commands.bind(*force_, push);
     commands.uses(
         {{samples_, Access::compute_read},
          {blocks_, Access::compute_read},

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include <glm/vec3.hpp>
@@ -12,6 +13,7 @@
 #include "hair/groom/groom.h"
 #include "hair/groom/groom_size.h"
 #include "hair/settings.h"
+#include "hair/simulation/forces.h"
 #include "hair/simulation/guide_solver.h"
 #include "hair/simulation/head_motion.h"
 
@@ -34,6 +36,9 @@ std::vector<double> lengthShares(const groom::Groom& groom);
 
 // Returns the density at rest in shares per cell: the mean over the groom's length and both grids.
 double meanRestDensity(const groom::Groom& groom, const VolumeGrid& grid);
+
+// Whether the settings ask for contact or shelter of moving hair.
+bool hairActsOnHair(const SimulationSettings& settings);
 
 // Contact of hair with hair as in a fluid, on grids that move with the head (Petrovic, Henne and
 // Anderson 2005, Volumetric methods for simulation and rendering of hair).
@@ -82,6 +87,19 @@ double meanRestDensity(const groom::Groom& groom, const VolumeGrid& grid);
 // removes energy from pressure waves instead of adding some. All quantities are continuous in the
 // vertex positions.
 //
+// Shelter: hair slows the air of wind mode `drag` that flows through it. Let n be the length of
+// hair per volume and f(u) the drag per length of a hair across air of speed u relative to it. The
+// momentum that hair takes is missing in the air behind it (Belcher, Jerram and Hunt 2003,
+// Adjustment of a turbulent boundary layer to a canopy of roughness elements):
+//     rho u u' = -n f(u),   f(u) = rho r (u^2 + b u^(4/3)),   b = 10 (mu / (2 rho r))^(2/3).
+// With N, the frontal area 2 r n summed along the way, per area across it, the solution is
+//     u^(2/3) = (u0^(2/3) + b) exp(-N / 3) - b,
+// or 0 from where that is negative; exp(-N / 2) u0 without viscosity. So the hair behind an area
+// never bears more than the air's momentum, 1/2 rho u0^2 for each unit of it. Each guide stands for
+// `shelter` hairs, which lie across the flow and move like the vertex that the air reaches. N is
+// summed over the cells of the first grid along the straight line upstream of a vertex. Air does
+// not flow round hair, and is not mixed again behind it.
+//
 // Sums are integers, so they don't depend on the order of additions. Their fixed point is set per
 // block of 4 x 4 x 4 cells: a unit is at most 2^-31 of the share M of all vertices that reach into
 // the block, and for momentum 2^-30 M V, where V is the largest component of their velocities. So
@@ -96,9 +114,11 @@ public:
     static engine::MemoryRows
     rows(const groom::GroomSize& size, const SimulationSettings& settings);
 
-    // Adds the accelerations of the next step. `later` is the head's motion at its end.
+    // Slows `air`, and adds the accelerations of the next step. `later` is the head's motion at its
+    // end.
     void record(
-        engine::Commands& commands, const GuideAddresses& guides, const RigidMotion& later) const;
+        engine::Commands& commands, const GuideAddresses& guides, const RigidMotion& later,
+        const AirAtGuides& air = {}) const;
 
     // Makes the next step ignore the previous one, after other code wrote the positions.
     void forget(const engine::Device& device);
@@ -112,7 +132,12 @@ public:
     const engine::Buffer& parameters() const { return parameters_; }
 
 private:
+    void recordShelter(
+        engine::Commands& commands, const GuideAddresses& guides, const RigidMotion& later,
+        const AirAtGuides& air) const;
+
     std::uint32_t vertex_count_;
+    double area_per_share_;  // gpu::ShelterPush
     engine::Buffer shares_;
     engine::Buffer samples_;
     engine::Buffer sums_;
@@ -121,7 +146,8 @@ private:
     engine::Buffer kept_;  // vec4 [strand][vertex]
     engine::ComputePipeline sample_;
     engine::ComputePipeline splat_;
-    engine::ComputePipeline force_;
+    std::optional<engine::ComputePipeline> shelter_;  // if hair shelters hair
+    std::optional<engine::ComputePipeline> force_;  // if hair touches hair
 };
 
 }  // namespace hair::simulation

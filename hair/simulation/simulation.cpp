@@ -37,11 +37,6 @@ std::vector<glm::vec4> withMargin(std::span<const glm::vec3> points, float margi
     return result;
 }
 
-bool hairActsOnHair(const SimulationSettings& settings) {
-    const HairHairSettings& contact = settings.hair_hair;
-    return settings.solver != Solver::none && (contact.friction > 0.0f || contact.repulsion > 0.0f);
-}
-
 // Whether segments are kept out of bodies by a separate pass; `rod` does it itself.
 bool hasSegmentPass(const SimulationSettings& settings) {
     if (settings.collision.parts == CollisionParts::vertices) return false;
@@ -236,7 +231,9 @@ void Simulation::recordWind(engine::Commands& commands) const {
 }
 
 void Simulation::recordVolume(engine::Commands& commands) const {
-    if (hair_hair_) hair_hair_->record(commands, addresses(), poseAt(time() + double{step_.whole}));
+    if (hair_hair_)
+        hair_hair_->record(
+            commands, addresses(), poseAt(time() + double{step_.whole}), wind_.air());
 }
 
 void Simulation::recordForce(engine::Commands& commands) const {
@@ -323,7 +320,7 @@ void Simulation::settle(std::uint32_t steps) {
         runOnce(*device_, [&](engine::Commands& commands) {
             for (std::uint32_t i = 0; i < batch; ++i) {
                 wind_.recordCalm(commands, addresses());
-                if (hair_hair_) hair_hair_->record(commands, addresses(), pose());
+                if (hair_hair_) hair_hair_->record(commands, addresses(), pose(), wind_.air());
                 recordFollow(commands, time(), time());
                 recordSubsteps(commands, step_.count, current_, time(), time());
             }

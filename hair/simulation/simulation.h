@@ -124,9 +124,10 @@ public:
     // same work.
     void recordWind(engine::Commands& commands) const;
 
-    // Whether hair-hair contact is on.
+    // Whether hair touches or shelters hair.
     bool hasVolume() const { return hair_hair_.has_value(); }
-    // Adds the accelerations of hair-hair contact. Call it after recordWind.
+    // Slows the air by the hair that it has passed, and adds the accelerations of hair-hair
+    // contact. Call it after recordWind.
     void recordVolume(engine::Commands& commands) const;
 
     // Whether the scene supplies a force: /simulation/force.

@@ -129,7 +129,7 @@ const uint kTurbulencePurpose = 0x54555242u;
 // Push constants of simulation/air.comp.
 struct AirPush {
     Address guides;  // GuideParameters
-    Address accelerations;  // m/s^2, cleared
+    Address accelerations;  // m/s^2, written: by the drag along the hair
     Address air;  // vec4: velocity of the air, m/s, written
     vec3 mean_wind;  // m/s
     float fluctuation;  // r.m.s. of each component, m/s
@@ -139,6 +139,7 @@ struct AirPush {
     vec3 fraction;  // of the cell, [0, 1)
     float cells_per_metre;
     uint octaves;
+    float drag_along;  // rate of the drag along the hair, 1/s
 };
 
 // Push constants of simulation/pull_hold.comp and simulation/pull.comp.

@@ -60,4 +60,16 @@ struct VolumePush {
     RigidFrame frame;  // of the head at the end of the step
 };
 
+// Push constants of simulation/volume_shelter.comp.
+struct ShelterPush {
+    Address guides;  // GuideParameters
+    Address volume;  // VolumeParameters
+    Address accelerations;  // m/s^2, less the drag along the hair of the air's lost speed
+    Address air;  // vec4 [strand][vertex]: velocity of the air, m/s, slowed
+    RigidFrame frame;  // of the head at the end of the step
+    float area_per_share;  // frontal area of a share of hair in a cell, over the cell's face
+    float viscous;  // AirDrag::viscous over AirDrag::inertial, (m/s)^(2/3)
+    float drag_along;  // rate of the drag along the hair, 1/s
+};
+
 #endif

@@ -1,14 +1,24 @@
 #version 460
-// Computes the velocity of the air at every guide vertex. The solvers use it for drag in each of
-// their substeps: air_drag.glsl. One invocation per vertex.
+// Computes the velocity of the air at every guide vertex. The solvers use it for drag across the
+// hair in each of their substeps: air_drag.glsl. The drag along the hair is an acceleration of the
+// whole time step: forces.h. One invocation per vertex.
 #extension GL_GOOGLE_include_directive : require
 
+#include "simulation/air_drag.glsl"
 #include "simulation/guides.glsl"
 #include "simulation/turbulence.glsl"
 
 layout(local_size_x = kGuideGroupSize) in;
 
 layout(push_constant, scalar) uniform Push { AirPush push; };
+
+// The acceleration of a vertex by the drag along the hair, m/s^2.
+vec3 dragAlong(GuideParameters guides, uint index, vec3 air) {
+    vec3 tangent = tangentAt(guides, index);
+    vec3 position = Vectors(guides.positions).at[index].xyz;
+    vec3 velocity = (position - Vectors(guides.previous).at[index].xyz) / guides.step.sub;
+    return push.drag_along * dot(tangent, air - velocity) * tangent;
+}
 
 void main() {
     GuideParameters guides = GuideReference(push.guides).parameters;
@@ -24,5 +34,6 @@ void main() {
                    guides.seed);
     }
     State(push.air).at[index] = vec4(air, 0.0);
-    State(push.accelerations).at[index] = vec4(0.0);
+    State(push.accelerations).at[index] =
+        vec4(push.drag_along > 0.0 ? dragAlong(guides, index, air) : vec3(0.0), 0.0);
 }

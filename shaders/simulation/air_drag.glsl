@@ -43,6 +43,18 @@ vec3 tangentBetween(vec3 above, vec3 below) {
     return len < kFolded ? above : sum / len;
 }
 
+// The tangent at a guide vertex, `index` in [strand][vertex]; zero at the root.
+vec3 tangentAt(GuideParameters guides, uint index) {
+    uint vertex = index % guides.vertices_per_strand;
+    if (vertex == 0) return vec3(0.0);
+    Vectors positions = Vectors(guides.positions);
+    vec3 position = positions.at[index].xyz;
+    vec3 below = vec3(0.0);
+    if (vertex + 1 < guides.vertices_per_strand)
+        below = directionOf(positions.at[index + 1].xyz - position);
+    return tangentBetween(directionOf(position - positions.at[index - 1].xyz), below);
+}
+
 // h k of a hair with this tangent, in air of relative velocity u, m/s.
 float dragFactor(AirDrag drag, vec3 tangent, vec3 u, float substep) {
     if (tangent == vec3(0.0)) return 0.0;

@@ -223,7 +223,7 @@ const BadScene kBadReaderMembers[] = {
     {R"({"sweep": {"/simulation/wind": [{"strenght": 1}]}})",
      ": /sweep: /simulation/wind/strenght: unknown key (did you mean 'strength'?); known: "
      "mode, strength, direction, cone_angle, gust_rate, speed, turbulence, turbulence_scale, "
-     "turbulence_octaves, air_density, air_viscosity"}};
+     "turbulence_octaves, air_density, air_viscosity, drag_along"}};
 INSTANTIATE_TEST_SUITE_P(ReaderMembers, SceneError, testing::ValuesIn(kBadReaderMembers));
 
 TEST(SceneErrors, OfAFile) {

@@ -209,6 +209,24 @@ TEST_P(EverySolver, IsBorneByAirAtTheTerminalSpeed) {
     expectPass(findings);
 }
 
+TEST_F(Physics, AirDragsShapeAlongItself) {
+    Findings findings("drag_along", hair::Solver::shape);
+    checkDragAlong(device(), hair::Solver::shape, findings);
+    expectPass(findings);
+}
+
+TEST_F(Physics, AirDragsRodsAlongThemselves) {
+    Findings findings("drag_along", hair::Solver::rod);
+    checkDragAlong(device(), hair::Solver::rod, findings);
+    expectPass(findings);
+}
+
+TEST_F(Physics, HairSheltersHairFromWind) {
+    Findings findings("shelter", hair::Solver::shape);
+    checkShelter(device(), hair::Solver::shape, findings);
+    expectPass(findings);
+}
+
 TEST_P(EverySolver, LosesEnergyToFriction) {
     Findings findings("energy", solver());
     checkEnergy(device(), solver(), findings);

@@ -156,7 +156,8 @@ TEST_F(GpuDrag, StaysFiniteInAStorm) {
                     .turbulence = 2.0f,
                     .turbulence_scale = 0.01f,
                     .turbulence_octaves = 8,
-                    .air_density = density};
+                    .air_density = density,
+                    .drag_along = 100.0f};
                 Simulation simulation(device(), groom, settings, kSeed);
                 advance(device(), simulation, 100);
                 for (const glm::vec3& point : simulation.readPositions())
@@ -194,7 +195,8 @@ TEST_F(GpuDrag, IsBorneByASpringAtAnyStep) {
             }
 }
 
-// Every solver with all its forces, each kind of parallelism, and several substeps.
+// Every solver with all its forces, drag along the hair among them, each kind of parallelism, and
+// several substeps.
 TEST_F(GpuDrag, BrakesEverySolverAsTheReferenceSays) {
     for (const Solver solver : kSolvers)
         for (const Parallelism parallelism :
@@ -203,6 +205,7 @@ TEST_F(GpuDrag, BrakesEverySolverAsTheReferenceSays) {
             const groom::Groom groom = wavyGroom(33, 9);
             SimulationSettings settings;
             settings.wind = turbulent(6.0f).wind;
+            settings.wind.drag_along = 1.5f;
             settings.solver = solver;
             settings.parallelism = parallelism;
             settings.substeps = 3;
@@ -215,6 +218,57 @@ TEST_F(GpuDrag, BrakesEverySolverAsTheReferenceSays) {
                 largestDifference(simulation.readPositions(), reference.positions()),
                 1e-5 * longestStrand(groom))
                 << static_cast<int>(solver) << ' ' << static_cast<int>(parallelism);
+        }
+}
+
+// Friction of hair on hair shares the grid, the head has turned, and hair moves in all directions.
+// One step: where hair moves almost as the air does, rounding decides on the direction upstream.
+// Elsewhere it moves a ray of ten cells by some 1e-5 cells, air of 10 m/s by about as much of its
+// speed, and hair by 1e-4 m/s in 1/60 s: three times the usual tolerance.
+TEST_F(GpuDrag, IsSlowedByHairAsTheReferenceSays) {
+    for (const Solver solver : {Solver::shape, Solver::rod})
+        for (const float density : {1.2f, 0.0f}) {
+            const groom::Groom groom = wavyGroom(60, 9);
+            SimulationSettings settings;
+            settings.wind = turbulent(6.0f).wind;
+            settings.wind.air_density = density;
+            settings.wind.drag_along = 1.5f;
+            settings.solver = solver;
+            settings.substeps = 3;
+            settings.hair_hair.friction = 0.1f;
+            settings.hair_hair.shelter = 60.0f;
+            settings.motion.keyframes = {
+                {.time = 0.0f, .rotation = {10.0f, 40.0f, 0.0f}, .translation = {}},
+                {.time = 1.0f, .rotation = {20.0f, 60.0f, 0.0f}, .translation = {}}};
+            Simulation simulation(device(), groom, settings, kSeed);
+            reference::Reference reference(groom, settings, kSeed);
+            const auto moved_by_head = [&](const std::vector<glm::vec3>& points) {
+                std::vector<glm::vec3> moved;
+                for (const glm::vec3& point : points)
+                    moved.emplace_back(simulation.pose()(glm::dvec3(point)));
+                return moved;
+            };
+            const auto positions = moved_by_head(disturbed(groom, 0.002, 11));
+            const auto previous = moved_by_head(disturbed(groom, 0.002, 12));
+            simulation.setState(positions, previous);
+            reference.setState(toDouble(positions), toDouble(previous));
+            advance(device(), simulation, 1);
+            reference.step();
+            EXPECT_LT(
+                largestDifference(simulation.readPositions(), reference.positions()),
+                3e-5 * longestStrand(groom))
+                << static_cast<int>(solver);
+
+            // The shelter moves hair by far more than that.
+            settings.hair_hair.shelter = 0.0f;
+            reference::Reference open(groom, settings, kSeed);
+            open.setState(toDouble(positions), toDouble(previous));
+            open.step();
+            const double apart = largestDifference(simulation.readPositions(), open.positions());
+            if (density > 0.0f)
+                EXPECT_GT(apart, 1e-2 * longestStrand(groom));
+            else
+                EXPECT_LT(apart, 3e-5 * longestStrand(groom));
         }
 }
 

@@ -384,6 +384,9 @@ TEST_F(HairOnHair, IsOffUnlessAsked) {
     EXPECT_FALSE(Simulation(device(), groom, SimulationSettings{}, 1).hasVolume());
     EXPECT_TRUE(Simulation(device(), groom, contact(0.1f, 0.0f), 1).hasVolume());
     EXPECT_TRUE(Simulation(device(), groom, contact(0.0f, 0.1f), 1).hasVolume());
+    SimulationSettings sheltered = contact(0.0f, 0.0f);
+    sheltered.hair_hair.shelter = 1.0f;
+    EXPECT_TRUE(Simulation(device(), groom, sheltered, 1).hasVolume());
     SimulationSettings frozen = contact(0.1f, 0.1f);
     frozen.solver = Solver::none;
     EXPECT_FALSE(Simulation(device(), groom, frozen, 1).hasVolume());
