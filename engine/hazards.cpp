@@ -48,11 +48,13 @@ constexpr VkAccessFlags2 kReads =
     VK_ACCESS_2_INDIRECT_COMMAND_READ_BIT | VK_ACCESS_2_INDEX_READ_BIT |
     VK_ACCESS_2_UNIFORM_READ_BIT | VK_ACCESS_2_SHADER_READ_BIT |
     VK_ACCESS_2_COLOR_ATTACHMENT_READ_BIT | VK_ACCESS_2_DEPTH_STENCIL_ATTACHMENT_READ_BIT |
-    VK_ACCESS_2_TRANSFER_READ_BIT | VK_ACCESS_2_HOST_READ_BIT;
+    VK_ACCESS_2_TRANSFER_READ_BIT | VK_ACCESS_2_HOST_READ_BIT |
+    VK_ACCESS_2_ACCELERATION_STRUCTURE_READ_BIT_KHR;
 constexpr VkAccessFlags2 kWrites = VK_ACCESS_2_SHADER_WRITE_BIT |
                                    VK_ACCESS_2_COLOR_ATTACHMENT_WRITE_BIT |
                                    VK_ACCESS_2_DEPTH_STENCIL_ATTACHMENT_WRITE_BIT |
-                                   VK_ACCESS_2_TRANSFER_WRITE_BIT | VK_ACCESS_2_HOST_WRITE_BIT;
+                                   VK_ACCESS_2_TRANSFER_WRITE_BIT | VK_ACCESS_2_HOST_WRITE_BIT |
+                                   VK_ACCESS_2_ACCELERATION_STRUCTURE_WRITE_BIT_KHR;
 
 // Expands groups of stages and accesses into their members.
 Scope expanded(Scope scope) {
@@ -68,6 +70,7 @@ Scope expanded(Scope scope) {
     expand(
         scope.stages, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT,
         allGraphics() | kTransferStages | VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT |
+            VK_PIPELINE_STAGE_2_ACCELERATION_STRUCTURE_BUILD_BIT_KHR |
             VK_PIPELINE_STAGE_2_HOST_BIT);
     expand(scope.stages, VK_PIPELINE_STAGE_2_ALL_GRAPHICS_BIT, allGraphics());
     expand(scope.stages, VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT, kTransferStages);

@@ -167,13 +167,6 @@ std::uint32_t countStrands(const StrandPlan& plan) {
     return static_cast<std::uint32_t>(plan.strands());
 }
 
-// kPointsPerStrand of strands/points/layout.glsl.
-std::size_t pointsPerStrand(const StrandSettings& strands, const StrandPlan& plan) {
-    if (strands.taper == Taper::segment)
-        return std::size_t{plan.segments} * (plan.forced_tessellation + 1);
-    return std::size_t{plan.segments} * plan.forced_tessellation + 1;
-}
-
 // On a processor, a texel fetch reads whole points for all invocations at once, which is faster:
 // docs/performance.md.
 bool readsTexels(const engine::Device& device, std::size_t bytes) {
@@ -269,6 +262,12 @@ void PointsPass::record(
     declareStrands(commands, parameters, engine::Access::compute_read);
     commands.bind(evaluate_, push);
     commands.dispatchInvocations(invocations_, group_);
+}
+
+std::size_t pointsPerStrand(const StrandSettings& strands, const StrandPlan& plan) {
+    if (strands.taper == Taper::segment)
+        return std::size_t{plan.segments} * (plan.forced_tessellation + 1);
+    return std::size_t{plan.segments} * plan.forced_tessellation + 1;
 }
 
 engine::Constants placeConstants(const StrandPlan& plan) {
