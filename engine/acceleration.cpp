@@ -127,10 +127,7 @@ void record(
     Commands& commands, const VkAccelerationStructureBuildGeometryInfoKHR& info,
     std::uint32_t primitives) {
     const VkAccelerationStructureBuildRangeInfoKHR range{
-        .primitiveCount = primitives,
-        .primitiveOffset = 0,
-        .firstVertex = 0,
-        .transformOffset = 0};
+        .primitiveCount = primitives, .primitiveOffset = 0, .firstVertex = 0, .transformOffset = 0};
     const VkAccelerationStructureBuildRangeInfoKHR* const ranges = &range;
     commands.order();
     vkCmdBuildAccelerationStructuresKHR(commands.get(), 1, &info, &ranges);
@@ -142,9 +139,9 @@ MemoryRows TriangleStructure::rows(const Device& device, const TriangleSet& tria
     const VkPhysicalDeviceAccelerationStructurePropertiesKHR limits = limitsOf(device);
     if (triangles.triangles > limits.maxPrimitiveCount)
         throw Unsupported(
-            "acceleration structure",
-            std::to_string(triangles.triangles) + " triangles; the device allows " +
-                std::to_string(limits.maxPrimitiveCount));
+            "acceleration structure", std::to_string(triangles.triangles) +
+                                          " triangles; the device allows " +
+                                          std::to_string(limits.maxPrimitiveCount));
     const VkAccelerationStructureGeometryKHR lower_geometry = lowerGeometry(triangles, 0, 0);
     const VkAccelerationStructureGeometryKHR upper_geometry = upperGeometry(0);
     const VkAccelerationStructureBuildSizesInfoKHR lower = sizesOf(
@@ -154,8 +151,8 @@ MemoryRows TriangleStructure::rows(const Device& device, const TriangleSet& tria
             lower_geometry),
         triangles.triangles);
     const VkAccelerationStructureBuildSizesInfoKHR upper = sizesOf(
-        device,
-        buildOf(VK_ACCELERATION_STRUCTURE_TYPE_TOP_LEVEL_KHR, kUpperFlags, upper_geometry), 1);
+        device, buildOf(VK_ACCELERATION_STRUCTURE_TYPE_TOP_LEVEL_KHR, kUpperFlags, upper_geometry),
+        1);
     const VkDeviceSize scratch = std::max(
         {lower.buildScratchSize, lower.updateScratchSize, upper.buildScratchSize, VkDeviceSize{1}});
     return {
@@ -163,9 +160,12 @@ MemoryRows TriangleStructure::rows(const Device& device, const TriangleSet& tria
         {{kLower, static_cast<std::size_t>(lower.accelerationStructureSize)},
          {kUpper, static_cast<std::size_t>(upper.accelerationStructureSize)},
          {kInstance, sizeof(VkAccelerationStructureInstanceKHR)},
-         {kScratch,
-          static_cast<std::size_t>(
-              scratch + limits.minAccelerationStructureScratchOffsetAlignment)}}};
+         {kScratch, static_cast<std::size_t>(
+                        scratch + limits.minAccelerationStructureScratchOffsetAlignment)}}};
+}
+
+bool TriangleStructure::leavesOutNan(const Device& device) {
+    return device.info().driver_id != VK_DRIVER_ID_MESA_LLVMPIPE;
 }
 
 TriangleStructure::TriangleStructure(const Device& device, const TriangleSet& triangles)
@@ -175,9 +175,9 @@ TriangleStructure::TriangleStructure(const Device& device, const TriangleSet& tr
     lower_storage_ = {device, rows[kLower]};
     upper_storage_ = {device, rows[kUpper]};
     lower_ = {
-        device.get(), makeStructure(
-                          device, VK_ACCELERATION_STRUCTURE_TYPE_BOTTOM_LEVEL_KHR, lower_storage_,
-                          kLower)};
+        device.get(),
+        makeStructure(
+            device, VK_ACCELERATION_STRUCTURE_TYPE_BOTTOM_LEVEL_KHR, lower_storage_, kLower)};
     upper_ = {
         device.get(),
         makeStructure(
@@ -224,8 +224,7 @@ void TriangleStructure::build(Commands& commands, const Buffer& vertices, const 
 }
 
 std::uint64_t TriangleStructure::traces(Commands& commands) const {
-    commands.uses(
-        {{lower_storage_, Access::trace_read}, {upper_storage_, Access::trace_read}});
+    commands.uses({{lower_storage_, Access::trace_read}, {upper_storage_, Access::trace_read}});
     return upper_address_;
 }
 

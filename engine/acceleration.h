@@ -8,7 +8,7 @@
 
 namespace engine {
 
-// What becomes of a structure when its vertices have moved.
+// The work on a structure whose vertices have moved.
 enum class Rebuild {
     anew,   // it is built again: slower, but tight round the triangles
     refit,  // its boxes are fitted to the triangles, which stay in the groups of the first time
@@ -32,9 +32,13 @@ public:
 
     TriangleStructure(const Device& device, const TriangleSet& triangles);
 
+    // Whether triangles with a vertex whose x is NaN are left out, as Vulkan demands. With
+    // Rebuild::refit they must always be the same ones. In lavapipe of Mesa 25 such a triangle
+    // hides the others.
+    static bool leavesOutNan(const Device& device);
+
     // Records the building from `vertices`, vec3 [vertex], and `indices`, uint [triangle][3]. With
-    // Rebuild::refit only the first call builds. If a component x of a triangle's vertices is NaN,
-    // no ray hits it; with Rebuild::refit this must not change.
+    // Rebuild::refit only the first call builds.
     void build(Commands& commands, const Buffer& vertices, const Buffer& indices);
 
     // Declares that the next dispatch traces rays, and returns the structure's address for
@@ -42,8 +46,7 @@ public:
     std::uint64_t traces(Commands& commands) const;
 
 private:
-    using Structure =
-        Handle<VkAccelerationStructureKHR, &vkDestroyAccelerationStructureKHR>;
+    using Structure = Handle<VkAccelerationStructureKHR, &vkDestroyAccelerationStructureKHR>;
 
     TriangleSet triangles_;
     bool is_built_ = false;

@@ -271,8 +271,9 @@ bool canBlend(VkPhysicalDevice device, VkFormat format) {
 
 bool hasRayQueries(const std::set<std::string>& extensions) {
     return extensions.contains(VK_KHR_RAY_QUERY_EXTENSION_NAME) &&
-           std::ranges::all_of(
-               kAccelerationExtensions, [&](const char* each) { return extensions.contains(each); });
+           std::ranges::all_of(kAccelerationExtensions, [&](const char* each) {
+               return extensions.contains(each);
+           });
 }
 
 void findFeatures(DeviceInfo& info) {

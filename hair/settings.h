@@ -35,7 +35,7 @@ enum class Backend {
 // Returns the name of a backend in scenes.
 const char* backendName(Backend backend);
 
-// What the back end `rays` does with its acceleration structure in each frame.
+// How the back end `rays` brings its acceleration structure up to date in each frame.
 enum class RaysUpdate { build, refit };
 
 struct RaysSettings {

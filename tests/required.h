@@ -27,7 +27,7 @@ enum class Need {
 };
 
 inline constexpr std::array<std::string_view, 12> kNeedNames{
-    "device",  "validation", "gbench",      "python", "module",   "report",
+    "device",  "validation", "gbench",      "python", "module", "report",
     "browser", "display",    "swiftshader", "mesh",   "rays",   "null_gpus"};
 static_assert(kNeedNames.size() == static_cast<std::size_t>(Need::null_gpus) + 1);
 

@@ -147,8 +147,8 @@ StrandWork softwareWork(const StrandCounts& counts) {
     return work;
 }
 
-// Besides the samples' work, the corners of quads are written and read. What the driver does to
-// build the acceleration structure and to trace rays is not known.
+// Besides the samples' work, the corners of quads are written and read. The driver's work of
+// building the acceleration structure and tracing rays is not known.
 StrandWork raysWork(const StrandCounts& counts) {
     const double samples = asDouble(counts.covered_samples);
     const double points = asDouble(counts.points());
@@ -160,7 +160,8 @@ StrandWork raysWork(const StrandCounts& counts) {
     work.bytes =
         kGuideBytes * asDouble(counts.guide_vertices) +
         kTriangleBytes * asDouble(counts.root_triangles) +
-        2.0 * (kPointBytes + kCornerBytes) * points + 2.0 * kNumberBytes * asDouble(counts.strands) +
+        2.0 * (kPointBytes + kCornerBytes) * points +
+        2.0 * kNumberBytes * asDouble(counts.strands) +
         samples * (kDepthBytes + 5.0 * kPairBytes + asDouble(counts.color_bytes) + kDepthBytes);
     return work;
 }

@@ -500,8 +500,7 @@ Backend mapBackend(Backend backend) {
 
 bool readsPoints(const Settings& settings) {
     const Backend backend = settings.strands.backend;
-    return settings.render.hair &&
-           (hasVisibilityBuffer(backend) || backend == Backend::expanded);
+    return settings.render.hair && (hasVisibilityBuffer(backend) || backend == Backend::expanded);
 }
 
 bool readsSceneDepth(const Settings& settings) {

@@ -17,14 +17,13 @@ namespace {
 static_assert(sizeof(gpu::CornersPush) == 40 && offsetof(gpu::CornersPush, points_count) == 32);
 
 constexpr const char* kRays = "/strands/backend: rays";
-constexpr const char* kCorners = "quads' corners";
-constexpr const char* kIndices = "quads' triangles";
+constexpr const char* kCorners = "quad corners";
+constexpr const char* kIndices = "quad triangles";
 
 // Two triangles for each piece of a strand at the finest level of detail, and two corners for each
 // point.
 engine::TriangleSet trianglesOf(const StrandSettings& strands, const StrandPlan& plan) {
-    const std::uint64_t triangles =
-        2 * plan.strands() * plan.segments * plan.forced_tessellation;
+    const std::uint64_t triangles = 2 * plan.strands() * plan.segments * plan.forced_tessellation;
     const std::uint64_t vertices = 2 * plan.strands() * pointsPerStrand(strands, plan);
     constexpr std::uint64_t kMost = std::numeric_limits<std::uint32_t>::max();
     if (3 * triangles > kMost || vertices > kMost)
@@ -91,8 +90,8 @@ void RaysBackend::check(
     engine::TriangleStructure::rows(device, trianglesOf(settings.strands, plan));
 }
 
-engine::MemoryRows RaysBackend::rows(
-    const engine::Device& device, const Settings& settings, const StrandPlan& plan) {
+engine::MemoryRows
+RaysBackend::rows(const engine::Device& device, const Settings& settings, const StrandPlan& plan) {
     engine::MemoryRows rows = VisibilityBuffer::rows(targetDescription(settings.render));
     if (device.has(engine::Feature::ray_queries))
         rows.add(raysRows(device, settings.strands, plan));
@@ -101,16 +100,16 @@ engine::MemoryRows RaysBackend::rows(
 
 RaysBackend::RaysBackend(const BackendContext& context)
     : points_(*context.points), visibility_(checked(context), kRays),
-      point_count_(
-          trianglesOf(context.strands, context.plan).vertices / 2),
-      leaves_out_(context.strands.rays.update == RaysUpdate::build),
+      point_count_(trianglesOf(context.strands, context.plan).vertices / 2),
+      leaves_out_(
+          context.strands.rays.update == RaysUpdate::build &&
+          engine::TriangleStructure::leavesOutNan(context.device)),
       group_(strandGroup(context.device)),
       columns_(divideUp(context.target->color().extent().width, pixelGroup(context.device))),
       structure_(context.device, trianglesOf(context.strands, context.plan)),
       corners_stage_(context.device, cornersStage(context)),
       trace_(
-          context.device,
-          samplesStage(context, "rays", "trace.comp", pixelGroup(context.device))) {
+          context.device, samplesStage(context, "rays", "trace.comp", pixelGroup(context.device))) {
     const engine::MemoryRows rows = raysRows(context.device, context.strands, context.plan);
     corners_ = {context.device, rows[kCorners]};
     indices_ = engine::makeBuffer(

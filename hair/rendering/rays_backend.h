@@ -42,7 +42,7 @@ private:
     const PointsPass& points_;
     VisibilityBuffer visibility_;
     std::uint32_t point_count_;  // of all strands at the finest level of detail
-    bool leaves_out_;  // quads that are not drawn
+    bool leaves_out_;  // strands that are not drawn
     std::uint32_t group_;  // invocations of a work group of corners_stage_
     std::uint32_t columns_;  // work groups of trace_ per row of pixels
     engine::Buffer corners_;  // gpu::CornersPush::corners

@@ -285,8 +285,8 @@ SoftwareBackend::SoftwareBackend(const BackendContext& context)
       cull_(context.device, texelStage(context, "cull.comp", 2, group_, block_)),
       rasterize_(context.device, texelStage(context, "raster.comp", 2, group_)),
       rasterize_large_(context.device, texelStage(context, "raster_large.comp", 2, group_)) {
-    const engine::MemoryRows rows = softwareRows(
-        context.device, context.target->description(), context.strands, context.plan);
+    const engine::MemoryRows rows =
+        softwareRows(context.device, context.target->description(), context.strands, context.plan);
     counts_ = {context.device, rows["software counts"]};
     list_ = {context.device, rows["software list"]};
     large_ = {context.device, rows["software large pieces"]};

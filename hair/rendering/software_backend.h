@@ -16,7 +16,7 @@
 
 namespace hair::rendering {
 
-// What each sample of the camera's picture shows: the number of a piece of a strand and its depth.
+// For each sample of the camera's picture, the number and the depth of the piece of a strand there.
 // `software` and `rays` find the pieces in compute. They are then shaded, once for each sample, and
 // two triangles bring colour and depth into the target. All stages are limited to the hair's bounds
 // on the screen.

@@ -68,9 +68,9 @@ struct CornersPush {
     // the finest level of detail; those past the last drawn one of a segment lie on it.
     Address corners;
     uint points_count;  // of all strands
-    // 1: corners of quads that are not drawn are NaN, so that the building of an acceleration
-    // structure leaves them out. 0: they have no area, because a structure that is fitted to moved
-    // triangles must always have the same.
+    // 1: corners of strands that are not drawn are NaN, so that the building of an acceleration
+    // structure leaves them out. 0: they are at the origin, where no ray hits them because they have
+    // no area. A structure that is fitted to moved triangles must always have the same ones.
     uint leaves_out;
 };
 

@@ -15,8 +15,8 @@
 #include "tests/rendering/pictures.h"
 #include "tests/required.h"
 
-// The back end `rays`: its pictures against those of `tessellation`, which draws the same quads with
-// the rasteriser, and of `software`, which has the same shading.
+// The back end `rays`: its pictures against those of `tessellation`, which draws the same quads
+// with the rasteriser, and of `software`, which has the same shading.
 namespace hair::rendering {
 namespace {
 
@@ -42,13 +42,14 @@ protected:
     // on a quad's edge, or on the edge of a hidden quad, may be on another side of it: both compute
     // in single precision, which keeps a place to 1e-4 px here, and a pixel of hair has some ten
     // edges. So one in a hundred pixels of hair would be many.
-    static void expectThatOfSoftware(const Settings& settings, std::size_t least_hair) {
+    static void expectThatOfSoftware(const Settings& settings, double most_different) {
         const Pixels expected = drawCase(device(), with(settings, Backend::software));
         const std::size_t hair = differingPixels(expected, drawBald(device(), settings));
-        EXPECT_GT(hair, least_hair);
+        EXPECT_GT(hair, 600u);
         EXPECT_LE(
-            differingPixels(expected, drawCase(device(), with(settings, Backend::rays)), 2),
-            hair / 100);
+            static_cast<double>(
+                differingPixels(expected, drawCase(device(), with(settings, Backend::rays)), 2)),
+            most_different * static_cast<double>(hair));
     }
 
     fs::path write(const std::string& name, const Settings& settings, const Pixels& pixels) {
@@ -61,6 +62,10 @@ protected:
 struct Kind {
     const char* name;
     void (*change)(Settings&);
+    // Most pixels that differ from those of `software`, over the hair's.
+    double most_different = 0.01;
+    // Whether the others widen strands, which `software` and `rays` don't.
+    bool is_widened = false;
 };
 
 // Everything that decides which quads there are, and how a sample is shaded.
@@ -69,7 +74,7 @@ constexpr std::array kKinds{
     Kind{"four samples", [](Settings& s) { s.render.msaa = 4; }},
     Kind{"linear light", [](Settings& s) { s.render.tone_map = ToneMap::aces; }},
     Kind{"supersampled", [](Settings& s) { s.render.ssaa = 2; }},
-    Kind{"covered", [](Settings& s) { s.render.coverage = Coverage::analytic; }},
+    Kind{"covered", [](Settings& s) { s.render.coverage = Coverage::analytic; }, 0.01, true},
     Kind{"segments", [](Settings& s) { s.strands.taper = Taper::segment; }},
     Kind{
         "levels by distance",
@@ -88,7 +93,9 @@ constexpr std::array kKinds{
         [](Settings& s) {
             s.lod = {.mode = LodMode::forced, .level = 2.0f, .merged = MergedStrands::strip};
         }},
-    Kind{"curls", [](Settings& s) { s.strands.curl.radius = 0.01f; }},
+    // Where a curl is seen from its end, a quad's sides cross on the screen: `software` uncrosses
+    // them, and triangles don't.
+    Kind{"curls", [](Settings& s) { s.strands.curl.radius = 0.01f; }, 0.1},
     Kind{"Catmull-Rom", [](Settings& s) { s.strands.curve = Curve::catmull_rom; }},
     Kind{
         "shadows",
@@ -111,7 +118,7 @@ TEST_F(RaysBackendPicture, IsThatOfSoftware) {
         SCOPED_TRACE(kind.name);
         Settings settings = small();
         kind.change(settings);
-        expectThatOfSoftware(settings, 600);
+        expectThatOfSoftware(settings, kind.most_different);
     }
 }
 
@@ -122,6 +129,7 @@ TEST_F(RaysBackendPicture, IsNearThatOfTessellation) {
     std::vector<std::pair<fs::path, fs::path>> pairs;
     std::vector<std::string> names;
     for (const Kind& kind : kKinds) {
+        if (kind.is_widened) continue;
         Settings settings = small();
         kind.change(settings);
         const auto draw = [&](Backend backend, const char* suffix) {
@@ -154,7 +162,7 @@ TEST_F(RaysBackendPicture, IsTheSameWhetherItsStructureIsBuiltOrFitted) {
     };
     const Pixels built = lastOf(RaysUpdate::build, 20);
     EXPECT_GT(differingPixels(built, lastOf(RaysUpdate::build, 1)), 300u);
-    // Of two triangles that share an edge, a ray on it takes either.
+    // A ray on the edge that two triangles share takes either.
     EXPECT_LE(differingPixels(built, lastOf(RaysUpdate::refit, 20)), 5u);
 }
 
@@ -194,11 +202,13 @@ TEST_F(RaysBackendPicture, TellsItsMemory) {
         const auto strands = static_cast<std::uint32_t>(drawn.plan().strands());
         ASSERT_EQ(strands, 136u * 64);
         const std::map<std::string, std::uint64_t> bytes = device().resources().bytes();
-        EXPECT_EQ(bytes.at("quads' corners"), strands * 29ull * 2 * 12);
-        EXPECT_EQ(bytes.at("quads' triangles"), strands * 28ull * 2 * 12);
+        EXPECT_EQ(bytes.at("quad corners"), strands * 29ull * 2 * 12);
+        EXPECT_EQ(bytes.at("quad triangles"), strands * 28ull * 2 * 12);
         const engine::MemoryRows structure = engine::TriangleStructure::rows(
-            device(), {.vertices = strands * 29 * 2, .triangles = strands * 28 * 2,
-                       .is_opaque = true, .rebuild = rebuild});
+            device(), {.vertices = strands * 29 * 2,
+                       .triangles = strands * 28 * 2,
+                       .is_opaque = true,
+                       .rebuild = rebuild});
         for (const engine::MemoryRows::Row& row : structure.all())
             EXPECT_EQ(bytes.at(row.of.name), row.of.size) << row.of.name;
     }

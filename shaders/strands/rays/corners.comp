@@ -24,7 +24,7 @@ void main() {
     uint end = place % (kMostPieces + kSplitJoints);
     vec3 low = vec3(push.leaves_out == 1u ? uintBitsToFloat(0x7fc00000u) : 0.0);  // NaN
     vec3 high = low;
-    if (pieces > 0u && (push.leaves_out == 0u || end <= pieces)) {
+    if (pieces > 0u) {
         PictureParameters picture = PictureReference(push.picture).parameters;
         PackedPoint point = loadPoint(push.points, strand * kPointsPerStrand +
                                       segment * (pieces + kSplitJoints) + min(end, pieces));

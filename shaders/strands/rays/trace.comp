@@ -48,7 +48,7 @@ float placeOfDepth(SampleRay ray, float depth) {
     return ray.depth_start / (depth - ray.depth_rate);
 }
 
-// What a sample shows, as in SoftwarePush::visibility. `scene` is its nearness without hair.
+// Returns a sample as in SoftwarePush::visibility. `scene` is its nearness without hair.
 uvec2 nearestPiece(PictureParameters picture, vec2 place, uint scene) {
     const float kSlack = 1.001;  // of the scene's place: its depth decides
     SampleRay ray = rayThrough(picture, place);
