@@ -162,7 +162,7 @@ StrandWork raysWork(const StrandCounts& counts) {
         kTriangleBytes * asDouble(counts.root_triangles) +
         2.0 * (kPointBytes + kCornerBytes) * points +
         2.0 * kNumberBytes * asDouble(counts.strands) +
-        samples * (kDepthBytes + 5.0 * kPairBytes + asDouble(counts.color_bytes) + kDepthBytes);
+        samples * (kDepthBytes + 6.0 * kPairBytes + asDouble(counts.color_bytes) + kDepthBytes);
     return work;
 }
 

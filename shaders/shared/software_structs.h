@@ -1,8 +1,8 @@
 #ifndef HAIRBENCH_SOFTWARE_STRUCTS_H
 #define HAIRBENCH_SOFTWARE_STRUCTS_H
 
-// Data that the strand back ends `software` and `rays` share with their shaders, strands/software and
-// strands/rays.
+// Data that the strand back ends `software` and `rays` share with their shaders, strands/software
+// and strands/rays.
 
 // Pieces with more estimated samples than kLargePieceSamples are rasterised by whole work groups.
 // kMostLargePieces is the capacity of their list. Mesa's lavapipe silently ends an invocation's
@@ -69,8 +69,8 @@ struct CornersPush {
     Address corners;
     uint points_count;  // of all strands
     // 1: corners of strands that are not drawn are NaN, so that the building of an acceleration
-    // structure leaves them out. 0: they are at the origin, where no ray hits them because they have
-    // no area. A structure that is fitted to moved triangles must always have the same ones.
+    // structure leaves them out. 0: they are at the origin, where no ray hits them because they
+    // have no area. A structure that is fitted to moved triangles must always have the same ones.
     uint leaves_out;
 };
 
