@@ -18,6 +18,8 @@ enum Class : std::uint32_t {
     kTransfer = 1u << 4,
     kIndirect = 1u << 5,
     kHost = 1u << 6,
+    kBuild = 1u << 7,  // of acceleration structures
+    kTrace = 1u << 8,  // ray queries of compute
 };
 
 // The classes of a queue without graphics.
@@ -33,9 +35,9 @@ struct ClassScope {
 
 // In the order of the bits. The earlier and later stages are those of chapter 7.1.2 of the Vulkan
 // specification. Depth is tested before fragments are shaded, and written before or after.
-constexpr std::array<ClassScope, 7> kScopes{{
+constexpr std::array<ClassScope, 9> kScopes{{
     {VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT, VK_ACCESS_2_SHADER_READ_BIT,
-     VK_ACCESS_2_SHADER_WRITE_BIT, 0, 0},
+     VK_ACCESS_2_SHADER_WRITE_BIT, kTrace, kTrace},
     {VK_PIPELINE_STAGE_2_PRE_RASTERIZATION_SHADERS_BIT, VK_ACCESS_2_SHADER_READ_BIT, 0, kIndirect,
      kFragment | kAttachment},
     {VK_PIPELINE_STAGE_2_FRAGMENT_SHADER_BIT, VK_ACCESS_2_SHADER_READ_BIT,
@@ -50,6 +52,12 @@ constexpr std::array<ClassScope, 7> kScopes{{
     {VK_PIPELINE_STAGE_2_DRAW_INDIRECT_BIT, VK_ACCESS_2_INDIRECT_COMMAND_READ_BIT, 0, 0,
      kVertex | kFragment | kAttachment},
     {VK_PIPELINE_STAGE_2_HOST_BIT, VK_ACCESS_2_HOST_READ_BIT, VK_ACCESS_2_HOST_WRITE_BIT, 0, 0},
+    {VK_PIPELINE_STAGE_2_ACCELERATION_STRUCTURE_BUILD_BIT_KHR,
+     VK_ACCESS_2_SHADER_READ_BIT | VK_ACCESS_2_ACCELERATION_STRUCTURE_READ_BIT_KHR,
+     VK_ACCESS_2_ACCELERATION_STRUCTURE_WRITE_BIT_KHR, 0, 0},
+    // The same stage as kCompute, but no barrier may name this access on a device without it.
+    {VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT, VK_ACCESS_2_ACCELERATION_STRUCTURE_READ_BIT_KHR, 0,
+     kCompute, kCompute},
 }};
 
 struct ClassAccess {
@@ -58,7 +66,7 @@ struct ClassAccess {
 };
 
 // In the order of the enumerators.
-constexpr std::array<ClassAccess, 12> kAccesses{{
+constexpr std::array<ClassAccess, 15> kAccesses{{
     {kCompute, false},  // compute_read
     {kCompute, true},  // compute_write
     {kVertex | kFragment, false},  // graphics_read
@@ -71,6 +79,9 @@ constexpr std::array<ClassAccess, 12> kAccesses{{
     {kTransfer, false},  // transfer_read
     {kTransfer, true},  // transfer_write
     {kHost, false},  // host_read
+    {kBuild, false},  // build_read
+    {kBuild, true},  // build_write
+    {kTrace, false},  // trace_read
 }};
 
 constexpr const ClassAccess& classesOf(Access access) {
@@ -257,10 +268,10 @@ void BarrierPlan::change(TrackedResources::Id image, VkImageLayout to) {
 
 std::optional<PlannedBarrier> BarrierPlan::take() {
     if (!isNeeded()) return std::nullopt;
-    constexpr Classes kCheapBefore = kCompute | kTransfer;
+    constexpr Classes kCheapBefore = kCompute | kTransfer | kTrace;
     constexpr Classes kCheapAfter = kCompute | kVertex | kFragment | kTransfer;
     const Classes needing = shaders_.after | drawing_.after | layouts_.after;
-    const bool draws = (needing & ~kComputeQueue) != 0;
+    const bool draws = (needing & ~(kComputeQueue | kBuild | kTrace)) != 0;
     forEach(draws ? kCheapBefore | kVertex : kCheapBefore, [&](std::size_t each) {
         if (used_[each] > ordered_[each][std::countr_zero(std::uint32_t{kCompute})])
             shaders_.before |= 1u << each;

@@ -46,6 +46,9 @@ enum class Access {
     transfer_read,
     transfer_write,
     host_read,
+    build_read,  // buffers and structures that the building of acceleration structures reads
+    build_write,  // structures and scratch memory, read and written by it
+    trace_read,  // structures in which compute traces rays
 };
 
 Scope scopeOf(Access access);
@@ -147,7 +150,7 @@ public:
 
 private:
     friend class BarrierPlan;
-    static constexpr std::size_t kClasses = 7;
+    static constexpr std::size_t kClasses = 9;
     static constexpr std::size_t kQueues = 2;
 
     // Uses of a resource by the commands of one kind of queue. Times are BarrierPlan's.

@@ -126,6 +126,7 @@ constexpr std::array kFeatures{
         Feature::geometry, "geometry stages", &VkPhysicalDeviceFeatures::geometryShader, nullptr},
     FeatureRow{
         Feature::mesh_shader, "task and mesh stages", nullptr, VK_EXT_MESH_SHADER_EXTENSION_NAME},
+    FeatureRow{Feature::ray_queries, "ray queries", nullptr, VK_KHR_RAY_QUERY_EXTENSION_NAME},
     FeatureRow{
         Feature::vertex_stores, "stores in vertex, tessellation and geometry stages",
         &VkPhysicalDeviceFeatures::vertexPipelineStoresAndAtomics, nullptr},
@@ -171,6 +172,10 @@ constexpr std::array kFeatures{
         VK_EXT_SWAPCHAIN_MAINTENANCE_1_EXTENSION_NAME},
 };
 
+// Other extensions that Feature::ray_queries needs.
+constexpr std::array kAccelerationExtensions{
+    VK_KHR_ACCELERATION_STRUCTURE_EXTENSION_NAME, VK_KHR_DEFERRED_HOST_OPERATIONS_EXTENSION_NAME};
+
 // Instance extensions for Feature::present_fences.
 constexpr std::array kPresentFenceExtensions{
     VK_KHR_GET_SURFACE_CAPABILITIES_2_EXTENSION_NAME, VK_EXT_SURFACE_MAINTENANCE_1_EXTENSION_NAME};
@@ -199,12 +204,14 @@ struct FeatureChain {
     VkPhysicalDeviceVulkan13Features vulkan13{};
     VkPhysicalDeviceSwapchainMaintenance1FeaturesEXT presents{};
     VkPhysicalDeviceMeshShaderFeaturesEXT meshes{};
+    VkPhysicalDeviceAccelerationStructureFeaturesKHR acceleration{};
+    VkPhysicalDeviceRayQueryFeaturesKHR rays{};
     VkPhysicalDevicePipelineExecutablePropertiesFeaturesKHR executables{};
     VkPhysicalDevicePortabilitySubsetFeaturesKHR portability{};
 
     // Adds an extension's struct only if the device has the extension.
     FeatureChain(
-        bool is_portability, bool has_present_fences, bool has_mesh_shaders,
+        bool is_portability, bool has_present_fences, bool has_mesh_shaders, bool has_ray_queries,
         bool has_shader_figures) {
         core.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2;
         core.pNext = &vulkan12;
@@ -213,6 +220,9 @@ struct FeatureChain {
         vulkan13.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_3_FEATURES;
         presents.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_SWAPCHAIN_MAINTENANCE_1_FEATURES_EXT;
         meshes.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_MESH_SHADER_FEATURES_EXT;
+        acceleration.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_ACCELERATION_STRUCTURE_FEATURES_KHR;
+        acceleration.pNext = &rays;
+        rays.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_RAY_QUERY_FEATURES_KHR;
         executables.sType =
             VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PIPELINE_EXECUTABLE_PROPERTIES_FEATURES_KHR;
         portability.sType = kPortabilityFeaturesType;
@@ -224,6 +234,10 @@ struct FeatureChain {
         if (has_mesh_shaders) {
             *next = &meshes;
             next = &meshes.pNext;
+        }
+        if (has_ray_queries) {
+            *next = &acceleration;
+            next = &rays.pNext;
         }
         if (has_shader_figures) {
             *next = &executables;
@@ -255,12 +269,19 @@ bool canBlend(VkPhysicalDevice device, VkFormat format) {
     return (properties.optimalTilingFeatures & VK_FORMAT_FEATURE_COLOR_ATTACHMENT_BLEND_BIT) != 0;
 }
 
+bool hasRayQueries(const std::set<std::string>& extensions) {
+    return extensions.contains(VK_KHR_RAY_QUERY_EXTENSION_NAME) &&
+           std::ranges::all_of(kAccelerationExtensions, [&](const char* each) {
+               return extensions.contains(each);
+           });
+}
+
 void findFeatures(DeviceInfo& info) {
     const std::set<std::string> extensions = extensionsOf(info.handle);
     info.is_portability = extensions.contains(VK_KHR_PORTABILITY_SUBSET_EXTENSION_NAME);
     FeatureChain available(
         info.is_portability, extensions.contains(VK_EXT_SWAPCHAIN_MAINTENANCE_1_EXTENSION_NAME),
-        extensions.contains(VK_EXT_MESH_SHADER_EXTENSION_NAME),
+        extensions.contains(VK_EXT_MESH_SHADER_EXTENSION_NAME), hasRayQueries(extensions),
         extensions.contains(VK_KHR_PIPELINE_EXECUTABLE_PROPERTIES_EXTENSION_NAME));
     vkGetPhysicalDeviceFeatures2(info.handle, &available.core);
     appendMissing(available.vulkan12, kVulkan12Features, info.missing);
@@ -280,6 +301,8 @@ void findFeatures(DeviceInfo& info) {
         info.features.erase(Feature::mesh_shader);
     else if (available.meshes.meshShaderQueries)
         info.features.insert(Feature::mesh_statistics);
+    if (!available.acceleration.accelerationStructure || !available.rays.rayQuery)
+        info.features.erase(Feature::ray_queries);
 }
 
 VkPhysicalDeviceMeshShaderPropertiesEXT meshLimits(VkPhysicalDevice device) {
@@ -591,9 +614,16 @@ std::vector<Feature> allFeatures() {
 VkDevice createDevice(const DeviceInfo& info, std::vector<const char*> extensions) {
     const bool has_present_fences = info.features.contains(Feature::present_fences);
     const bool has_mesh_shaders = info.features.contains(Feature::mesh_shader);
+    const bool has_ray_queries = info.features.contains(Feature::ray_queries);
     const bool has_shader_figures = info.features.contains(Feature::shader_figures);
     FeatureChain features(
-        info.is_portability, has_present_fences, has_mesh_shaders, has_shader_figures);
+        info.is_portability, has_present_fences, has_mesh_shaders, has_ray_queries,
+        has_shader_figures);
+    features.acceleration.accelerationStructure = has_ray_queries ? VK_TRUE : VK_FALSE;
+    features.rays.rayQuery = has_ray_queries ? VK_TRUE : VK_FALSE;
+    if (has_ray_queries)
+        extensions.insert(
+            extensions.end(), kAccelerationExtensions.begin(), kAccelerationExtensions.end());
     features.executables.pipelineExecutableInfo = has_shader_figures ? VK_TRUE : VK_FALSE;
     features.presents.swapchainMaintenance1 = has_present_fences ? VK_TRUE : VK_FALSE;
     features.meshes.taskShader = features.meshes.meshShader = has_mesh_shaders ? VK_TRUE : VK_FALSE;

@@ -148,6 +148,7 @@ enum class Feature {
     tessellation,  // control and evaluation stages, with isolines
     geometry,
     mesh_shader,  // task and mesh stages
+    ray_queries,  // rays that compute traces in acceleration structures
     vertex_stores,  // stores in vertex, tessellation and geometry stages
     fragment_stores,
     independent_blend,  // different blending for the attachments of one pipeline

@@ -19,7 +19,8 @@ constexpr std::initializer_list<Named<Backend>> kBackendNames{
     {Backend::pulling, "pulling"},
     {Backend::expanded, "expanded"},
     {Backend::mesh, "mesh"},
-    {Backend::software, "software"}};
+    {Backend::software, "software"},
+    {Backend::rays, "rays"}};
 
 }  // namespace
 
@@ -27,6 +28,15 @@ const char* backendName(Backend backend) {
     const auto named = std::ranges::find(kBackendNames, backend, &Named<Backend>::value);
     assert(named != kBackendNames.end());
     return named->name;
+}
+
+const Table& tableOf(const RaysSettings*) {
+    using S = RaysSettings;
+    static const Table table = tableWith<S>({choice(
+        "update", &S::update, {{RaysUpdate::build, "build"}, {RaysUpdate::refit, "refit"}},
+        "acceleration structure of the back end rays in each frame; build: built anew; refit: "
+        "built once, and fitted to the strands as they move")});
+    return table;
 }
 
 const Table& tableOf(const StrandCurlSettings*) {
@@ -68,7 +78,7 @@ const Table& tableOf(const StrandSettings*) {
              "instead of quads; pulling: corners of quads made in the vertex stage; expanded: "
              "likewise, from points evaluated in compute; "
              "mesh: task stages choose blocks of strands, mesh stages make their quads; "
-             "software: rasterised in compute"),
+             "software: rasterised in compute; rays: found by a ray query for each sample"),
          choice(
              "source", &S::source,
              {{StrandSource::root_triangles, "root_triangles"}, {StrandSource::groom, "groom"}},
@@ -155,7 +165,8 @@ const Table& tableOf(const StrandSettings*) {
              "submission", &S::submission,
              {{Submission::instanced, "instanced"}, {Submission::batched, "batched"}},
              "instanced: a root triangle is an instance; batched: patches are divided into draws "
-             "that fit the device")});
+             "that fit the device"),
+         group("rays", &S::rays, "the back end rays")});
     return table;
 }
 

@@ -29,10 +29,20 @@ enum class Backend {
     pulling,
     expanded,
     mesh,
-    software
+    software,
+    rays
 };
 // Returns the name of a backend in scenes.
 const char* backendName(Backend backend);
+
+// How the back end `rays` brings its acceleration structure up to date in each frame.
+enum class RaysUpdate { build, refit };
+
+struct RaysSettings {
+    RaysUpdate update = RaysUpdate::build;
+};
+
+const Table& tableOf(const RaysSettings*);
 
 enum class Interpolation { multi, single, mixed };
 enum class StrandCollision { none, push_out };
@@ -90,6 +100,7 @@ struct StrandSettings {
     Taper taper = Taper::strand;
     float taper_start = 0.0f;
     Submission submission = Submission::instanced;
+    RaysSettings rays;
 };
 
 const Table& tableOf(const StrandSettings*);

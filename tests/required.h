@@ -22,12 +22,13 @@ enum class Need {
     display,
     swiftshader,
     mesh,  // task and mesh stages
+    rays,  // ray queries
     null_gpus,  // scripts/null-gpu
 };
 
-inline constexpr std::array<std::string_view, 11> kNeedNames{
-    "device",  "validation", "gbench",      "python", "module",   "report",
-    "browser", "display",    "swiftshader", "mesh",   "null_gpus"};
+inline constexpr std::array<std::string_view, 12> kNeedNames{
+    "device",  "validation", "gbench",      "python", "module", "report",
+    "browser", "display",    "swiftshader", "mesh",   "rays",   "null_gpus"};
 static_assert(kNeedNames.size() == static_cast<std::size_t>(Need::null_gpus) + 1);
 
 // Whether HAIRBENCH_REQUIRE, a list with commas, names this need. scripts/test lists there what it

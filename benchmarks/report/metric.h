@@ -20,7 +20,7 @@ enum class MetricOf {
     pass,  // one pass, by name
     image,  // the picture, against a reference
     memory,  // the device's memory
-    strands,  // the passes points and strands together
+    strands,  // the passes points, acceleration and strands together
     device,  // the device's speed, from a separate measurement
     shader,  // the code that the driver's compiler made of a shader
     probe,  // a quantity of the guides in each frame

@@ -67,8 +67,9 @@ std::optional<BackendTime> timeOf(const scene::Json& result) {
     const scene::Json* const strands = metricOf(result, ofPass("strands", Measured::time));
     if (!strands) return std::nullopt;
     BackendTime time{.median = strands->at("median").get<double>()};
-    if (const scene::Json* const points = metricOf(result, ofPass("points", Measured::time)))
-        time.median += points->at("median").get<double>();
+    for (const char* pass : {"points", "acceleration"})
+        if (const scene::Json* const other = metricOf(result, ofPass(pass, Measured::time)))
+            time.median += other->at("median").get<double>();
     return time;
 }
 

@@ -147,6 +147,25 @@ StrandWork softwareWork(const StrandCounts& counts) {
     return work;
 }
 
+// Besides the samples' work, the corners of quads are written and read. The driver's work of
+// building the acceleration structure and tracing rays is not known.
+StrandWork raysWork(const StrandCounts& counts) {
+    const double samples = asDouble(counts.covered_samples);
+    const double points = asDouble(counts.points());
+    StrandWork work;
+    work.operations[StageKind::compute] =
+        evaluation(counts) + points * kEnd +
+        samples * (2.0 * kScreenEnd + kSeenPoint + shading(counts));
+    constexpr double kCornerBytes = 24.0;  // of a point, for the two quads beside it
+    work.bytes =
+        kGuideBytes * asDouble(counts.guide_vertices) +
+        kTriangleBytes * asDouble(counts.root_triangles) +
+        2.0 * (kPointBytes + kCornerBytes) * points +
+        2.0 * kNumberBytes * asDouble(counts.strands) +
+        samples * (kDepthBytes + 6.0 * kPairBytes + asDouble(counts.color_bytes) + kDepthBytes);
+    return work;
+}
+
 struct WorkRow {
     hair::Backend backend;
     StrandWork (*work)(const StrandCounts&);
@@ -160,6 +179,7 @@ constexpr std::array kWorks{
     WorkRow{hair::Backend::expanded, expandedWork},
     WorkRow{hair::Backend::mesh, meshWork},
     WorkRow{hair::Backend::software, softwareWork},
+    WorkRow{hair::Backend::rays, raysWork},
 };
 
 }  // namespace
@@ -385,12 +405,14 @@ std::optional<report::Metric> strandsTime(const report::CaseResult& result) {
         report::findMetric(result.metrics, report::ofPass("strands", Measured::time));
     if (!strands) return std::nullopt;
     report::Metric sum(report::ofStrands(Measured::time), strands->samples, strands->mode);
-    const auto* const points =
-        report::findMetric(result.metrics, report::ofPass("points", Measured::time));
-    if (!points) return sum;
-    if (points->samples.size() != sum.samples.size() || points->mode != sum.mode)
-        return std::nullopt;
-    std::ranges::transform(sum.samples, points->samples, sum.samples.begin(), std::plus());
+    for (const char* pass : {"points", "acceleration"}) {
+        const auto* const other =
+            report::findMetric(result.metrics, report::ofPass(pass, Measured::time));
+        if (!other) continue;
+        if (other->samples.size() != sum.samples.size() || other->mode != sum.mode)
+            return std::nullopt;
+        std::ranges::transform(sum.samples, other->samples, sum.samples.begin(), std::plus());
+    }
     return sum;
 }
 

@@ -12,6 +12,7 @@
 #include "hair/gpu_structs.h"
 #include "hair/rendering/mesh_backend.h"
 #include "hair/rendering/points_pass.h"
+#include "hair/rendering/rays_backend.h"
 #include "hair/rendering/software_backend.h"
 #include "hair/rendering/strand_offsets.h"
 #include "hair/shader_codes.h"
@@ -448,6 +449,7 @@ constexpr std::array kBackends{
     row<ExpandedBackend>(Backend::expanded),
     row<MeshBackend>(Backend::mesh),
     row<SoftwareBackend>(Backend::software),
+    row<RaysBackend>(Backend::rays),
 };
 
 const BackendRow& rowOf(Backend backend) {
@@ -486,18 +488,27 @@ engine::MemoryRows backendRows(
         .rows(device, settings, plan);
 }
 
+namespace {
+
+// Back ends that find in compute what each sample shows.
+bool hasVisibilityBuffer(Backend backend) {
+    return backend == Backend::software || backend == Backend::rays;
+}
+
+}  // namespace
+
 Backend mapBackend(Backend backend) {
     if (backend == Backend::lines) return Backend::pulling;
-    return backend == Backend::software ? Backend::expanded : backend;
+    return hasVisibilityBuffer(backend) ? Backend::expanded : backend;
 }
 
 bool readsPoints(const Settings& settings) {
-    return settings.render.hair && (settings.strands.backend == Backend::software ||
-                                    settings.strands.backend == Backend::expanded);
+    const Backend backend = settings.strands.backend;
+    return settings.render.hair && (hasVisibilityBuffer(backend) || backend == Backend::expanded);
 }
 
 bool readsSceneDepth(const Settings& settings) {
-    return settings.render.hair && settings.strands.backend == Backend::software;
+    return settings.render.hair && hasVisibilityBuffer(settings.strands.backend);
 }
 
 // ---- Watched stages -----------------------------------------------------------------------------
@@ -540,6 +551,16 @@ constexpr std::array kBackendLimits{
         [](const Settings& s) { return s.render.show != Show::shading; }},
     BackendLimit{
         Backend::software, "`/strands/texture`", "its strands have no holes",
+        [](const Settings& s) { return !s.strands.texture.empty(); }},
+    BackendLimit{
+        Backend::rays, "a `/render/transparency` other than `none`",
+        "it keeps one strand per sample",
+        [](const Settings& s) { return s.render.transparency != Transparency::none; }},
+    BackendLimit{
+        Backend::rays, "a `/render/show` other than `shading`", "it can only draw shaded strands",
+        [](const Settings& s) { return s.render.show != Show::shading; }},
+    BackendLimit{
+        Backend::rays, "`/strands/texture`", "its strands have no holes",
         [](const Settings& s) { return !s.strands.texture.empty(); }},
 };
 

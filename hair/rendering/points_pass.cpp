@@ -162,13 +162,6 @@ static_assert(sizeof(gpu::PointsPush) == 56 && offsetof(gpu::PointsPush, width) 
 
 constexpr std::size_t kPointBytes = 16;  // strands/points/points.glsl
 
-// kPointsPerStrand of strands/points/layout.glsl.
-std::size_t pointsPerStrand(const StrandSettings& strands, const StrandPlan& plan) {
-    if (strands.taper == Taper::segment)
-        return std::size_t{plan.segments} * (plan.forced_tessellation + 1);
-    return std::size_t{plan.segments} * plan.forced_tessellation + 1;
-}
-
 // On a processor, a texel fetch reads whole points for all invocations at once, which is faster:
 // docs/performance.md.
 bool readsTexels(const engine::Device& device, std::size_t bytes) {
@@ -264,6 +257,12 @@ void PointsPass::record(
     commands.bind(evaluate_, push);
     const std::uint32_t blocks = divideUp(parameters.forced_density, block_);  // of a triangle
     commands.dispatchInvocations(triangles_ * blocks * runs_, group_);
+}
+
+std::size_t pointsPerStrand(const StrandSettings& strands, const StrandPlan& plan) {
+    if (strands.taper == Taper::segment)
+        return std::size_t{plan.segments} * (plan.forced_tessellation + 1);
+    return std::size_t{plan.segments} * plan.forced_tessellation + 1;
 }
 
 engine::Constants placeConstants(const StrandPlan& plan) {

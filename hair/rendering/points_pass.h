@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <vector>
@@ -115,6 +116,10 @@ private:
     engine::Buffer bounds_;
     engine::ComputePipeline evaluate_;
 };
+
+// Returns the number of points of a strand at the finest level of detail: kPointsPerStrand of
+// strands/points/layout.glsl.
+std::size_t pointsPerStrand(const StrandSettings& strands, const StrandPlan& plan);
 
 // The specialization constants of strands/points/layout.glsl. pointsConstants() has
 // strandConstants(), too.

@@ -271,10 +271,19 @@ engine::TargetDescription rendered(const Settings& settings) {
     return description;
 }
 
+// A light may see what the camera doesn't. An acceleration structure that is only fitted to strands
+// keeps all of them.
+bool cullsPoints(const Settings& settings) {
+    const StrandSettings& strands = settings.strands;
+    const bool refits =
+        strands.backend == Backend::rays && strands.rays.update == RaysUpdate::refit;
+    return !hasHairMaps(settings) && !refits;
+}
+
 std::optional<PointsPass>
 makePoints(const engine::Device& device, const Settings& settings, const StrandPlan& plan) {
     if (!readsPoints(settings)) return std::nullopt;
-    return std::optional<PointsPass>(std::in_place, device, settings, plan, !hasHairMaps(settings));
+    return std::optional<PointsPass>(std::in_place, device, settings, plan, cullsPoints(settings));
 }
 
 const PointsPass* pointerTo(const std::optional<PointsPass>& points) {

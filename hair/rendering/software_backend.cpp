@@ -14,20 +14,23 @@ namespace {
 
 using engine::Access;
 
-static_assert(offsetof(gpu::SoftwarePush, width) == 88 && sizeof(gpu::SoftwarePush) == 112);
+static_assert(
+    offsetof(gpu::SoftwarePush, width) == 88 && offsetof(gpu::SoftwarePush, structure) == 112 &&
+    sizeof(gpu::SoftwarePush) == 120);
 
 constexpr const char* kSoftware = "/strands/backend: software";
 constexpr std::size_t kSampleBytes = 8;  // two words
 
 // Throws engine::Unsupported for counts and positions of samples that the shaders don't know.
-std::uint32_t checkedSamples(const engine::Device& device, std::uint32_t samples) {
+std::uint32_t
+checkedSamples(const engine::Device& device, std::uint32_t samples, const std::string& backend) {
     const bool known = samples == 1 || samples == 2 || samples == 4 || samples == 8;
     if (!known)
         throw engine::Unsupported(
-            kSoftware, std::to_string(samples) + " samples per pixel; only 1 to 8 are supported");
+            backend, std::to_string(samples) + " samples per pixel; only 1 to 8 are supported");
     if (samples > 1 && !device.info().limits.standardSampleLocations)
         throw engine::Unsupported(
-            kSoftware, "the device does not have the standard sample locations");
+            backend, "the device does not have the standard sample locations");
     return samples;
 }
 
@@ -44,12 +47,6 @@ bool isPacked(const engine::Device& device) {
 std::uint32_t
 culledBlock(const engine::Device& device, const StrandSettings& strands, const StrandPlan& plan) {
     return strandBlock(device, strands, plan, 3);
-}
-
-// Each invocation reads once what all pixels share. On a processor, a work group has as many
-// invocations as lavapipe runs at a time.
-std::uint32_t pixelGroup(const engine::Device& device) {
-    return device.info().type == engine::DeviceType::cpu ? 8 : 32;
 }
 
 // Whether each invocation of `shade` takes one pixel. Lavapipe ends an invocation's loops after
@@ -91,18 +88,15 @@ const engine::TexelView* texelsOf(const BackendContext& context) {
     return fits && isPacked(context.device) ? context.points->texels() : nullptr;
 }
 
-std::string shaderOf(const BackendContext& context, const std::string& name) {
-    return "strands/software/" + name + (isPacked(context.device) ? "+packed" : "");
+std::string
+shaderOf(const BackendContext& context, const std::string& folder, const std::string& name) {
+    return "strands/" + folder + "/" + name + (isPacked(context.device) ? "+packed" : "");
 }
 
 engine::ComputeDescription softwareStage(
     const BackendContext& context, const std::string& name, std::uint32_t group,
     std::uint32_t block = 1) {
-    return {
-        .shader = shaderOf(context, name),
-        .constants = softwareConstants(context, block, group),
-        .extensions = context.output.extensions,
-        .push_size = sizeof(gpu::SoftwarePush)};
+    return samplesStage(context, "software", name, group, block);
 }
 
 // A stage that fetches from `buffers` texel buffers if texelsOf() is set.
@@ -135,7 +129,7 @@ engine::GraphicsDescription blitStage(const BackendContext& context) {
     return {
         .shaders =
             {"strands/software/blit.vert",
-             shaderOf(context, has_texels ? "blit.frag+texels" : "blit.frag")},
+             shaderOf(context, "software", has_texels ? "blit.frag+texels" : "blit.frag")},
         .constants = softwareConstants(context, 1, 1),
         .push_size = sizeof(gpu::SoftwarePush),
         .colors = context.output.colors,
@@ -147,27 +141,123 @@ engine::GraphicsDescription blitStage(const BackendContext& context) {
 
 }  // namespace
 
+// ---- The visibility buffer ----------------------------------------------------------------------
+
+// Each invocation reads once what all pixels share. On a processor, a work group has as many
+// invocations as lavapipe runs at a time.
+std::uint32_t pixelGroup(const engine::Device& device) {
+    return device.info().type == engine::DeviceType::cpu ? 8 : 32;
+}
+
+engine::ComputeDescription samplesStage(
+    const BackendContext& context, const std::string& folder, const std::string& name,
+    std::uint32_t group, std::uint32_t block) {
+    return {
+        .shader = shaderOf(context, folder, name),
+        .constants = softwareConstants(context, block, group),
+        .extensions = context.output.extensions,
+        .push_size = sizeof(gpu::SoftwarePush)};
+}
+
+engine::MemoryRows VisibilityBuffer::rows(const engine::TargetDescription& target) {
+    const std::size_t samples = kSampleBytes * sampleCount(target);
+    engine::MemoryRows rows("strands", {{"software visibility buffer", samples}});
+    if (target.color_format != engine::Target::kOutputFormat)
+        rows.add("strands", {{"software colors", samples}});
+    return rows;
+}
+
+VisibilityBuffer::VisibilityBuffer(const BackendContext& context, const std::string& backend)
+    : target_(*context.target), points_(*context.points),
+      samples_per_pixel_(checkedSamples(context.device, context.output.samples, backend)),
+      points_texels_(texelsOf(context)), clear_(context.device, clearStage(context)),
+      shaded_columns_(
+          shadesPixelPerInvocation(context)
+              ? divideUp(target_.color().extent().width, pixelGroup(context.device))
+              : 1),
+      shade_(context.device, shadeStage(context)), blit_(context.device, blitStage(context)) {
+    const engine::MemoryRows rows = VisibilityBuffer::rows(target_.description());
+    samples_ = {context.device, rows["software visibility buffer"]};
+    if (target_.hasRadiance()) colors_ = {context.device, rows["software colors"]};
+    if (points_texels_) texels_ = {context.device, samples_, VK_FORMAT_R32G32_UINT};
+}
+
+void VisibilityBuffer::check(
+    const engine::Device& device, const Settings& settings, const std::string& backend) {
+    checkedSamples(device, settings.render.msaa, backend);
+}
+
+gpu::SoftwarePush VisibilityBuffer::push(const StrandPicture& picture) const {
+    const VkExtent2D extent = target_.color().extent();
+    return {
+        .picture = picture.address,
+        .width = extent.width,
+        .height = extent.height,
+        .strands = points_.strandCount(picture.parameters),
+        .part = gpu::kFirstPart};
+}
+
+void VisibilityBuffer::clear(engine::Commands& commands, const StrandPicture& picture) const {
+    gpu::SoftwarePush constants = push(picture);
+    target_.beginDepthRead(commands);
+    constants.visibility = commands.writes(samples_);
+    constants.bounds = commands.reads(points_.bounds());
+    commands.bind(clear_, constants);
+    const engine::Image* const depth = &target_.depth();
+    commands.images(clear_, std::span(&depth, 1), {});
+    commands.dispatch(constants.height);
+}
+
+void VisibilityBuffer::shade(engine::Commands& commands, const StrandPicture& picture) const {
+    gpu::SoftwarePush constants = push(picture);
+    constants.points = commands.reads(points_.points());
+    constants.pieces = commands.reads(points_.pieces());
+    constants.visibility = commands.writes(samples_);
+    constants.bounds = commands.reads(points_.bounds());
+    if (target_.hasRadiance()) constants.colors = commands.writes(colors_);
+    commands.bind(shade_, constants);
+    if (points_texels_)
+        commands.images(shade_, picture.images, std::array{points_texels_, &texels_});
+    else
+        commands.images(shade_, picture.images);
+    commands.dispatch(constants.height, shaded_columns_);
+    // Only the drawing needs the depth again, so its barrier changes the layout, too.
+    target_.endDepthRead(commands);
+}
+
+void VisibilityBuffer::draw(engine::Commands& commands, const StrandPicture& picture) const {
+    gpu::SoftwarePush constants = push(picture);
+    constants.visibility = commands.use({samples_, Access::fragment_read});
+    constants.bounds = commands.use({points_.bounds(), Access::vertex_read});
+    if (target_.hasRadiance()) constants.colors = commands.use({colors_, Access::fragment_read});
+    // One draw per sample, because sample-rate shading is a feature that not every device has.
+    for (constants.choice = 0; constants.choice < samples_per_pixel_; ++constants.choice) {
+        commands.bind(blit_, constants);
+        if (points_texels_) commands.images(blit_, {}, std::array{&texels_});
+        commands.draw({.vertices = 6});
+    }
+}
+
+// ---- The rasteriser -----------------------------------------------------------------------------
+
 namespace {
 
 engine::MemoryRows softwareRows(
     const engine::Device& device, const engine::TargetDescription& target,
     const StrandSettings& strands, const StrandPlan& plan) {
-    const std::size_t samples = kSampleBytes * sampleCount(target);
     const std::size_t tiles = std::size_t{divideUp(target.width * target.ssaa, gpu::kTile)} *
                               divideUp(target.height * target.ssaa, gpu::kTile);
     const std::uint64_t block = culledBlock(device, strands, plan);
     const std::uint64_t whole = (plan.strands() + block - 1) / block * block;  // strands of blocks
-    engine::MemoryRows rows(
+    engine::MemoryRows rows = VisibilityBuffer::rows(target);
+    rows.add(
         "strands",
-        {{"software visibility buffer", samples},
-         {"software counts", sizeof(gpu::PieceCounts)},
+        {{"software counts", sizeof(gpu::PieceCounts)},
          {"software list",
           engine::bytesOf<std::uint32_t>(whole * plan.segments * plan.forced_tessellation)},
          {"software large pieces", engine::bytesOf<std::uint32_t>(gpu::kMostLargePieces)},
          {"software depths of tiles", engine::bytesOf<std::uint32_t>(tiles)},
          {"software depth pyramid", kSampleBytes * tiles}});
-    if (target.color_format != engine::Target::kOutputFormat)
-        rows.add("strands", {{"software colors", samples}});
     return rows;
 }
 
@@ -179,8 +269,8 @@ engine::MemoryRows SoftwareBackend::rows(
 }
 
 SoftwareBackend::SoftwareBackend(const BackendContext& context)
-    : target_(*context.target), points_(*context.points),
-      samples_per_pixel_(checkedSamples(context.device, context.output.samples)),
+    : points_(*context.points), visibility_(context, kSoftware),
+      sample_count_(sampleCount(context.target->description())),
       group_(strandGroup(context.device)),
       block_(culledBlock(context.device, context.strands, context.plan)),
       pieces_per_strand_(context.plan.segments * context.plan.forced_tessellation),
@@ -189,30 +279,21 @@ SoftwareBackend::SoftwareBackend(const BackendContext& context)
               context.device,
               static_cast<std::uint32_t>(context.plan.strands()) * pieces_per_strand_)),
       is_packed_(isPacked(context.device)), texels_(texelsOf(context)),
-      clear_(context.device, clearStage(context)),
       reduce_tiles_(
           context.device, texelStage(context, "tiles.comp", 1, pixelGroup(context.device))),
       build_pyramid_(
           context.device, texelStage(context, "pyramid.comp", 1, pixelGroup(context.device))),
       cull_(context.device, texelStage(context, "cull.comp", 2, group_, block_)),
       rasterize_(context.device, texelStage(context, "raster.comp", 2, group_)),
-      rasterize_large_(context.device, texelStage(context, "raster_large.comp", 2, group_)),
-      shaded_columns_(
-          shadesPixelPerInvocation(context)
-              ? divideUp(target_.color().extent().width, pixelGroup(context.device))
-              : 1),
-      shade_(context.device, shadeStage(context)), blit_(context.device, blitStage(context)) {
+      rasterize_large_(context.device, texelStage(context, "raster_large.comp", 2, group_)) {
     const engine::MemoryRows rows =
-        softwareRows(context.device, target_.description(), context.strands, context.plan);
-    visibility_ = {context.device, rows["software visibility buffer"]};
-    if (target_.hasRadiance()) colors_ = {context.device, rows["software colors"]};
+        softwareRows(context.device, context.target->description(), context.strands, context.plan);
     counts_ = {context.device, rows["software counts"]};
     list_ = {context.device, rows["software list"]};
     large_ = {context.device, rows["software large pieces"]};
     tile_depths_ = {context.device, rows["software depths of tiles"]};
     pyramid_ = {context.device, rows["software depth pyramid"]};
     if (!texels_) return;
-    visibility_texels_ = {context.device, visibility_, VK_FORMAT_R32G32_UINT};
     tile_texels_ = {context.device, tile_depths_, VK_FORMAT_R32_UINT};
     pyramid_texels_ = {context.device, pyramid_, VK_FORMAT_R32G32_UINT};
 }
@@ -220,33 +301,12 @@ SoftwareBackend::SoftwareBackend(const BackendContext& context)
 void SoftwareBackend::check(
     const engine::Device& device, const Settings& settings, const StrandPlan& plan) {
     checkPoints(plan);
-    checkedSamples(device, settings.render.msaa);
+    VisibilityBuffer::check(device, settings, kSoftware);
 }
 
 std::string SoftwareBackend::variant() const {
     return is_packed_ ? "one pass of 64-bit atomics, which the device has"
                       : "two passes of 32-bit atomics, as the device has none of 64 bits";
-}
-
-gpu::SoftwarePush SoftwareBackend::push(const StrandPicture& picture) const {
-    const VkExtent2D extent = target_.color().extent();
-    return {
-        .picture = picture.address,
-        .width = extent.width,
-        .height = extent.height,
-        .strands = points_.strandCount(picture.parameters),
-        .part = gpu::kFirstPart};
-}
-
-void SoftwareBackend::clear(engine::Commands& commands, const StrandPicture& picture) const {
-    gpu::SoftwarePush constants = push(picture);
-    target_.beginDepthRead(commands);
-    constants.visibility = commands.writes(visibility_);
-    constants.bounds = commands.reads(points_.bounds());
-    commands.bind(clear_, constants);
-    const engine::Image* const depth = &target_.depth();
-    commands.images(clear_, std::span(&depth, 1), {});
-    commands.dispatch(constants.height);
 }
 
 gpu::SoftwarePush SoftwareBackend::ofPart(gpu::SoftwarePush constants, std::uint32_t part) const {
@@ -280,11 +340,11 @@ void SoftwareBackend::rasterizePieces(
     constants.points = commands.reads(points_.points());
     constants.list = commands.reads(list_);
     constants.pieces = commands.reads(points_.pieces());
-    constants.visibility = commands.writes(visibility_);
+    constants.visibility = commands.writes(visibility_.samples());
     constants.counts = commands.writes(counts_);
     constants.large = commands.writes(large_);
     commands.bind(rasterize_, constants);
-    if (texels_) commands.images(rasterize_, {}, std::array{texels_, &visibility_texels_});
+    if (texels_) commands.images(rasterize_, {}, std::array{texels_, visibility_.texels()});
     const std::uint32_t pieces = constants.strands * pieces_per_strand_;
     commands.dispatchInvocations(divideUp(pieces, rasterized_pieces_), group_);
 }
@@ -295,23 +355,23 @@ void SoftwareBackend::rasterizeLarge(
     constants.points = commands.reads(points_.points());
     constants.list = commands.reads(list_);
     constants.pieces = commands.reads(points_.pieces());
-    constants.visibility = commands.writes(visibility_);
+    constants.visibility = commands.writes(visibility_.samples());
     constants.counts = commands.reads(counts_);
     constants.large = commands.reads(large_);
     commands.bind(rasterize_large_, constants);
-    if (texels_) commands.images(rasterize_large_, {}, std::array{texels_, &visibility_texels_});
+    if (texels_) commands.images(rasterize_large_, {}, std::array{texels_, visibility_.texels()});
     constexpr std::uint32_t kMostGroups = 65535;  // of a dimension, on every device
-    const std::size_t parts = sampleCount(target_.description()) / gpu::kLargeGroupSamples + 1;
+    const std::size_t parts = sample_count_ / gpu::kLargeGroupSamples + 1;
     commands.dispatch(
         static_cast<std::uint32_t>(std::min<std::size_t>(gpu::kLargeGroups * parts, kMostGroups)));
 }
 
 void SoftwareBackend::reduceTiles(engine::Commands& commands, gpu::SoftwarePush constants) const {
-    constants.visibility = commands.reads(visibility_);
+    constants.visibility = commands.reads(visibility_.samples());
     constants.bounds = commands.reads(points_.bounds());
     constants.tile_depths = commands.writes(tile_depths_);
     commands.bind(reduce_tiles_, constants);
-    if (texels_) commands.images(reduce_tiles_, {}, std::array{&visibility_texels_});
+    if (texels_) commands.images(reduce_tiles_, {}, std::array{visibility_.texels()});
     commands.dispatch(divideUp(constants.height, gpu::kTile));
 }
 
@@ -328,7 +388,7 @@ void SoftwareBackend::buildPyramid(engine::Commands& commands, gpu::SoftwarePush
 // first pass finds the nearest depth of each sample, and a second pass the first piece at that
 // depth.
 void SoftwareBackend::rasterize(engine::Commands& commands, const StrandPicture& picture) const {
-    gpu::SoftwarePush constants = push(picture);
+    gpu::SoftwarePush constants = visibility_.push(picture);
     const gpu::SoftwarePush first = ofPart(constants, gpu::kFirstPart);
     const gpu::SoftwarePush others = ofPart(constants, gpu::kOtherPart);
     cullPieces(commands, first);
@@ -345,41 +405,15 @@ void SoftwareBackend::rasterize(engine::Commands& commands, const StrandPicture&
     rasterizeLarge(commands, constants);
 }
 
-void SoftwareBackend::shade(engine::Commands& commands, const StrandPicture& picture) const {
-    gpu::SoftwarePush constants = push(picture);
-    constants.points = commands.reads(points_.points());
-    constants.pieces = commands.reads(points_.pieces());
-    constants.visibility = commands.writes(visibility_);
-    constants.bounds = commands.reads(points_.bounds());
-    if (target_.hasRadiance()) constants.colors = commands.writes(colors_);
-    commands.bind(shade_, constants);
-    if (texels_)
-        commands.images(shade_, picture.images, std::array{texels_, &visibility_texels_});
-    else
-        commands.images(shade_, picture.images);
-    commands.dispatch(constants.height, shaded_columns_);
-}
-
 void SoftwareBackend::prepare(engine::Commands& commands, const StrandPicture& picture) const {
     commands.fill(counts_, 0);
-    clear(commands, picture);
+    visibility_.clear(commands, picture);
     rasterize(commands, picture);
-    shade(commands, picture);
-    // Only the drawing needs the depth again, so its barrier changes the layout, too.
-    target_.endDepthRead(commands);
+    visibility_.shade(commands, picture);
 }
 
 void SoftwareBackend::draw(engine::Commands& commands, const StrandPicture& picture) const {
-    gpu::SoftwarePush constants = push(picture);
-    constants.visibility = commands.use({visibility_, Access::fragment_read});
-    constants.bounds = commands.use({points_.bounds(), Access::vertex_read});
-    if (target_.hasRadiance()) constants.colors = commands.use({colors_, Access::fragment_read});
-    // One draw per sample, because sample-rate shading is a feature that not every device has.
-    for (constants.choice = 0; constants.choice < samples_per_pixel_; ++constants.choice) {
-        commands.bind(blit_, constants);
-        if (texels_) commands.images(blit_, {}, std::array{&visibility_texels_});
-        commands.draw({.vertices = 6});
-    }
+    visibility_.draw(commands, picture);
 }
 
 }  // namespace hair::rendering

@@ -64,6 +64,11 @@ public:
     // The kind of the pass that draw() belongs to.
     virtual engine::PassKind passKind() const { return engine::PassKind::graphics; }
 
+    // Whether accelerate() has anything to record, in a pass of its own.
+    virtual bool accelerates() const { return false; }
+    // Records the building of what prepare() traces rays in, in front of it.
+    virtual void accelerate(engine::Commands&, const StrandPicture&) {}
+
     // Records what draw() needs of the picture, before rendering begins.
     virtual void prepare(engine::Commands&, const StrandPicture&) const {}
 

@@ -505,6 +505,10 @@ StrandPass::StrandPass(
 void StrandPass::record(
     engine::Passes& passes, const engine::Target& target, const StrandPicture& picture,
     engine::Target::Last last) const {
+    if (backend_->accelerates())
+        passes.pass("acceleration", engine::PassKind::compute, [&](engine::Commands& commands) {
+            backend_->accelerate(commands, picture);
+        });
     const auto prepare = [&](engine::Commands& commands) { backend_->prepare(commands, picture); };
     const auto draw = [&](engine::Commands& commands) { backend_->draw(commands, picture); };
     blend_->record(

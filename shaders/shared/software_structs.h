@@ -1,7 +1,8 @@
 #ifndef HAIRBENCH_SOFTWARE_STRUCTS_H
 #define HAIRBENCH_SOFTWARE_STRUCTS_H
 
-// Data that the strand back end `software` shares with its shaders, strands/software.
+// Data that the strand back ends `software` and `rays` share with their shaders, strands/software
+// and strands/rays.
 
 // Pieces with more estimated samples than kLargePieceSamples are rasterised by whole work groups.
 // kMostLargePieces is the capacity of their list. Mesa's lavapipe silently ends an invocation's
@@ -33,7 +34,7 @@ struct PieceCounts {
     uint large;  // may exceed kMostLargePieces
 };
 
-// Push constants of all shaders in strands/software.
+// Push constants of all shaders in strands/software, and of strands/rays/trace.comp.
 struct SoftwarePush {
     Address picture;  // PictureParameters
     Address points;  // PointsPush::points
@@ -55,6 +56,23 @@ struct SoftwarePush {
     uint choice;  // raster.comp: 0: finds the nearness, 1: finds the piece; blit.frag: the sample
     uint part;  // cull.comp, raster.comp: part of the strands
     uint list_begin;  // first of the part's pieces in the list
+    Address structure;  // trace.comp: the acceleration structure of the strands' quads
+};
+
+// Push constants of strands/rays/corners.comp.
+struct CornersPush {
+    Address picture;  // PictureParameters
+    Address points;  // PointsPush::points
+    Address pieces;  // PointsPush::pieces
+    // vec3 [strand][point][2], m: the corners of its quads beside a point. Points are numbered for
+    // the finest level of detail; those past the last drawn one of a segment lie on it.
+    Address corners;
+    uint points_count;  // of all strands
+    uint strands;  // SoftwarePush::strands; those after them are not drawn
+    // 1: corners of strands that are not drawn are NaN, so that the building of an acceleration
+    // structure leaves them out. 0: they are at the origin, where no ray hits them because they
+    // have no area. A structure that is fitted to moved triangles must always have the same ones.
+    uint leaves_out;
 };
 
 #endif

@@ -60,6 +60,15 @@ TEST(StrandWork, IsThatOfTheTable) {
                                                          400 * (2 * 100 + 60 + 75 + 2 * 60));
     EXPECT_EQ(
         software->bytes, 16 * 24 + 12 * 5 + 2 * 16 * 290 + 2 * 4 * 10 + 400 * (4 + 6 * 8 + 4 + 4));
+
+    // Two corners of 12 bytes for each point, written and read.
+    const auto rays = strandWork(Backend::rays, fewStrands());
+    ASSERT_TRUE(rays);
+    EXPECT_EQ(rays->operations.size(), 1u);
+    EXPECT_EQ(
+        rays->operations.at(StageKind::compute),
+        10 * 7 * 81 + 290 * (84 + 100) + 290 * 22 + 400 * (2 * 100 + 60 + 75 + 2 * 60));
+    EXPECT_EQ(rays->bytes, software->bytes + 2 * 24 * 290);
 }
 
 TEST(StrandWork, GrowsWithEvaluationsThatABackEndRepeats) {

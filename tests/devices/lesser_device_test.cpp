@@ -166,6 +166,8 @@ TEST_F(LesserDevice, StrandsNeedTheStagesOfTheirBackEnd) {
     EXPECT_EQ(skipped(pulled), "not skipped");
     pulled.strands.backend = hair::Backend::mesh;
     EXPECT_EQ(skipped(pulled), "/strands/backend: mesh: the device has no task and mesh stages");
+    pulled.strands.backend = hair::Backend::rays;
+    EXPECT_EQ(skipped(pulled), "/strands/backend: rays: the device has no ray queries");
 }
 
 // Takes the first back end, in the order for this type of device, of which the device lacks no

@@ -94,14 +94,20 @@ std::vector<std::string> rowsOf(const Touched& touched) {
     return rows;
 }
 
-std::vector<std::string> publishedRows() {
+// The rows of the table of passes, or of the one for the back end `rays`, which needs a device of
+// its own.
+enum class PublishedTable { all, of_rays };
+
+std::vector<std::string> publishedRows(PublishedTable table) {
+    const std::string head = table == PublishedTable::all ? "| pass | reads | writes |"
+                                                          : "| pass of `rays` | reads | writes |";
     std::ifstream page(HAIRBENCH_SCENES_DIR "/../docs/design.md");
     std::vector<std::string> rows;
     bool is_table = false;
     for (std::string line; std::getline(page, line);) {
         if (is_table && line.empty()) break;
         if (is_table && line.starts_with("| `")) rows.push_back(line);
-        is_table = is_table || line == "| pass | reads | writes |";
+        is_table = is_table || line == head;
     }
     return rows;
 }
@@ -253,7 +259,8 @@ TEST_F(FramesHazards, AreNoneInAnySceneOrFeatureAndNoBarrierIsSuperfluous) {
     EXPECT_THAT(redundant, testing::IsEmpty());
     for (auto& [pass, uses] : touched)
         std::erase_if(uses.reads, [&](const auto& name) { return uses.writes.contains(name); });
-    EXPECT_THAT(publishedRows(), testing::UnorderedElementsAreArray(rowsOf(touched)))
+    EXPECT_THAT(
+        publishedRows(PublishedTable::all), testing::UnorderedElementsAreArray(rowsOf(touched)))
         << "docs/design.md";
 }
 
@@ -332,6 +339,47 @@ TEST_F(FramesHazards, EachBarrierIsMissedByMeshStages) {
     hair::Settings settings = everything();
     settings.strands.backend = hair::Backend::mesh;
     missEach(device(), settings, kMissed);
+}
+
+// The structure is built and traced in each frame, from quads that the frame before still traces.
+TEST_F(FramesHazards, EachBarrierOfRaysIsMissedAndNoneIsSuperfluous) {
+    if (!device().has(engine::Feature::ray_queries))
+        return skipWithout(Need::rays, "the device has no ray queries");
+    std::set<std::string> places;
+    std::set<std::string> needed;
+    Touched touched;
+    for (const hair::RaysUpdate update : {hair::RaysUpdate::build, hair::RaysUpdate::refit})
+        for (const std::uint32_t samples : {1u, 4u})
+            for (const bool has_maps : {false, true}) {
+                hair::Settings settings = hair::plainSettings();
+                if (has_maps) hair::lit(settings);
+                settings.render.msaa = samples;
+                settings.simulation.solver = hair::Solver::ftl;
+                settings.strands.backend = hair::Backend::rays;
+                settings.strands.rays.update = update;
+                play(made(settings), places, needed, touched);
+                EXPECT_THAT(device().messages().take(), testing::IsEmpty());
+            }
+    std::set<std::string> redundant;
+    std::ranges::set_difference(places, needed, std::inserter(redundant, redundant.end()));
+    EXPECT_THAT(redundant, testing::IsEmpty());
+    std::erase_if(touched, [](const auto& each) {
+        return each.first != "acceleration" && each.first != "strands";
+    });
+    for (auto& [pass, uses] : touched)
+        std::erase_if(uses.reads, [&](const auto& name) { return uses.writes.contains(name); });
+    EXPECT_THAT(
+        publishedRows(PublishedTable::of_rays), testing::UnorderedElementsAreArray(rowsOf(touched)))
+        << "docs/design.md";
+
+    hair::Settings settings = made(hair::plainSettings());
+    settings.simulation.solver = hair::Solver::ftl;
+    settings.strands.backend = hair::Backend::rays;
+    missEach(
+        device(), settings,
+        {"quad corners", "acceleration structure", "acceleration top level", "acceleration scratch",
+         "strands",  // their points: names end at an apostrophe
+         "software visibility buffer", "depth"});
 }
 
 // Guides are drawn without offsets, and weighted blending writes to the output.

@@ -95,7 +95,7 @@ TEST_F(HostAllocations, AreNoneInAFrameOfAnyBackEnd) {
     for (const hair::Backend backend :
          {hair::Backend::tessellation, hair::Backend::pulling_geometry, hair::Backend::lines,
           hair::Backend::pulling, hair::Backend::expanded, hair::Backend::mesh,
-          hair::Backend::software}) {
+          hair::Backend::software, hair::Backend::rays}) {
         for (const std::uint32_t samples : {1u, 4u}) {
             hair::Settings settings = hair::plainSettings();
             settings.strands.backend = backend;

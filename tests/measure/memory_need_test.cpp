@@ -119,7 +119,7 @@ TEST_F(MemoryNeedTest, KnowsEveryBackEnd) {
     using hair::Backend;
     for (const Backend backend :
          {Backend::tessellation, Backend::pulling_geometry, Backend::lines, Backend::pulling,
-          Backend::expanded, Backend::mesh, Backend::software}) {
+          Backend::expanded, Backend::mesh, Backend::software, Backend::rays}) {
         for (const std::uint32_t msaa : {1u, 4u}) {
             hair::Settings settings = hair::plainSettings();
             settings.strands.backend = backend;

@@ -107,7 +107,8 @@ TEST(BackendOrder, IsThatOfTheDocumentation) {
             orderRow("graphics processors", engine::DeviceType::discrete)}));
 }
 
-// Every device's order has all back ends that draw the same strands, which are all except `lines`.
+// Every device's order has all back ends that draw the same strands, which are all except `lines`,
+// and were measured on it: `rays` was not on a GPU, and is far behind on processors.
 TEST(BackendOrder, HasEveryBackEndOfTheSamePicture) {
     using enum engine::DeviceType;
     for (const engine::DeviceType type : {discrete, integrated, virtual_gpu, cpu, other})

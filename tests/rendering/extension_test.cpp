@@ -89,7 +89,7 @@ TEST_F(ShadingExtensions, AConstantColourIsWhatHairShowsInEveryBackEnd) {
     std::size_t covered = 0;
     for (const Backend backend :
          {Backend::tessellation, Backend::pulling_geometry, Backend::pulling, Backend::expanded,
-          Backend::software, Backend::lines, Backend::mesh}) {
+          Backend::software, Backend::lines, Backend::mesh, Backend::rays}) {
         settings.strands.backend = backend;
         try {
             const Pixels pixels = draw(settings);
@@ -106,7 +106,8 @@ TEST_F(ShadingExtensions, AConstantColourIsWhatHairShowsInEveryBackEnd) {
                         << "pixel " << i / 4;
             }
         } catch (const engine::Unsupported&) {
-            EXPECT_TRUE(backend == Backend::mesh || backend == Backend::lines)
+            EXPECT_TRUE(
+                backend == Backend::mesh || backend == Backend::lines || backend == Backend::rays)
                 << backendName(backend);
         }
     }

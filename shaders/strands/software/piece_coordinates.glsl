@@ -5,6 +5,7 @@
 #include "strands/points/merged.glsl"
 #include "strands/software/software.glsl"
 
+#include "strands/merged_hairs.glsl"
 #include "strands/points/quad.glsl"
 
 struct PieceCoordinates {
@@ -65,6 +66,14 @@ PlaceOnStrand placeOnStrand(PictureParameters picture, uint number, float t) {
     float end = float(point % (pieces + kSplitJoints));
     return PlaceOnStrand(storedMerged(picture, strand, stored),
                          (segment + (end + t) / float(pieces)) / float(kSegments));
+}
+
+// True if a screen position, px, is in a gap between the hairs that the piece's strand stands for.
+bool isGap(PictureParameters picture, uint piece, vec2 place) {
+    Piece covered = pieceOf(picture, piece);
+    PieceCoordinates at = pieceCoordinates(covered, place);
+    PlaceOnStrand on_strand = placeOnStrand(picture, piece, at.t);
+    return isMergedGap(on_strand.merged, perspectiveAcross(covered, at), on_strand.along);
 }
 
 #endif

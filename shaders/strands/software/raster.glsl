@@ -9,7 +9,6 @@
 #endif
 #include "strands/software/software.glsl"
 
-#include "strands/merged_hairs.glsl"
 #include "strands/software/piece_coordinates.glsl"
 #include "strands/software/samples.glsl"
 
@@ -117,14 +116,6 @@ bool mayPassDepthTest(uint index, uint near) {
 #else
     return true;  // a read would cost as much
 #endif
-}
-
-// True if a screen position, px, is in a gap between the hairs that the piece's strand stands for.
-bool isGap(PictureParameters picture, uint piece, vec2 place) {
-    Piece covered = pieceOf(picture, piece);
-    PieceCoordinates at = pieceCoordinates(covered, place);
-    PlaceOnStrand on_strand = placeOnStrand(picture, piece, at.t);
-    return isMergedGap(on_strand.merged, perspectiveAcross(covered, at), on_strand.along);
 }
 
 // Whether a whole work group rasterises the piece.
