@@ -14,7 +14,7 @@
 namespace hair::rendering {
 namespace {
 
-static_assert(sizeof(gpu::CornersPush) == 48 && offsetof(gpu::CornersPush, points_count) == 32);
+static_assert(sizeof(gpu::CornersPush) == 44 && offsetof(gpu::CornersPush, points_count) == 32);
 
 constexpr const char* kRays = "/strands/backend: rays";
 constexpr const char* kCorners = "quad corners";
