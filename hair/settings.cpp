@@ -220,7 +220,8 @@ std::vector<glm::vec3> copyOffsets(const CopySettings& settings) {
         const std::uint32_t column = i % columns;
         const float steps = static_cast<float>((column + 1) / 2);
         const float right = column % 2 == 1 ? steps : -steps;
-        offsets.push_back(settings.spacing * glm::vec3(right, 0.0f, -static_cast<float>(i / columns)));
+        offsets.push_back(
+            settings.spacing * glm::vec3(right, 0.0f, -static_cast<float>(i / columns)));
     }
     return offsets;
 }
@@ -450,8 +451,7 @@ const Table& tableOf(const Settings*) {
          group("groom", &S::groom, "the guides"),
          group("simulation", &S::simulation, "how the guides move"),
          group("strands", &S::strands, "how strands are made from guides"),
-         group("lod", &S::lod, "level of detail"),
-         group("copies", &S::copies, "several heads"),
+         group("lod", &S::lod, "level of detail"), group("copies", &S::copies, "several heads"),
          group("shading", &S::shading, "how strands are lit"),
          group("camera", &S::camera, "the camera"), group("render", &S::render, "the picture"),
          group("run", &S::run, "how the scene is measured")});

@@ -127,7 +127,7 @@ const Table& tableOf(const LodSettings*);
 
 // ---- Copies -------------------------------------------------------------------------------------
 
-// What copies of the head do. shared: one simulation moves all of them; own: each has a simulation
+// How copies of the head move. shared: one simulation moves all of them; own: each has a simulation
 // with its own wind and its own time in the head's motion.
 enum class CopyMotion { shared, own };
 

@@ -67,8 +67,7 @@ Case::Case(
       simulation_(simulationOf(
           device, groom_, settings_, scene::loadFieldMeshes(settings_, mesh_, directory),
           deforming_.get(), cache)),
-      others_(simulationsOfOthers(cache)),
-      fixed_step_(double{settings_.simulation.time_step}),
+      others_(simulationsOfOthers(cache)), fixed_step_(double{settings_.simulation.time_step}),
       groom_buffers_(std::make_unique<hair::rendering::GroomBuffers>(groomBuffers(settings_))),
       renderer_(std::make_unique<hair::rendering::Renderer>(
           device, settings_, view(),
@@ -86,9 +85,9 @@ Case::simulationsOfOthers(HairCache* cache) const {
         hair::Settings own = settings_;
         own.simulation = ofHead(settings_, settings_.simulation, head);
         own.seed = settings_.seed + head;
-        others.push_back(std::unique_ptr<hair::simulation::Simulation>(
-            new hair::simulation::Simulation(simulationOf(
-                device_, groom_, own, field_meshes, deforming_.get(), cache))));
+        others.push_back(
+            std::unique_ptr<hair::simulation::Simulation>(new hair::simulation::Simulation(
+                simulationOf(device_, groom_, own, field_meshes, deforming_.get(), cache))));
     }
     return others;
 }
@@ -132,44 +131,43 @@ void Case::carryOn(const hair::SimulationSettings& settings) {
 }
 
 void Case::simulate(engine::Passes& passes) {
+    using engine::Commands;
+    using engine::PassKind;
     using hair::simulation::Simulation;
-    const auto record = [&](const char* name, auto each) {
-        passes.pass(name, engine::PassKind::compute, [&](engine::Commands& commands) {
-            forSimulations([&](Simulation& simulation) { each(simulation, commands); });
-        });
+    // Records the same part of the simulations of all heads.
+    const auto ofAll = [this](auto record) {
+        return [this, record](Commands& commands) {
+            forSimulations([&](Simulation& each) { record(each, commands); });
+        };
     };
+    const auto wind = [](Simulation& of, Commands& commands) { of.recordWind(commands); };
+    const auto volume = [](Simulation& of, Commands& commands) { of.recordVolume(commands); };
+    const auto force = [](Simulation& of, Commands& commands) { of.recordForce(commands); };
     const bool blows = settings_.simulation.solver != hair::Solver::none;
     const std::uint32_t steps =
         simulation_.moves() ? fixed_step_.stepsFor(double{settings_.run.frame_time}) : 0;
     // Interpolation needs the positions before the last step, so every step changes the copy.
     const bool between = settings_.run.interpolate && simulation_.moves();
     for (std::uint32_t i = 0; i < steps; ++i) {
-        if (blows)
-            record("wind", [](Simulation& each, engine::Commands& commands) {
-                each.recordWind(commands);
-            });
-        if (simulation_.hasVolume())
-            record("volume", [](Simulation& each, engine::Commands& commands) {
-                each.recordVolume(commands);
-            });
-        if (blows && simulation_.hasForce())
-            record("force", [](Simulation& each, engine::Commands& commands) {
-                each.recordForce(commands);
-            });
+        if (blows) passes.pass("wind", PassKind::compute, ofAll(wind));
+        if (simulation_.hasVolume()) passes.pass("volume", PassKind::compute, ofAll(volume));
+        if (blows && simulation_.hasForce()) passes.pass("force", PassKind::compute, ofAll(force));
         if (blows && simulation_.hasPulls())
-            passes.pass("pull", engine::PassKind::compute, [&](engine::Commands& commands) {
+            passes.pass("pull", PassKind::compute, [&](Commands& commands) {
                 simulation_.recordPulls(commands);
             });
         const auto into =
             between || i == 0 ? hair::simulation::Copy::other : hair::simulation::Copy::same;
-        record("simulate", [&](Simulation& each, engine::Commands& commands) {
-            each.recordStep(commands, into);
-        });
+        const auto step = [into](Simulation& of, Commands& commands) {
+            of.recordStep(commands, into);
+        };
+        passes.pass("simulate", PassKind::compute, ofAll(step));
     }
-    if (between)
-        record("interpolate", [&](Simulation& each, engine::Commands& commands) {
-            each.recordInterpolation(commands, fixed_step_.remainder());
-        });
+    if (!between) return;
+    const auto share = [this](Simulation& of, Commands& commands) {
+        of.recordInterpolation(commands, fixed_step_.remainder());
+    };
+    passes.pass("interpolate", PassKind::compute, ofAll(share));
 }
 
 void Case::probe(engine::Passes& passes, hair::simulation::Probes& probes) {
@@ -193,8 +191,7 @@ void Case::draw(engine::Passes& passes) {
 void Case::recordReset(engine::Passes& passes) {
     passes.asyncCompute(0, [&] {
         passes.pass("reset", engine::PassKind::compute, [&](engine::Commands& commands) {
-            forSimulations(
-                [&](hair::simulation::Simulation& each) { each.recordReset(commands); });
+            forSimulations([&](hair::simulation::Simulation& each) { each.recordReset(commands); });
         });
     });
     fixed_step_.reset();
@@ -211,8 +208,7 @@ std::vector<glm::vec3> Case::guides() const {
     return first;
 }
 
-std::vector<glm::vec3>
-Case::soundGuides(const hair::simulation::Simulation& simulation) const {
+std::vector<glm::vec3> Case::soundGuides(const hair::simulation::Simulation& simulation) const {
     std::vector<glm::vec3> positions = simulation.readPositions();
     const auto broken = hair::simulation::findBroken(
         positions, groom_.points, groom_.vertices_per_strand,

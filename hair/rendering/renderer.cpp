@@ -439,8 +439,7 @@ void Renderer::record(engine::Passes& passes, std::span<const StrandView> views)
             recordJoined(passes, view, picture);
         else
             recordApart(
-                passes, picture,
-                moves && shadows_need_points ? Points::recorded : Points::needed,
+                passes, picture, moves && shadows_need_points ? Points::recorded : Points::needed,
                 {.first = is_first, .last = i == order_.back()});
     }
     if (!joined) recordOverlays(passes, views);

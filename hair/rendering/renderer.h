@@ -122,7 +122,7 @@ public:
     const StrandPlan& plan() const { return plan_; }
     const BackendChoice& backend() const { return backend_; }
     std::uint32_t heads() const { return static_cast<std::uint32_t>(heads_.size()); }
-    // Of all heads.
+    // Counts those of all heads.
     std::optional<ExpectedCounts> expected() const;
     const StrandBlend& blend() const { return strands_.blend(); }
 
@@ -136,12 +136,10 @@ private:
         std::uint64_t address = 0;  // of the parameters on the device
     };
     StrandPicture pictureOf(const Head& head) const {
-        return {
-            .address = head.address, .parameters = head.parameters, .images = strand_images_};
+        return {.address = head.address, .parameters = head.parameters, .images = strand_images_};
     }
     void writePictures(std::uint32_t slot, std::span<const StrandView> views);
-    void recordShape(
-        engine::Passes& passes, const StrandView& view, const StrandPicture& picture);
+    void recordShape(engine::Passes& passes, const StrandView& view, const StrandPicture& picture);
     void recordPoints(
         engine::Passes& passes, const StrandPicture& picture, Bounds bounds = Bounds::old) const;
     void recordJoined(

@@ -127,8 +127,8 @@ private:
     static std::size_t place(std::uint32_t slot, std::uint32_t motion) {
         return std::size_t{motion} * engine::FrameLoop::kMaxSlots + slot;
     }
-    void writeParameters(
-        std::size_t place, const StrandView& view, const gpu::PictureParameters& of);
+    void
+    writeParameters(std::size_t place, const StrandView& view, const gpu::PictureParameters& of);
     void drawMeshes(engine::Commands& commands, const SceneMeshes& meshes) const;
     void drawHair(engine::Commands& commands) const;
 

@@ -274,10 +274,8 @@ SoftwareBackend::SoftwareBackend(const BackendContext& context)
       group_(strandGroup(context.device)),
       block_(culledBlock(context.device, context.strands, context.plan)),
       pieces_per_strand_(context.plan.segments * context.plan.forced_tessellation),
-      rasterized_pieces_(
-          rasterizedPieces(
-              context.device,
-              static_cast<std::uint32_t>(context.plan.strands()) * pieces_per_strand_)),
+      rasterized_pieces_(rasterizedPieces(
+          context.device, static_cast<std::uint32_t>(context.plan.strands()) * pieces_per_strand_)),
       is_packed_(isPacked(context.device)), texels_(texelsOf(context)),
       reduce_tiles_(
           context.device, texelStage(context, "tiles.comp", 1, pixelGroup(context.device))),
@@ -310,8 +308,7 @@ std::string SoftwareBackend::variant() const {
 }
 
 gpu::SoftwarePush SoftwareBackend::ofPart(gpu::SoftwarePush constants, std::uint32_t part) const {
-    const std::uint32_t first =
-        divideUp(divideUp(constants.strands, block_), gpu::kFirstStrands);
+    const std::uint32_t first = divideUp(divideUp(constants.strands, block_), gpu::kFirstStrands);
     constants.part = part;
     constants.list_begin = part == gpu::kFirstPart ? 0 : first * block_ * pieces_per_strand_;
     return constants;

@@ -138,15 +138,13 @@ Pixels halves(const Settings& settings, const Pixels& left, const Pixels& right)
     Pixels joined = left;
     const std::size_t width = settings.render.width;
     for (std::size_t i = 0; i < joined.size() / 4; ++i)
-        if (i % width >= width / 2)
-            std::copy_n(right.begin() + i * 4, 4, joined.begin() + i * 4);
+        if (i % width >= width / 2) std::copy_n(right.begin() + i * 4, 4, joined.begin() + i * 4);
     return joined;
 }
 
 TEST(CopyOffsetsTest, RowsFillASquareFromTheirMiddles) {
     EXPECT_EQ(copyOffsets({}), std::vector{glm::vec3(0.0f)});
-    const std::vector<glm::vec3> five{
-        {0, 0, 0}, {2, 0, 0}, {-2, 0, 0}, {0, 0, -2}, {2, 0, -2}};
+    const std::vector<glm::vec3> five{{0, 0, 0}, {2, 0, 0}, {-2, 0, 0}, {0, 0, -2}, {2, 0, -2}};
     EXPECT_EQ(copyOffsets({.count = 5, .spacing = 2.0f}), five);
 }
 
@@ -184,7 +182,7 @@ TEST_F(MovedHeadTest, NearerHeadsHideFartherOnes) {
     settings.camera.position = {-1.0f, 0.0f, 0.0f};
     const Pixels from_left = drawCase(device(), settings);
     settings.copies.count = 1;
-    // Of the farther head, only hair beside the nearer head is seen.
+    // The nearer head hides the farther one except for hair beside it.
     const std::size_t hidden = differingPixels(from_left, drawCase(device(), settings));
     settings.camera.position.x -= 0.05f;
     const std::size_t seen = differingPixels(from_left, drawCase(device(), settings));
