@@ -7,8 +7,8 @@
 #include <cstring>
 #include <iterator>
 #include <limits>
-#include <numeric>
 #include <numbers>
+#include <numeric>
 #include <string>
 #include <utility>
 

@@ -143,10 +143,10 @@ const BadScene kBadFields[] = {
      "source, interpolation, blend, collision_rule, collision, randomness, density, tessellation, "
      "width, root_width, tip_width, curl, variation, offsets, offset_function, "
      "offset_parameters, opacity, texture, curve, curve_parameters, taper, "
-     "taper_start, submission"},
+     "taper_start, submission, rays"},
     {R"({"sweeep": {}})", ": /sweeep: unknown key (did you mean 'sweep'?); known: description, "
                           "seed, groom, simulation, strands, "
-                          "lod, shading, camera, render, run, $schema, base, sweep"},
+                          "lod, copies, shading, camera, render, run, $schema, base, sweep"},
     {R"({"run": {"a/b\n~": 1}})",
      ": /run/a~1b?~0: unknown key; known: warmup, frames, precision, "
      "max_time, case_timeout, warmup_time, round_time, frame_time, interpolate, frames_in_flight, "

@@ -498,7 +498,7 @@ TEST(ShaderCapabilities, AreThoseThatFeaturesStandFor) {
     constexpr std::uint32_t kCapability = 17;  // OpCapability
     constexpr std::uint32_t kShader = 1, kGeometry = 2, kTessellation = 3, kLongIntegers = 11,
                             kLongAtomics = 12, kSampledBuffer = 46, kImageQuery = 50,
-                            kMeshShading = 5283, kPhysicalAddresses = 5347;
+                            kRayQueries = 4472, kMeshShading = 5283, kPhysicalAddresses = 5347;
     for (const std::string_view path : engine::shaderPaths())
         engine::forEachDeclaration(
             engine::shaderCode(path), [&](engine::SpirvInstruction instruction) {
@@ -513,6 +513,10 @@ TEST(ShaderCapabilities, AreThoseThatFeaturesStandFor) {
                 if (is_packed && (path.starts_with("simulation/volume_splat") ||
                                   path.starts_with("strands/software/raster")))
                     EXPECT_THAT(capability, testing::AnyOf(kLongIntegers, kLongAtomics)) << path;
+                else if (is_packed && path.starts_with("strands/rays/trace"))
+                    EXPECT_THAT(capability, testing::AnyOf(kLongIntegers, kRayQueries)) << path;
+                else if (path.starts_with("strands/rays/trace"))
+                    EXPECT_EQ(capability, kRayQueries) << path;
                 else if (is_packed)
                     EXPECT_EQ(capability, kLongIntegers) << path;
                 else if (file.ends_with(".geom"))
