@@ -215,7 +215,7 @@ const BadScene kBadReaderMembers[] = {
     {R"({"sweep": {"/seed/x": [1]}})", ": /sweep: /seed/x: 1 has no members"},
     {R"({"sweep": {"/sweep": [1]}})",
      ": /sweep: /sweep: unknown key (did you mean 'seed'?); known: description, seed, "
-     "groom, simulation, strands, lod, shading, "
+     "groom, simulation, strands, lod, copies, shading, "
      "camera, render, run"},
     {R"({"sweep": {"/camera/up/3": [1]}})", ": /sweep: /camera/up/3: the array has 3 elements"},
     {R"({"sweep": {"/simulation/colliders/0/radius": [1]}})",
