@@ -255,8 +255,7 @@ const Table& tableOf(const HairHairSettings*) {
          number(
              "shelter", &S::shelter, 0, 1e6, "1",
              "hairs that each guide stands for where they slow the air that reaches the hair "
-             "behind "
-             "them, with wind of mode drag; 0: air reaches all hair undisturbed"),
+             "behind them, with wind of mode drag; 0: air reaches all hair undisturbed"),
          number(
              "resolution", &S::resolution, 8, 128, "count",
              "cells along each side of the grid round the hair; cells much smaller than guide "

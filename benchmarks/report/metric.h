@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <algorithm>
 #include <span>
 #include <string>
@@ -20,12 +21,15 @@ enum class MetricOf {
     pass,  // one pass, by name
     image,  // the picture, against a reference
     memory,  // the device's memory
-    strands,  // the passes points, acceleration and strands together
+    strands,  // the pass strands with those of kBeforeStrands
     device,  // the device's speed, from a separate measurement
     shader,  // the code that the driver's compiler made of a shader
     probe,  // a quantity of the guides in each frame
     other,  // unknown here: from another program's report
 };
+
+// The passes that prepare the strands of one picture for the pass strands.
+inline constexpr std::array kBeforeStrands{"points", "acceleration"};
 
 // The measured quantity. results/README.md defines each.
 enum class Measured {

@@ -67,7 +67,7 @@ std::optional<BackendTime> timeOf(const scene::Json& result) {
     const scene::Json* const strands = metricOf(result, ofPass("strands", Measured::time));
     if (!strands) return std::nullopt;
     BackendTime time{.median = strands->at("median").get<double>()};
-    for (const char* pass : {"points", "acceleration"})
+    for (const char* pass : kBeforeStrands)
         if (const scene::Json* const other = metricOf(result, ofPass(pass, Measured::time)))
             time.median += other->at("median").get<double>();
     return time;

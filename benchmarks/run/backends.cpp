@@ -405,7 +405,7 @@ std::optional<report::Metric> strandsTime(const report::CaseResult& result) {
         report::findMetric(result.metrics, report::ofPass("strands", Measured::time));
     if (!strands) return std::nullopt;
     report::Metric sum(report::ofStrands(Measured::time), strands->samples, strands->mode);
-    for (const char* pass : {"points", "acceleration"}) {
+    for (const char* pass : report::kBeforeStrands) {
         const auto* const other =
             report::findMetric(result.metrics, report::ofPass(pass, Measured::time));
         if (!other) continue;

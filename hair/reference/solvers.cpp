@@ -536,9 +536,7 @@ void Reference::advance(Air air, double then) {
     std::vector<glm::dvec3> accelerations = air.accelerations;
     if (!air.velocities.empty()) {
         shelterAir(settings_, volume, air.velocities);
-        std::vector<glm::dvec3> velocities;
-        for (std::size_t i = 0; i < positions_.size(); ++i)
-            velocities.push_back((positions_[i] - previous_[i]) / step_.sub);
+        const std::vector<glm::dvec3> velocities = volume.velocities();
         for (std::size_t strand = 0; strand < rest_.size() / vertices_; ++strand)
             std::ranges::copy(
                 alongAccelerations(

@@ -367,17 +367,6 @@ double meanDensityAtRest(
     return both / 2.0;
 }
 
-}  // namespace
-
-namespace {
-
-std::vector<glm::dvec3> velocitiesOf(const VolumeState& state) {
-    std::vector<glm::dvec3> velocities;
-    for (std::size_t i = 0; i < state.positions.size(); ++i)
-        velocities.push_back((state.positions[i] - state.previous[i]) / state.step.sub);
-    return velocities;
-}
-
 // Returns the vertices at the end of the step, in cells.
 std::vector<glm::dvec3>
 pointsInCells(const VolumeState& state, const Box& box, ConstPoints velocities) {
@@ -412,12 +401,19 @@ lengthInside(const glm::dvec3& point, const glm::dvec3& direction, const glm::dv
 
 }  // namespace
 
+std::vector<glm::dvec3> VolumeState::velocities() const {
+    std::vector<glm::dvec3> velocities;
+    for (std::size_t i = 0; i < positions.size(); ++i)
+        velocities.push_back((positions[i] - previous[i]) / step.sub);
+    return velocities;
+}
+
 void shelterAir(
     const SimulationSettings& settings, const VolumeState& state, std::vector<glm::dvec3>& air) {
     const double density = settings.wind.air_density;
     if (settings.hair_hair.shelter == 0.0f || density == 0.0) return;
     const Box box = boxOf(state, settings.hair_hair.resolution);
-    const std::vector<glm::dvec3> velocities = velocitiesOf(state);
+    const std::vector<glm::dvec3> velocities = state.velocities();
     const std::vector<glm::dvec3> points = pointsInCells(state, box, velocities);
     const Grid grid = splat(points, velocities, sharesOf(state));
     const double diameter = 2.0 * double{settings.material.radius};
@@ -467,7 +463,7 @@ volumeAccelerations(const SimulationSettings& settings, const VolumeState& state
     const double repulsion =
         std::min(double(contact.repulsion), 0.5 * (box.cell / step) * (box.cell / step));
 
-    const std::vector<glm::dvec3> velocities = velocitiesOf(state);
+    const std::vector<glm::dvec3> velocities = state.velocities();
     const std::vector<glm::dvec3> points = pointsInCells(state, box, velocities);
     const Grid all = splat(points, velocities, shares);
 

@@ -94,6 +94,8 @@ struct VolumeState {
     // Velocity difference of each vertex that friction left in the previous step, m/s; becomes
     // that of this step. Empty: no previous step. Null: not wanted.
     std::vector<glm::dvec3>* kept = nullptr;
+
+    std::vector<glm::dvec3> velocities() const;  // [strand][vertex], m/s
 };
 
 // Returns the acceleration by hair-hair contact over the next step, [strand][vertex], m/s^2: the

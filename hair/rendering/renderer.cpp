@@ -219,13 +219,10 @@ namespace {
 
 using Last = engine::Target::Last;
 
-// Bytes from the parameters of one picture to those of the next.
-constexpr std::size_t kHeadStride = (sizeof(gpu::PictureParameters) + 15) / 16 * 16;
-
 engine::MemoryRows pictureRows(std::size_t heads) {
     return {
         "shading",
-        {{"picture parameters", heads * kHeadStride, engine::FrameLoop::kMaxSlots,
+        {{"picture parameters", heads * kPictureStride, engine::FrameLoop::kMaxSlots,
           engine::Usage::upload}}};
 }
 
@@ -352,12 +349,21 @@ Renderer::Renderer(
     backend_.variant = strands_.backendVariant();
     for (const glm::vec3& offset : copyOffsets(settings_.copies)) heads_.push_back({offset});
     order_.resize(heads_.size());
-    written_.resize(heads_.size() * kHeadStride);
+    written_.resize(heads_.size() * kPictureStride);
     for (engine::Buffer& parameters : parameters_)
         parameters = parameterBuffer(device, heads_.size());
     if (settings_.render.hair && FramesPass::isNeeded(view)) frames_.emplace(device, view);
     if (view.deforming) skin_.emplace(device, settings_, plan_, view);
 }
+
+namespace {
+
+// Which of the views shows a head.
+std::uint32_t motionOf(std::uint32_t head, std::span<const StrandView> views) {
+    return views.size() > 1 ? head : 0;
+}
+
+}  // namespace
 
 std::optional<ExpectedCounts> Renderer::expected() const {
     std::optional<ExpectedCounts> counts = strands_.expected();
@@ -374,7 +380,7 @@ void Renderer::writePictures(std::uint32_t slot, std::span<const StrandView> vie
     const std::size_t lights_per_head = settings_.shading.lights.size();
     for (std::uint32_t i = 0; i < heads(); ++i) {
         Head& head = heads_[i];
-        const std::uint32_t motion = views.size() > 1 ? i : 0;
+        const std::uint32_t motion = motionOf(i, views);
         head.parameters = pictureParameters(
             settings_, plan_, views[motion],
             {.guide_normals = frames_ ? frames_->normals().address() : 0,
@@ -389,8 +395,8 @@ void Renderer::writePictures(std::uint32_t slot, std::span<const StrandView> vie
         if (plan_.lod_mode == LodMode::distance)
             head.parameters.forced_density =
                 mostStrands(plan_, settings_.lod, views[motion], head.parameters.lod_eye);
-        head.address = parameters_[slot].address() + i * kHeadStride;
-        std::memcpy(&written_[i * kHeadStride], &head.parameters, sizeof head.parameters);
+        head.address = parameters_[slot].address() + i * kPictureStride;
+        std::memcpy(&written_[i * kPictureStride], &head.parameters, sizeof head.parameters);
     }
     parameters_[slot].write(std::span<const std::byte>(written_));
     const auto distance = [&](std::uint32_t i) {
@@ -428,7 +434,7 @@ void Renderer::record(engine::Passes& passes, std::span<const StrandView> views)
     const bool shadows_need_points = shadows_.drawsHair();
     for (const std::uint32_t i : order_) {
         const bool is_first = i == order_.front();
-        const std::uint32_t motion = views.size() > 1 ? i : 0;
+        const std::uint32_t motion = motionOf(i, views);
         const StrandView& view = views[motion];
         const StrandPicture picture = pictureOf(heads_[i]);
         const bool moves = is_first || views.size() > 1;
@@ -516,8 +522,8 @@ void Renderer::recordOverlays(engine::Passes& passes, std::span<const StrandView
     const Last last = target_.resolve() != engine::Resolve::none ? Last::no : Last::yes;
     passes.pass("overlay", engine::PassKind::graphics, [&](engine::Commands& commands) {
         target_.beginRendering(commands, engine::Load::keep, {}, last);
-        for (std::size_t i = 0; i < heads_.size(); ++i)
-            overlay_.draw(commands, heads_[i].address, views[views.size() > 1 ? i : 0]);
+        for (std::uint32_t i = 0; i < heads(); ++i)
+            overlay_.draw(commands, heads_[i].address, views[motionOf(i, views)]);
         target_.endRendering(commands, last);
     });
 }

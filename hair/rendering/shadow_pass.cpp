@@ -163,9 +163,6 @@ glm::vec3 meanColor(const Settings& settings, const RenderAssets& assets) {
 
 // ---- Images and buffers -------------------------------------------------------------------------
 
-// GLSL assumes that a buffer reference is aligned to 16 bytes, unless it says otherwise.
-constexpr std::size_t kPictureStride = (sizeof(gpu::PictureParameters) + 15) / 16 * 16;
-
 static_assert(offsetof(gpu::ShadowMap, corner) == 80 && sizeof(gpu::ShadowMap) == 116);
 static_assert(offsetof(gpu::ShadowParameters, softness) == 192 * 116 + 4);
 

@@ -125,6 +125,10 @@ struct PictureBuffers {
     std::uint64_t fragments = 0;
 };
 
+// Bytes from one picture's parameters to the next one's in a buffer: GLSL assumes that a buffer
+// reference is aligned to 16 bytes, unless it says otherwise.
+inline constexpr std::size_t kPictureStride = (sizeof(gpu::PictureParameters) + 15) / 16 * 16;
+
 // Returns the parameters that every shader of a picture reads. `plan` is planStrands() of the
 // settings. The head stands at `offset`, m; the parameters are in its frame.
 gpu::PictureParameters pictureParameters(

@@ -262,6 +262,35 @@ TEST_F(LodStrandsTest, AreaIsKept) {
     EXPECT_NEAR(area(pointsAt(5.6f)) / chords, 1.0, 1e-5);
 }
 
+// The host bounds the strands of a head, and the device counts them.
+TEST_F(LodStrandsTest, AHeadsDistanceBoundsItsStrands) {
+    const groom::Groom groom = tangledGroom(8);
+    Settings settings{
+        .strands = {.density = 200, .tessellation = 1, .root_width = 1e-4f, .tip_width = 1e-4f},
+        .lod = {.mode = LodMode::distance, .near_distance = 0.5f, .far_distance = 30.0f}};
+    const DeviceHair hair(device(), groom, settings);
+    const glm::vec3 centre = hair.view().centre;
+    std::uint32_t most = 0;
+    std::uint32_t bound = 0;
+    for (const float distance : {1.0f, 2.0f, 5.0f, 25.0f})
+        for (const glm::vec3 direction :
+             {glm::vec3(1.0f, 0.0f, 0.0f), glm::vec3(-0.6f, 0.8f, 0.0f),
+              glm::vec3(0.0f, 0.0f, -1.0f)}) {
+            settings.camera.position = centre + distance * direction;
+            const StrandPoints points = evaluateStrandPoints(device(), settings, hair.view());
+            most = 0;
+            for (std::uint32_t triangle = 0; triangle < points.plan.triangles; ++triangle)
+                for (std::uint32_t i = 0; i < points.plan.forced_density; ++i)
+                    if (points.at(triangle, i, 0, 0).width >= 0.0f) most = std::max(most, i + 1);
+            bound = mostStrands(points.plan, settings.lod, hair.view(), settings.camera.position);
+            EXPECT_LE(most, bound) << distance << " m";
+        }
+    // At 25 m roots are at most a twentieth farther than the sphere's nearest point, which is
+    // 0.05 levels or 4 % of the strands.
+    EXPECT_LT(bound, 1.1 * most + 2.0);
+    EXPECT_LT(bound, 200u);
+}
+
 // A strand drawn at a level is drawn at every lower one, for any motion of the camera.
 TEST_F(LodStrandsTest, StrandsLeaveInOneOrder) {
     Settings settings{

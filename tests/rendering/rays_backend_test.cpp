@@ -93,7 +93,7 @@ constexpr std::array kKinds{
         [](Settings& s) {
             s.lod = {.mode = LodMode::forced, .level = 2.0f, .merged = MergedStrands::strip};
         }},
-    // Where a curl is seen from its end, a quad's sides cross on the screen: `software` uncrosses
+    // The sides of a quad cross on the screen if a curl points at the eye. `software` uncrosses
     // them, and triangles don't.
     Kind{"curls", [](Settings& s) { s.strands.curl.radius = 0.01f; }, 0.1},
     Kind{"Catmull-Rom", [](Settings& s) { s.strands.curve = Curve::catmull_rom; }},

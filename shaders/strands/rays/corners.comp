@@ -2,6 +2,7 @@
 // The back end `rays`: writes the corners of the quads that the other back ends draw. One invocation
 // per point of a strand.
 #extension GL_GOOGLE_include_directive : require
+#include "common/across.glsl"
 #include "common/picture.glsl"
 #include "shared/software_structs.h"
 #include "strands/points/points.glsl"
@@ -29,8 +30,8 @@ void main() {
         PictureParameters picture = PictureReference(push.picture).parameters;
         PackedPoint point = loadPoint(push.points, strand * kPointsPerStrand +
                                       segment * (pieces + kSplitJoints) + min(end, pieces));
-        vec3 side = cross(picture.eye - point.position, point.tangent);
-        side *= 0.5 * point.width * inversesqrt(max(dot(side, side), 1e-30));
+        vec3 side =
+            sideOfLength(picture.eye - point.position, point.tangent, 0.5 * point.width);
         low = point.position - side;
         high = point.position + side;
     }
