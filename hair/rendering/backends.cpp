@@ -498,9 +498,11 @@ bool hasVisibilityBuffer(Backend backend) {
 }  // namespace
 
 Backend mapBackend(Backend backend) {
-    if (backend == Backend::lines) return Backend::pulling;
-    return hasVisibilityBuffer(backend) ? Backend::expanded : backend;
+    assert(!drawsMapsInCompute(backend));
+    return backend == Backend::lines ? Backend::pulling : backend;
 }
+
+bool drawsMapsInCompute(Backend backend) { return hasVisibilityBuffer(backend); }
 
 bool readsPoints(const Settings& settings) {
     const Backend backend = settings.strands.backend;

@@ -21,7 +21,11 @@ namespace hair::rendering {
 std::unique_ptr<StrandBackend> makeBackend(Backend backend, const BackendContext& context);
 
 // Returns the back end that draws shadow maps for this one: itself, or another if it draws none.
+// Not for those that draw them in compute.
 Backend mapBackend(Backend backend);
+
+// Whether a MapRasterizer draws the back end's shadow maps.
+bool drawsMapsInCompute(Backend backend);
 
 // Throws engine::Unsupported if the device can't draw the case's strands by the back end: the
 // device lacks stages, or there are more strands than shaders can number.

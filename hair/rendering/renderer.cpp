@@ -323,7 +323,8 @@ engine::MemoryRows Renderer::rows(
     if (readsPoints(settings)) rows.add(PointsPass::rows(settings.strands, plan));
     rows.add(transparencyRows(settings.render));
     rows.add(backendRows(device, settings, plan, QuadKind::camera));
-    if (hasHairMaps(lit) && plan.strands() > 0)
+    const bool draws_maps = hasHairMaps(lit) && !drawsMapsInCompute(settings.strands.backend);
+    if (draws_maps && plan.strands() > 0)
         for (int i = 0; i < 2; ++i)  // depth and opacity
             rows.add(backendRows(device, settings, plan, QuadKind::light));
     return rows;

@@ -166,7 +166,6 @@ glm::vec3 meanColor(const Settings& settings, const RenderAssets& assets) {
 static_assert(offsetof(gpu::ShadowMap, corner) == 80 && sizeof(gpu::ShadowMap) == 116);
 static_assert(offsetof(gpu::ShadowParameters, softness) == 192 * 116 + 4);
 
-constexpr VkFormat kLayerFormat = VK_FORMAT_R32G32B32A32_SFLOAT;
 constexpr VkImageLayout kRead = VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL;
 
 // The maps of a light are consecutive.
@@ -206,13 +205,20 @@ engine::ImageDescription depthOfMeshes(const ShadowAtlas* atlas) {
         atlas, engine::Target::kDepthFormat, VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT,
         "depth of meshes");
 }
-engine::ImageDescription depthOfHair(const ShadowAtlas* atlas) {
+engine::ImageDescription depthOfHair(const Settings& settings, const ShadowAtlas* atlas) {
+    if (drawsMapsInCompute(settings.strands.backend))
+        return atlasImage(
+            atlas, MapRasterizer::kDepthFormat, VK_IMAGE_USAGE_STORAGE_BIT, "depth of hair");
     return atlasImage(
         atlas, engine::Target::kDepthFormat, VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT,
         "depth of hair");
 }
-engine::ImageDescription opacityOfHair(const ShadowAtlas* atlas) {
-    return atlasImage(atlas, kLayerFormat, VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT, "opacity of hair");
+engine::ImageDescription opacityOfHair(const Settings& settings, const ShadowAtlas* atlas) {
+    const bool computes = drawsMapsInCompute(settings.strands.backend);
+    return atlasImage(
+        atlas, MapRasterizer::kLayerFormat,
+        computes ? VK_IMAGE_USAGE_STORAGE_BIT : VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT,
+        "opacity of hair");
 }
 
 void toRead(engine::Commands& commands, const engine::Image& image, VkImageLayout from) {
@@ -363,8 +369,10 @@ engine::MemoryRows ShadowPass::rows(const Settings& settings, const StrandPlan& 
         {{"shadow parameters", sizeof(gpu::ShadowParameters), slots, kUpload},
          {"lights' pictures", std::max<std::size_t>(maps, 1) * kPictureStride, slots, kUpload}});
     rows.add(depthOfMeshes(has_meshes ? &atlas : nullptr));
-    rows.add(depthOfHair(has_hair ? &atlas : nullptr));
-    rows.add(opacityOfHair(has_hair ? &atlas : nullptr));
+    rows.add(depthOfHair(settings, has_hair ? &atlas : nullptr));
+    rows.add(opacityOfHair(settings, has_hair ? &atlas : nullptr));
+    if (has_hair && drawsMapsInCompute(settings.strands.backend))
+        rows.add(MapRasterizer::rows(atlas.side));
     return rows;
 }
 
@@ -377,8 +385,8 @@ ShadowPass::ShadowPass(
       atlas_(checkedAtlas(
           device, static_cast<std::uint32_t>(maps_.size()), settings.shading.shadows.resolution)),
       mesh_depths_(device, depthOfMeshes(mesh_maps_ ? &atlas_ : nullptr)),
-      hair_depths_(device, depthOfHair(hair_maps_ ? &atlas_ : nullptr)),
-      hair_layers_(device, opacityOfHair(hair_maps_ ? &atlas_ : nullptr)),
+      hair_depths_(device, depthOfHair(settings, hair_maps_ ? &atlas_ : nullptr)),
+      hair_layers_(device, opacityOfHair(settings, hair_maps_ ? &atlas_ : nullptr)),
       sampler_(device, {.filter = VK_FILTER_NEAREST}),
       images_{{&mesh_depths_, &sampler_}, {&hair_depths_, &sampler_}, {&hair_layers_, &sampler_}},
       mesh_color_(meanColor(settings, assets)),
@@ -397,9 +405,13 @@ ShadowPass::ShadowPass(
             toRead(commands, *sampled.image, VK_IMAGE_LAYOUT_UNDEFINED);
     });
     if (!hair_maps_) return;
-    device.require(engine::Feature::float_blend, "/shading/shadows/hair");
     const BackendContext context{
         .device = device, .plan = plan, .strands = settings.strands, .points = points};
+    if (drawsMapsInCompute(settings.strands.backend)) {
+        rasterizer_.emplace(context, atlas_.side);
+        return;
+    }
+    device.require(engine::Feature::float_blend, "/shading/shadows/hair");
     const auto backend = [&](const StrandOutput& output) {
         BackendContext with_output = context;
         with_output.output = output;
@@ -409,7 +421,7 @@ ShadowPass::ShadowPass(
     opacity_ = backend(
         {.quads = QuadKind::light,
          .fragment = "shadows/opacity.frag",
-         .colors = {{kLayerFormat, engine::Blend::add}},
+         .colors = {{MapRasterizer::kLayerFormat, engine::Blend::add}},
          .depth_format = VK_FORMAT_UNDEFINED,
          .sampled_images = 2});
 }
@@ -507,6 +519,20 @@ void ShadowPass::drawHair(engine::Commands& commands) const {
     toRead(commands, hair_layers_, VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL);
 }
 
+void ShadowPass::rasterizeHair(engine::Commands& commands) const {
+    toDraw(commands, hair_depths_, VK_IMAGE_LAYOUT_GENERAL);
+    toDraw(commands, hair_layers_, VK_IMAGE_LAYOUT_GENERAL);
+    for (const LightPicture& picture : light_pictures_)
+        rasterizer_->record(
+            commands,
+            {.address = picture.address,
+             .parameters = picture.parameters,
+             .images = std::span(images_).first(1)},
+            hair_depths_, hair_layers_);
+    toRead(commands, hair_depths_, VK_IMAGE_LAYOUT_GENERAL);
+    toRead(commands, hair_layers_, VK_IMAGE_LAYOUT_GENERAL);
+}
+
 void ShadowPass::record(
     engine::Passes& passes, const SceneMeshes& meshes, const StrandView& view,
     const gpu::PictureParameters& picture, std::uint32_t motion) {
@@ -517,11 +543,14 @@ void ShadowPass::record(
             drawMeshes(commands, meshes);
         });
     }
-    if (hair_maps_) {
-        passes.pass("hair_shadow", depth_->passKind(), [&](engine::Commands& commands) {
+    if (!hair_maps_) return;
+    const engine::PassKind kind = rasterizer_ ? engine::PassKind::compute : depth_->passKind();
+    passes.pass("hair_shadow", kind, [&](engine::Commands& commands) {
+        if (rasterizer_)
+            rasterizeHair(commands);
+        else
             drawHair(commands);
-        });
-    }
+    });
 }
 
 }  // namespace hair::rendering

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -17,6 +18,7 @@
 #include "hair/rendering/backends.h"
 #include "hair/rendering/render_assets.h"
 #include "hair/rendering/scene_meshes.h"
+#include "hair/rendering/software_backend.h"
 #include "hair/rendering/strand_view.h"
 #include "hair/settings.h"
 
@@ -96,7 +98,8 @@ public:
         const engine::Device& device, const Settings& settings, const StrandPlan& plan,
         const RenderAssets& assets, const PointsPass* points = nullptr);
 
-    // Without those of the back ends that draw hair. `settings` have the lights of an environment.
+    // Without those of the back ends that draw hair in the rasteriser. `settings` have the lights
+    // of an environment.
     static engine::MemoryRows rows(const Settings& settings, const StrandPlan& plan);
 
     // Whether record() draws hair, so that points must be recorded before.
@@ -131,6 +134,7 @@ private:
     writeParameters(std::size_t place, const StrandView& view, const gpu::PictureParameters& of);
     void drawMeshes(engine::Commands& commands, const SceneMeshes& meshes) const;
     void drawHair(engine::Commands& commands) const;
+    void rasterizeHair(engine::Commands& commands) const;
 
     Settings settings_;
     ShadowScene scene_;
@@ -150,7 +154,8 @@ private:
     // Values of the frame that is recorded:
     std::vector<LightPicture> light_pictures_;
     std::vector<std::byte> written_;  // into pictures_
-    std::unique_ptr<StrandBackend> depth_;
+    std::optional<MapRasterizer> rasterizer_;  // if drawsMapsInCompute()
+    std::unique_ptr<StrandBackend> depth_;  // otherwise
     std::unique_ptr<StrandBackend> opacity_;
 };
 

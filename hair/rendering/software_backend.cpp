@@ -3,7 +3,10 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <span>
 #include <string>
+
+#include <glm/vec4.hpp>
 
 #include "engine/error.h"
 #include "engine/target.h"
@@ -411,6 +414,115 @@ void SoftwareBackend::prepare(engine::Commands& commands, const StrandPicture& p
 
 void SoftwareBackend::draw(engine::Commands& commands, const StrandPicture& picture) const {
     visibility_.draw(commands, picture);
+}
+
+// ---- Maps of lights -----------------------------------------------------------------------------
+
+namespace {
+
+static_assert(sizeof(gpu::ShadowRasterPush) == 64 && offsetof(gpu::ShadowRasterPush, width) == 48);
+
+// Returns the segments of a strand that an invocation rasterises. On a processor, an invocation
+// reads once what they share. A piece takes at most kLargePieceSamples iterations, and 64 pieces
+// are few enough to be done before lavapipe ends an invocation's loops.
+std::uint32_t mapRun(const engine::Device& device, const StrandPlan& plan) {
+    constexpr std::uint32_t kMostPieces = 64;
+    if (device.info().type != engine::DeviceType::cpu) return 1;
+    return std::clamp(kMostPieces / plan.forced_tessellation, 1U, plan.segments);
+}
+
+std::string mapVariant(const std::string& file, const engine::Device& device, bool has_texels) {
+    return "shadows/" + file + (has_texels ? "+texels" : "") +
+           (readsPairs(device) ? "+packed" : "");
+}
+
+const engine::TexelView* mapTexels(const BackendContext& context) {
+    return readsPairs(context.device) ? context.points->texels() : nullptr;
+}
+
+engine::ComputeDescription mapStage(const BackendContext& context, const std::string& file) {
+    const bool has_texels = mapTexels(context) != nullptr;
+    engine::Constants constants = pointsConstants(context.strands, context.plan);
+    constants.emplace_back(gpu::kGroupConstant, strandGroup(context.device));
+    constants.emplace_back(gpu::kSegmentRunConstant, mapRun(context.device, context.plan));
+    return {
+        .shader = mapVariant(file, context.device, has_texels),
+        .constants = constants,
+        .push_size = sizeof(gpu::ShadowRasterPush),
+        .combined_images = 1,
+        .texel_buffers = has_texels ? 1U : 0U};
+}
+
+engine::ComputeDescription storeStage(const engine::Device& device) {
+    return {
+        .shader = mapVariant("store.comp", device, false),
+        .constants = {{gpu::kGroupConstant, pixelGroup(device)}},
+        .push_size = sizeof(gpu::ShadowRasterPush),
+        .storage_images = 2};
+}
+
+}  // namespace
+
+engine::MemoryRows MapRasterizer::rows(std::uint32_t side) {
+    const std::uint64_t texels = std::uint64_t{side} * side;
+    return {
+        "shadows",
+        {{"depth of a map", engine::bytesOf<std::uint32_t>(texels)},
+         {"opacity of a map", engine::bytesOf<glm::uvec4>(texels)},
+         {"large pieces in a map", engine::bytesOf<std::uint32_t>(1 + gpu::kMostLargePieces)}}};
+}
+
+MapRasterizer::MapRasterizer(const BackendContext& context, std::uint32_t side)
+    : points_(*context.points), side_(side), group_(strandGroup(context.device)),
+      runs_(divideUp(context.plan.segments, mapRun(context.device, context.plan))),
+      texels_(mapTexels(context)), rasterize_(context.device, mapStage(context, "raster.comp")),
+      rasterize_large_(context.device, mapStage(context, "raster.comp+large")),
+      store_(context.device, storeStage(context.device)) {
+    const engine::MemoryRows rows = MapRasterizer::rows(side);
+    depths_ = {context.device, rows["depth of a map"]};
+    layers_ = {context.device, rows["opacity of a map"]};
+    large_ = {context.device, rows["large pieces in a map"]};
+}
+
+void MapRasterizer::record(
+    engine::Commands& commands, const StrandPicture& picture, const engine::Image& depths,
+    const engine::Image& layers) const {
+    const gpu::ShadowRasterPush map{
+        .picture = picture.address,
+        .width = side_,
+        .height = side_,
+        .strands = points_.strandCount(picture.parameters)};
+    const auto rasterize = [&](const engine::ComputePipeline& pipeline, std::uint32_t choice) {
+        gpu::ShadowRasterPush push = map;
+        push.points = commands.reads(points_.points());
+        push.pieces = commands.reads(points_.pieces());
+        push.depths = choice == 0 ? commands.writes(depths_) : commands.reads(depths_);
+        if (choice == 1) push.layers = commands.writes(layers_);
+        const bool lists = &pipeline == &rasterize_ && choice == 0;
+        push.large = lists ? commands.writes(large_) : commands.reads(large_);
+        push.choice = choice;
+        commands.bind(pipeline, push);
+        if (texels_)
+            commands.images(pipeline, picture.images.first(1), std::array{texels_});
+        else
+            commands.images(pipeline, picture.images.first(1));
+    };
+    commands.fill(depths_, 0);
+    commands.fill(layers_, 0);
+    constexpr std::uint32_t kNone = 0;
+    commands.write(large_, std::as_bytes(std::span(&kNone, 1)));
+    for (const std::uint32_t choice : {0U, 1U}) {
+        rasterize(rasterize_, choice);
+        commands.dispatchInvocations(map.strands * runs_, group_);
+        rasterize(rasterize_large_, choice);
+        commands.dispatch(gpu::kLargeGroups);
+    }
+    gpu::ShadowRasterPush push = map;
+    push.depths = commands.reads(depths_);
+    push.layers = commands.reads(layers_);
+    commands.bind(store_, push);
+    commands.images(store_, {}, std::array{&depths, &layers});
+    commands.dispatch(side_);
 }
 
 }  // namespace hair::rendering

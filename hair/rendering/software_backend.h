@@ -129,4 +129,38 @@ private:
     engine::ComputePipeline rasterize_large_;
 };
 
+// Draws lights' maps in compute, from strands' points, as the back ends of QuadKind::light do:
+// depth, then opacity in layers, one map after the other in the same memory. Sums are whole
+// numbers, so the maps do not depend on the order of strands. On processors this is many times
+// faster than the rasteriser, whose stages for vertices have one thread: docs/performance.md.
+class MapRasterizer {
+public:
+    // Needs context.points. `side`: of a map, texels.
+    MapRasterizer(const BackendContext& context, std::uint32_t side);
+
+    static engine::MemoryRows rows(std::uint32_t side);
+    // The formats of the images for depth and for layers, which must be storage images.
+    static constexpr VkFormat kDepthFormat = VK_FORMAT_R32_SFLOAT;
+    static constexpr VkFormat kLayerFormat = VK_FORMAT_R32G32B32A32_SFLOAT;
+
+    // Records the drawing of a light's map into its part of two images in GENERAL. Its picture has
+    // the address of its gpu::ShadowMap as `shadows`, and picture.images has the depth of meshes.
+    void record(
+        engine::Commands& commands, const StrandPicture& picture, const engine::Image& depths,
+        const engine::Image& layers) const;
+
+private:
+    const PointsPass& points_;
+    std::uint32_t side_;
+    std::uint32_t group_;  // invocations of a work group of passes with strands
+    std::uint32_t runs_;  // invocations of a strand
+    const engine::TexelView* texels_;  // the points; null if shaders read by address alone
+    engine::Buffer depths_;  // gpu::ShadowRasterPush
+    engine::Buffer layers_;
+    engine::Buffer large_;
+    engine::ComputePipeline rasterize_;
+    engine::ComputePipeline rasterize_large_;
+    engine::ComputePipeline store_;
+};
+
 }  // namespace hair::rendering

@@ -33,4 +33,22 @@ struct ShadowParameters {
     vec3 mesh_color;  // light that meshes send back, linear; in display RGB if light is not linear
 };
 
+// Sums of opacity in a map that is drawn in compute are whole numbers of this part of a strand, so
+// that they do not depend on the order of strands. A layer of a texel has room for 65,535 strands.
+const float kCoverageUnit = 1.0 / 65536.0;
+
+// Push constants of shadows/raster.comp and shadows/store.comp, for one light's map.
+struct ShadowRasterPush {
+    Address picture;  // PictureParameters of the light
+    Address points;  // PointsPush::points
+    Address pieces;  // PointsPush::pieces
+    Address depths;  // uint [row][column]: bits of the nearest strand's depth, 0 without strands
+    Address layers;  // uvec4 [row][column]: what each layer adds to opacity, in kCoverageUnit
+    Address large;  // uint: the number of large pieces, which may exceed kMostLargePieces, and them
+    uint width;  // of the map, texels
+    uint height;
+    uint strands;
+    uint choice;  // 0: finds depths, 1: adds to layers
+};
+
 #endif

@@ -224,6 +224,8 @@ TEST_F(LesserDevice, MapsOfTheirOpacityNeedBlendingOfFloats) {
     EXPECT_EQ(
         skipped(settings), "/shading/shadows/hair: the device has no blending of 32-bit floats");
     EXPECT_EQ(skipped(smallCase()), "not skipped");
+    settings.strands.backend = hair::Backend::software;  // it adds in compute
+    EXPECT_EQ(skipped(settings), "not skipped");
 }
 
 TEST_F(LesserDevice, TransparencyNeedsItsFeatures) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -10,6 +11,7 @@
 #include "engine/frame_loop.h"
 #include "engine/target.h"
 #include "engine/transfer.h"
+#include "hair/rendering/points_pass.h"
 #include "hair/rendering/renderer.h"
 #include "hair/rendering/scene_meshes.h"
 #include "hair/rendering/shadow_pass.h"
@@ -74,7 +76,9 @@ inline std::vector<FoundPath> findPaths(
     const StrandPlan plan =
         planStrands(view, settings, device.info().limits.maxTessellationGenerationLevel);
     const SceneMeshes meshes(device, settings, assets);
-    ShadowPass shadows(device, settings, plan, assets);
+    std::optional<PointsPass> points;
+    if (readsPoints(settings)) points.emplace(device, settings, plan, false);
+    ShadowPass shadows(device, settings, plan, assets, points ? &*points : nullptr);
 
     engine::FrameLoop loop(device, engine::Timing::overlapped);
     for (int frame = 0; frame < 3; ++frame) {
@@ -82,6 +86,11 @@ inline std::vector<FoundPath> findPaths(
             const gpu::PictureParameters picture = pictureParameters(
                 settings, plan, view, {.shadows = shadows.address(passes.slot())});
             pictures[passes.slot()].write(picture);
+            if (points)
+                passes.pass("points", engine::PassKind::compute, [&](engine::Commands& commands) {
+                    points->clear(commands);
+                    points->record(commands, pictures[passes.slot()].address(), picture);
+                });
             shadows.record(passes, meshes, view, picture);
             passes.pass("probe", engine::PassKind::graphics, [&](engine::Commands& commands) {
                 for (const engine::Image& image : found)

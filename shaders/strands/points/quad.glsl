@@ -43,17 +43,23 @@ ScreenEnd screenEnd(vec4 middle, vec4 side) {
     return end;
 }
 
-PieceEnd pieceEnd(PictureParameters picture, PackedPoint point) {
+// `side`: m, from the middle to an edge.
+PieceEnd pieceEnd(PictureParameters picture, PackedPoint point, vec3 side) {
     PieceEnd end;
     end.position = point.position;
     end.tangent = point.tangent;
-    end.side = cross(picture.eye - point.position, end.tangent);
-    end.side *= 0.5 * point.width * inversesqrt(max(dot(end.side, end.side), 1e-30));
+    end.side = side;
     end.middle_clip = picture.view_projection * vec4(end.position, 1.0);
     end.side_clip = picture.view_projection * vec4(end.side, 0.0);
     end.beyond = pastNearPlane(end.middle_clip) - abs(pastNearPlane(end.side_clip));
     end.projected = screenEnd(end.middle_clip, end.side_clip);
     return end;
+}
+
+PieceEnd pieceEnd(PictureParameters picture, PackedPoint point) {
+    vec3 side = cross(picture.eye - point.position, point.tangent);
+    side *= 0.5 * point.width * inversesqrt(max(dot(side, side), 1e-30));
+    return pieceEnd(picture, point, side);
 }
 
 // The part of a piece beyond the near plane. Corners run from -+ side at both ends.

@@ -1,6 +1,5 @@
 // Rasterises pieces of strands. Each sample keeps the nearest piece; of equally near pieces, it
-// keeps the first. Pieces are drawn in spans across their major axis, so each row or column of
-// samples meets a thin piece in few samples.
+// keeps the first.
 #ifdef HAIRBENCH_PACKED
 #extension GL_EXT_shader_atomic_int64 : require
 #endif
@@ -10,7 +9,7 @@
 #include "strands/software/software.glsl"
 
 #include "strands/software/piece_coordinates.glsl"
-#include "strands/software/samples.glsl"
+#include "strands/software/rows.glsl"
 
 #ifdef HAIRBENCH_PACKED
 // Tests a piece's depth at a sample with a 64-bit minimum: the nearness in the high half, the piece
@@ -32,82 +31,6 @@ void testDepth(uint index, uint near, uint piece) {
 }
 #endif
 
-// A piece's samples row by row, or column by column if it is nearer to horizontal.
-struct RasterQuad {
-    bool columns;
-    int begin;  // rows of samples
-    int end;
-    vec4 starts;  // positions of the four edges across the rows at row coordinate 0
-    vec4 slopes;
-    bvec4 lower;  // edges that bound it from below
-    float size;  // of the picture along a row, px
-    vec2 origin;  // along and across rows: a point of known depth
-    float depth;
-    vec2 gradient;  // of depth, along and across rows
-    vec2 depth_range;
-    float row_length;  // mean, px
-};
-
-float least(vec4 v) { return min(min(v.x, v.y), min(v.z, v.w)); }
-float most(vec4 v) { return max(max(v.x, v.y), max(v.z, v.w)); }
-
-void makeEdges(PieceQuad quad, inout RasterQuad raster) {
-    vec4 x = vec4(quad.from.place.x, quad.from.place.x, quad.to.place.x, quad.to.place.x) +
-             vec4(-quad.from.side.x, quad.from.side.x, quad.to.side.x, -quad.to.side.x);
-    vec4 y = vec4(quad.from.place.y, quad.from.place.y, quad.to.place.y, quad.to.place.y) +
-             vec4(-quad.from.side.y, quad.from.side.y, quad.to.side.y, -quad.to.side.y);
-    vec4 down = raster.columns ? x : y;
-    vec4 across = raster.columns ? y : x;
-    vec4 run = down.yzwx - down;
-    vec4 rise = across.yzwx - across;
-    float area = dot(down, across.yzwx - across.wxyz);
-    // An edge parallel to the rows bounds which of them there are, `begin` to `end`, and nothing in
-    // them. A row on it would otherwise end where the edge does.
-    bvec4 parallel = lessThan(abs(run), vec4(1e-6));
-    run = mix(area > 0.0 ? run : -run, vec4(1.0), parallel);
-    if (area <= 0.0) rise = -rise;
-    raster.lower = greaterThan(run, vec4(0.0));
-    raster.slopes = mix(rise / run, vec4(0.0), parallel);
-    raster.starts = mix(across - raster.slopes * down, vec4(-1.0), parallel);
-    vec2 size = vec2(push.width, push.height);
-    if (raster.columns) size = size.yx;
-    raster.size = size.x;
-    float first = clamp(least(down), -1.0, size.y);
-    float last = clamp(most(down), -1.0, size.y);
-    raster.begin = max(int(ceil(first * float(kSamples) - 0.5)), 0);
-    raster.end = min(int(ceil(last * float(kSamples) - 0.5)), int(size.y) * int(kSamples));
-    raster.row_length = 0.5 * abs(area) / max(last - first, 1.0);
-}
-
-// Depth is a plane through the middle line and the mean side.
-void makeDepth(PieceQuad quad, vec2 run, inout RasterQuad raster) {
-    vec2 side = 0.5 * (quad.from.side + quad.to.side);
-    float area = cross2(run, side);
-    float change = quad.to.depth - quad.from.depth;
-    float side_change = 0.5 * (quad.from.side_depth + quad.to.side_depth);
-    vec2 gradient = vec2(side.y * change - run.y * side_change,
-                         run.x * side_change - side.x * change) /
-                    (abs(area) < 1e-12 ? 1e-12 : area);
-    raster.depth = quad.from.depth;
-    raster.depth_range = depthRange(quad);
-    raster.origin = raster.columns ? quad.from.place : quad.from.place.yx;
-    raster.gradient = raster.columns ? gradient : gradient.yx;
-}
-
-RasterQuad setUpQuad(PieceQuad quad) {
-    vec2 run = quad.to.place - quad.from.place;
-    // Sides that cross on the screen do not form a quad.
-    if (cross2(run, quad.from.side) * cross2(run, quad.to.side) < 0.0) {
-        quad.to.side = -quad.to.side;
-        quad.to.side_depth = -quad.to.side_depth;
-    }
-    RasterQuad raster;
-    raster.columns = abs(run.x) > abs(run.y);
-    makeEdges(quad, raster);
-    makeDepth(quad, run, raster);
-    return raster;
-}
-
 // True if the depth test may pass. Other invocations test at the same time, but any value since the
 // last barrier is valid here, because minima only decrease.
 bool mayPassDepthTest(uint index, uint near) {
@@ -118,45 +41,10 @@ bool mayPassDepthTest(uint index, uint near) {
 #endif
 }
 
-// Whether a whole work group rasterises the piece.
-bool isLarge(RasterQuad raster) {
-    float samples = float(raster.end - raster.begin) * (1.0 + raster.row_length);
-    return samples > float(kLargePieceSamples);
-}
-
-// Tests the samples of every `step`-th row from `row` on. The search for the next sample does not
-// access memory, so that invocations that run together access memory together.
-void rasterizeRows(PictureParameters picture, RasterQuad raster, int row, int step, uint piece) {
-    uint places = raster.columns ? columnPositions() : rowPositions();
-    uint samples = raster.columns ? columnSamples() : rowSamples();
-    float across = 0.0;
-    float end = -1.0;
-    float depth = 0.0;
-    row -= step;
-    while (true) {
-        while (!(across < end) && row + step < raster.end) {
-            row += step;
-            float down = (float(row) + 0.5) / float(kSamples);
-            vec4 bounds = raster.starts + raster.slopes * down;
-            float place = float(entry(places, uint(row) % kSamples)) / 16.0;
-            float begin = most(mix(vec4(-1.0), bounds, raster.lower));
-            across = max(ceil(begin - place), 0.0) + place;
-            end = least(mix(bounds, vec4(raster.size), raster.lower));
-            depth = raster.depth + raster.gradient.x * (down - raster.origin.x) +
-                    raster.gradient.y * (across - raster.origin.y);
-        }
-        if (!(across < end)) return;
-        uvec2 pixel = uvec2(uint(across), uint(row) / kSamples);
-        uint index = sampleIndex(raster.columns ? pixel.yx : pixel,
-                          entry(samples, uint(row) % kSamples));
-        uint near = nearness(clamp(depth, raster.depth_range.x, raster.depth_range.y));
-        bool passes = mayPassDepthTest(index, near);
-        if (kMergedHairs != 0 && passes) {
-            vec2 sample_place = vec2(across, (float(row) + 0.5) / float(kSamples));
-            passes = !isGap(picture, piece, raster.columns ? sample_place.yx : sample_place);
-        }
-        if (passes) testDepth(index, near, piece);
-        across += 1.0;
-        depth += raster.gradient.y;
-    }
+void takeSample(PictureParameters picture, uint piece, vec2 place, uint index, float depth) {
+    uint at = sampleIndex(uvec2(place), index);
+    uint near = nearness(depth);
+    if (!mayPassDepthTest(at, near)) return;
+    if (kMergedHairs != 0 && isGap(picture, piece, place)) return;
+    testDepth(at, near, piece);
 }
