@@ -57,7 +57,8 @@ void main() {
 
     VolumeSample vertex = Samples(volume.samples).at[index];
     vec3 moved = State(guides.positions).at[index].xyz - State(guides.previous).at[index].xyz;
-    vec3 relative = State(push.air).at[index].xyz - moved / guides.step.sub;
+    precise vec3 velocity = moved / guides.step.sub;  // as of VolumeSample without a yield stress
+    vec3 relative = State(push.air).at[index].xyz - velocity;
     float speed = length(relative);
     if (speed == 0.0) return;
     vec3 upstream = rotate(conjugate(push.frame.rotation), -relative / speed);
