@@ -237,6 +237,11 @@ const Table& tableOf(const CollisionSettings*) {
     return table;
 }
 
+bool yields(const HairHairSettings& settings) {
+    return settings.cohesion > 0.0f ||
+           (settings.friction_coefficient > 0.0f && settings.repulsion > 0.0f);
+}
+
 const Table& tableOf(const HairHairSettings*) {
     using S = HairHairSettings;
     static const Table table = tableWith<S>(
@@ -245,10 +250,19 @@ const Table& tableOf(const HairHairSettings*) {
              "fraction of the difference from the other strands' mean velocity that hair loses per "
              "1/60 s; 0.05 for loose hair to 0.5 for hair that moves as one"),
          number(
+             "friction_coefficient", &S::friction_coefficient, 0, 10, "1",
+             "Coulomb's coefficient of friction between hairs, which stick to each other up to "
+             "that part of the pressure of `repulsion`; instead of `friction`"),
+         number(
+             "cohesion", &S::cohesion, 0, 1000, "m^2/s^2",
+             "shear stress up to which hairs stick to each other without pressure, divided by the "
+             "density; over g, the height of a layer of hair that it holds on a wall; 0.05 for "
+             "dry hair with some hold to 1 for gel; instead of `friction`"),
+         number(
              "repulsion", &S::repulsion, 0, 1000, "m^2/s^2",
              "square of the speed of sound in crowded hair: its pressure divided by the density "
              "above `crowding`; 0.1 to 0.6 for hair of 15 cm; used up to half of (cell / time "
-             "step)^2"),
+             "step)^2, with friction_coefficient or cohesion up to a quarter"),
          number(
              "crowding", &S::crowding, 0.1, 100, "1",
              "density above which hair repels hair, relative to the mean density at rest"),

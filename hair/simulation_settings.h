@@ -160,9 +160,11 @@ struct CollisionSettings {
 const Table& tableOf(const CollisionSettings*);
 
 // Petrovic, Henne and Anderson 2005, Volumetric methods for simulation and rendering of hair.
-// Contact is off if friction and repulsion are 0.
+// Contact is off if friction, repulsion and cohesion are 0.
 struct HairHairSettings {
     float friction = 0.0f;
+    float friction_coefficient = 0.0f;
+    float cohesion = 0.0f;
     float repulsion = 0.0f;
     float crowding = 1.0f;
     float shelter = 0.0f;
@@ -170,6 +172,9 @@ struct HairHairSettings {
 };
 
 const Table& tableOf(const HairHairSettings*);
+
+// Whether hairs stick to each other up to a yield stress.
+bool yields(const HairHairSettings& settings);
 
 // A pose of the head: a rotation about the pivot, then a translation.
 struct Keyframe {

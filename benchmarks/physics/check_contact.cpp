@@ -110,6 +110,11 @@ void checkContactMomentum(
         {"momentum lost to friction / momentum exchanged", "1", {{"closing", kClosing, "m/s"}}},
         worstPlacement(device, settings, kClosing), kFrictionTolerance);
     settings.hair_hair.friction = 0.0f;
+    settings.hair_hair.cohesion = 0.1f;
+    findings.deviation(
+        {"momentum lost to cohesion / momentum exchanged", "1", {{"closing", kClosing, "m/s"}}},
+        worstPlacement(device, settings, kClosing), kFrictionTolerance);
+    settings.hair_hair.cohesion = 0.0f;
     settings.hair_hair.repulsion = 0.5f;
     findings.deviation(
         {"momentum lost to repulsion / momentum exchanged", "1", {}},
@@ -290,6 +295,166 @@ std::array<double, 2> slidingVelocities(Experiment& experiment) {
 
 double frictionRate(float setting) {
     return -std::log1p(-double{setting}) / hair::simulation::kReferenceStep;
+}
+
+// ---- Layers -------------------------------------------------------------------------------------
+
+// Layers of straight hair on others that are held, without weight, driven along themselves. A layer
+// of the height h on a slip surface with the stress tau rests up to the drive tau / (rho h), and
+// beyond it slides with the rest of the drive, whatever its speed. Strands are rows of vertices on
+// a lattice; each root is so far from the next vertex that it shares no cell with others.
+
+constexpr std::uint32_t kLayerFiles = 8;
+constexpr std::uint32_t kHeldLayers = 8;
+constexpr std::uint32_t kLayerVertices = 16;
+constexpr std::uint32_t kLayerGap = 8;  // spacings between the root and the next vertex
+constexpr double kLayerSpacing = 0.005;  // m
+constexpr float kLayerFriction = 5.0f;
+constexpr std::uint32_t kThinLayers = 2;
+constexpr std::uint32_t kThickLayers = 8;
+constexpr double kLayerRates[] = {60.0, 240.0};  // time steps, 1/s
+// Steps until hair slides steadily, and as many in which it is measured. Thick layers at rest need
+// longer, because each step carries stress on by a cell.
+constexpr std::uint32_t kLayerSteps = 20;
+constexpr std::uint32_t kHeldSteps = 200;
+// Distance that the greatest drive would move free layers until the end, spacings: less than a
+// cell. The weakest drive moves them by floats' rounding of 1e-8 m a hundred times in a step.
+constexpr double kLayerWay = 1.5;
+// Drives over that at which the slip surface yields. hair_hair.h has the stress's error on a grid.
+constexpr double kLayerDrives[] = {0.8, 1.25, 2.5};
+constexpr double kStressTolerance = 0.12;
+// Its elastic stress needs some steps to balance the drive.
+constexpr double kHeldTolerance = 0.01;
+
+struct Layers {
+    std::uint32_t free;  // layers that move
+    double rate;  // 1/s
+    bool pressed;  // friction in hair under pressure, instead of cohesion
+    std::uint32_t held_steps;
+};
+
+hair::groom::Groom layersOf(std::uint32_t free) {
+    hair::groom::Groom groom{
+        .strand_count = (kHeldLayers + free) * kLayerFiles,
+        .vertices_per_strand = kLayerVertices + 1};
+    for (std::uint32_t layer = 0; layer < kHeldLayers + free; ++layer)
+        for (std::uint32_t file = 0; file < kLayerFiles; ++file)
+            for (std::uint32_t i = 0; i <= kLayerVertices; ++i) {
+                const std::uint32_t along = i == 0 ? 0 : kLayerGap + i - 1;
+                groom.points.emplace_back(
+                    kLayerSpacing * along, kLayerSpacing * layer, kLayerSpacing * file);
+            }
+    return groom;
+}
+
+// The mean of 1 - crowded / share over the places where both bodies of hair touch: cells, by the
+// product of both bodies' shares over their sum. `first`: vertices of the first body.
+double crowdingBetween(
+    const hair::groom::Groom& groom, std::size_t first, const hair::HairHairSettings& settings) {
+    const hair::simulation::VolumeGrid grid =
+        hair::simulation::volumeGrid(groom, settings.resolution);
+    const std::vector<double> shares = hair::simulation::lengthShares(groom);
+    const double crowded =
+        double{settings.crowding} * hair::simulation::meanRestDensity(groom, grid);
+    const auto spline = [](double t) {
+        const double tail = std::max(1.5 - std::abs(t), 0.0);
+        return std::abs(t) < 0.5 ? 0.75 - t * t : 0.5 * tail * tail;
+    };
+    const std::size_t side = grid.resolution;
+    std::vector<std::array<double, 2>> cells(side * side * side);
+    for (std::size_t p = 0; p < groom.points.size(); ++p) {
+        const glm::dvec3 point = (glm::dvec3(groom.points[p]) - grid.origin) / grid.cell;
+        const glm::ivec3 middle(point);
+        for (int i = 0; i < 27; ++i) {
+            const glm::ivec3 cell = middle + glm::ivec3(i % 3 - 1, i / 3 % 3 - 1, i / 9 - 1);
+            const glm::dvec3 away = point - glm::dvec3(cell) - 0.5;
+            cells[(cell.z * side + cell.y) * side + cell.x][p < first ? 0 : 1] +=
+                shares[p] * spline(away.x) * spline(away.y) * spline(away.z);
+        }
+    }
+    double sum = 0.0;
+    double weights = 0.0;
+    for (const auto& [a, b] : cells) {
+        if (a <= 0.0 || b <= 0.0) continue;
+        weights += a * b / (a + b);
+        sum += a * b / (a + b) * std::max(1.0 - crowded / (a + b), 0.0);
+    }
+    return sum / weights;
+}
+
+void compareLayers(
+    const engine::Device& device, const CheckedSolver& solver, const Layers& layers,
+    Findings& findings) {
+    const hair::groom::Groom groom = layersOf(layers.free);
+    const std::size_t held_vertices =
+        std::size_t{kHeldLayers} * kLayerFiles * groom.vertices_per_strand;
+    hair::SimulationSettings settings = freeHair(solver);
+    settings.local.stiffness = 0.0f;
+    settings.length.iterations = 0;
+    settings.substeps = 1;
+    settings.time_step = static_cast<float>(1.0 / layers.rate);
+    settings.hair_hair.resolution = 40;
+    settings.hair_hair.crowding = 0.1f;
+    const double height = layers.free * kLayerSpacing;
+    const double time = 2.0 * (kLayerSteps + 1) / layers.rate;
+    const double wanted =
+        2.0 * kLayerWay * kLayerSpacing / (time * time) * height / kLayerDrives[2];  // m^2/s^2
+    if (layers.pressed) {
+        settings.hair_hair.friction_coefficient = kLayerFriction;
+        settings.hair_hair.repulsion = static_cast<float>(wanted) / kLayerFriction;
+    } else {
+        settings.hair_hair.cohesion = static_cast<float>(wanted);
+    }
+    const double strength = double{settings.hair_hair.cohesion} +
+                            double{settings.hair_hair.repulsion} *
+                                double{settings.hair_hair.friction_coefficient} *
+                                crowdingBetween(groom, held_vertices, settings.hair_hair);
+    std::vector<std::uint32_t> held(held_vertices);
+    std::iota(held.begin(), held.end(), 0u);
+    const std::vector<double> shares = hair::simulation::lengthShares(groom);
+    // The mean velocity of free hair along the drive in the next step.
+    const auto speed = [&](Experiment& experiment) {
+        const std::vector<glm::dvec3> before = experiment.positions();
+        experiment.advance(1);
+        const std::vector<glm::dvec3> after = experiment.positions();
+        double moved = 0.0;
+        double whole = 0.0;
+        for (std::size_t i = held_vertices; i < shares.size(); ++i) {
+            if (i % groom.vertices_per_strand == 0) continue;
+            moved += shares[i] * (after[i].x - before[i].x);
+            whole += shares[i];
+        }
+        return moved / whole / experiment.timeStep();
+    };
+    for (const double part : kLayerDrives) {
+        const double drive = part * strength / height;
+        settings.gravity = {static_cast<float>(drive), 0.0f, 0.0f};
+        Experiment experiment(device, groom, settings);
+        experiment.pin(held);
+        const std::vector<Parameter> with{
+            {"layers", static_cast<double>(layers.free), "count"},
+            {"cohesion", settings.hair_hair.cohesion, "m^2/s^2"},
+            {"repulsion", settings.hair_hair.repulsion, "m^2/s^2"},
+            {"time_step", 1.0 / layers.rate, "s"},
+            {"drive", part, "1"}};
+        if (part < 1.0) {
+            experiment.advance(layers.held_steps);
+            findings.deviation(
+                {"speed of hair that cohesion or friction holds / its free speed", "1", with},
+                std::abs(speed(experiment)) /
+                    (drive * (layers.held_steps + 1) * experiment.timeStep()),
+                kHeldTolerance);
+            continue;
+        }
+        experiment.advance(kLayerSteps);
+        const double last = speed(experiment);
+        experiment.advance(kLayerSteps);
+        const double later = speed(experiment);
+        const double acceleration = (later - last) / ((kLayerSteps + 1) * experiment.timeStep());
+        findings.compare(
+            {"stress on a slip surface between hairs / density", "m^2/s^2", with},
+            (drive - acceleration) * height, strength, kStressTolerance);
+    }
 }
 
 // ---- Slide --------------------------------------------------------------------------------------
@@ -544,6 +709,17 @@ void checkStickSlip(const engine::Device& device, const CheckedSolver& solver, F
              "1",
              {{"compression", theory ? theory->compression : kNothing, "1"}}},
             off, promised(kPressedTolerance));
+    }
+}
+
+void checkHairFriction(
+    const engine::Device& device, const CheckedSolver& solver, Findings& findings) {
+    if (const auto why = lack(solver, Need::free_vertices)) return findings.skip(*why);
+    for (const double rate : kLayerRates) {
+        compareLayers(device, solver, {kThinLayers, rate, false, kLayerSteps}, findings);
+        compareLayers(device, solver, {kThickLayers, rate, false, kHeldSteps}, findings);
+        // Pressure parts the layers; it has no time for more than a tenth of a cell.
+        compareLayers(device, solver, {kThinLayers, rate, true, kLayerSteps}, findings);
     }
 }
 

@@ -307,6 +307,7 @@ constexpr Check kChecks[] = {
     {"stick_slip", checkStickSlip},
     {"slide", checkSlide},
     {"contact_momentum", checkContactMomentum},
+    {"hair_friction", checkHairFriction},
     {"friction_invariance", checkFrictionInvariance},
     {"length", checkLength},
     {"energy", checkEnergy},

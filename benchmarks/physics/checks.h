@@ -234,6 +234,8 @@ void checkStickSlip(const engine::Device&, const CheckedSolver&, Findings&);
 void checkSlide(const engine::Device&, const CheckedSolver&, Findings&);
 // Momentum lost by contact of hair with hair.
 void checkContactMomentum(const engine::Device&, const CheckedSolver&, Findings&);
+// Layers of hair on hair that friction or cohesion holds, and the stress when they slide.
+void checkHairFriction(const engine::Device&, const CheckedSolver&, Findings&);
 // Sliding speed of hair past hair, at any time step.
 void checkFrictionInvariance(const engine::Device&, const CheckedSolver&, Findings&);
 

@@ -134,6 +134,11 @@ Broken solverKeepsSegmentsOut(const hair::Settings& s) {
     }
 }
 
+Broken hairHasOneFriction(const hair::Settings& s) {
+    if (!hair::yields(s.simulation.hair_hair) || s.simulation.hair_hair.friction == 0.0f) return {};
+    return "is above 0, but friction_coefficient or cohesion takes its place";
+}
+
 Broken keyframesAscend(const hair::Settings& s) {
     const auto& keys = s.simulation.motion.keyframes;
     const auto late =
@@ -296,6 +301,7 @@ constexpr Rule kRules[] = {
     {"/simulation/material/ellipticity", solverHasEllipticSections},
     {"/simulation/collision/warm_start", solverCarriesContact},
     {"/simulation/collision/parts", solverKeepsSegmentsOut},
+    {"/simulation/hair_hair/friction", hairHasOneFriction},
     {"/simulation/wind/direction", windHasDirection},
     {"/simulation/motion/keyframes", keyframesAscend},
     {"/simulation/pulls", pullKeysAscend},

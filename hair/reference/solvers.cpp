@@ -532,7 +532,8 @@ void Reference::advance(Air air, double then) {
         .previous = previous_,
         .step = step_,
         .frame = motion_.at(then),
-        .kept = &friction_kept_};
+        .kept = &friction_kept_,
+        .frame_before = motion_.at(time())};
     std::vector<glm::dvec3> accelerations = air.accelerations;
     if (!air.velocities.empty()) {
         shelterAir(settings_, volume, air.velocities);

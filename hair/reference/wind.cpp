@@ -245,6 +245,8 @@ using Cell = std::array<int, 3>;
 struct Sum {
     double share = 0.0;
     glm::dvec3 momentum{0.0};
+    double away = 0.0;  // share times the distance from the mean, m/s, by addSpreads()
+    double away_squared = 0.0;
 };
 
 using Grid = std::map<Cell, Sum>;
@@ -352,6 +354,20 @@ Grid splat(
     return grid;
 }
 
+void addSpreads(
+    Grid& grid, std::span<const glm::dvec3> points, std::span<const glm::dvec3> velocities,
+    std::span<const double> shares) {
+    for (std::size_t p = 0; p < points.size(); ++p)
+        for (const Cell& cell : cellsRound(points[p])) {
+            Sum& sum = grid[cell];
+            if (sum.share <= 0.0) continue;
+            const double away = glm::distance(velocities[p], sum.momentum / sum.share);
+            const double part = weight(cell, points[p]) * shares[p];
+            sum.away += part * away;
+            sum.away_squared += part * away * away;
+        }
+}
+
 Sum at(const Grid& grid, const Cell& cell) {
     const auto found = grid.find(cell);
     return found == grid.end() ? Sum{} : found->second;
@@ -397,6 +413,41 @@ lengthInside(const glm::dvec3& point, const glm::dvec3& direction, const glm::dv
         last = std::min(last, std::max(a, b));
     }
     return std::max(last - first, 0.0);
+}
+
+// Hair that sticks up to a yield stress. Returns the elastic displacement in a step, m/s, without
+// flow in this step, and the potential, both in the head's axes.
+struct Elastic {
+    std::vector<glm::dvec3> displacements;
+    std::vector<glm::dvec3> potentials;
+};
+
+Elastic elasticAt(const VolumeState& state) {
+    const auto onHead = [](const simulation::RigidMotion& frame, const glm::dvec3& point) {
+        return glm::inverse(frame.rotation) * (point - frame.translation);
+    };
+    const std::vector<glm::dvec3> velocities = state.velocities();
+    Elastic elastic;
+    for (std::size_t i = 0; i < velocities.size(); ++i) {
+        const glm::dvec3 later = state.positions[i] + state.step.whole * velocities[i];
+        const glm::dvec3 velocity =
+            (onHead(state.frame, later) - onHead(state.frame_before, state.positions[i])) /
+            state.step.whole;
+        const bool known = state.kept != nullptr && !state.kept->empty();
+        elastic.displacements.push_back(known ? (*state.kept)[i] + velocity : glm::dvec3(0.0));
+        elastic.potentials.push_back(elastic.displacements.back() + velocity);
+    }
+    return elastic;
+}
+
+// Returns phi of a cell: its yield stress over the density, m^2/s^2, transmits a jump of the
+// potential that is a mean of what a slip surface and an even slope need. `speed`: cells per step.
+double heldPart(const Sum& sum, double strength, double speed) {
+    if (sum.away <= 0.0) return 1.0;
+    const double mean = sum.away / sum.share;
+    const double jump = std::max(2.0 * sum.away_squared / sum.away, 2.0 * mean);
+    const double yield = 0.5 * (840.0 / 239.0 + 64.0 / 13.0) * strength / speed;
+    return std::min(1.0, yield / jump);
 }
 
 }  // namespace
@@ -446,7 +497,8 @@ std::vector<glm::dvec3>
 volumeAccelerations(const SimulationSettings& settings, const VolumeState& state) {
     const HairHairSettings& contact = settings.hair_hair;
     std::vector<glm::dvec3> accelerations(state.positions.size(), glm::dvec3(0.0));
-    if (contact.friction == 0.0f && contact.repulsion == 0.0f) return accelerations;
+    const bool sticks = yields(contact);
+    if (contact.friction == 0.0f && contact.repulsion == 0.0f && !sticks) return accelerations;
 
     const double step = state.step.whole;
     const Box box = boxOf(state, contact.resolution);
@@ -461,11 +513,21 @@ volumeAccelerations(const SimulationSettings& settings, const VolumeState& state
             : 0.0;
     std::vector<glm::dvec3> left;
     const double repulsion =
-        std::min(double(contact.repulsion), 0.5 * (box.cell / step) * (box.cell / step));
+        std::min(double(contact.repulsion), (sticks ? 0.25 : 0.5) * std::pow(box.cell / step, 2.0));
 
-    const std::vector<glm::dvec3> velocities = state.velocities();
+    std::vector<glm::dvec3> velocities = state.velocities();
     const std::vector<glm::dvec3> points = pointsInCells(state, box, velocities);
-    const Grid all = splat(points, velocities, shares);
+    if (sticks) {
+        Elastic elastic = elasticAt(state);
+        left = std::move(elastic.displacements);
+        velocities = std::move(elastic.potentials);
+    }
+    Grid all = splat(points, velocities, shares);
+    if (sticks) addSpreads(all, points, velocities, shares);
+    const auto strength = [&](double share) {
+        return double{contact.cohesion} + double{contact.friction_coefficient} * repulsion *
+                                              std::max(1.0 - crowded / share, 0.0);
+    };
 
     const std::size_t vertices = state.vertices;
     for (std::size_t first = 0; first < points.size(); first += vertices) {
@@ -478,23 +540,32 @@ volumeAccelerations(const SimulationSettings& settings, const VolumeState& state
         };
         for (std::size_t p = first; p < first + vertices; ++p) {
             glm::dvec3 drag(0.0);
+            glm::dvec3 held(0.0);
             glm::dvec3 push(0.0);
             for (const Cell& cell : cellsRound(points[p])) {
                 const double part = weight(cell, points[p]);
                 const Sum whole = at(all, cell);
                 const Sum mine = at(own, cell);
                 if (whole.share <= 0.0) continue;
-                drag +=
+                const glm::dvec3 pull =
                     part *
                     (whole.momentum - mine.momentum - (whole.share - mine.share) * velocities[p]) /
                     whole.share;
+                drag += pull;
+                if (sticks) held += heldPart(whole, strength(whole.share), box.cell / step) * pull;
                 push -= (potential(whole.share) - potential(mine.share)) / box.cell *
                         weightGradient(cell, points[p]);
             }
             drag /= 2.0;
+            held /= 2.0;
             push /= 2.0;
             const double greatest = box.cell / (step * step);
             if (glm::length(push) > greatest) push *= greatest / glm::length(push);
+            if (sticks) {
+                left[p] += drag - held;
+                accelerations[p] = state.frame.rotation * (held / step + push);
+                continue;
+            }
             const bool known = state.kept != nullptr && !state.kept->empty();
             const glm::dvec3 driven = known ? drag - (*state.kept)[p] : glm::dvec3(0.0);
             const glm::dvec3 friction = (1.0 - decay) * drag + predicted * driven;

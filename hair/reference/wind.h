@@ -91,9 +91,11 @@ struct VolumeState {
     std::span<const glm::dvec3> previous;  // m, a substep earlier
     Step step;
     simulation::RigidMotion frame;  // of the head at the end of the step
-    // Velocity difference of each vertex that friction left in the previous step, m/s; becomes
-    // that of this step. Empty: no previous step. Null: not wanted.
+    // Velocity difference of each vertex that friction left in the previous step, m/s, or with a
+    // yield stress the elastic displacement in a step, in the head's axes; becomes that of this
+    // step. Empty: no previous step. Null: not wanted.
     std::vector<glm::dvec3>* kept = nullptr;
+    simulation::RigidMotion frame_before;  // of the head at the start of the step
 
     std::vector<glm::dvec3> velocities() const;  // [strand][vertex], m/s
 };

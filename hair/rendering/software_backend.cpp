@@ -286,7 +286,7 @@ SoftwareBackend::SoftwareBackend(const BackendContext& context)
           context.device, texelStage(context, "pyramid.comp", 1, pixelGroup(context.device))),
       cull_(context.device, texelStage(context, "cull.comp", 2, group_, block_)),
       rasterize_(context.device, texelStage(context, "raster.comp", 2, group_)),
-      rasterize_large_(context.device, texelStage(context, "raster_large.comp", 2, group_)) {
+      rasterize_large_(context.device, texelStage(context, "raster.comp+large", 2, group_)) {
     const engine::MemoryRows rows =
         softwareRows(context.device, context.target->description(), context.strands, context.plan);
     counts_ = {context.device, rows["software counts"]};

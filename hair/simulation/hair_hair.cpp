@@ -10,6 +10,7 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
+#include "engine/error.h"
 #include "engine/transfer.h"
 #include "hair/simulation/stiffness.h"
 
@@ -23,6 +24,7 @@ static_assert(sizeof(gpu::VolumeParameters) == 88 && offsetof(gpu::VolumeParamet
 static_assert(sizeof(gpu::VolumeBlock) == 8);
 static_assert(sizeof(gpu::VolumePush) == 52);
 static_assert(sizeof(gpu::ShelterPush) == 72);
+static_assert(sizeof(gpu::YieldPush) == 96 && offsetof(gpu::YieldPush, frame_before) == 60);
 
 // Reach of the grids beyond the roots, over the longest strand's length. The thesis's length
 // constraint lets strands stretch.
@@ -34,6 +36,10 @@ constexpr double kGreatestPush = 1.0;
 constexpr double kMostPredicted = 0.75;
 // Largest repulsion in use, over (cell / step)^2.
 constexpr double kGreatestRepulsion = 0.5;
+constexpr double kGreatestRepulsionInYield = 0.25;
+// Jump of the potential at which hair yields, over yield stress / density * step / cell: the mean
+// of the values for a sharp jump and for an even slope.
+constexpr double kYieldJump = 0.5 * (840.0 / 239.0 + 64.0 / 13.0);
 
 double strandLength(std::span<const glm::vec3> strand) {
     double length = 0.0;
@@ -90,6 +96,12 @@ Friction frictionIn(const HairHairSettings& contact, double step) {
     return {.settled = settled, .predicted = std::min(1.0 - settled / (rate * step), most)};
 }
 
+// Returns the repulsion in use, m^2/s^2.
+double repulsionIn(const HairHairSettings& contact, double cell, double step) {
+    const double greatest = yields(contact) ? kGreatestRepulsionInYield : kGreatestRepulsion;
+    return std::min(double{contact.repulsion}, greatest * (cell / step) * (cell / step));
+}
+
 // Returns the parameters without addresses.
 gpu::VolumeParameters
 parametersOf(const groom::Groom& groom, const SimulationSettings& settings, const gpu::Step& step) {
@@ -98,8 +110,6 @@ parametersOf(const groom::Groom& groom, const SimulationSettings& settings, cons
     const double whole = step.whole;
     const Friction friction = frictionIn(contact, whole);
     const double fastest = grid.cell / whole;  // m/s, stays within a cell
-    const double repulsion =
-        std::min(double{contact.repulsion}, kGreatestRepulsion * fastest * fastest);
     return {
         .origin = grid.origin,
         .cell = static_cast<float>(grid.cell),
@@ -108,12 +118,25 @@ parametersOf(const groom::Groom& groom, const SimulationSettings& settings, cons
         .settled = static_cast<float>(friction.settled),
         .predicted = static_cast<float>(friction.predicted),
         .per_step = static_cast<float>(1.0 / whole),
-        .repulsion = static_cast<float>(repulsion / grid.cell),
+        .repulsion = static_cast<float>(repulsionIn(contact, grid.cell, whole) / grid.cell),
         .greatest_repulsion = static_cast<float>(kGreatestPush * fastest / whole)};
 }
 
+// Returns the part that is constant in a simulation's life.
+gpu::YieldPush
+yieldOf(const groom::Groom& groom, const HairHairSettings& contact, const gpu::Step& step) {
+    const double cell = volumeGrid(groom, contact.resolution).cell;
+    const double whole = step.whole;
+    const double jump = kYieldJump * whole / cell;
+    gpu::YieldPush push{};
+    push.pressed = static_cast<float>(
+        jump * double{contact.friction_coefficient} * repulsionIn(contact, cell, whole));
+    push.cohesive = static_cast<float>(jump * double{contact.cohesion});
+    return push;
+}
+
 bool touches(const HairHairSettings& settings) {
-    return settings.friction > 0.0f || settings.repulsion > 0.0f;
+    return settings.friction > 0.0f || settings.repulsion > 0.0f || yields(settings);
 }
 
 double lengthOf(const groom::Groom& groom) {
@@ -150,8 +173,14 @@ std::string slices(const engine::Device& device) {
     return device.info().type == engine::DeviceType::cpu ? "" : "+slices";
 }
 
+// Returns the variant of shaders that add a vertex to all cells round it.
+std::string perCell(const engine::Device& device) {
+    return slices(device) + (isPacked(device) ? "+packed" : "");
+}
+
+template <class Push = gpu::VolumePush>
 engine::ComputePipeline pipeline(const engine::Device& device, const std::string& shader) {
-    return {device, {.shader = shader, .push_size = sizeof(gpu::VolumePush)}};
+    return {device, {.shader = shader, .push_size = sizeof(Push)}};
 }
 
 }  // namespace
@@ -215,7 +244,7 @@ double meanRestDensity(const groom::Groom& groom, const VolumeGrid& grid) {
 engine::MemoryRows
 HairHair::rows(const groom::GroomSize& size, const SimulationSettings& settings) {
     const std::uint64_t vertices = size.vertices();
-    return {
+    engine::MemoryRows rows{
         "simulation",
         {{"volume shares", engine::bytesOf<float>(vertices)},
          {"volume samples", engine::bytesOf<gpu::VolumeSample>(vertices)},
@@ -224,19 +253,35 @@ HairHair::rows(const groom::GroomSize& size, const SimulationSettings& settings)
          {"volume parameters", sizeof(gpu::VolumeParameters)},
          {"volume kept", engine::bytesOf<glm::vec4>(vertices)},
          {"settled state", engine::bytesOf<glm::vec4>(vertices)}}};
+    if (yields(settings.hair_hair))
+        rows.add(
+            {"simulation", {{"volume spreads", engine::bytesOf<glm::uvec2>(cellCount(settings))}}});
+    return rows;
 }
 
 HairHair::HairHair(
     const engine::Device& device, const groom::Groom& groom, const SimulationSettings& settings,
     const gpu::Step& step)
     : vertex_count_(static_cast<std::uint32_t>(groom.points.size())),
+      yield_(yieldOf(groom, settings.hair_hair, step)),
       area_per_share_(areaPerShare(groom, settings)),
-      sample_(pipeline(device, "simulation/volume_sample.comp")),
-      splat_(pipeline(
-          device,
-          "simulation/volume_splat.comp" + slices(device) + (isPacked(device) ? "+packed" : ""))) {
-    if (touches(settings.hair_hair))
+      sample_(
+          yields(settings.hair_hair)
+              ? pipeline<gpu::YieldPush>(device, "simulation/volume_sample.comp+yield")
+              : pipeline(device, "simulation/volume_sample.comp")),
+      splat_(pipeline(device, "simulation/volume_splat.comp" + perCell(device))) {
+    if (yields(settings.hair_hair) && settings.hair_hair.friction > 0.0f)
+        throw engine::Error(
+            "/simulation/hair_hair/friction",
+            "is above 0, but friction_coefficient or cohesion takes its place");
+    if (yields(settings.hair_hair)) {
+        spread_.emplace(
+            pipeline<gpu::YieldPush>(device, "simulation/volume_spread.comp" + perCell(device)));
+        force_.emplace(pipeline<gpu::YieldPush>(
+            device, "simulation/volume_force.comp" + slices(device) + "+yield"));
+    } else if (touches(settings.hair_hair)) {
         force_.emplace(pipeline(device, "simulation/volume_force.comp" + slices(device)));
+    }
     if (settings.hair_hair.shelter > 0.0f)
         shelter_.emplace(
             device,
@@ -248,6 +293,7 @@ HairHair::HairHair(
     sums_ = {device, rows["volume sums"]};
     blocks_ = {device, rows["volume blocks"]};
     kept_ = {device, rows["volume kept"]};
+    if (spread_) spreads_.emplace(device, rows["volume spreads"]);
     gpu::VolumeParameters parameters = parametersOf(groom, settings, step);
     parameters.shares = shares_.address();
     parameters.samples = samples_.address();
@@ -278,6 +324,7 @@ void HairHair::recordShelter(
                        .drag_along = air.along});
     commands.uses(
         {{guides.positions, Access::compute_read},
+         {guides.previous, Access::compute_read},
          {samples_, Access::compute_read},
          {blocks_, Access::compute_read},
          {sums_, Access::compute_read}});
@@ -285,8 +332,8 @@ void HairHair::recordShelter(
 }
 
 void HairHair::record(
-    engine::Commands& commands, const GuideAddresses& guides, const RigidMotion& later,
-    const AirAtGuides& air) const {
+    engine::Commands& commands, const GuideAddresses& guides, const RigidMotion& now,
+    const RigidMotion& later, const AirAtGuides& air) const {
     // Air without density takes no momentum.
     const bool shelters = shelter_ && air.velocities && air.drag.inertial > 0.0f;
     if (!shelters && !force_) return;
@@ -294,8 +341,19 @@ void HairHair::record(
         .guides = guides.parameters, .volume = parameters_.address(), .frame = toGpu(later)};
     commands.fill(sums_, 0);
     commands.fill(blocks_, 0);
+    if (spread_) commands.fill(*spreads_, 0);
 
-    commands.bind(sample_, push);
+    gpu::YieldPush yield = yield_;
+    if (spread_) {
+        yield.guides = push.guides;
+        yield.volume = push.volume;
+        yield.frame = push.frame;
+        yield.frame_before = toGpu(now);
+        commands.bind(sample_, yield);
+        commands.uses({{kept_, Access::compute_write}});
+    } else {
+        commands.bind(sample_, push);
+    }
     commands.uses(
         {{guides.positions, Access::compute_read},
          {guides.previous, Access::compute_read},
@@ -312,8 +370,22 @@ void HairHair::record(
 
     if (shelters) recordShelter(commands, guides, later, air);
     if (!force_) return;
-    push.accelerations = commands.writes(guides.accelerations);
-    commands.bind(*force_, push);
+    if (spread_) {
+        yield.spreads = commands.writes(*spreads_);
+        commands.bind(*spread_, yield);
+        commands.uses(
+            {{samples_, Access::compute_read},
+             {blocks_, Access::compute_read},
+             {sums_, Access::compute_read}});
+        commands.dispatchInvocations(vertex_count_, gpu::kGuideGroupSize);
+
+        yield.spreads = commands.reads(*spreads_);
+        yield.accelerations = commands.writes(guides.accelerations);
+        commands.bind(*force_, yield);
+    } else {
+        push.accelerations = commands.writes(guides.accelerations);
+        commands.bind(*force_, push);
+    }
     commands.uses(
         {{samples_, Access::compute_read},
          {blocks_, Access::compute_read},

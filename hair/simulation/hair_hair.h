@@ -69,6 +69,38 @@ bool hairActsOnHair(const SimulationSettings& settings);
 // repulsion, stays stable beside friction for w^2 < 2 (2 - s) / (1 + f). With repulsion, f is
 // limited to 1 - s, at r dt = 1, so that this bound is never below 2.
 //
+// With a yield stress, hairs stick to each other like a granular medium with cohesion (Mohr and
+// Coulomb; Jiang, Gast and Teran 2017, Anisotropic elastoplasticity for cloth, knit and hair
+// frictional contact). The shear stress is at most
+//     tau = mu P + c = rho (mu k (1 - crowded / m_i) + c / rho),
+// with the pressure P of repulsion, the density rho of hair, `friction_coefficient` mu and
+// `cohesion` c / rho. Below it hair rests; above it hair slides, at any speed, against this stress.
+// Friction has a potential y_p in place of the velocity, and in a step changes the velocity of
+// vertex p by
+//     j_p = sum_i phi_i w_pi (y_i - y_p),    y_p = z_p + v_p,
+// again without pairs of vertices on one strand. z_p dt is an elastic displacement: z grows by v_p
+// in each step, and where hair yields it flows by sum_i (1 - phi_i) w_pi (y_i - y_p). Without yield
+// (phi = 1), everything that acts on hair at rest is balanced by friction exactly, since z is an
+// integral: a mode of which friction removes the part a has the eigenvalues' product 1 - a and sum
+// 2 - 2 a, and comes to rest for each a in (0, 1]. Beside an explicit spring of stiffness w^2 /
+// dt^2 it does so for w^2 < 4 - 3 a, so repulsion is used up to a quarter of (cell / dt)^2 only.
+// phi_i belongs to a cell and is the same for both vertices of a pair, so momentum is conserved to
+// rounding, in yield, too. v_p is relative to the head: hair that turns with it feels nothing.
+//
+// With a jump Y of y between two half-spaces, cells that hold the part F of one transmit the stress
+// sum_i phi_i F_i (1 - F_i) rho cell Y / dt per area, which is phi rho cell Y / dt times half of
+// the mean distance of two points in two splines, 239 / 840. A cell knows Y = 2 V / A from the mean
+// distance A of y_p from its mean y_i and the mean square V, because a jump has A = 2 F (1 - F) Y
+// and V = F (1 - F) Y^2: the same Y, and thus the same phi, for each F. So all cells of a slip
+// surface yield at once, and hair that is driven by less rests. phi = Y_c / Y with
+//     Y_c = q dt / cell tau / rho
+// transmits tau across a jump if q = 840 / 239 = 3.51; across an even slope of y, for which A is 13
+// / 32 of the slope and V a quarter of its square, if q = 64 / 13 = 4.92. Hair that slides on hair
+// is between the two, and q is their mean. In layers of one vertex to six cells, the stress is then
+// 0.90 to 1.05 of tau, at rest and in motion (check `hair_friction`).
+//
+// Friction resists every relative motion of hairs, also towards and away from each other.
+//
 // Repulsion is the pressure k (m_i - crowded), if positive, of a gas with the speed of sound
 // sqrt(k). Its energy E(m_i) has the slope E' = k ln(m_i / crowded). The part that each strand
 // would have alone is subtracted:
@@ -114,11 +146,11 @@ public:
     static engine::MemoryRows
     rows(const groom::GroomSize& size, const SimulationSettings& settings);
 
-    // Slows `air`, and adds the accelerations of the next step. `later` is the head's motion at its
-    // end.
+    // Slows `air`, and adds the accelerations of the next step. `now` and `later` are the head's
+    // motions at its start and end.
     void record(
-        engine::Commands& commands, const GuideAddresses& guides, const RigidMotion& later,
-        const AirAtGuides& air = {}) const;
+        engine::Commands& commands, const GuideAddresses& guides, const RigidMotion& now,
+        const RigidMotion& later, const AirAtGuides& air = {}) const;
 
     // Makes the next step ignore the previous one, after other code wrote the positions.
     void forget(const engine::Device& device);
@@ -137,15 +169,18 @@ private:
         const AirAtGuides& air) const;
 
     std::uint32_t vertex_count_;
+    gpu::YieldPush yield_{};  // without addresses of guides and frames
     double area_per_share_;  // gpu::ShelterPush
     engine::Buffer shares_;
     engine::Buffer samples_;
     engine::Buffer sums_;
     engine::Buffer blocks_;
+    std::optional<engine::Buffer> spreads_;  // gpu::YieldPush, if hair yields
     engine::Buffer parameters_;  // gpu::VolumeParameters
     engine::Buffer kept_;  // vec4 [strand][vertex]
     engine::ComputePipeline sample_;
     engine::ComputePipeline splat_;
+    std::optional<engine::ComputePipeline> spread_;  // if hair yields
     std::optional<engine::ComputePipeline> shelter_;  // if hair shelters hair
     std::optional<engine::ComputePipeline> force_;  // if hair touches hair
 };

@@ -233,7 +233,7 @@ void Simulation::recordWind(engine::Commands& commands) const {
 void Simulation::recordVolume(engine::Commands& commands) const {
     if (hair_hair_)
         hair_hair_->record(
-            commands, addresses(), poseAt(time() + double{step_.whole}), wind_.air());
+            commands, addresses(), pose(), poseAt(time() + double{step_.whole}), wind_.air());
 }
 
 void Simulation::recordForce(engine::Commands& commands) const {
@@ -320,7 +320,8 @@ void Simulation::settle(std::uint32_t steps) {
         runOnce(*device_, [&](engine::Commands& commands) {
             for (std::uint32_t i = 0; i < batch; ++i) {
                 wind_.recordCalm(commands, addresses());
-                if (hair_hair_) hair_hair_->record(commands, addresses(), pose(), wind_.air());
+                if (hair_hair_)
+                    hair_hair_->record(commands, addresses(), pose(), pose(), wind_.air());
                 recordFollow(commands, time(), time());
                 recordSubsteps(commands, step_.count, current_, time(), time());
             }

@@ -28,7 +28,7 @@ const uint kVolumeMargin = 2u;
 struct VolumeSample {
     vec3 point;     // position at the end of the step at constant velocity, cells
     float share;    // of the groom's length; it serves as the mass here
-    vec3 velocity;  // m/s, world axes
+    vec3 velocity;  // m/s, world axes; with a yield stress: YieldPush
     float unused;
 };
 
@@ -49,7 +49,8 @@ struct VolumeParameters {
     float greatest_repulsion;  // m/s^2
     uint borrows;  // 1: the last component of a sum lacks 1 if the third is negative
     Address kept;  // vec4 [strand][vertex]: velocity difference that friction left in the step
-                   // before, m/s; w = 1 if there was one, else 0
+                   // before, m/s; with a yield stress the elastic displacement in a step, m/s; w =
+                   // 1 if there was a step before, else 0
 };
 
 // Push constants of every pass of the grid.
@@ -59,6 +60,24 @@ struct VolumePush {
     Address accelerations;  // m/s^2, added to by simulation/volume_force.comp
     RigidFrame frame;  // of the head at the end of the step
 };
+
+// Push constants of passes of the grid where hairs stick to each other up to a yield stress, except
+// simulation/volume_splat.comp. VolumeSample::velocity is then the stress's potential: the elastic
+// displacement in a step plus the velocity relative to the head, m/s, in the head's axes.
+struct YieldPush {
+    Address guides;  // GuideParameters
+    Address volume;  // VolumeParameters
+    Address accelerations;  // m/s^2, added to by simulation/volume_force.comp+yield
+    Address spreads;  // uint [grid][z][y][x][2], fixed point of the block: share times the distance
+                      // of the potential from the cell's mean, and times its square
+    RigidFrame frame;  // of the head at the end of the step
+    RigidFrame frame_before;  // of the head at its start
+    float pressed;  // jump of the potential at which hair yields under infinite crowding, m/s
+    float cohesive;  // that without pressure, m/s
+};
+
+// A distance of potentials in units of VolumeBlock::fastest's power of two is below this.
+const float kVolumeSpreadRange = 4.0;
 
 // Push constants of simulation/volume_shelter.comp.
 struct ShelterPush {

@@ -14,6 +14,14 @@
 layout(buffer_reference, scalar) readonly buffer VolumeReference { VolumeParameters parameters; };
 layout(buffer_reference, scalar) buffer Samples { VolumeSample at[]; };
 layout(buffer_reference, scalar) buffer Blocks { VolumeBlock at[]; };
+layout(buffer_reference, scalar) readonly buffer Cells { ivec4 at[]; };
+
+// Returns share and momentum of a cell, in its block's fixed point.
+ivec4 sumAt(VolumeParameters volume, uint cell) {
+    ivec4 sum = Cells(volume.sums).at[cell];
+    if (volume.borrows == 1 && sum.z < 0) ++sum.w;
+    return sum;
+}
 
 // A vertex is spread over the 27 cells round its own, its stencil. The block after VISIT_SLICES(z)
 // visits kSlices slices of it from z, a slice being the 3 x 3 cells with one z: all three, so that

@@ -1,22 +1,29 @@
 #version 460
 // Adds friction and repulsion from the grids to every guide vertex's acceleration; hair_hair.h has
-// the equations. One invocation per vertex.
+// the equations. One invocation per vertex. With HAIRBENCH_YIELD, friction holds up to a yield
+// stress.
 #extension GL_GOOGLE_include_directive : require
 
 #include "simulation/volume.glsl"
 
 layout(local_size_x = kGuideGroupSize) in;
 
-layout(push_constant, scalar) uniform Push { VolumePush push; };
+#ifdef HAIRBENCH_YIELD
+layout(push_constant, scalar) uniform Push { YieldPush push; };
+layout(buffer_reference, scalar) readonly buffer Spreads { uvec2 at[]; };
 
-layout(buffer_reference, scalar) readonly buffer Cells { ivec4 at[]; };
-
-// Returns share and momentum of a cell, in its block's fixed point.
-ivec4 sumAt(VolumeParameters volume, uint cell) {
-    ivec4 sum = Cells(volume.sums).at[cell];
-    if (volume.borrows == 1 && sum.z < 0) ++sum.w;
-    return sum;
+// The part of its elastic friction that hair in a cell bears, from the cell's share, both sums of
+// Spreads over the sum of shares, and the unit of the potential, m/s.
+float heldPart(float share, float crowded, vec2 spread, float unit) {
+    if (spread.x <= 0.0) return 1.0;
+    // The square may be rounded to zero. No distribution has less than the second term.
+    float jump = 2.0 * unit * max(spread.y / spread.x, spread.x);
+    float yield = push.cohesive + push.pressed * max(1.0 - crowded / share, 0.0);
+    return jump <= yield ? 1.0 : yield / jump;
 }
+#else
+layout(push_constant, scalar) uniform Push { VolumePush push; };
+#endif
 
 // The pressure's potential in a cell with this share, divided by the setting of the repulsion.
 float potential(float share, float crowded) { return log(max(share / crowded, 1.0)); }
@@ -33,6 +40,9 @@ void main() {
     uint root = index - index % guides.vertices_per_strand;
 
     vec3 dragged = vec3(0.0);  // m/s
+#ifdef HAIRBENCH_YIELD
+    vec3 held = vec3(0.0);  // m/s, of `dragged`
+#endif
     vec3 pushed = vec3(0.0);   // 1/cell, head axes
     for (uint grid = 0; grid < kVolumeGrids; ++grid) {
         vec3 point = onGrid(vertex.point, grid);
@@ -64,9 +74,19 @@ void main() {
                 vec3 momentum = inverseOf(scales[i].y) * vec3(others.yzw);
                 // A cell without hair has no part of this vertex either.
                 vec3 values = valuesOf(splines, i, z);
-                dragged += weight(values) *
-                           (momentum - share_unit * float(others.x) * vertex.velocity) /
-                           (share_unit * float(max(sum.x, 1)));
+                vec3 drag = weight(values) *
+                            (momentum - share_unit * float(others.x) * vertex.velocity) /
+                            (share_unit * float(max(sum.x, 1)));
+                dragged += drag;
+#ifdef HAIRBENCH_YIELD
+                vec2 spread = vec2(
+                    Spreads(push.spreads).at[cellIndex(grid, cell, volume.resolution)]);
+                held += heldPart(
+                            share_unit * float(max(sum.x, 1)), volume.crowded,
+                            spread / float(max(sum.x, 1)),
+                            kVolumeSpreadRange * scales[i].x * inverseOf(scales[i].y)) *
+                        drag;
+#endif
                 pushed -= (potential(share_unit * float(sum.x), volume.crowded) -
                            potential(share_unit * float(own[i].x), volume.crowded)) *
                           weightGradient(values, valuesOf(slopes, i, z));
@@ -80,10 +100,16 @@ void main() {
     float size = length(repulsion);
     if (size > volume.greatest_repulsion) repulsion *= volume.greatest_repulsion / size;
 
+#ifdef HAIRBENCH_YIELD
+    held /= float(kVolumeGrids);
+    State(volume.kept).at[index].xyz += dragged - held;  // it flows
+    vec3 friction = rotate(push.frame.rotation, held);
+#else
     vec4 kept = State(volume.kept).at[index];
     vec3 driven = kept.w == 0.0 ? vec3(0.0) : dragged - kept.xyz;  // m/s, by everything except
                                                                    // friction
     vec3 friction = volume.settled * dragged + volume.predicted * driven;
     State(volume.kept).at[index] = vec4(dragged - friction, 1.0);
+#endif
     State(push.accelerations).at[index].xyz += volume.per_step * friction + repulsion;
 }

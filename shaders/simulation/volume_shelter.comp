@@ -10,8 +10,6 @@ layout(local_size_x = kGuideGroupSize) in;
 
 layout(push_constant, scalar) uniform Push { ShelterPush push; };
 
-layout(buffer_reference, scalar) readonly buffer Cells { ivec4 at[]; };
-
 // The share in a cell of the first grid.
 float shareIn(VolumeParameters volume, ivec3 cell) {
     VolumeBlock block =
@@ -58,7 +56,9 @@ void main() {
     if (index >= guides.strand_count * guides.vertices_per_strand) return;  // no barrier follows
 
     VolumeSample vertex = Samples(volume.samples).at[index];
-    vec3 relative = State(push.air).at[index].xyz - vertex.velocity;
+    vec3 moved = State(guides.positions).at[index].xyz - State(guides.previous).at[index].xyz;
+    precise vec3 velocity = moved / guides.step.sub;  // as of VolumeSample without a yield stress
+    vec3 relative = State(push.air).at[index].xyz - velocity;
     float speed = length(relative);
     if (speed == 0.0) return;
     vec3 upstream = rotate(conjugate(push.frame.rotation), -relative / speed);

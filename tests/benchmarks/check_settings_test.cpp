@@ -183,6 +183,24 @@ TEST(CheckSettings, WantsSolversThatKeepSegmentsOut) {
                                        "carries only the contact forces of vertices");
 }
 
+TEST(CheckSettings, GivesHairOneKindOfFriction) {
+    const auto with = [](float friction, float coefficient, float cohesion) {
+        return broken([&](hair::Settings& s) {
+            s.simulation.hair_hair.friction = friction;
+            s.simulation.hair_hair.repulsion = 0.3f;
+            s.simulation.hair_hair.friction_coefficient = coefficient;
+            s.simulation.hair_hair.cohesion = cohesion;
+        });
+    };
+    EXPECT_EQ(with(0.0f, 0.5f, 0.1f), "no error");
+    EXPECT_EQ(with(0.1f, 0.0f, 0.0f), "no error");
+    for (const auto& [coefficient, cohesion] : {std::pair(0.5f, 0.0f), std::pair(0.0f, 0.1f)})
+        EXPECT_EQ(
+            with(0.1f, coefficient, cohesion),
+            "/simulation/hair_hair/friction: is above 0, but friction_coefficient or cohesion "
+            "takes its place");
+}
+
 TEST(CheckSettings, WantsCurvesOfFilesBetweenGuides) {
     const auto from = [](hair::StrandSource source) {
         return broken([&](hair::Settings& s) {

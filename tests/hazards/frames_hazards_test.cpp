@@ -412,6 +412,18 @@ TEST_F(FramesHazards, EachBarrierOfSeveralStepsIsMissed) {
          "output", "depth"});
 }
 
+// Vertices are spread over the grids twice, the second time by what the first one summed.
+TEST_F(FramesHazards, EachBarrierOfHairThatSticksToHairIsMissed) {
+    hair::Settings settings = made(hair::plainSettings());
+    settings.simulation.solver = hair::Solver::ftl;
+    settings.simulation.hair_hair.cohesion = 0.1f;
+    settings.run.frame_time = 2.0f * settings.simulation.time_step;
+    missEach(
+        device(), settings,
+        {"volume blocks", "volume samples", "volume sums", "volume spreads", "guide accelerations",
+         "guide positions"});
+}
+
 TEST_F(FramesHazards, EachBarrierOfListsOfFragmentsIsMissed) {
     hair::Settings settings = made(hair::plainSettings());
     settings.render.transparency = hair::Transparency::fragment_list;

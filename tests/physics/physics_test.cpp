@@ -221,6 +221,12 @@ TEST_F(Physics, AirDragsRodsAlongThemselves) {
     expectPass(findings);
 }
 
+TEST_F(Physics, HairHoldsHairUpToItsYieldStress) {
+    Findings findings("hair_friction", hair::Solver::shape);
+    checkHairFriction(device(), hair::Solver::shape, findings);
+    expectPass(findings);
+}
+
 TEST_F(Physics, HairSheltersHairFromWind) {
     Findings findings("shelter", hair::Solver::shape);
     checkShelter(device(), hair::Solver::shape, findings);

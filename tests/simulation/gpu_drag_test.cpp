@@ -221,8 +221,9 @@ TEST_F(GpuDrag, BrakesEverySolverAsTheReferenceSays) {
         }
 }
 
-// Friction of hair on hair shares the grid, the head has turned, and hair moves in all directions.
-// One step: where hair moves almost as the air does, rounding decides on the direction upstream.
+// Friction or cohesion of hair on hair shares the grid, the head has turned, and hair moves in all
+// directions. One step: where hair moves almost as the air does, rounding decides on the direction
+// upstream.
 // Elsewhere it moves a ray of ten cells by some 1e-5 cells, air of 10 m/s by about as much of its
 // speed, and hair by 1e-4 m/s in 1/60 s: three times the usual tolerance.
 TEST_F(GpuDrag, IsSlowedByHairAsTheReferenceSays) {
@@ -235,7 +236,10 @@ TEST_F(GpuDrag, IsSlowedByHairAsTheReferenceSays) {
             settings.wind.drag_along = 1.5f;
             settings.solver = solver;
             settings.substeps = 3;
-            settings.hair_hair.friction = 0.1f;
+            if (solver == Solver::rod)
+                settings.hair_hair.cohesion = 0.1f;
+            else
+                settings.hair_hair.friction = 0.1f;
             settings.hair_hair.shelter = 60.0f;
             settings.motion.keyframes = {
                 {.time = 0.0f, .rotation = {10.0f, 40.0f, 0.0f}, .translation = {}},

@@ -21,6 +21,14 @@ SimulationSettings contact(float friction, float repulsion, float crowding = 1.0
     return settings;
 }
 
+// Hair that sticks to hair.
+SimulationSettings sticky(float cohesion, float coefficient = 0.0f, float repulsion = 0.0f) {
+    SimulationSettings settings = contact(0.0f, repulsion, 0.5f);
+    settings.hair_hair.cohesion = cohesion;
+    settings.hair_hair.friction_coefficient = coefficient;
+    return settings;
+}
+
 // Sum of share times vector, and sum of share times the vector's length.
 struct Balance {
     glm::dvec3 sum{0.0};
@@ -85,6 +93,77 @@ TEST_F(HairOnHair, LeavesALoneStrandAlone) {
     // The device may round differently in two shaders: 1e-6 of 0.002 m / (1/60 s)^2 and of 1
     // m^2/s^2 / 10 mm.
     EXPECT_LT(largestDifference(accelerations, std::vector(groom.points.size(), kOthers)), 1e-4);
+}
+
+TEST_F(HairOnHair, SticksToNoLoneStrand) {
+    const groom::Groom groom = wavyGroom(1, 16, 0.005);
+    VolumeRig rig(device(), groom, sticky(1.0f, 1.0f, 1.0f));
+    for (unsigned step = 0; step < 6; step += 2) {
+        const auto accelerations = rig.nextAccelerations(
+            disturbed(groom, 0.002, step), disturbed(groom, 0.002, step + 1), {}, kOthers);
+        // The tolerance of LeavesALoneStrandAlone.
+        EXPECT_LT(
+            largestDifference(accelerations, std::vector(groom.points.size(), kOthers)), 1e-4);
+    }
+}
+
+// Two strands on top of each other share every cell equally. Each sees half of the jump Y of their
+// potential, so friction changes each velocity by Y / 2 up to the yield, and by the yield beyond
+// it: (840 / 239 + 64 / 13) / 4 of the cohesion times the step over the cell. In the first step the
+// potential is the velocity, and then twice the velocity plus what was elastic before.
+TEST_F(HairOnHair, HoldsUpToItsYieldStress) {
+    const groom::Groom one = straightGroom(1, 6);
+    const groom::Groom groom = both(one, one);
+    constexpr double kCohesion = 5e-4;  // m^2/s^2
+    SimulationSettings settings = sticky(kCohesion);
+    const double cell = volumeGrid(groom, settings.hair_hair.resolution).cell;
+    const double step = settings.time_step;
+    const double greatest = (840.0 / 239.0 + 64.0 / 13.0) / 4.0 * kCohesion * step / cell;  // m/s
+    const auto apart = [&](double velocity) {
+        const glm::vec3 way(static_cast<float>(velocity * step), 0.0f, 0.0f);
+        auto previous = moved(one.points, -way);
+        const auto other = moved(one.points, way);
+        previous.insert(previous.end(), other.begin(), other.end());
+        return previous;
+    };
+    VolumeRig rig(device(), groom, settings);
+    const auto expectHeld = [&](const std::vector<glm::vec3>& accelerations, double expected) {
+        for (std::size_t i = 0; i < accelerations.size(); ++i)
+            EXPECT_NEAR(accelerations[i].x * step, i < 6 ? -expected : expected, 0.02 * greatest);
+    };
+    // The strands pass by each other, by up to 2e-3 of a cell in a step.
+    const double velocity = 0.4 * greatest;
+    ASSERT_LT(velocity * step, 2e-3 * cell);
+    expectHeld(rig.accelerations(groom.points, apart(velocity)), velocity);
+    expectHeld(rig.nextAccelerations(groom.points, apart(velocity)), 2.0 * velocity);
+    expectHeld(rig.nextAccelerations(groom.points, apart(velocity)), greatest);
+    // Hair flows, so that its potential stays `greatest`: the elastic displacement and the last
+    // velocity.
+    for (int i = 0; i < 20; ++i)
+        expectHeld(rig.nextAccelerations(groom.points, apart(velocity)), greatest);
+    const double elastic = greatest - velocity;
+    expectHeld(
+        rig.nextAccelerations(groom.points, apart(-0.2 * velocity)), elastic - 0.4 * velocity);
+    expectHeld(rig.nextAccelerations(groom.points, groom.points), elastic - 0.2 * velocity);
+    expectHeld(rig.nextAccelerations(groom.points, apart(-velocity)), elastic - 2.2 * velocity);
+}
+
+// Hair that turns with the head by 0.02 in a step. Its way in the next step along its velocity is
+// an arc's tangent, off by the angle's square: 0.02 of the way that hair on a resting head would
+// go.
+TEST_F(HairOnHair, SticksNoHairThatTurnsWithTheHead) {
+    const groom::Groom groom = wavyGroom(60, 9);
+    VolumeRig rig(device(), groom, sticky(1000.0f));
+    const RigidMotion later{
+        .rotation = glm::angleAxis(0.02, glm::dvec3(0.0, 1.0, 0.0)), .translation = {}};
+    std::vector<glm::vec3> previous;
+    for (const glm::vec3& point : groom.points)
+        previous.emplace_back(glm::inverse(later.rotation) * glm::dvec3(point));
+    rig.forget();
+    const auto turned = rig.nextAccelerations(groom.points, previous, later, {}, RigidMotion{});
+    rig.forget();
+    const auto at_rest = rig.nextAccelerations(groom.points, previous);
+    EXPECT_LT(greatestLength(turned), 0.05 * greatestLength(at_rest));
 }
 
 TEST_F(HairOnHair, HasNoFrictionWhereAllMoveAlike) {
@@ -189,6 +268,48 @@ TEST_F(HairOnHair, KeepsMomentumWhateverItForesees) {
         EXPECT_GT(all.size, 1.0);
         EXPECT_LT(glm::length(all.sum), kPairRounding * all.size);
     }
+}
+
+TEST_F(HairOnHair, KeepsMomentumInYield) {
+    const groom::Groom groom = wavyGroom(80, 9);
+    for (const float cohesion : {0.01f, 1.0f, 1000.0f}) {
+        VolumeRig rig(device(), groom, sticky(cohesion));
+        rig.accelerations(disturbed(groom, 0.01, 1), disturbed(groom, 0.01, 2));
+        for (unsigned step = 3; step < 9; step += 2) {
+            const auto accelerations = rig.nextAccelerations(
+                disturbed(groom, 0.01, step), disturbed(groom, 0.01, step + 1));
+            const Balance all = balance(groom, accelerations);
+            EXPECT_GT(all.size, 0.01);
+            // Little is left of large potentials in yield, and their rounding is.
+            EXPECT_LT(glm::length(all.sum), 10.0 * kPairRounding * all.size) << cohesion;
+        }
+    }
+}
+
+TEST_F(HairOnHair, SticksLikeTheReference) {
+    for (const std::uint32_t vertices : {2u, 9u, 33u})
+        for (const SimulationSettings& settings :
+             {sticky(0.2f), sticky(0.0f, 0.6f, 0.3f), sticky(3.0f, 0.3f, 0.2f), sticky(1000.0f)}) {
+            const groom::Groom groom = wavyGroom(67, vertices, 0.15 / vertices);
+            VolumeRig rig(device(), groom, settings);
+            const RigidMotion frame{
+                .rotation = glm::angleAxis(0.1, glm::dvec3(0.0, 1.0, 0.0)),
+                .translation = {0.01, -0.02, 0.0}};
+            rig.forget();
+            std::vector<glm::dvec3> kept;
+            for (unsigned step = 1; step < 6; step += 2) {
+                const auto positions = disturbed(groom, 0.003, step);
+                const auto previous = disturbed(groom, 0.003, step + 1);
+                const auto accelerations = rig.nextAccelerations(positions, previous, frame);
+                const auto expected = rig.expected(positions, previous, frame, &kept);
+                // The tolerance of IsLikeTheReference, twice for each step: of the velocity and of
+                // the elastic displacement.
+                EXPECT_LT(
+                    largestDifference(accelerations, expected),
+                    2e-5 * (step + 1) * greatestLength(accelerations))
+                    << vertices << " " << settings.hair_hair.cohesion << " " << step;
+            }
+        }
 }
 
 TEST_F(HairOnHair, ForeseesLikeTheReference) {
@@ -387,6 +508,8 @@ TEST_F(HairOnHair, IsOffUnlessAsked) {
     SimulationSettings sheltered = contact(0.0f, 0.0f);
     sheltered.hair_hair.shelter = 1.0f;
     EXPECT_TRUE(Simulation(device(), groom, sheltered, 1).hasVolume());
+    EXPECT_TRUE(Simulation(device(), groom, sticky(0.1f), 1).hasVolume());
+    EXPECT_FALSE(Simulation(device(), groom, sticky(0.0f, 0.5f, 0.0f), 1).hasVolume());
     SimulationSettings frozen = contact(0.1f, 0.1f);
     frozen.solver = Solver::none;
     EXPECT_FALSE(Simulation(device(), groom, frozen, 1).hasVolume());
@@ -394,17 +517,18 @@ TEST_F(HairOnHair, IsOffUnlessAsked) {
 
 TEST_F(HairOnHair, GivesTheSameBitsEveryTime) {
     const groom::Groom groom = wavyGroom(200, 9);
-    SimulationSettings settings = contact(0.5f, 0.5f, 0.5f);
-    settings.wind.strength = 10.0f;
-    Simulation first(device(), groom, settings, 5);
-    Simulation second(device(), groom, settings, 5);
-    advance(device(), first, 30);
-    for (int i = 0; i < 30; ++i) advance(device(), second, 1);
-    const auto points = first.readPositions();
-    EXPECT_EQ(points, second.readPositions());
-    first.reset();
-    advance(device(), first, 30);
-    EXPECT_EQ(points, first.readPositions());
+    for (SimulationSettings settings : {contact(0.5f, 0.5f, 0.5f), sticky(0.1f, 0.5f, 0.5f)}) {
+        settings.wind.strength = 10.0f;
+        Simulation first(device(), groom, settings, 5);
+        Simulation second(device(), groom, settings, 5);
+        advance(device(), first, 30);
+        for (int i = 0; i < 30; ++i) advance(device(), second, 1);
+        const auto points = first.readPositions();
+        EXPECT_EQ(points, second.readPositions());
+        first.reset();
+        advance(device(), first, 30);
+        EXPECT_EQ(points, first.readPositions());
+    }
 }
 
 TEST_F(HairOnHair, StaysFiniteAtExtremes) {
@@ -415,22 +539,29 @@ TEST_F(HairOnHair, StaysFiniteAtExtremes) {
     for (const groom::Groom& some : {groom, point})
         for (const std::uint32_t resolution : {8u, 128u})
             for (const float step : {0.0005f, 0.1f})
-                for (const float crowding : {0.1f, 100.0f}) {
-                    SimulationSettings settings = contact(1.0f, 1000.0f, crowding);
-                    settings.hair_hair.resolution = resolution;
-                    settings.time_step = step;
-                    settings.wind.strength = 1500.0f;
-                    Simulation simulation(device(), some, settings, 1);
-                    advance(device(), simulation, 20);
-                    const std::vector<glm::vec3> collapsed(some.points.size(), glm::vec3(0.1f));
-                    simulation.setState(collapsed, collapsed);
-                    advance(device(), simulation, 20);
-                    const std::vector<glm::vec3> far(some.points.size(), glm::vec3(1e6f));
-                    simulation.setState(far, collapsed);
-                    advance(device(), simulation, 20);
-                    for (const glm::vec3& p : simulation.readPositions())
-                        ASSERT_TRUE(std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z));
-                }
+                for (const float crowding : {0.1f, 100.0f})
+                    for (const bool sticks : {false, true}) {
+                        SimulationSettings settings = contact(1.0f, 1000.0f, crowding);
+                        if (sticks) {
+                            settings.hair_hair.friction = 0.0f;
+                            settings.hair_hair.friction_coefficient = 10.0f;
+                            settings.hair_hair.cohesion = 1000.0f;
+                        }
+                        settings.hair_hair.resolution = resolution;
+                        settings.time_step = step;
+                        settings.wind.strength = 1500.0f;
+                        Simulation simulation(device(), some, settings, 1);
+                        advance(device(), simulation, 20);
+                        const std::vector<glm::vec3> collapsed(some.points.size(), glm::vec3(0.1f));
+                        simulation.setState(collapsed, collapsed);
+                        advance(device(), simulation, 20);
+                        const std::vector<glm::vec3> far(some.points.size(), glm::vec3(1e6f));
+                        simulation.setState(far, collapsed);
+                        advance(device(), simulation, 20);
+                        for (const glm::vec3& p : simulation.readPositions())
+                            ASSERT_TRUE(
+                                std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z));
+                    }
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 #include <array>
 #include <bit>
 #include <cmath>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -57,10 +58,14 @@ public:
         return nextAccelerations(positions, previous, frame, others);
     }
 
-    // Returns the accelerations of the next step, after the last call's step.
+    void forget() { hair_hair_.forget(device_); }
+
+    // Returns the accelerations of the next step, after the last call's step. The head's motion is
+    // `now` at its start, or at rest, and `frame` at its end.
     std::vector<glm::vec3> nextAccelerations(
         std::span<const glm::vec3> positions, std::span<const glm::vec3> previous,
-        const RigidMotion& frame = {}, const glm::vec3& others = glm::vec3(0.0f)) const {
+        const RigidMotion& frame = {}, const glm::vec3& others = glm::vec3(0.0f),
+        const std::optional<RigidMotion>& now = {}) const {
         upload(positions, positions_);
         upload(previous, previous_);
         upload(std::vector(groom_.points.size(), others), accelerations_);
@@ -71,7 +76,7 @@ public:
                  .positions = positions_.address(),
                  .previous = previous_.address(),
                  .accelerations = accelerations_.address()},
-                frame);
+                now.value_or(frame), frame);
         });
         const auto result = engine::downloadAs<glm::vec4>(device_, accelerations_);
         return {result.begin(), result.end()};
@@ -91,7 +96,8 @@ public:
                         .previous = before,
                         .step = reference::inDouble(stepOf(settings_)),
                         .frame = frame,
-                        .kept = kept});
+                        .kept = kept,
+                        .frame_before = frame});
     }
 
     // Returns the grids of the last call, [grid][z][y][x].

@@ -1,6 +1,7 @@
 #version 460
-// Rasterises the listed pieces of a part of the strands. Pieces with many samples are left to
-// raster_large.comp.
+// Rasterises the listed pieces of a part of the strands, except those with many samples.
+// HAIRBENCH_LARGE rasterises these: a work group shares the rows of a piece. If their list is full,
+// they come from the lists of all pieces.
 #extension GL_GOOGLE_include_directive : require
 #ifdef HAIRBENCH_TEXELS
 #define kPointTexels 0
@@ -10,6 +11,26 @@
 
 layout(local_size_x_id = kGroupConstant) in;
 
+#ifdef HAIRBENCH_LARGE
+void main() {
+    PieceCounts counts = Counts(push.counts).counts;
+    bool listed = counts.large <= kMostLargePieces;
+    uint first = counts.visible[kFirstPart];
+    uint count = listed ? counts.large : first + counts.visible[kOtherPart];
+    if (gl_WorkGroupID.x >= count) return;  // no barrier follows
+    PictureParameters picture = PictureReference(push.picture).parameters;
+    for (uint i = gl_WorkGroupID.x; i < count; i += gl_NumWorkGroups.x) {
+        uint piece = listed ? PieceList(push.large).at[i]
+                            : PieceList(push.list).at[i < first ? i : push.list_begin + i - first];
+        PieceQuad quad = pieceOf(picture, piece).quad;
+        if (!quad.visible) continue;
+        RasterQuad raster = setUpQuad(quad);
+        if (!listed && !isLarge(raster)) continue;
+        rasterizeRows(picture, raster, raster.begin + int(gl_LocalInvocationID.x),
+                      int(gl_WorkGroupSize.x), piece);
+    }
+}
+#else
 // Lists a large piece, which is rasterised later.
 void listLarge(uint piece) {
     if (push.choice > 0u) return;  // they are listed
@@ -33,3 +54,4 @@ void main() {
         else rasterizeRows(picture, raster, raster.begin, 1, piece);
     }
 }
+#endif
