@@ -283,8 +283,16 @@ makePoints(const engine::Device& device, const Settings& settings, const StrandP
     return std::optional<PointsPass>(std::in_place, device, settings, plan, cullsPoints(settings));
 }
 
-const PointsPass* pointerTo(const std::optional<PointsPass>& points) {
-    return points ? &*points : nullptr;
+template <class Part>
+const Part* pointerTo(const std::optional<Part>& part) {
+    return part ? &*part : nullptr;
+}
+
+std::optional<StrandStructure> makeStructure(
+    const engine::Device& device, const Settings& settings, const StrandPlan& plan,
+    const std::optional<PointsPass>& points) {
+    if (!tracedGeometry(settings)) return std::nullopt;
+    return std::optional<StrandStructure>(std::in_place, device, settings, plan, *points);
 }
 
 std::vector<engine::SampledImage>
@@ -323,6 +331,7 @@ engine::MemoryRows Renderer::rows(
     if (readsPoints(settings)) rows.add(PointsPass::rows(settings.strands, plan));
     rows.add(transparencyRows(settings.render));
     rows.add(backendRows(device, settings, plan, QuadKind::camera));
+    if (tracedGeometry(settings)) rows.add(StrandStructure::rows(device, settings, plan));
     if (hasHairMaps(lit) && plan.strands() > 0)
         for (int i = 0; i < 2; ++i)  // depth and opacity
             rows.add(backendRows(device, settings, plan, QuadKind::light));
@@ -338,12 +347,15 @@ Renderer::Renderer(
       target_(device, rendered(settings_)),
       lights_(engine::makeBuffer(device, lightsOfHeads(settings_), "lights", "shading")),
       optics_(device, settings_), points_(makePoints(device, settings_, plan_)),
+      structure_(makeStructure(device, settings_, plan_, points_)),
       shadows_(device, settings_, plan_, assets, pointerTo(points_)),
       environment_(device, settings_, assets),
       meshes_(device, litByHarmonics(withBackend(settings, backend_.backend)), assets),
       texture_(device, settings_.render, assets.strand_texture),
       strand_images_(strandImages(texture_, shadows_)),
-      strands_(device, settings_, plan_, target_, view, pointerTo(points_), stages),
+      strands_(
+          device, settings_, plan_, target_, view, pointerTo(points_), pointerTo(structure_),
+          stages),
       overlay_(device, settings_, assets),
       resolve_(device, settings_.render, target_.description()) {
     backend_.variant = strands_.backendVariant();
@@ -470,6 +482,14 @@ void Renderer::recordPoints(
     });
 }
 
+// Builds what rays are traced in, from the points.
+void Renderer::recordStructure(engine::Passes& passes, const StrandPicture& picture) {
+    if (!structure_) return;
+    passes.pass("acceleration", engine::PassKind::compute, [&](engine::Commands& commands) {
+        structure_->record(commands, picture);
+    });
+}
+
 void Renderer::recordJoined(
     engine::Passes& passes, const StrandView& view, const StrandPicture& picture) const {
     const engine::PassKind kind = strands_.passKind();
@@ -492,7 +512,7 @@ void Renderer::recordJoined(
 }
 
 void Renderer::recordApart(
-    engine::Passes& passes, const StrandPicture& picture, Points points, Turn turn) const {
+    engine::Passes& passes, const StrandPicture& picture, Points points, Turn turn) {
     const bool resolves = target_.resolve() != engine::Resolve::none;
     const bool completes = turn.last && !resolves && overlay_.empty();
     const Last after_strands = completes ? Last::yes : Last::no;
@@ -514,7 +534,9 @@ void Renderer::recordApart(
     });
     if (points == Points::needed)
         recordPoints(passes, picture, clears_early ? Bounds::cleared : Bounds::old);
-    if (settings_.render.hair) strands_.record(passes, target_, picture, after_strands);
+    if (!settings_.render.hair) return;
+    recordStructure(passes, picture);
+    strands_.record(passes, target_, picture, after_strands);
 }
 
 void Renderer::recordOverlays(engine::Passes& passes, std::span<const StrandView> views) const {

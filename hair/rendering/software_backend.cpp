@@ -16,7 +16,7 @@ using engine::Access;
 
 static_assert(
     offsetof(gpu::SoftwarePush, width) == 88 && offsetof(gpu::SoftwarePush, structure) == 112 &&
-    sizeof(gpu::SoftwarePush) == 120);
+    sizeof(gpu::SoftwarePush) == 128);
 
 constexpr const char* kSoftware = "/strands/backend: software";
 constexpr std::size_t kSampleBytes = 8;  // two words

@@ -103,6 +103,8 @@ const uint kStrandBlockConstant = 12u;
 const uint kGroupConstant = 29u;
 // Segments per invocation of strands/points/evaluate.comp.
 const uint kSegmentRunConstant = 37u;
+// Constant of strands/rays/trace.comp.
+const uint kBoxesConstant = 38u;
 
 // Constants of the back end `lines`: strands/lines.vert, strands/fragment.glsl.
 const uint kStrictLinesConstant = 13u;

@@ -351,12 +351,15 @@ TEST_F(FramesHazards, EachBarrierOfRaysIsMissedAndNoneIsSuperfluous) {
     for (const hair::RaysUpdate update : {hair::RaysUpdate::build, hair::RaysUpdate::refit})
         for (const std::uint32_t samples : {1u, 4u})
             for (const bool has_maps : {false, true}) {
+                // Maps and samples have nothing to do with what rays meet.
+                const bool has_boxes = has_maps == (samples == 4);
                 hair::Settings settings = hair::plainSettings();
                 if (has_maps) hair::lit(settings);
                 settings.render.msaa = samples;
                 settings.simulation.solver = hair::Solver::ftl;
                 settings.strands.backend = hair::Backend::rays;
                 settings.strands.rays.update = update;
+                if (has_boxes) settings.strands.rays.geometry = hair::RaysGeometry::boxes;
                 play(made(settings), places, needed, touched);
                 EXPECT_THAT(device().messages().take(), testing::IsEmpty());
             }
@@ -375,11 +378,16 @@ TEST_F(FramesHazards, EachBarrierOfRaysIsMissedAndNoneIsSuperfluous) {
     hair::Settings settings = made(hair::plainSettings());
     settings.simulation.solver = hair::Solver::ftl;
     settings.strands.backend = hair::Backend::rays;
-    missEach(
-        device(), settings,
-        {"quad corners", "acceleration structure", "acceleration top level", "acceleration scratch",
-         "strands",  // their points: names end at an apostrophe
-         "software visibility buffer", "depth"});
+    for (const auto& [geometry, primitives] :
+         {std::pair{hair::RaysGeometry::triangles, "quad corners"},
+          std::pair{hair::RaysGeometry::boxes, "strand boxes"}}) {
+        settings.strands.rays.geometry = geometry;
+        missEach(
+            device(), settings,
+            {primitives, "acceleration structure", "acceleration top level", "acceleration scratch",
+             "strands",  // their points: names end at an apostrophe
+             "software visibility buffer", "depth"});
+    }
 }
 
 // Guides are drawn without offsets, and weighted blending writes to the output.
