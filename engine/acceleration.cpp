@@ -244,8 +244,8 @@ void AccelerationStructure::build(
     record(commands, upper, 1);
 }
 
-std::uint64_t AccelerationStructure::traces(Commands& commands) const {
-    commands.uses({{lower_storage_, Access::trace_read}, {upper_storage_, Access::trace_read}});
+std::uint64_t AccelerationStructure::traces(Commands& commands, Access access) const {
+    commands.uses({{lower_storage_, access}, {upper_storage_, access}});
     return upper_address_;
 }
 

@@ -14,7 +14,7 @@ enum class Rebuild {
     refit,  // its boxes are fitted to the triangles, which stay in the groups of the first time
 };
 
-// What rays may meet.
+// The bodies that rays may meet.
 struct PrimitiveSet {
     enum class Kind {
         triangles,  // three 32-bit indices each
@@ -39,18 +39,20 @@ public:
 
     AccelerationStructure(const Device& device, const PrimitiveSet& primitives);
 
-    // Whether triangles with a vertex whose x is NaN, and boxes whose least x is, are left out, as
-    // Vulkan demands. With Rebuild::refit they must always be the same ones. In lavapipe of Mesa 25
-    // such a triangle hides the others.
+    // Whether triangles with a vertex whose x is NaN are left out, and boxes with NaN as their
+    // least x, as Vulkan demands. With Rebuild::refit they must always be the same ones. In
+    // lavapipe of Mesa 25 such a triangle hides the others.
     static bool leavesOutNan(const Device& device);
 
     // Records the building from `primitives`: vec3 [vertex] with `indices`, uint [triangle][3], or
     // boxes, for which `indices` is null. With Rebuild::refit only the first call builds.
     void build(Commands& commands, const Buffer& primitives, const Buffer* indices = nullptr);
 
-    // Declares that the next dispatch traces rays, and returns the structure's address for
-    // accelerationStructureEXT() in shaders.
-    std::uint64_t traces(Commands& commands) const;
+    // For accelerationStructureEXT() in shaders.
+    std::uint64_t address() const { return upper_address_; }
+    // Declares that the next dispatch traces rays (Access::trace_read), or that fragments of the
+    // next rendering do (Access::fragment_trace), and returns the address.
+    std::uint64_t traces(Commands& commands, Access access = Access::trace_read) const;
 
 private:
     using Structure = Handle<VkAccelerationStructureKHR, &vkDestroyAccelerationStructureKHR>;

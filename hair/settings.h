@@ -37,7 +37,7 @@ const char* backendName(Backend backend);
 
 // How the back end `rays` brings its acceleration structure up to date in each frame.
 enum class RaysUpdate { build, refit };
-// What a piece of a strand is to rays.
+// The shape of a strand's pieces that rays meet.
 enum class RaysGeometry {
     triangles,  // of the quads that the other back ends draw
     boxes,  // round, within a box

@@ -274,7 +274,7 @@ bool cullsPoints(const Settings& settings) {
     const StrandSettings& strands = settings.strands;
     const bool refits =
         strands.backend == Backend::rays && strands.rays.update == RaysUpdate::refit;
-    return !hasHairMaps(settings) && !refits;
+    return !hasHairMaps(settings) && !tracesShadows(settings) && !refits;
 }
 
 std::optional<PointsPass>
@@ -348,7 +348,7 @@ Renderer::Renderer(
       lights_(engine::makeBuffer(device, lightsOfHeads(settings_), "lights", "shading")),
       optics_(device, settings_), points_(makePoints(device, settings_, plan_)),
       structure_(makeStructure(device, settings_, plan_, points_)),
-      shadows_(device, settings_, plan_, assets, pointerTo(points_)),
+      shadows_(device, settings_, plan_, assets, pointerTo(points_), pointerTo(structure_)),
       environment_(device, settings_, assets),
       meshes_(device, litByHarmonics(withBackend(settings, backend_.backend)), assets),
       texture_(device, settings_.render, assets.strand_texture),
@@ -444,6 +444,7 @@ void Renderer::record(engine::Passes& passes, std::span<const StrandView> views)
     writePictures(passes.slot(), views);
     const bool joined = passes.joins() && strands_.joinsScene() && heads_.size() == 1;
     const bool shadows_need_points = shadows_.drawsHair();
+    const bool traces = tracesShadows(settings_);
     for (const std::uint32_t i : order_) {
         const bool is_first = i == order_.front();
         const std::uint32_t motion = motionOf(i, views);
@@ -451,13 +452,15 @@ void Renderer::record(engine::Passes& passes, std::span<const StrandView> views)
         const StrandPicture picture = pictureOf(heads_[i]);
         const bool moves = is_first || views.size() > 1;
         if (moves) recordShape(passes, view, picture);
-        if ((moves && shadows_need_points) || joined) recordPoints(passes, picture);
+        const bool has_points = (moves && shadows_need_points) || traces;
+        if (has_points || joined) recordPoints(passes, picture);
+        if (traces) recordStructure(passes, picture);
         if (moves) shadows_.record(passes, meshes_, view, picture.parameters, motion);
         if (joined)
             recordJoined(passes, view, picture);
         else
             recordApart(
-                passes, picture, moves && shadows_need_points ? Points::recorded : Points::needed,
+                passes, picture, has_points ? Points::recorded : Points::needed,
                 {.first = is_first, .last = i == order_.back()});
     }
     if (!joined) recordOverlays(passes, views);
@@ -520,6 +523,7 @@ void Renderer::recordApart(
     // The scene and the points wait for the simulation alone: one barrier in front of the scene is
     // enough for both if the points' bounds are cleared before it. A GPU can then work on both at
     // once.
+    const bool traces = tracesShadows(settings_);  // the scene's fragments need the structure, too
     const bool clears_early = points == Points::needed && points_ && passes.joins();
     if (clears_early)
         passes.pass("points", engine::PassKind::compute, [&](engine::Commands& commands) {
@@ -527,6 +531,7 @@ void Renderer::recordApart(
         });
     passes.pass("scene", engine::PassKind::graphics, [&](engine::Commands& commands) {
         const engine::Load load = turn.first ? engine::Load::clear : engine::Load::keep;
+        if (traces) structure_->tracesLight(commands, StrandStructure::Tracer::fragments);
         target_.beginRendering(commands, load, background(), after_scene);
         meshes_.draw(commands, picture.address, shadows_.images());
         if (turn.first) environment_.draw(commands, picture.address);
@@ -535,7 +540,7 @@ void Renderer::recordApart(
     if (points == Points::needed)
         recordPoints(passes, picture, clears_early ? Bounds::cleared : Bounds::old);
     if (!settings_.render.hair) return;
-    recordStructure(passes, picture);
+    if (!traces) recordStructure(passes, picture);
     strands_.record(passes, target_, picture, after_strands);
 }
 

@@ -23,6 +23,11 @@ namespace hair::rendering {
 class PointsPass;
 class StrandStructure;
 
+// Whether rays find the shadows of the case's hair.
+inline bool tracesShadows(const Settings& settings) {
+    return settings.render.hair && settings.shading.shadows.hair == HairShadows::rays;
+}
+
 // The stages of the tessellation back end that can be left out, in pipeline order. The control
 // stage goes with the evaluation.
 enum class StrandStage { vertex, evaluation, geometry, raster, fragment };
@@ -108,6 +113,7 @@ struct BackendContext {
     const engine::Target* target = nullptr;  // of the camera's picture
     const PointsPass* points = nullptr;  // if readsPoints()
     const StrandStructure* structure = nullptr;  // if tracedGeometry()
+    bool traces_shadows = false;  // in the structure
 };
 
 // Addresses of other buffers that shaders read; 0 if they don't.

@@ -500,7 +500,8 @@ StrandPass::StrandPass(
                                      .stages = drawnStages(settings, stages),
                                      .target = &target,
                                      .points = points,
-                                     .structure = structure})),
+                                     .structure = structure,
+                                     .traces_shadows = tracesShadows(settings)})),
       joins_scene_(settings.render.hair && blend_->drawsAtOnce() && !readsSceneDepth(settings)) {}
 
 void StrandPass::record(

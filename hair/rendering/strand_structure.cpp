@@ -18,12 +18,16 @@ static_assert(
     sizeof(gpu::PrimitivesPush) == 44 && offsetof(gpu::PrimitivesPush, invocations) == 32);
 static_assert(sizeof(gpu::StrandBox) == 32 && offsetof(gpu::StrandBox, piece) == 24);
 
-constexpr const char* kRays = "/strands/backend: rays";
 constexpr const char* kCorners = "quad corners";
 constexpr const char* kIndices = "quad triangles";
 constexpr const char* kBoxes = "strand boxes";
 
 using Kind = engine::PrimitiveSet::Kind;
+
+// The setting that asks for rays, for messages.
+const char* askedBy(const Settings& settings) {
+    return tracesShadows(settings) ? "/shading/shadows/hair: rays" : "/strands/backend: rays";
+}
 
 RaysGeometry geometryOf(const Settings& settings) {
     const std::optional<RaysGeometry> geometry = tracedGeometry(settings);
@@ -41,7 +45,8 @@ engine::PrimitiveSet primitivesOf(const Settings& settings, const StrandPlan& pl
     constexpr std::uint64_t kMost = std::numeric_limits<std::uint32_t>::max();
     if (6 * pieces > kMost || vertices > kMost)
         throw engine::Unsupported(
-            kRays, std::to_string(pieces) + " pieces of strands are too many for 32-bit indices");
+            askedBy(settings),
+            std::to_string(pieces) + " pieces of strands are too many for 32-bit indices");
     return {
         .kind = has_boxes ? Kind::boxes : Kind::triangles,
         .count = static_cast<std::uint32_t>(has_boxes ? pieces : 2 * pieces),
@@ -91,16 +96,24 @@ primitivesStage(const engine::Device& device, const Settings& settings, const St
         .push_size = sizeof(gpu::PrimitivesPush)};
 }
 
+// Throws as StrandStructure::check() does.
+engine::PrimitiveSet
+checkedPrimitives(const engine::Device& device, const Settings& settings, const StrandPlan& plan) {
+    StrandStructure::check(device, settings, plan);
+    return primitivesOf(settings, plan);
+}
+
 }  // namespace
 
 std::optional<RaysGeometry> tracedGeometry(const Settings& settings) {
+    if (tracesShadows(settings)) return RaysGeometry::boxes;  // quads face the eye, not the light
     if (!settings.render.hair || settings.strands.backend != Backend::rays) return std::nullopt;
     return settings.strands.rays.geometry;
 }
 
 void StrandStructure::check(
     const engine::Device& device, const Settings& settings, const StrandPlan& plan) {
-    device.require(engine::Feature::ray_queries, kRays);
+    device.require(engine::Feature::ray_queries, askedBy(settings));
     engine::AccelerationStructure::rows(device, primitivesOf(settings, plan));
 }
 
@@ -120,7 +133,7 @@ StrandStructure::StrandStructure(
       leaves_out_(
           settings.strands.rays.update == RaysUpdate::build &&
           engine::AccelerationStructure::leavesOutNan(device)),
-      group_(strandGroup(device)), structure_(device, primitivesOf(settings, plan)),
+      group_(strandGroup(device)), structure_(device, checkedPrimitives(device, settings, plan)),
       stage_(device, primitivesStage(device, settings, plan)) {
     const engine::PrimitiveSet primitives = primitivesOf(settings, plan);
     const engine::MemoryRows rows = primitiveRows(primitives);
@@ -129,6 +142,21 @@ StrandStructure::StrandStructure(
     if (!hasBoxes())
         indices_ =
             engine::makeBuffer(device, triangleIndices(settings.strands, plan), rows, kIndices);
+}
+
+void StrandStructure::tracesLight(engine::Commands& commands, Tracer tracer) const {
+    using engine::Access;
+    const bool computes = tracer == Tracer::compute;
+    const Access reads = computes ? Access::compute_read : Access::fragment_read;
+    structure_.traces(commands, computes ? Access::trace_read : Access::fragment_trace);
+    commands.uses({{boxes(), reads}, {points_.points(), reads}});
+}
+
+void StrandStructure::describe(gpu::ShadowParameters& shadows) const {
+    assert(hasBoxes());
+    shadows.structure = structure_.address();
+    shadows.points = points_.points().address();
+    shadows.boxes = boxes().address();
 }
 
 void StrandStructure::record(engine::Commands& commands, const StrandPicture& picture) {

@@ -41,6 +41,12 @@ public:
 
     // Declares that the next dispatch traces rays, and returns the structure's address.
     std::uint64_t traces(engine::Commands& commands) const { return structure_.traces(commands); }
+    // Declares that the next dispatch, or fragments of the next rendering, trace rays of light,
+    // with the addresses in gpu::ShadowParameters.
+    enum class Tracer { compute, fragments };
+    void tracesLight(engine::Commands& commands, Tracer tracer) const;
+    // Sets the addresses of what rays of light read; only if hasBoxes().
+    void describe(gpu::ShadowParameters& shadows) const;
     bool hasBoxes() const { return geometry_ == RaysGeometry::boxes; }
     // Gpu::StrandBox [strand][segment][piece]; only if hasBoxes().
     const engine::Buffer& boxes() const { return primitives_; }

@@ -54,6 +54,7 @@ const uint kModelExtension = 4u;  // from a file that the scene names
 const uint kHairShadowsNone = 0u;
 const uint kHairShadowsDeepOpacity = 1u;
 const uint kHairShadowsDeepShadow = 2u;
+const uint kHairShadowsRays = 3u;
 
 // How an environment lights hair. Meshes never use the last.
 const uint kEnvironmentNone = 0u;

@@ -363,12 +363,25 @@ TEST_F(FramesHazards, EachBarrierOfRaysIsMissedAndNoneIsSuperfluous) {
                 play(made(settings), places, needed, touched);
                 EXPECT_THAT(device().messages().take(), testing::IsEmpty());
             }
+    // Rays of light, of the strands' samples and of the scene's fragments.
+    hair::Settings traced = hair::plainSettings();
+    hair::lit(traced);
+    traced.simulation.solver = hair::Solver::ftl;
+    traced.shading.shadows.hair = hair::HairShadows::rays;
+    traced.strands.rays.geometry = hair::RaysGeometry::boxes;
+    Touched of_light;
+    for (const hair::Backend backend : {hair::Backend::software, hair::Backend::rays}) {
+        traced.strands.backend = backend;
+        play(made(traced), places, needed, of_light);
+        EXPECT_THAT(device().messages().take(), testing::IsEmpty());
+    }
     std::set<std::string> redundant;
     std::ranges::set_difference(places, needed, std::inserter(redundant, redundant.end()));
     EXPECT_THAT(redundant, testing::IsEmpty());
     std::erase_if(touched, [](const auto& each) {
         return each.first != "acceleration" && each.first != "strands";
     });
+    touched["scene"] = of_light.at("scene");
     for (auto& [pass, uses] : touched)
         std::erase_if(uses.reads, [&](const auto& name) { return uses.writes.contains(name); });
     EXPECT_THAT(
@@ -388,6 +401,9 @@ TEST_F(FramesHazards, EachBarrierOfRaysIsMissedAndNoneIsSuperfluous) {
              "strands",  // their points: names end at an apostrophe
              "software visibility buffer", "depth"});
     }
+    missEach(
+        device(), made(traced),
+        {"strand boxes", "acceleration structure", "acceleration top level", "depth of meshes"});
 }
 
 // Guides are drawn without offsets, and weighted blending writes to the output.

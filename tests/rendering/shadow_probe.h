@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -14,6 +15,7 @@
 #include "hair/rendering/scene_meshes.h"
 #include "hair/rendering/shadow_pass.h"
 #include "hair/rendering/strand_pass.h"
+#include "hair/rendering/strand_structure.h"
 #include "tests/probe_shaders.h"
 #include "tests/rendering/device_hair.h"
 
@@ -31,7 +33,8 @@ struct FoundPath {
     float kept;
 };
 
-// Draws the lights' maps in three frames, two of them in flight, and evaluates the probes in each.
+// Draws the lights' maps, or builds what rays are traced in, in three frames, two of them in
+// flight, and evaluates the probes in each.
 inline std::vector<FoundPath> findPaths(
     const engine::Device& device, const Settings& settings, const StrandView& view,
     const RenderAssets& assets, std::span<const gpu::ShadowProbe> probes) {
@@ -39,7 +42,9 @@ inline std::vector<FoundPath> findPaths(
     constexpr VkFormat kFormat = VK_FORMAT_R32G32B32A32_SFLOAT;
     probe_shaders::addTo(device);
     const engine::GraphicsPipeline pipeline(
-        device, {.shaders = {"composite/screen.vert", "probe_shadows.frag"},
+        device, {.shaders =
+                     {"composite/screen.vert",
+                      tracesShadows(settings) ? "probe_shadows.frag+rays" : "probe_shadows.frag"},
                  .constants = shadingConstants(settings),
                  .push_size = sizeof(gpu::ShadowProbePush),
                  .colors = {{kFormat}, {kFormat}},
@@ -74,7 +79,15 @@ inline std::vector<FoundPath> findPaths(
     const StrandPlan plan =
         planStrands(view, settings, device.info().limits.maxTessellationGenerationLevel);
     const SceneMeshes meshes(device, settings, assets);
-    ShadowPass shadows(device, settings, plan, assets);
+    std::optional<PointsPass> points;
+    std::optional<StrandStructure> structure;
+    if (tracesShadows(settings)) {
+        points.emplace(device, settings, plan, false);
+        structure.emplace(device, settings, plan, *points);
+    }
+    ShadowPass shadows(
+        device, settings, plan, assets, points ? &*points : nullptr,
+        structure ? &*structure : nullptr);
 
     engine::FrameLoop loop(device, engine::Timing::overlapped);
     for (int frame = 0; frame < 3; ++frame) {
@@ -82,6 +95,13 @@ inline std::vector<FoundPath> findPaths(
             const gpu::PictureParameters picture = pictureParameters(
                 settings, plan, view, {.shadows = shadows.address(passes.slot())});
             pictures[passes.slot()].write(picture);
+            if (structure)
+                passes.pass("acceleration", engine::PassKind::compute, [&](auto& commands) {
+                    const std::uint64_t address = pictures[passes.slot()].address();
+                    points->clear(commands);
+                    points->record(commands, address, picture);
+                    structure->record(commands, {.address = address, .parameters = picture});
+                });
             shadows.record(passes, meshes, view, picture);
             passes.pass("probe", engine::PassKind::graphics, [&](engine::Commands& commands) {
                 for (const engine::Image& image : found)
@@ -90,6 +110,7 @@ inline std::vector<FoundPath> findPaths(
                 const std::array colors{
                     engine::Attachment{&found[0], engine::Load::clear, {}},
                     engine::Attachment{&found[1], engine::Load::clear, {}}};
+                if (structure) structure->tracesLight(commands, StrandStructure::Tracer::fragments);
                 engine::beginRendering(commands, colors, std::nullopt);
                 commands.bind(
                     pipeline, gpu::ShadowProbePush{
