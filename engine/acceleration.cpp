@@ -15,6 +15,10 @@ constexpr const char* kUpper = "acceleration top level";
 constexpr const char* kInstance = "acceleration instance";
 constexpr const char* kScratch = "acceleration scratch";
 
+const char* nameOf(PrimitiveSet::Kind kind) {
+    return kind == PrimitiveSet::Kind::boxes ? "boxes" : "triangles";
+}
+
 VkPhysicalDeviceAccelerationStructurePropertiesKHR limitsOf(const Device& device) {
     VkPhysicalDeviceAccelerationStructurePropertiesKHR limits{};
     limits.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_ACCELERATION_STRUCTURE_PROPERTIES_KHR;
@@ -32,9 +36,8 @@ VkAccelerationStructureGeometryKHR geometryOf(VkGeometryTypeKHR type) {
     return geometry;
 }
 
-// Addresses may be 0 if only sizes are asked for.
 VkAccelerationStructureGeometryKHR
-lowerGeometry(const TriangleSet& of, VkDeviceAddress vertices, VkDeviceAddress indices) {
+trianglesGeometry(const PrimitiveSet& of, VkDeviceAddress vertices, VkDeviceAddress indices) {
     VkAccelerationStructureGeometryKHR geometry = geometryOf(VK_GEOMETRY_TYPE_TRIANGLES_KHR);
     if (of.is_opaque) geometry.flags = VK_GEOMETRY_OPAQUE_BIT_KHR;
     VkAccelerationStructureGeometryTrianglesDataKHR& triangles = geometry.geometry.triangles;
@@ -46,6 +49,23 @@ lowerGeometry(const TriangleSet& of, VkDeviceAddress vertices, VkDeviceAddress i
     triangles.indexType = VK_INDEX_TYPE_UINT32;
     triangles.indexData.deviceAddress = indices;
     return geometry;
+}
+
+VkAccelerationStructureGeometryKHR
+boxesGeometry(const PrimitiveSet& of, VkDeviceAddress first_box) {
+    VkAccelerationStructureGeometryKHR geometry = geometryOf(VK_GEOMETRY_TYPE_AABBS_KHR);
+    VkAccelerationStructureGeometryAabbsDataKHR& boxes = geometry.geometry.aabbs;
+    boxes.sType = VK_STRUCTURE_TYPE_ACCELERATION_STRUCTURE_GEOMETRY_AABBS_DATA_KHR;
+    boxes.data.deviceAddress = first_box;
+    boxes.stride = of.box_stride;
+    return geometry;
+}
+
+// Addresses may be 0 if only sizes are asked for.
+VkAccelerationStructureGeometryKHR
+lowerGeometry(const PrimitiveSet& of, VkDeviceAddress primitives, VkDeviceAddress indices) {
+    return of.kind == PrimitiveSet::Kind::boxes ? boxesGeometry(of, primitives)
+                                                : trianglesGeometry(of, primitives, indices);
 }
 
 VkAccelerationStructureGeometryKHR upperGeometry(VkDeviceAddress instance) {
@@ -135,21 +155,21 @@ void record(
 
 }  // namespace
 
-MemoryRows TriangleStructure::rows(const Device& device, const TriangleSet& triangles) {
+MemoryRows AccelerationStructure::rows(const Device& device, const PrimitiveSet& primitives) {
     const VkPhysicalDeviceAccelerationStructurePropertiesKHR limits = limitsOf(device);
-    if (triangles.triangles > limits.maxPrimitiveCount)
+    if (primitives.count > limits.maxPrimitiveCount)
         throw Unsupported(
-            "acceleration structure", std::to_string(triangles.triangles) +
-                                          " triangles; the device allows " +
+            "acceleration structure", std::to_string(primitives.count) + " " +
+                                          nameOf(primitives.kind) + "; the device allows " +
                                           std::to_string(limits.maxPrimitiveCount));
-    const VkAccelerationStructureGeometryKHR lower_geometry = lowerGeometry(triangles, 0, 0);
+    const VkAccelerationStructureGeometryKHR lower_geometry = lowerGeometry(primitives, 0, 0);
     const VkAccelerationStructureGeometryKHR upper_geometry = upperGeometry(0);
     const VkAccelerationStructureBuildSizesInfoKHR lower = sizesOf(
         device,
         buildOf(
-            VK_ACCELERATION_STRUCTURE_TYPE_BOTTOM_LEVEL_KHR, lowerFlags(triangles.rebuild),
+            VK_ACCELERATION_STRUCTURE_TYPE_BOTTOM_LEVEL_KHR, lowerFlags(primitives.rebuild),
             lower_geometry),
-        triangles.triangles);
+        primitives.count);
     const VkAccelerationStructureBuildSizesInfoKHR upper = sizesOf(
         device, buildOf(VK_ACCELERATION_STRUCTURE_TYPE_TOP_LEVEL_KHR, kUpperFlags, upper_geometry),
         1);
@@ -164,14 +184,14 @@ MemoryRows TriangleStructure::rows(const Device& device, const TriangleSet& tria
                         scratch + limits.minAccelerationStructureScratchOffsetAlignment)}}};
 }
 
-bool TriangleStructure::leavesOutNan(const Device& device) {
+bool AccelerationStructure::leavesOutNan(const Device& device) {
     return device.info().driver_id != VK_DRIVER_ID_MESA_LLVMPIPE;
 }
 
-TriangleStructure::TriangleStructure(const Device& device, const TriangleSet& triangles)
-    : triangles_(triangles) {
+AccelerationStructure::AccelerationStructure(const Device& device, const PrimitiveSet& primitives)
+    : primitives_(primitives) {
     device.require(Feature::ray_queries, kLower);
-    const MemoryRows rows = TriangleStructure::rows(device, triangles);
+    const MemoryRows rows = AccelerationStructure::rows(device, primitives);
     lower_storage_ = {device, rows[kLower]};
     upper_storage_ = {device, rows[kUpper]};
     lower_ = {
@@ -191,16 +211,17 @@ TriangleStructure::TriangleStructure(const Device& device, const TriangleSet& tr
     upper_address_ = addressOf(device, upper_.get());
 }
 
-void TriangleStructure::build(Commands& commands, const Buffer& vertices, const Buffer& indices) {
-    const bool refits = triangles_.rebuild == Rebuild::refit && is_built_;
+void AccelerationStructure::build(
+    Commands& commands, const Buffer& primitives, const Buffer* indices) {
+    const bool refits = primitives_.rebuild == Rebuild::refit && is_built_;
     commands.uses(
-        {{vertices, Access::build_read},
+        {{primitives, Access::build_read},
          {lower_storage_, Access::build_write},
          {scratch_, Access::build_write}});
     const VkAccelerationStructureGeometryKHR lower_geometry =
-        lowerGeometry(triangles_, vertices.address(), indices.address());
+        lowerGeometry(primitives_, primitives.address(), indices ? indices->address() : 0);
     VkAccelerationStructureBuildGeometryInfoKHR lower = buildOf(
-        VK_ACCELERATION_STRUCTURE_TYPE_BOTTOM_LEVEL_KHR, lowerFlags(triangles_.rebuild),
+        VK_ACCELERATION_STRUCTURE_TYPE_BOTTOM_LEVEL_KHR, lowerFlags(primitives_.rebuild),
         lower_geometry);
     if (refits) {
         lower.mode = VK_BUILD_ACCELERATION_STRUCTURE_MODE_UPDATE_KHR;
@@ -208,7 +229,7 @@ void TriangleStructure::build(Commands& commands, const Buffer& vertices, const 
     }
     lower.dstAccelerationStructure = lower_.get();
     lower.scratchData.deviceAddress = scratch_address_;
-    record(commands, lower, triangles_.triangles);
+    record(commands, lower, primitives_.count);
     is_built_ = true;
 
     commands.uses(
@@ -223,8 +244,8 @@ void TriangleStructure::build(Commands& commands, const Buffer& vertices, const 
     record(commands, upper, 1);
 }
 
-std::uint64_t TriangleStructure::traces(Commands& commands) const {
-    commands.uses({{lower_storage_, Access::trace_read}, {upper_storage_, Access::trace_read}});
+std::uint64_t AccelerationStructure::traces(Commands& commands, Access access) const {
+    commands.uses({{lower_storage_, access}, {upper_storage_, access}});
     return upper_address_;
 }
 

@@ -14,41 +14,50 @@ enum class Rebuild {
     refit,  // its boxes are fitted to the triangles, which stay in the groups of the first time
 };
 
-struct TriangleSet {
-    std::uint32_t vertices = 0;  // vec3
-    std::uint32_t triangles = 0;  // three 32-bit indices each
+// The bodies that rays may meet.
+struct PrimitiveSet {
+    enum class Kind {
+        triangles,  // three 32-bit indices each
+        boxes,  // along the axes; the shader says whether a ray meets what is inside
+    };
+    Kind kind = Kind::triangles;
+    std::uint32_t count = 0;  // of triangles or boxes
+    std::uint32_t vertices = 0;  // of triangles: vec3
+    std::uint32_t box_stride = 0;  // B, a multiple of 8; a box is two vec3, its corners
     // Rays take the nearest triangle without asking the shader.
     bool is_opaque = true;
     Rebuild rebuild = Rebuild::anew;
 };
 
-// An acceleration structure of triangles, for ray queries: one structure that has the triangles,
+// An acceleration structure of triangles or boxes, for ray queries: one structure that has these,
 // and one above it that has the first as its only instance, because rays begin there. Needs
 // Feature::ray_queries.
-class TriangleStructure {
+class AccelerationStructure {
 public:
-    // Throws Unsupported for more triangles than the device allows.
-    static MemoryRows rows(const Device& device, const TriangleSet& triangles);
+    // Throws Unsupported for more primitives than the device allows.
+    static MemoryRows rows(const Device& device, const PrimitiveSet& primitives);
 
-    TriangleStructure(const Device& device, const TriangleSet& triangles);
+    AccelerationStructure(const Device& device, const PrimitiveSet& primitives);
 
-    // Whether triangles with a vertex whose x is NaN are left out, as Vulkan demands. With
-    // Rebuild::refit they must always be the same ones. In lavapipe of Mesa 25 such a triangle
-    // hides the others.
+    // Whether triangles with a vertex whose x is NaN are left out, and boxes with NaN as their
+    // least x, as Vulkan demands. With Rebuild::refit they must always be the same ones. In
+    // lavapipe of Mesa 25 such a triangle hides the others.
     static bool leavesOutNan(const Device& device);
 
-    // Records the building from `vertices`, vec3 [vertex], and `indices`, uint [triangle][3]. With
-    // Rebuild::refit only the first call builds.
-    void build(Commands& commands, const Buffer& vertices, const Buffer& indices);
+    // Records the building from `primitives`: vec3 [vertex] with `indices`, uint [triangle][3], or
+    // boxes, for which `indices` is null. With Rebuild::refit only the first call builds.
+    void build(Commands& commands, const Buffer& primitives, const Buffer* indices = nullptr);
 
-    // Declares that the next dispatch traces rays, and returns the structure's address for
-    // accelerationStructureEXT() in shaders.
-    std::uint64_t traces(Commands& commands) const;
+    // For accelerationStructureEXT() in shaders.
+    std::uint64_t address() const { return upper_address_; }
+    // Declares that the next dispatch traces rays (Access::trace_read), or that fragments of the
+    // next rendering do (Access::fragment_trace), and returns the address.
+    std::uint64_t traces(Commands& commands, Access access = Access::trace_read) const;
 
 private:
     using Structure = Handle<VkAccelerationStructureKHR, &vkDestroyAccelerationStructureKHR>;
 
-    TriangleSet triangles_;
+    PrimitiveSet primitives_;
     bool is_built_ = false;
     Buffer lower_storage_;
     Buffer upper_storage_;

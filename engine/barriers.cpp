@@ -20,6 +20,7 @@ enum Class : std::uint32_t {
     kHost = 1u << 6,
     kBuild = 1u << 7,  // of acceleration structures
     kTrace = 1u << 8,  // ray queries of compute
+    kFragmentTrace = 1u << 9,  // ray queries of the fragment stage
 };
 
 // The classes of a queue without graphics.
@@ -35,29 +36,32 @@ struct ClassScope {
 
 // In the order of the bits. The earlier and later stages are those of chapter 7.1.2 of the Vulkan
 // specification. Depth is tested before fragments are shaded, and written before or after.
-constexpr std::array<ClassScope, 9> kScopes{{
+constexpr std::array<ClassScope, 10> kScopes{{
     {VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT, VK_ACCESS_2_SHADER_READ_BIT,
      VK_ACCESS_2_SHADER_WRITE_BIT, kTrace, kTrace},
     {VK_PIPELINE_STAGE_2_PRE_RASTERIZATION_SHADERS_BIT, VK_ACCESS_2_SHADER_READ_BIT, 0, kIndirect,
-     kFragment | kAttachment},
+     kFragment | kAttachment | kFragmentTrace},
     {VK_PIPELINE_STAGE_2_FRAGMENT_SHADER_BIT, VK_ACCESS_2_SHADER_READ_BIT,
-     VK_ACCESS_2_SHADER_WRITE_BIT, kIndirect | kVertex, 0},
+     VK_ACCESS_2_SHADER_WRITE_BIT, kIndirect | kVertex | kFragmentTrace, kFragmentTrace},
     {VK_PIPELINE_STAGE_2_EARLY_FRAGMENT_TESTS_BIT | VK_PIPELINE_STAGE_2_LATE_FRAGMENT_TESTS_BIT |
          VK_PIPELINE_STAGE_2_COLOR_ATTACHMENT_OUTPUT_BIT,
      VK_ACCESS_2_COLOR_ATTACHMENT_READ_BIT | VK_ACCESS_2_DEPTH_STENCIL_ATTACHMENT_READ_BIT,
      VK_ACCESS_2_COLOR_ATTACHMENT_WRITE_BIT | VK_ACCESS_2_DEPTH_STENCIL_ATTACHMENT_WRITE_BIT,
-     kIndirect | kVertex | kFragment, 0},
+     kIndirect | kVertex | kFragment | kFragmentTrace, 0},
     {VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT, VK_ACCESS_2_TRANSFER_READ_BIT,
      VK_ACCESS_2_TRANSFER_WRITE_BIT, 0, 0},
     {VK_PIPELINE_STAGE_2_DRAW_INDIRECT_BIT, VK_ACCESS_2_INDIRECT_COMMAND_READ_BIT, 0, 0,
-     kVertex | kFragment | kAttachment},
+     kVertex | kFragment | kAttachment | kFragmentTrace},
     {VK_PIPELINE_STAGE_2_HOST_BIT, VK_ACCESS_2_HOST_READ_BIT, VK_ACCESS_2_HOST_WRITE_BIT, 0, 0},
     {VK_PIPELINE_STAGE_2_ACCELERATION_STRUCTURE_BUILD_BIT_KHR,
      VK_ACCESS_2_SHADER_READ_BIT | VK_ACCESS_2_ACCELERATION_STRUCTURE_READ_BIT_KHR,
      VK_ACCESS_2_ACCELERATION_STRUCTURE_WRITE_BIT_KHR, 0, 0},
-    // The same stage as kCompute, but no barrier may name this access on a device without it.
+    // The same stages as kCompute and kFragment, but no barrier may name this access on a device
+    // without it.
     {VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT, VK_ACCESS_2_ACCELERATION_STRUCTURE_READ_BIT_KHR, 0,
      kCompute, kCompute},
+    {VK_PIPELINE_STAGE_2_FRAGMENT_SHADER_BIT, VK_ACCESS_2_ACCELERATION_STRUCTURE_READ_BIT_KHR, 0,
+     kIndirect | kVertex | kFragment, kFragment},
 }};
 
 struct ClassAccess {
@@ -66,7 +70,7 @@ struct ClassAccess {
 };
 
 // In the order of the enumerators.
-constexpr std::array<ClassAccess, 15> kAccesses{{
+constexpr std::array<ClassAccess, 16> kAccesses{{
     {kCompute, false},  // compute_read
     {kCompute, true},  // compute_write
     {kVertex | kFragment, false},  // graphics_read
@@ -82,6 +86,7 @@ constexpr std::array<ClassAccess, 15> kAccesses{{
     {kBuild, false},  // build_read
     {kBuild, true},  // build_write
     {kTrace, false},  // trace_read
+    {kFragmentTrace, false},  // fragment_trace
 }};
 
 constexpr const ClassAccess& classesOf(Access access) {
@@ -209,7 +214,7 @@ TrackedResources::Uses& BarrierPlan::usesOf(TrackedResources::Id id) {
 }
 
 void BarrierPlan::wait(std::size_t earlier, std::size_t later) {
-    Pair& pair = ((kFragment | kAttachment) >> earlier) & 1u ? drawing_ : shaders_;
+    Pair& pair = ((kFragment | kAttachment | kFragmentTrace) >> earlier) & 1u ? drawing_ : shaders_;
     pair.before |= 1u << earlier;
     pair.after |= 1u << later;
 }

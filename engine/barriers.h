@@ -49,6 +49,7 @@ enum class Access {
     build_read,  // buffers and structures that the building of acceleration structures reads
     build_write,  // structures and scratch memory, read and written by it
     trace_read,  // structures in which compute traces rays
+    fragment_trace,  // structures in which the fragment stage traces rays
 };
 
 Scope scopeOf(Access access);
@@ -150,7 +151,7 @@ public:
 
 private:
     friend class BarrierPlan;
-    static constexpr std::size_t kClasses = 9;
+    static constexpr std::size_t kClasses = 10;
     static constexpr std::size_t kQueues = 2;
 
     // Uses of a resource by the commands of one kind of queue. Times are BarrierPlan's.

@@ -32,10 +32,16 @@ const char* backendName(Backend backend) {
 
 const Table& tableOf(const RaysSettings*) {
     using S = RaysSettings;
-    static const Table table = tableWith<S>({choice(
-        "update", &S::update, {{RaysUpdate::build, "build"}, {RaysUpdate::refit, "refit"}},
-        "acceleration structure of the back end rays in each frame; build: built anew; refit: "
-        "built once, and fitted to the strands as they move")});
+    static const Table table = tableWith<S>(
+        {choice(
+             "geometry", &S::geometry,
+             {{RaysGeometry::triangles, "triangles"}, {RaysGeometry::boxes, "boxes"}},
+             "pieces of strands as rays meet them; triangles: of the quads that the other back "
+             "ends draw; boxes: round, each in a box of its own, intersected by the shader"),
+         choice(
+             "update", &S::update, {{RaysUpdate::build, "build"}, {RaysUpdate::refit, "refit"}},
+             "acceleration structure of the back end rays in each frame; build: built anew; refit: "
+             "built once, and fitted to the strands as they move")});
     return table;
 }
 

@@ -37,8 +37,14 @@ const char* backendName(Backend backend);
 
 // How the back end `rays` brings its acceleration structure up to date in each frame.
 enum class RaysUpdate { build, refit };
+// The shape of a strand's pieces that rays meet.
+enum class RaysGeometry {
+    triangles,  // of the quads that the other back ends draw
+    boxes,  // round, within a box
+};
 
 struct RaysSettings {
+    RaysGeometry geometry = RaysGeometry::triangles;
     RaysUpdate update = RaysUpdate::build;
 };
 

@@ -81,7 +81,8 @@ template <>
 inline constexpr std::size_t kCount<HairShadows> = counted<HairShadows>(
     {{HairShadows::none, gpu::kHairShadowsNone},
      {HairShadows::deep_opacity, gpu::kHairShadowsDeepOpacity},
-     {HairShadows::deep_shadow, gpu::kHairShadowsDeepShadow}});
+     {HairShadows::deep_shadow, gpu::kHairShadowsDeepShadow},
+     {HairShadows::rays, gpu::kHairShadowsRays}});
 
 template <>
 inline constexpr std::size_t kCount<Show> = counted<Show>(

@@ -35,7 +35,7 @@ struct LightSettings {
 
 const Table& tableOf(const LightSettings*);
 
-enum class HairShadows { none, deep_opacity, deep_shadow };
+enum class HairShadows { none, deep_opacity, deep_shadow, rays };
 
 struct ShadowSettings {
     bool meshes = false;

@@ -538,8 +538,20 @@ void StageWatch::set(std::uint32_t mask, std::uint32_t wanted) {
 
 namespace {
 
+// Only stages of compute that shade strands trace rays of light.
+constexpr BackendLimit tracesNoLight(Backend backend) {
+    return {
+        backend, "`/shading/shadows/hair` `rays`", "its fragments trace no rays", tracesShadows};
+}
+
 // All settings that back ends don't draw, one row each.
 constexpr std::array kBackendLimits{
+    tracesNoLight(Backend::tessellation),
+    tracesNoLight(Backend::pulling_geometry),
+    tracesNoLight(Backend::lines),
+    tracesNoLight(Backend::pulling),
+    tracesNoLight(Backend::expanded),
+    tracesNoLight(Backend::mesh),
     BackendLimit{
         Backend::lines, "`/render/coverage` `analytic`", "its lines are a pixel wide",
         [](const Settings& s) { return s.render.coverage == Coverage::analytic; }},
@@ -564,6 +576,12 @@ constexpr std::array kBackendLimits{
     BackendLimit{
         Backend::rays, "`/strands/texture`", "its strands have no holes",
         [](const Settings& s) { return !s.strands.texture.empty(); }},
+    BackendLimit{
+        Backend::rays, "`/shading/shadows/hair` `rays` with `/strands/rays/geometry` `triangles`",
+        "the quads face the eye, not the light",
+        [](const Settings& s) {
+            return tracesShadows(s) && s.strands.rays.geometry == RaysGeometry::triangles;
+        }},
 };
 
 // As measured on lavapipe (docs/performance.md).

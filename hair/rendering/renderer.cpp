@@ -274,7 +274,7 @@ bool cullsPoints(const Settings& settings) {
     const StrandSettings& strands = settings.strands;
     const bool refits =
         strands.backend == Backend::rays && strands.rays.update == RaysUpdate::refit;
-    return !hasHairMaps(settings) && !refits;
+    return !hasHairMaps(settings) && !tracesShadows(settings) && !refits;
 }
 
 std::optional<PointsPass>
@@ -283,8 +283,16 @@ makePoints(const engine::Device& device, const Settings& settings, const StrandP
     return std::optional<PointsPass>(std::in_place, device, settings, plan, cullsPoints(settings));
 }
 
-const PointsPass* pointerTo(const std::optional<PointsPass>& points) {
-    return points ? &*points : nullptr;
+template <class Part>
+const Part* pointerTo(const std::optional<Part>& part) {
+    return part ? &*part : nullptr;
+}
+
+std::optional<StrandStructure> makeStructure(
+    const engine::Device& device, const Settings& settings, const StrandPlan& plan,
+    const std::optional<PointsPass>& points) {
+    if (!tracedGeometry(settings)) return std::nullopt;
+    return std::optional<StrandStructure>(std::in_place, device, settings, plan, *points);
 }
 
 std::vector<engine::SampledImage>
@@ -323,6 +331,7 @@ engine::MemoryRows Renderer::rows(
     if (readsPoints(settings)) rows.add(PointsPass::rows(settings.strands, plan));
     rows.add(transparencyRows(settings.render));
     rows.add(backendRows(device, settings, plan, QuadKind::camera));
+    if (tracedGeometry(settings)) rows.add(StrandStructure::rows(device, settings, plan));
     const bool draws_maps = hasHairMaps(lit) && !drawsMapsInCompute(settings.strands.backend);
     if (draws_maps && plan.strands() > 0)
         for (int i = 0; i < 2; ++i)  // depth and opacity
@@ -339,12 +348,15 @@ Renderer::Renderer(
       target_(device, rendered(settings_)),
       lights_(engine::makeBuffer(device, lightsOfHeads(settings_), "lights", "shading")),
       optics_(device, settings_), points_(makePoints(device, settings_, plan_)),
-      shadows_(device, settings_, plan_, assets, pointerTo(points_)),
+      structure_(makeStructure(device, settings_, plan_, points_)),
+      shadows_(device, settings_, plan_, assets, pointerTo(points_), pointerTo(structure_)),
       environment_(device, settings_, assets),
       meshes_(device, litByHarmonics(withBackend(settings, backend_.backend)), assets),
       texture_(device, settings_.render, assets.strand_texture),
       strand_images_(strandImages(texture_, shadows_)),
-      strands_(device, settings_, plan_, target_, view, pointerTo(points_), stages),
+      strands_(
+          device, settings_, plan_, target_, view, pointerTo(points_), pointerTo(structure_),
+          stages),
       overlay_(device, settings_, assets),
       resolve_(device, settings_.render, target_.description()) {
     backend_.variant = strands_.backendVariant();
@@ -433,6 +445,7 @@ void Renderer::record(engine::Passes& passes, std::span<const StrandView> views)
     writePictures(passes.slot(), views);
     const bool joined = passes.joins() && strands_.joinsScene() && heads_.size() == 1;
     const bool shadows_need_points = shadows_.drawsHair();
+    const bool traces = tracesShadows(settings_);
     for (const std::uint32_t i : order_) {
         const bool is_first = i == order_.front();
         const std::uint32_t motion = motionOf(i, views);
@@ -440,13 +453,15 @@ void Renderer::record(engine::Passes& passes, std::span<const StrandView> views)
         const StrandPicture picture = pictureOf(heads_[i]);
         const bool moves = is_first || views.size() > 1;
         if (moves) recordShape(passes, view, picture);
-        if ((moves && shadows_need_points) || joined) recordPoints(passes, picture);
+        const bool has_points = (moves && shadows_need_points) || traces;
+        if (has_points || joined) recordPoints(passes, picture);
+        if (traces) recordStructure(passes, picture);
         if (moves) shadows_.record(passes, meshes_, view, picture.parameters, motion);
         if (joined)
             recordJoined(passes, view, picture);
         else
             recordApart(
-                passes, picture, moves && shadows_need_points ? Points::recorded : Points::needed,
+                passes, picture, has_points ? Points::recorded : Points::needed,
                 {.first = is_first, .last = i == order_.back()});
     }
     if (!joined) recordOverlays(passes, views);
@@ -468,6 +483,14 @@ void Renderer::recordPoints(
     passes.pass("points", engine::PassKind::compute, [&](engine::Commands& commands) {
         if (bounds == Bounds::old) points_->clear(commands);
         points_->record(commands, picture.address, picture.parameters);
+    });
+}
+
+// Builds what rays are traced in, from the points.
+void Renderer::recordStructure(engine::Passes& passes, const StrandPicture& picture) {
+    if (!structure_) return;
+    passes.pass("acceleration", engine::PassKind::compute, [&](engine::Commands& commands) {
+        structure_->record(commands, picture);
     });
 }
 
@@ -493,7 +516,7 @@ void Renderer::recordJoined(
 }
 
 void Renderer::recordApart(
-    engine::Passes& passes, const StrandPicture& picture, Points points, Turn turn) const {
+    engine::Passes& passes, const StrandPicture& picture, Points points, Turn turn) {
     const bool resolves = target_.resolve() != engine::Resolve::none;
     const bool completes = turn.last && !resolves && overlay_.empty();
     const Last after_strands = completes ? Last::yes : Last::no;
@@ -501,6 +524,7 @@ void Renderer::recordApart(
     // The scene and the points wait for the simulation alone: one barrier in front of the scene is
     // enough for both if the points' bounds are cleared before it. A GPU can then work on both at
     // once.
+    const bool traces = tracesShadows(settings_);  // the scene's fragments need the structure, too
     const bool clears_early = points == Points::needed && points_ && passes.joins();
     if (clears_early)
         passes.pass("points", engine::PassKind::compute, [&](engine::Commands& commands) {
@@ -508,6 +532,7 @@ void Renderer::recordApart(
         });
     passes.pass("scene", engine::PassKind::graphics, [&](engine::Commands& commands) {
         const engine::Load load = turn.first ? engine::Load::clear : engine::Load::keep;
+        if (traces) structure_->tracesLight(commands, StrandStructure::Tracer::fragments);
         target_.beginRendering(commands, load, background(), after_scene);
         meshes_.draw(commands, picture.address, shadows_.images());
         if (turn.first) environment_.draw(commands, picture.address);
@@ -515,7 +540,9 @@ void Renderer::recordApart(
     });
     if (points == Points::needed)
         recordPoints(passes, picture, clears_early ? Bounds::cleared : Bounds::old);
-    if (settings_.render.hair) strands_.record(passes, target_, picture, after_strands);
+    if (!settings_.render.hair) return;
+    if (!traces) recordStructure(passes, picture);
+    strands_.record(passes, target_, picture, after_strands);
 }
 
 void Renderer::recordOverlays(engine::Passes& passes, std::span<const StrandView> views) const {

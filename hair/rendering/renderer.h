@@ -24,6 +24,7 @@
 #include "hair/rendering/strand_offsets.h"
 #include "hair/rendering/strand_pass.h"
 #include "hair/rendering/strand_plan.h"
+#include "hair/rendering/strand_structure.h"
 #include "hair/rendering/strand_view.h"
 #include "hair/settings.h"
 
@@ -142,6 +143,7 @@ private:
     void recordShape(engine::Passes& passes, const StrandView& view, const StrandPicture& picture);
     void recordPoints(
         engine::Passes& passes, const StrandPicture& picture, Bounds bounds = Bounds::old) const;
+    void recordStructure(engine::Passes& passes, const StrandPicture& picture);
     void recordJoined(
         engine::Passes& passes, const StrandView& view, const StrandPicture& picture) const;
     // Which of the heads is drawn: the first clears the target, the last completes the picture.
@@ -149,8 +151,8 @@ private:
         bool first = true;
         bool last = true;
     };
-    void recordApart(
-        engine::Passes& passes, const StrandPicture& picture, Points points, Turn turn) const;
+    void
+    recordApart(engine::Passes& passes, const StrandPicture& picture, Points points, Turn turn);
     void recordOverlays(engine::Passes& passes, std::span<const StrandView> views) const;
 
     StrandPlan plan_;
@@ -167,6 +169,7 @@ private:
     std::optional<FramesPass> frames_;
     std::optional<SkinnedHead> skin_;
     std::optional<PointsPass> points_;
+    std::optional<StrandStructure> structure_;
     ShadowPass shadows_;
     EnvironmentPass environment_;
     SceneMeshes meshes_;

@@ -68,7 +68,9 @@ engine::Constants meshConstants(const MeshLook& look, const Settings& settings) 
 
 engine::GraphicsDescription pipeline(const MeshLook& look, const Settings& settings) {
     return {
-        .shaders = {"scene/mesh.vert", "scene/mesh.frag"},
+        .shaders =
+            {"scene/mesh.vert",
+             tracesShadows(settings) ? "scene/mesh.frag+rays" : "scene/mesh.frag"},
         .constants = meshConstants(look, settings),
         .push_size = sizeof(gpu::MeshPush),
         .colors = {{colorFormat(settings.render)}},

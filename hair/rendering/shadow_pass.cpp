@@ -21,6 +21,7 @@
 #include "engine/transfer.h"
 #include "hair/rendering/environment.h"
 #include "hair/rendering/fiber.h"
+#include "hair/rendering/strand_structure.h"
 
 namespace hair::rendering {
 namespace {
@@ -337,7 +338,8 @@ VkRect2D ShadowAtlas::part(std::uint32_t index) const {
 }
 
 bool hasHairMaps(const Settings& settings) {
-    return settings.shading.shadows.hair != HairShadows::none && settings.render.hair &&
+    const HairShadows hair = settings.shading.shadows.hair;
+    return hair != HairShadows::none && hair != HairShadows::rays && settings.render.hair &&
            !mapsOfLights(settings).empty();
 }
 
@@ -378,10 +380,11 @@ engine::MemoryRows ShadowPass::rows(const Settings& settings, const StrandPlan& 
 
 ShadowPass::ShadowPass(
     const engine::Device& device, const Settings& settings, const StrandPlan& plan,
-    const RenderAssets& assets, const PointsPass* points)
+    const RenderAssets& assets, const PointsPass* points, const StrandStructure* structure)
     : settings_(settings), scene_(settings, assets), maps_(mapsOfLights(settings)),
       mesh_maps_(settings.shading.shadows.meshes && !maps_.empty()),
       hair_maps_(hasHairMaps(settings) && plan.strands() > 0),
+      structure_(tracesShadows(settings) ? structure : nullptr),
       atlas_(checkedAtlas(
           device, static_cast<std::uint32_t>(maps_.size()), settings.shading.shadows.resolution)),
       mesh_depths_(device, depthOfMeshes(mesh_maps_ ? &atlas_ : nullptr)),
@@ -437,13 +440,15 @@ void ShadowPass::writeParameters(
     // The map has room for samples round a point: those of the filter, and strands a texel wide.
     const float margin = std::max(shadows.softness, 0.5f) + 1.0f;
     const ShadowBounds bounds = scene_.bounds(view);
+    parameters.reach = 2.0f * bounds.range.radius;
+    if (structure_) structure_->describe(parameters);
     light_pictures_.clear();
     std::uint32_t further = gpu::kMostLights;
     for (std::uint32_t i = 0; i < maps_.size(); ++i) {
         const auto [light, sample] = maps_[i];
         const LightSettings& whole = settings_.shading.lights[light];
-        const LightView light_view = lightView(
-            lightSample(whole, bounds.receivers.centre, sample), bounds, atlas_.side, margin);
+        const LightSettings point = lightSample(whole, bounds.receivers.centre, sample);
+        const LightView light_view = lightView(point, bounds, atlas_.side, margin);
         const VkOffset2D corner = atlas_.part(i).offset;
         const std::uint32_t map = sample == 0 ? light : further++;
         parameters.maps[map] = {
@@ -454,9 +459,13 @@ void ShadowPass::writeParameters(
             .texel_slope = light_view.texel_slope,
             .layer_depth = shadows.layer_depth,
             .ends_at_meshes = mesh_maps_ && shadows.hair == HairShadows::deep_shadow ? 1u : 0u,
-            .casters = (mesh_maps_ ? gpu::kMeshesCast : 0u) | (hair_maps_ ? gpu::kHairCasts : 0u),
+            .casters = (mesh_maps_ ? gpu::kMeshesCast : 0u) |
+                       (hair_maps_ || structure_ ? gpu::kHairCasts : 0u),
             .further = further,
             .further_count = shadowMaps(whole) - 1u};
+        parameters.sources[map] = point.type == LightType::directional
+                                      ? glm::vec4(-unit(point.direction), 0.0f)
+                                      : glm::vec4(point.position, 1.0f);
         gpu::PictureParameters picture = of;
         picture.view_projection = light_view.view_projection;
         picture.eye = light_view.eye;

@@ -79,7 +79,7 @@ struct MapOfLight {
 LightSettings
 lightSample(const LightSettings& light, const glm::vec3& receiver, std::uint32_t index);
 
-// Whether there are shadow maps of hair.
+// Whether there are shadow maps of hair. There are none if rays find its shadows.
 bool hasHairMaps(const Settings& settings);
 
 // Throws engine::Unsupported if the device has no images of this size.
@@ -92,11 +92,12 @@ void checkAtlas(const engine::Device& device, const ShadowAtlas& atlas);
 // (LightSettings::shadow_samples).
 class ShadowPass {
 public:
-    // `points` must be set if readsPoints(). Throws engine::Unsupported if the device lacks the
-    // images.
+    // `points` must be set if readsPoints(), `structure` if tracesShadows(). Throws
+    // engine::Unsupported if the device lacks the images.
     ShadowPass(
         const engine::Device& device, const Settings& settings, const StrandPlan& plan,
-        const RenderAssets& assets, const PointsPass* points = nullptr);
+        const RenderAssets& assets, const PointsPass* points = nullptr,
+        const StrandStructure* structure = nullptr);
 
     // Without those of the back ends that draw hair in the rasteriser. `settings` have the lights
     // of an environment.
@@ -141,6 +142,7 @@ private:
     std::vector<MapOfLight> maps_;  // [part of the atlas]
     bool mesh_maps_;
     bool hair_maps_;
+    const StrandStructure* structure_;  // null if no rays find the hair's shadows
     ShadowAtlas atlas_;
     std::vector<engine::Buffer> parameters_;  // [place()]
     std::vector<engine::Buffer> pictures_;  // [place()]

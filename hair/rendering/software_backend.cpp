@@ -11,6 +11,7 @@
 #include "engine/error.h"
 #include "engine/target.h"
 #include "hair/rendering/render_assets.h"
+#include "hair/rendering/strand_structure.h"
 
 namespace hair::rendering {
 namespace {
@@ -19,7 +20,7 @@ using engine::Access;
 
 static_assert(
     offsetof(gpu::SoftwarePush, width) == 88 && offsetof(gpu::SoftwarePush, structure) == 112 &&
-    sizeof(gpu::SoftwarePush) == 120);
+    sizeof(gpu::SoftwarePush) == 128);
 
 constexpr const char* kSoftware = "/strands/backend: software";
 constexpr std::size_t kSampleBytes = 8;  // two words
@@ -53,13 +54,15 @@ culledBlock(const engine::Device& device, const StrandSettings& strands, const S
 }
 
 // Whether each invocation of `shade` takes one pixel. Lavapipe ends an invocation's loops after
-// 65,535 iterations in all, and each light adds iterations for each texel of its map. With few
-// lights, an invocation takes many pixels and reads the picture's parameters once.
+// 65,535 iterations in all, and each light adds iterations for each texel of its map, and each ray
+// for each of its steps. With few lights and without rays, an invocation takes many pixels and
+// reads the picture's parameters once.
 bool shadesPixelPerInvocation(const BackendContext& context) {
     constexpr std::uint32_t kFewLights = 2;
-    return std::ranges::any_of(context.output.shading, [](const engine::Constant& constant) {
-        return constant.id == gpu::kLightCountConstant && constant.bits > kFewLights;
-    });
+    return context.traces_shadows ||
+           std::ranges::any_of(context.output.shading, [](const engine::Constant& constant) {
+               return constant.id == gpu::kLightCountConstant && constant.bits > kFewLights;
+           });
 }
 
 // Returns the most pieces per invocation of `raster`, of `pieces` in all. A processor is busy with
@@ -121,8 +124,9 @@ engine::ComputeDescription clearStage(const BackendContext& context) {
 }
 
 engine::ComputeDescription shadeStage(const BackendContext& context) {
-    engine::ComputeDescription stage =
-        texelStage(context, "shade.comp", 2, pixelGroup(context.device));
+    engine::ComputeDescription stage = texelStage(
+        context, context.traces_shadows ? "shade.comp+rays" : "shade.comp", 2,
+        pixelGroup(context.device));
     stage.combined_images = context.output.sampled_images;
     return stage;
 }
@@ -172,6 +176,7 @@ engine::MemoryRows VisibilityBuffer::rows(const engine::TargetDescription& targe
 
 VisibilityBuffer::VisibilityBuffer(const BackendContext& context, const std::string& backend)
     : target_(*context.target), points_(*context.points),
+      structure_(context.traces_shadows ? context.structure : nullptr),
       samples_per_pixel_(checkedSamples(context.device, context.output.samples, backend)),
       points_texels_(texelsOf(context)), clear_(context.device, clearStage(context)),
       shaded_columns_(
@@ -218,6 +223,7 @@ void VisibilityBuffer::shade(engine::Commands& commands, const StrandPicture& pi
     constants.visibility = commands.writes(samples_);
     constants.bounds = commands.reads(points_.bounds());
     if (target_.hasRadiance()) constants.colors = commands.writes(colors_);
+    if (structure_) structure_->tracesLight(commands, StrandStructure::Tracer::compute);
     commands.bind(shade_, constants);
     if (points_texels_)
         commands.images(shade_, picture.images, std::array{points_texels_, &texels_});
@@ -301,6 +307,7 @@ SoftwareBackend::SoftwareBackend(const BackendContext& context)
 
 void SoftwareBackend::check(
     const engine::Device& device, const Settings& settings, const StrandPlan& plan) {
+    if (tracesShadows(settings)) StrandStructure::check(device, settings, plan);
     checkPoints(plan);
     VisibilityBuffer::check(device, settings, kSoftware);
 }

@@ -48,6 +48,7 @@ public:
 private:
     const engine::Target& target_;
     const PointsPass& points_;
+    const StrandStructure* structure_;  // null if shading traces no rays
     std::uint32_t samples_per_pixel_;
     const engine::TexelView* points_texels_;  // null if shaders read by address alone
     engine::Buffer samples_;

@@ -21,6 +21,12 @@
 namespace hair::rendering {
 
 class PointsPass;
+class StrandStructure;
+
+// Whether rays find the shadows of the case's hair.
+inline bool tracesShadows(const Settings& settings) {
+    return settings.render.hair && settings.shading.shadows.hair == HairShadows::rays;
+}
 
 // The stages of the tessellation back end that can be left out, in pipeline order. The control
 // stage goes with the evaluation.
@@ -64,11 +70,6 @@ public:
     // The kind of the pass that draw() belongs to.
     virtual engine::PassKind passKind() const { return engine::PassKind::graphics; }
 
-    // Whether accelerate() has anything to record, in a pass of its own.
-    virtual bool accelerates() const { return false; }
-    // Records the building of what prepare() traces rays in, in front of it.
-    virtual void accelerate(engine::Commands&, const StrandPicture&) {}
-
     // Records what draw() needs of the picture, before rendering begins.
     virtual void prepare(engine::Commands&, const StrandPicture&) const {}
 
@@ -111,6 +112,8 @@ struct BackendContext {
     StrandStages stages{};
     const engine::Target* target = nullptr;  // of the camera's picture
     const PointsPass* points = nullptr;  // if readsPoints()
+    const StrandStructure* structure = nullptr;  // if tracedGeometry()
+    bool traces_shadows = false;  // in the structure
 };
 
 // Addresses of other buffers that shaders read; 0 if they don't.

@@ -489,7 +489,7 @@ StrandTexture::StrandTexture(
 StrandPass::StrandPass(
     const engine::Device& device, const Settings& settings, const StrandPlan& plan,
     const engine::Target& target, const StrandView& view, const PointsPass* points,
-    const StrandStages& stages)
+    const StrandStructure* structure, const StrandStages& stages)
     : blend_(blendOf(
           {.device = device, .settings = settings, .target = target, .view = view}, stages)),
       backend_(makeBackend(
@@ -499,16 +499,14 @@ StrandPass::StrandPass(
                                      .output = shaded(blend_->output(), settings),
                                      .stages = drawnStages(settings, stages),
                                      .target = &target,
-                                     .points = points})),
+                                     .points = points,
+                                     .structure = structure,
+                                     .traces_shadows = tracesShadows(settings)})),
       joins_scene_(settings.render.hair && blend_->drawsAtOnce() && !readsSceneDepth(settings)) {}
 
 void StrandPass::record(
     engine::Passes& passes, const engine::Target& target, const StrandPicture& picture,
     engine::Target::Last last) const {
-    if (backend_->accelerates())
-        passes.pass("acceleration", engine::PassKind::compute, [&](engine::Commands& commands) {
-            backend_->accelerate(commands, picture);
-        });
     const auto prepare = [&](engine::Commands& commands) { backend_->prepare(commands, picture); };
     const auto draw = [&](engine::Commands& commands) { backend_->draw(commands, picture); };
     blend_->record(

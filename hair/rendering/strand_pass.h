@@ -91,11 +91,12 @@ private:
 class StrandPass {
 public:
     // weighted_blended uses the bounding sphere of the strands in `view`. `points` must be set if
-    // readsPoints(). Throws engine::Unsupported for features that the device lacks.
+    // readsPoints(), `structure` if tracedGeometry(). Throws engine::Unsupported for features that
+    // the device lacks.
     StrandPass(
         const engine::Device& device, const Settings& settings, const StrandPlan& plan,
         const engine::Target& target, const StrandView& view, const PointsPass* points,
-        const StrandStages& stages = {});
+        const StrandStructure* structure = nullptr, const StrandStages& stages = {});
 
     // The picture's images are the kStrandImages that strands/fragment.glsl samples. `last` says
     // whether the picture is complete afterwards.

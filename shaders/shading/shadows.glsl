@@ -1,5 +1,5 @@
-// Occlusion between a light and a point: shadow maps of meshes, deep opacity maps and deep shadow
-// maps of hair.
+// Occlusion between a light and a point: shadow maps of meshes; deep opacity maps and deep shadow
+// maps of hair, or rays in its acceleration structure.
 #ifndef HAIRBENCH_SHADOWS_GLSL
 #define HAIRBENCH_SHADOWS_GLSL
 
@@ -136,7 +136,8 @@ LightPath filteredPath(ShadowMap map, ShadowPoint point, float half_width) {
     ivec2 first = ivec2(floor(centre - half_width));
     ivec2 last = ivec2(ceil(centre + half_width)) - 1;
     bool meshes_cast = kMeshShadows != 0 && (map.casters & kMeshesCast) != 0u;
-    bool hair_casts = kHairShadows != kHairShadowsNone && (map.casters & kHairCasts) != 0u;
+    bool hair_casts = kHairShadows != kHairShadowsNone && kHairShadows != kHairShadowsRays &&
+                      (map.casters & kHairCasts) != 0u;
     LightPath path = LightPath(0.0, 0.0, 0.0, vec3(0.0), 0.0, vec3(0.0), vec3(0.0), 1.0);
     for (int y = first.y; y <= last.y; ++y) {
         for (int x = first.x; x <= last.x; ++x) {
@@ -197,8 +198,14 @@ float firstStrand(ShadowMap map, vec2 texel, float side, float here) {
 // and mu: cosines of the light and the eye to its surface), so multiple scattering adds H(mu_0)
 // H(mu) - 1 times as much. This function returns the ratio of that to its value at a cosine of
 // kStraight. H(mu) is 1 + 2 mu, for no absorption (Hapke 1981, Bidirectional reflectance
-// spectroscopy 1); the eye's is kEyeH. The surface is that of the first strands, with its slope
-// taken over kReach to both sides.
+// spectroscopy 1); the eye's is kEyeH. `slope` is the surface's to a plane across the light.
+float gainOfSlope(vec2 slope) {
+    float cosine = inversesqrt(1.0 + dot(slope, slope));
+    return ((1.0 + 2.0 * cosine) * kEyeH - 1.0) / ((1.0 + 2.0 * kStraight) * kEyeH - 1.0);
+}
+
+// gainOfSlope() of the surface of the first strands, with its slope taken over kReach to both
+// sides.
 float multipleScattering(ShadowMap map, vec2 texel, float side, float texel_size) {
     float nearest = texelFetch(hair_depths, ivec2(map.corner) + ivec2(texel), 0).r;
     if (!isNearer(nearest, float(kFarDepth))) return 1.0;
@@ -208,9 +215,7 @@ float multipleScattering(ShadowMap map, vec2 texel, float side, float texel_size
                          firstStrand(map, texel - x.xy, side, here),
                      firstStrand(map, texel + x.yx, side, here) -
                          firstStrand(map, texel - x.yx, side, here));
-    vec2 slope = rise / (2.0 * kReach);
-    float cosine = inversesqrt(1.0 + dot(slope, slope));
-    return ((1.0 + 2.0 * cosine) * kEyeH - 1.0) / ((1.0 + 2.0 * kStraight) * kEyeH - 1.0);
+    return gainOfSlope(rise / (2.0 * kReach));
 }
 
 // Returns the path of light to a point, from one of the light's maps.
@@ -263,14 +268,102 @@ LightPath pathFromMap(ShadowReference shadows, ShadowMap map, Receiver receiver)
     return path;
 }
 
+#ifdef HAIRBENCH_RAYS
+#include "shading/traced_shadows.glsl"
+
+// The depth of the first mesh on a map's ray through a point; kFarDepth if there is none.
+float meshDepth(ShadowMap map, float side, vec4 clip) {
+    if (kMeshShadows == 0u || (map.casters & kMeshesCast) == 0u) return float(kFarDepth);
+    vec2 place = clip.xy / clip.w;
+    if (clip.w <= 0.0 || any(greaterThan(abs(place), vec2(1.0)))) return float(kFarDepth);
+    ivec2 texel = ivec2(min((0.5 * place + 0.5) * side, vec2(side - 1.0)));
+    return texelFetch(mesh_depths, ivec2(map.corner) + texel, 0).r;
+}
+
+float clipDepth(ShadowMap map, vec4 clip) { return viewDepth(map.depth_terms, clip.z / clip.w); }
+
+// As firstStrand(), on the ray through a point.
+float firstTraced(ShadowReference shadows, ShadowMap map, vec4 source, vec3 position, float here) {
+    LightRay ray = rayOfLight(source, shadows.parameters.reach, position);
+    float t = firstOnRay(shadows, ray, ray.place + shadows.parameters.reach);
+    bool is_hit = t < kNowhere;
+    vec4 clip =
+        map.view_projection * vec4(is_hit ? ray.origin + t * ray.direction : position, 1.0);
+    float surface = meshDepth(map, shadows.parameters.side, clip);
+    if (isNearer(surface, is_hit ? clip.z / clip.w : float(kFarDepth))) return here;
+    return is_hit ? clipDepth(map, clip) : here + kEdge * kReach;
+}
+
+// As multipleScattering(), with the first strand on the ray through the point at `first`.
+float tracedMultipleScattering(ShadowReference shadows, ShadowMap map, vec4 source, vec3 position,
+                               vec3 first) {
+    float here = clipDepth(map, map.view_projection * vec4(first, 1.0));
+    mat4 rows = transpose(map.view_projection);
+    vec3 right = kReach * normalize(rows[0].xyz);
+    vec3 up = kReach * normalize(rows[1].xyz);
+    vec2 rise = vec2(firstTraced(shadows, map, source, position + right, here) -
+                         firstTraced(shadows, map, source, position - right, here),
+                     firstTraced(shadows, map, source, position + up, here) -
+                         firstTraced(shadows, map, source, position - up, here));
+    return gainOfSlope(rise / (2.0 * kReach));
+}
+
+// Returns the path of light to a point from one point of the light: by a ray through hair, and
+// through a map of the meshes.
+LightPath tracedPath(ShadowReference shadows, ShadowMap map, vec4 source, Receiver receiver) {
+    LightPath path = kFreePath;
+    if (kMeshShadows != 0u) path = pathFromMap(shadows, map, receiver);
+    if ((map.casters & kHairCasts) == 0u) return path;
+    LightRay ray = rayOfLight(source, shadows.parameters.reach, receiver.position);
+    bool is_fibre = receiver.normal == vec3(0.0);
+    // Nothing behind a surface matters to it. Behind a strand, light ends at the first mesh.
+    float end = ray.place + (is_fibre ? shadows.parameters.reach : 0.0);
+    bool has_mesh = false;
+    if (is_fibre) {
+        vec4 clip = map.view_projection * vec4(receiver.position, 1.0);
+        float surface = meshDepth(map, shadows.parameters.side, clip);
+        if (isNearer(surface, float(kFarDepth))) {
+            float here = clipDepth(map, clip);
+            float behind = viewDepth(map.depth_terms, surface) - here;
+            has_mesh = behind > 0.0;
+            float stretch = source.w == 0.0 ? 1.0 : distance(source.xyz, receiver.position) / here;
+            end = clamp(ray.place + behind * stretch, 0.0, end);
+        }
+    }
+    vec3 log_transmittance = log(max(receiver.transmittance, 1e-6));
+    MetStrands met = strandsOnRay(shadows, ray, end);
+    path.strands = met.before;
+    path.direct = met.before == 0.0 ? 1.0 : 0.0;
+    path.scattered = met.before == 0.0 ? vec3(0.0) : exp(met.before * log_transmittance);
+    path.scatter_count = max(met.before, 1.0);
+    path.ended = exp(met.behind * (log_transmittance + receiver.transmittance - 1.0));
+    path.returned = has_mesh ? path.ended * shadows.parameters.mesh_color : vec3(0.0);
+    if (kModel == kModelDualScattering && is_fibre && met.first < kNowhere)
+        path.multiple_scattering = tracedMultipleScattering(
+            shadows, map, source, receiver.position, ray.origin + met.first * ray.direction);
+    return path;
+}
+#endif
+
+// Returns the path of light to a point, from one of the light's maps or, instead of its map of
+// hair, by a ray.
+LightPath pathFrom(ShadowReference shadows, ShadowMap map, uint number, Receiver receiver) {
+#ifdef HAIRBENCH_RAYS
+    return tracedPath(shadows, map, shadows.parameters.sources[number], receiver);
+#else
+    return pathFromMap(shadows, map, receiver);
+#endif
+}
+
 // Averages paths that sample equal parts of a light. The strand terms are weighted by the light
 // that meshes let through.
-LightPath meanPath(ShadowReference shadows, ShadowMap first, Receiver receiver) {
+LightPath meanPath(ShadowReference shadows, ShadowMap first, uint light, Receiver receiver) {
     LightPath sum = LightPath(0.0, 0.0, 0.0, vec3(0.0), 0.0, vec3(0.0), vec3(0.0), 0.0);
     for (uint i = 0u; i <= first.further_count; ++i) {
         ShadowMap map = first;
-        if (i > 0u) map = shadows.parameters.maps[first.further + i - 1u];
-        LightPath path = pathFromMap(shadows, map, receiver);
+        uint number = i > 0u ? first.further + i - 1u : light;
+        if (i > 0u) map = shadows.parameters.maps[number];
+        LightPath path = pathFrom(shadows, map, number, receiver);
         float through = path.meshes * dot(path.scattered, vec3(1.0));
         sum.meshes += path.meshes;
         sum.strands += path.meshes * path.strands;
@@ -301,8 +394,8 @@ LightPath lightPath(PictureParameters picture, uint light, Receiver receiver) {
     ShadowMap map = shadows.parameters.maps[light];
     if (map.casters == 0u) return kFreePath;
     if ((kLightKinds & kSomeSampled) != 0u && map.further_count > 0u)
-        return meanPath(shadows, map, receiver);
-    return pathFromMap(shadows, map, receiver);
+        return meanPath(shadows, map, light, receiver);
+    return pathFrom(shadows, map, light, receiver);
 }
 
 // The part of the light that each strand in between lets through, for receivers that are no fibres:

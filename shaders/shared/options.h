@@ -54,6 +54,7 @@ const uint kModelExtension = 4u;  // from a file that the scene names
 const uint kHairShadowsNone = 0u;
 const uint kHairShadowsDeepOpacity = 1u;
 const uint kHairShadowsDeepShadow = 2u;
+const uint kHairShadowsRays = 3u;
 
 // How an environment lights hair. Meshes never use the last.
 const uint kEnvironmentNone = 0u;
@@ -103,6 +104,8 @@ const uint kStrandBlockConstant = 12u;
 const uint kGroupConstant = 29u;
 // Segments per invocation of strands/points/evaluate.comp.
 const uint kSegmentRunConstant = 37u;
+// Constant of strands/rays/trace.comp.
+const uint kBoxesConstant = 38u;
 
 // Constants of the back end `lines`: strands/lines.vert, strands/fragment.glsl.
 const uint kStrictLinesConstant = 13u;

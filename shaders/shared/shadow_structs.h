@@ -31,6 +31,12 @@ struct ShadowParameters {
     // Part of the light that each strand lets through to meshes, and to strands of opaque models
     vec3 transmittance;
     vec3 mesh_color;  // light that meshes send back, linear; in display RGB if light is not linear
+    // The members below are for hair's shadows by rays.
+    vec4 sources[kMostMaps];  // [map]: the light's position, m, and 1, or the direction to it and 0
+    float reach;  // m: no hair is farther from a point that is lit
+    Address structure;  // the acceleration structure of StrandBox
+    Address points;  // PointsPush::points
+    Address boxes;  // StrandBox
 };
 
 // Sums of opacity in a map that is drawn in compute are whole numbers of this part of a strand, so

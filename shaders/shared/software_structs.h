@@ -56,22 +56,33 @@ struct SoftwarePush {
     uint choice;  // raster.comp: 0: finds the nearness, 1: finds the piece; blit.frag: the sample
     uint part;  // cull.comp, raster.comp: part of the strands
     uint list_begin;  // first of the part's pieces in the list
-    Address structure;  // trace.comp: the acceleration structure of the strands' quads
+    Address structure;  // trace.comp: the acceleration structure of the strands
+    Address boxes;  // trace.comp: StrandBox, if the structure has boxes
 };
 
-// Push constants of strands/rays/corners.comp.
-struct CornersPush {
+// A box round a piece of a strand, as StrandStructure has them with /strands/rays/geometry `boxes`.
+struct StrandBox {
+    vec3 low;  // m: VkAabbPositionsKHR
+    vec3 high;
+    uint piece;  // number of the piece; kNoPiece if it is not drawn
+    float covered;  // part of the width that is not gaps between merged hairs
+};
+
+// Push constants of strands/rays/corners.comp and strands/rays/boxes.comp.
+struct PrimitivesPush {
     Address picture;  // PictureParameters
     Address points;  // PointsPush::points
     Address pieces;  // PointsPush::pieces
-    // vec3 [strand][point][2], m: the corners of its quads beside a point. Points are numbered for
-    // the finest level of detail; those past the last drawn one of a segment lie on it.
-    Address corners;
-    uint points_count;  // of all strands
+    // corners.comp: vec3 [strand][point][2], m: the corners of its quads beside a point. Points are
+    // numbered for the finest level of detail; those past the last drawn one of a segment lie on
+    // it. boxes.comp: StrandBox [strand][segment][piece], numbered for the finest level of detail.
+    Address primitives;
+    uint invocations;  // points, or boxes, of all strands
     uint strands;  // SoftwarePush::strands; those after them are not drawn
-    // 1: corners of strands that are not drawn are NaN, so that the building of an acceleration
-    // structure leaves them out. 0: they are at the origin, where no ray hits them because they
-    // have no area. A structure that is fitted to moved triangles must always have the same ones.
+    // 1: corners and boxes of strands that are not drawn are NaN, so that the building of an
+    // acceleration structure leaves them out. 0: they are at the origin, where triangles are not
+    // hit because they have no area. A structure that is fitted to moved strands must always have
+    // the same ones.
     uint leaves_out;
 };
 

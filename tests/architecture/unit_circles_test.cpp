@@ -183,11 +183,11 @@ TEST(Units, AreAsFewAsTheyWere) {
         std::size_t count, most;  // 0: no bound
     };
     const Row rows[] = {
-        {"C++ files", files.size(), 429},
-        {"translation units", sources, 228},
-        {"headers for at most one unit of the product", for_code.size(), 21},
+        {"C++ files", files.size(), 431},
+        {"translation units", sources, 229},
+        {"headers for at most one unit of the product", for_code.size(), 20},
         {"headers for at most one unit or test", for_all.size(), 2},
-        {"files of shaders", shaders, 208},
+        {"files of shaders", shaders, 211},
         {"lines of C++", lines, 0},
         {"lines of shaders", shader_lines, 0}};
     for (const Row& row : rows) {

@@ -512,13 +512,12 @@ TEST(ShaderCapabilities, AreThoseThatFeaturesStandFor) {
                     return;
                 const std::string_view file = engine::shaderFile(path);
                 const bool is_packed = path.ends_with("+packed");
+                const bool traces = path.starts_with("strands/rays/trace") ||
+                                    path.find("+rays") != std::string_view::npos;
+                if (traces && capability == kRayQueries) return;
                 if (is_packed && (path.starts_with("simulation/volume_splat") ||
                                   path.starts_with("strands/software/raster")))
                     EXPECT_THAT(capability, testing::AnyOf(kLongIntegers, kLongAtomics)) << path;
-                else if (is_packed && path.starts_with("strands/rays/trace"))
-                    EXPECT_THAT(capability, testing::AnyOf(kLongIntegers, kRayQueries)) << path;
-                else if (path.starts_with("strands/rays/trace"))
-                    EXPECT_EQ(capability, kRayQueries) << path;
                 else if (is_packed)
                     EXPECT_EQ(capability, kLongIntegers) << path;
                 else if (file.ends_with(".geom"))

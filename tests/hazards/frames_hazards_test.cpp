@@ -351,21 +351,37 @@ TEST_F(FramesHazards, EachBarrierOfRaysIsMissedAndNoneIsSuperfluous) {
     for (const hair::RaysUpdate update : {hair::RaysUpdate::build, hair::RaysUpdate::refit})
         for (const std::uint32_t samples : {1u, 4u})
             for (const bool has_maps : {false, true}) {
+                // Maps and samples have nothing to do with what rays meet.
+                const bool has_boxes = has_maps == (samples == 4);
                 hair::Settings settings = hair::plainSettings();
                 if (has_maps) hair::lit(settings);
                 settings.render.msaa = samples;
                 settings.simulation.solver = hair::Solver::ftl;
                 settings.strands.backend = hair::Backend::rays;
                 settings.strands.rays.update = update;
+                if (has_boxes) settings.strands.rays.geometry = hair::RaysGeometry::boxes;
                 play(made(settings), places, needed, touched);
                 EXPECT_THAT(device().messages().take(), testing::IsEmpty());
             }
+    // Rays of light, of the strands' samples and of the scene's fragments.
+    hair::Settings traced = hair::plainSettings();
+    hair::lit(traced);
+    traced.simulation.solver = hair::Solver::ftl;
+    traced.shading.shadows.hair = hair::HairShadows::rays;
+    traced.strands.rays.geometry = hair::RaysGeometry::boxes;
+    Touched of_light;
+    for (const hair::Backend backend : {hair::Backend::software, hair::Backend::rays}) {
+        traced.strands.backend = backend;
+        play(made(traced), places, needed, of_light);
+        EXPECT_THAT(device().messages().take(), testing::IsEmpty());
+    }
     std::set<std::string> redundant;
     std::ranges::set_difference(places, needed, std::inserter(redundant, redundant.end()));
     EXPECT_THAT(redundant, testing::IsEmpty());
     std::erase_if(touched, [](const auto& each) {
         return each.first != "acceleration" && each.first != "strands";
     });
+    touched["scene"] = of_light.at("scene");
     for (auto& [pass, uses] : touched)
         std::erase_if(uses.reads, [&](const auto& name) { return uses.writes.contains(name); });
     EXPECT_THAT(
@@ -375,11 +391,19 @@ TEST_F(FramesHazards, EachBarrierOfRaysIsMissedAndNoneIsSuperfluous) {
     hair::Settings settings = made(hair::plainSettings());
     settings.simulation.solver = hair::Solver::ftl;
     settings.strands.backend = hair::Backend::rays;
+    for (const auto& [geometry, primitives] :
+         {std::pair{hair::RaysGeometry::triangles, "quad corners"},
+          std::pair{hair::RaysGeometry::boxes, "strand boxes"}}) {
+        settings.strands.rays.geometry = geometry;
+        missEach(
+            device(), settings,
+            {primitives, "acceleration structure", "acceleration top level", "acceleration scratch",
+             "strands",  // their points: names end at an apostrophe
+             "software visibility buffer", "depth"});
+    }
     missEach(
-        device(), settings,
-        {"quad corners", "acceleration structure", "acceleration top level", "acceleration scratch",
-         "strands",  // their points: names end at an apostrophe
-         "software visibility buffer", "depth"});
+        device(), made(traced),
+        {"strand boxes", "acceleration structure", "acceleration top level", "depth of meshes"});
 }
 
 // Guides are drawn without offsets, and weighted blending writes to the output.

@@ -128,6 +128,10 @@ TEST_F(MemoryNeedTest, KnowsEveryBackEnd) {
             check(std::to_string(int(backend)), settings);
             hair::lit(settings);
             check(std::to_string(int(backend)) + " lit", settings);
+            settings.strands.rays.geometry = hair::RaysGeometry::boxes;
+            if (backend == Backend::rays) check("rays in boxes", settings);
+            settings.shading.shadows.hair = hair::HairShadows::rays;
+            if (backend >= Backend::software) check("rays of light", settings);
         }
     }
     EXPECT_GT(checked_, 8u);

@@ -16,6 +16,7 @@
 #include "hair/rendering/scene_meshes.h"
 #include "hair/rendering/shadow_pass.h"
 #include "hair/rendering/strand_pass.h"
+#include "hair/rendering/strand_structure.h"
 #include "tests/probe_shaders.h"
 #include "tests/rendering/device_hair.h"
 
@@ -33,7 +34,8 @@ struct FoundPath {
     float kept;
 };
 
-// Draws the lights' maps in three frames, two of them in flight, and evaluates the probes in each.
+// Draws the lights' maps, or builds what rays are traced in, in three frames, two of them in
+// flight, and evaluates the probes in each.
 inline std::vector<FoundPath> findPaths(
     const engine::Device& device, const Settings& settings, const StrandView& view,
     const RenderAssets& assets, std::span<const gpu::ShadowProbe> probes) {
@@ -41,7 +43,9 @@ inline std::vector<FoundPath> findPaths(
     constexpr VkFormat kFormat = VK_FORMAT_R32G32B32A32_SFLOAT;
     probe_shaders::addTo(device);
     const engine::GraphicsPipeline pipeline(
-        device, {.shaders = {"composite/screen.vert", "probe_shadows.frag"},
+        device, {.shaders =
+                     {"composite/screen.vert",
+                      tracesShadows(settings) ? "probe_shadows.frag+rays" : "probe_shadows.frag"},
                  .constants = shadingConstants(settings),
                  .push_size = sizeof(gpu::ShadowProbePush),
                  .colors = {{kFormat}, {kFormat}},
@@ -77,8 +81,13 @@ inline std::vector<FoundPath> findPaths(
         planStrands(view, settings, device.info().limits.maxTessellationGenerationLevel);
     const SceneMeshes meshes(device, settings, assets);
     std::optional<PointsPass> points;
-    if (readsPoints(settings)) points.emplace(device, settings, plan, false);
-    ShadowPass shadows(device, settings, plan, assets, points ? &*points : nullptr);
+    std::optional<StrandStructure> structure;
+    if (readsPoints(settings) || tracesShadows(settings))
+        points.emplace(device, settings, plan, false);
+    if (tracesShadows(settings)) structure.emplace(device, settings, plan, *points);
+    ShadowPass shadows(
+        device, settings, plan, assets, points ? &*points : nullptr,
+        structure ? &*structure : nullptr);
 
     engine::FrameLoop loop(device, engine::Timing::overlapped);
     for (int frame = 0; frame < 3; ++frame) {
@@ -87,9 +96,12 @@ inline std::vector<FoundPath> findPaths(
                 settings, plan, view, {.shadows = shadows.address(passes.slot())});
             pictures[passes.slot()].write(picture);
             if (points)
-                passes.pass("points", engine::PassKind::compute, [&](engine::Commands& commands) {
+                passes.pass("points", engine::PassKind::compute, [&](auto& commands) {
+                    const std::uint64_t address = pictures[passes.slot()].address();
                     points->clear(commands);
-                    points->record(commands, pictures[passes.slot()].address(), picture);
+                    points->record(commands, address, picture);
+                    if (structure)
+                        structure->record(commands, {.address = address, .parameters = picture});
                 });
             shadows.record(passes, meshes, view, picture);
             passes.pass("probe", engine::PassKind::graphics, [&](engine::Commands& commands) {
@@ -99,6 +111,7 @@ inline std::vector<FoundPath> findPaths(
                 const std::array colors{
                     engine::Attachment{&found[0], engine::Load::clear, {}},
                     engine::Attachment{&found[1], engine::Load::clear, {}}};
+                if (structure) structure->tracesLight(commands, StrandStructure::Tracer::fragments);
                 engine::beginRendering(commands, colors, std::nullopt);
                 commands.bind(
                     pipeline, gpu::ShadowProbePush{

@@ -94,6 +94,24 @@ struct RectangleProbePush {
     uint count;
 };
 
+// Input and output of probe_round_cone.comp: a ray and a piece of a strand.
+struct RoundConeProbe {
+    vec3 origin;  // m
+    vec3 direction;  // unit length
+    vec3 from;  // m
+    vec3 to;
+    float from_radius;  // m
+    float to_radius;
+    float enters;  // m; written, above `leaves` if the ray misses the piece
+    float leaves;
+};
+
+// Push constants of probe_round_cone.comp.
+struct RoundConeProbePush {
+    Address probes;  // RoundConeProbe [probe]
+    uint count;
+};
+
 // Sample positions of strands/software/samples.glsl. probe_software.comp writes them to
 // SoftwarePush::colors.
 struct SamplePlaces {

@@ -3,7 +3,6 @@
 #define HAIRBENCH_POINTS_GLSL
 
 #include "common/vectors.glsl"
-#include "strands/points/layout.glsl"
 
 struct PackedPoint {
     vec3 position;  // m

@@ -5,18 +5,19 @@
 #include "common/across.glsl"
 #include "common/picture.glsl"
 #include "shared/software_structs.h"
+#include "strands/points/layout.glsl"
 #include "strands/points/points.glsl"
 
 layout(local_size_x_id = kGroupConstant) in;
 
-layout(push_constant, scalar) uniform Push { CornersPush push; };
+layout(push_constant, scalar) uniform Push { PrimitivesPush push; };
 
 layout(buffer_reference, scalar) writeonly buffer Corners { vec3 at[]; };
 
 void main() {
     uint group = gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x;
     uint index = group * gl_WorkGroupSize.x + gl_LocalInvocationID.x;
-    if (index >= push.points_count) return;  // no barrier follows
+    if (index >= push.invocations) return;  // no barrier follows
     uint strand = index / kPointsPerStrand;
     uint place = index % kPointsPerStrand;
     uint pieces = 0u;
@@ -35,6 +36,6 @@ void main() {
         low = point.position - side;
         high = point.position + side;
     }
-    Corners(push.corners).at[2u * index] = low;
-    Corners(push.corners).at[2u * index + 1u] = high;
+    Corners(push.primitives).at[2u * index] = low;
+    Corners(push.primitives).at[2u * index + 1u] = high;
 }

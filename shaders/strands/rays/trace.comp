@@ -5,11 +5,15 @@
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_ray_query : require
 #include "common/depth.glsl"
+#include "strands/rays/round_cone.glsl"
 #include "strands/software/piece_coordinates.glsl"
 #include "strands/software/samples.glsl"
 #include "strands/software/visibility.glsl"
 
 layout(local_size_x_id = kGroupConstant) in;
+
+// 1: the structure has boxes instead of triangles
+layout(constant_id = kBoxesConstant) const uint kBoxes = 0;
 
 // Returns the number of the piece that a triangle belongs to. Triangles are numbered
 // [strand][segment][piece][2], for the finest level of detail; those of pieces that are not drawn
@@ -48,27 +52,72 @@ float placeOfDepth(SampleRay ray, float depth) {
     return ray.depth_start / (depth - ray.depth_rate);
 }
 
-// Returns a sample as in SoftwarePush::visibility. `scene` is its nearness without hair.
-uvec2 nearestPiece(PictureParameters picture, vec2 place, uint scene) {
-    const float kSlack = 1.001;  // of the scene's place: its depth decides
-    SampleRay ray = rayThrough(picture, place);
+// A piece and the parameter of the ray where it is.
+struct FoundPiece {
+    uint piece;  // kNoPiece: the ray meets none
+    float w;
+};
+
+// The parameters between which a ray looks for pieces.
+struct RayRange {
+    float from;
+    float to;
+};
+
+FoundPiece nearestOfTriangles(PictureParameters picture, vec2 place, SampleRay ray,
+                              RayRange range) {
     uint flags = kMergedHairs == 0 ? gl_RayFlagsOpaqueEXT : gl_RayFlagsNoOpaqueEXT;
     rayQueryEXT query;
     rayQueryInitializeEXT(query, accelerationStructureEXT(push.structure), flags, 0xffu,
-                          picture.eye, placeOfDepth(ray, float(kNearDepth)), ray.along,
-                          kSlack * placeOfDepth(ray, depthOf(scene)));
+                          picture.eye, range.from, ray.along, range.to);
     while (rayQueryProceedEXT(query)) {
         if (kMergedHairs == 0) continue;
         uint piece = pieceOfTriangle(uint(rayQueryGetIntersectionPrimitiveIndexEXT(query, false)));
         if (!isGap(picture, piece, place)) rayQueryConfirmIntersectionEXT(query);
     }
-    uvec2 shown = uvec2(kNoPiece, scene);
     if (rayQueryGetIntersectionTypeEXT(query, true) !=
         gl_RayQueryCommittedIntersectionTriangleEXT)
-        return shown;
-    uint near = nearness(depthAt(ray, rayQueryGetIntersectionTEXT(query, true)));
+        return FoundPiece(kNoPiece, 0.0);
+    return FoundPiece(
+        pieceOfTriangle(uint(rayQueryGetIntersectionPrimitiveIndexEXT(query, true))),
+        rayQueryGetIntersectionTEXT(query, true));
+}
+
+// A round piece is met in the middle of the ray's chord, at the depth of the quads.
+FoundPiece nearestOfBoxes(PictureParameters picture, vec2 place, SampleRay ray, RayRange range) {
+    float rate = inversesqrt(dot(ray.along, ray.along));  // of the parameter, per metre
+    FoundPiece found = FoundPiece(kNoPiece, range.to);
+    rayQueryEXT query;
+    rayQueryInitializeEXT(query, accelerationStructureEXT(push.structure), gl_RayFlagsNoneEXT,
+                          0xffu, picture.eye, range.from, ray.along, range.to);
+    while (rayQueryProceedEXT(query)) {
+        uint box = uint(rayQueryGetIntersectionPrimitiveIndexEXT(query, false));
+        uint piece = StrandBoxes(push.boxes).at[box].piece;
+        if (piece == kNoPiece) continue;
+        RayChord chord =
+            chordOf(picture.eye, rate * ray.along, coneOfPiece(push.points, piece));
+        float w = rate * chordMiddle(chord);
+        if (!isChord(chord) || w < range.from || w > found.w) continue;
+        if (kMergedHairs != 0 && isGap(picture, piece, place)) continue;
+        rayQueryGenerateIntersectionEXT(query, w);
+        found = FoundPiece(piece, w);
+    }
+    return found;
+}
+
+// Returns a sample as in SoftwarePush::visibility. `scene` is its nearness without hair.
+uvec2 nearestPiece(PictureParameters picture, vec2 place, uint scene) {
+    const float kSlack = 1.001;  // of the scene's place: its depth decides
+    SampleRay ray = rayThrough(picture, place);
+    RayRange range = RayRange(placeOfDepth(ray, float(kNearDepth)),
+                              kSlack * placeOfDepth(ray, depthOf(scene)));
+    FoundPiece found = kBoxes == 0u ? nearestOfTriangles(picture, place, ray, range)
+                                    : nearestOfBoxes(picture, place, ray, range);
+    uvec2 shown = uvec2(kNoPiece, scene);
+    if (found.piece == kNoPiece) return shown;
+    uint near = nearness(depthAt(ray, found.w));
     if (near > scene) return shown;
-    return uvec2(pieceOfTriangle(uint(rayQueryGetIntersectionPrimitiveIndexEXT(query, true))), near);
+    return uvec2(found.piece, near);
 }
 
 void main() {

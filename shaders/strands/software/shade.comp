@@ -59,6 +59,10 @@ void main() {
             uint index = sampleIndex(pixel, i);
             uvec2 visible = fetchVisibility(index);
             if (visible.x == kNoPiece) continue;
+#ifdef HAIRBENCH_RAYS
+            own_begin = visible.x / kPointsPerStrand * kPointsPerStrand;
+            own_end = own_begin + kPointsPerStrand;
+#endif
             uint merged;
             StrandFragment fragment =
                 visiblePoint(picture, visible.x, vec2(pixel) + samplePosition(i), merged);
