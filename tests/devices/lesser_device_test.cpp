@@ -522,6 +522,7 @@ TEST(ShaderCapabilities, AreThoseThatFeaturesStandFor) {
                 const std::string_view file = engine::shaderFile(path);
                 const bool is_packed = path.ends_with("+packed");
                 if (is_packed && (path.starts_with("simulation/volume_splat") ||
+                                  path.starts_with("simulation/volume_spread") ||
                                   path.starts_with("strands/software/raster")))
                     EXPECT_THAT(capability, testing::AnyOf(kLongIntegers, kLongAtomics)) << path;
                 else if (is_packed && path.starts_with("strands/rays/trace"))
