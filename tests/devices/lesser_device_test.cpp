@@ -366,28 +366,39 @@ TEST_P(LesserDeviceRods, MoveStrandsTheSameOnAnyDevice) {
 
 // Sums are of integers, so adding two at once or each by itself gives the same.
 TEST_F(LesserDevice, HairFeelsHairTheSameWithoutAtomicsOnLongIntegers) {
-    hair::SimulationSettings settings = hair::simulation::windy();
-    settings.hair_hair = {.friction = 0.3f, .repulsion = 0.3f, .crowding = 0.5f, .resolution = 32};
+    const hair::HairHairSettings slides{
+        .friction = 0.3f, .repulsion = 0.3f, .crowding = 0.5f, .resolution = 32};
+    const hair::HairHairSettings sticks{
+        .friction_coefficient = 0.5f,
+        .cohesion = 0.05f,
+        .repulsion = 0.3f,
+        .crowding = 0.5f,
+        .resolution = 32};
     const hair::groom::Groom groom = hair::simulation::wavyGroom(100, 9);
-    const auto played = [&] {
-        hair::simulation::Simulation simulation(device(), groom, settings, 3);
-        hair::simulation::advance(device(), simulation, 10);
-        return simulation.readPositions();
-    };
-    const std::vector<glm::vec3> there = played();
-    for (const std::vector<Feature>& missing :
-         {std::vector{Feature::long_atomics}, std::vector{Feature::long_integers},
-          engine::allFeatures()}) {
-        make(without(missing));
-        EXPECT_EQ(played(), there);
+    for (const hair::HairHairSettings& contact : {slides, sticks}) {
+        hair::SimulationSettings settings = hair::simulation::windy();
+        settings.hair_hair = contact;
+        const auto played = [&] {
+            hair::simulation::Simulation simulation(device(), groom, settings, 3);
+            hair::simulation::advance(device(), simulation, 10);
+            return simulation.readPositions();
+        };
+        make({});
+        const std::vector<glm::vec3> there = played();
+        for (const std::vector<Feature>& missing :
+             {std::vector{Feature::long_atomics}, std::vector{Feature::long_integers},
+              engine::allFeatures()}) {
+            make(without(missing));
+            EXPECT_EQ(played(), there);
+        }
+        make(likeAGpu);  // which takes a part of the cells at a time
+        settings.parallelism = hair::Parallelism::serial;
+        const std::vector<glm::vec3> serial = played();
+        make({});
+        EXPECT_EQ(played(), serial);
+        settings.hair_hair = {};
+        EXPECT_NE(played(), serial);
     }
-    make(likeAGpu);  // which takes a part of the cells at a time
-    settings.parallelism = hair::Parallelism::serial;
-    const std::vector<glm::vec3> serial = played();
-    make({});
-    EXPECT_EQ(played(), serial);
-    settings.hair_hair = {};
-    EXPECT_NE(played(), serial);
 }
 
 TEST_F(LesserDevice, DrawsEverythingButStrandsWithoutAnyFeature) {
@@ -516,6 +527,7 @@ TEST(ShaderCapabilities, AreThoseThatFeaturesStandFor) {
                                     path.find("+rays") != std::string_view::npos;
                 if (traces && capability == kRayQueries) return;
                 if (is_packed && (path.starts_with("simulation/volume_splat") ||
+                                  path.starts_with("simulation/volume_spread") ||
                                   path.starts_with("strands/software/raster")))
                     EXPECT_THAT(capability, testing::AnyOf(kLongIntegers, kLongAtomics)) << path;
                 else if (is_packed)
