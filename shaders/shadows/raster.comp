@@ -34,8 +34,8 @@ struct MapEnd {
 float piece_coverage;
 ShadowMap light_map;
 
-void takeSample(PictureParameters picture, uint piece, vec2 place, uint index, float depth) {
-    uvec2 texel = uvec2(place);
+void takeSample(PictureParameters picture, uint piece, uvec2 texel, uint index, vec2 place,
+                float depth) {
     uint at = texel.y * push.width + texel.x;
     uint bits = floatBitsToUint(notBeyondFar(depth));
     if (push.choice == 0u) {

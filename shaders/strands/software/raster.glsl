@@ -41,8 +41,9 @@ bool mayPassDepthTest(uint index, uint near) {
 #endif
 }
 
-void takeSample(PictureParameters picture, uint piece, vec2 place, uint index, float depth) {
-    uint at = sampleIndex(uvec2(place), index);
+void takeSample(PictureParameters picture, uint piece, uvec2 pixel, uint index, vec2 place,
+                float depth) {
+    uint at = sampleIndex(pixel, index);
     uint near = nearness(depth);
     if (!mayPassDepthTest(at, near)) return;
     if (kMergedHairs != 0 && isGap(picture, piece, place)) return;

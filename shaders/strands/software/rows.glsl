@@ -90,9 +90,10 @@ bool isLarge(RasterQuad raster) {
     return samples > float(kLargePieceSamples);
 }
 
-// Takes a sample of the piece. `place`: its position, px; `index`: its number in the pixel. Whatever
+// Takes a sample of the piece. `index`: its number in the pixel; `place`: its position, px. Whatever
 // includes this file defines it.
-void takeSample(PictureParameters picture, uint piece, vec2 place, uint index, float depth);
+void takeSample(PictureParameters picture, uint piece, uvec2 pixel, uint index, vec2 place,
+                float depth);
 
 // Takes the samples of every `step`-th row from `row` on. The search for the next sample does not
 // access memory, so that invocations that run together access memory together.
@@ -116,9 +117,10 @@ void rasterizeRows(PictureParameters picture, RasterQuad raster, int row, int st
                     raster.gradient.y * (across - raster.origin.y);
         }
         if (!(across < end)) return;
-        vec2 sample_place = vec2(across, (float(row) + 0.5) / float(kSamples));
-        takeSample(picture, piece, raster.columns ? sample_place.yx : sample_place,
-                   entry(samples, uint(row) % kSamples),
+        uvec2 pixel = uvec2(uint(across), uint(row) / kSamples);
+        vec2 place = vec2(across, (float(row) + 0.5) / float(kSamples));
+        takeSample(picture, piece, raster.columns ? pixel.yx : pixel,
+                   entry(samples, uint(row) % kSamples), raster.columns ? place.yx : place,
                    clamp(depth, raster.depth_range.x, raster.depth_range.y));
         across += 1.0;
         depth += raster.gradient.y;
