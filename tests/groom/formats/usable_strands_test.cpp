@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include <glm/geometric.hpp>
 #include <gmock/gmock.h>
 
 #include "hair/groom/build_groom.h"
@@ -467,8 +468,9 @@ TEST_P(ReportedUsd, HasTextureCoordinatesOfVertices) {
 TEST_P(ReportedUsd, HasPinnedCurves) {
     const StrandSet set = read("reported_pinned_varying");
     ASSERT_EQ(set.strandCount(), 1u);
-    EXPECT_EQ(set.points.front(), glm::vec3(0, 0, 0));
-    EXPECT_EQ(set.points.back(), glm::vec3(0, 6, 0));
+    // The ends are sums of products in doubles, whose rounding is not the same on all processors.
+    EXPECT_LT(glm::distance(set.points.front(), glm::vec3(0, 0, 0)), 1e-6f);
+    EXPECT_LT(glm::distance(set.points.back(), glm::vec3(0, 6, 0)), 1e-6f);
     EXPECT_FLOAT_EQ(set.widths.values.front(), 0.1f);
     EXPECT_FLOAT_EQ(set.widths.values.back(), 0.1f);
 }
