@@ -60,8 +60,7 @@ const Table& tableOf(const ShadowSettings*) {
              "shadows that hair casts on hair and meshes; deep_opacity: the mean coverage of each "
              "texel (Yuksel and Keyser 2008); deep_shadow: the opacity along a ray through each "
              "texel (Lokovic and Veach 2000); rays: the strands on a ray from the light to each "
-             "shaded "
-             "point; needs ray queries and the back end software or rays"),
+             "shaded point; needs ray queries and the back end software or rays"),
          number("resolution", &S::resolution, 64, 4096, "px", "width and height of a light's map"),
          number(
              "layer_depth", &S::layer_depth, 0.0001, 10, "m",

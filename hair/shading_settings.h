@@ -48,6 +48,11 @@ struct ShadowSettings {
 
 const Table& tableOf(const ShadowSettings*);
 
+// Whether lights' maps have hair.
+inline bool hasHairMaps(const ShadowSettings& shadows) {
+    return shadows.hair == HairShadows::deep_opacity || shadows.hair == HairShadows::deep_shadow;
+}
+
 // extension: the model in model_file.
 enum class ShadingModel { phong, kajiya_kay, marschner, dual_scattering, extension };
 enum class ColorSource { rgb, melanin };

@@ -200,14 +200,10 @@ constexpr std::uint32_t kMostShadowResolution = 256;
 constexpr std::uint32_t kMostEnvironmentLights = 2;
 constexpr std::uint32_t kMostFieldResolution = 32;
 
-bool hasHairMaps(const hair::ShadowSettings& shadows) {
-    return shadows.hair != hair::HairShadows::none && shadows.hair != hair::HairShadows::rays;
-}
-
 // Number of shadow views of the hair or the meshes.
 double shadowViews(const hair::Settings& settings) {
     const hair::ShadingSettings& shading = settings.shading;
-    if (!shading.shadows.meshes && !hasHairMaps(shading.shadows)) return 0.0;
+    if (!shading.shadows.meshes && !hair::hasHairMaps(shading.shadows)) return 0.0;
     double views = settings.render.environment.empty() ? 0.0 : shading.environment_lights;
     for (const hair::LightSettings& light : shading.lights)
         if (light.shadows) views += light.shadow_samples;
@@ -243,7 +239,7 @@ FrameWork frameWork(const hair::Settings& settings) {
             settings.strands.source == hair::StrandSource::groom
                 ? std::max<double>(groom.grow.strands, guides) * scale
                 : triangles * hair::rendering::drawnStrands(settings.strands.density, scale);
-        work.segments = (hasHairMaps(settings.shading.shadows) ? 1.0 + views : 1.0) * all *
+        work.segments = (hair::hasHairMaps(settings.shading.shadows) ? 1.0 + views : 1.0) * all *
                         (vertices - 1.0) *
                         hair::rendering::drawnPieces(settings.strands.tessellation, scale).count;
     }

@@ -338,8 +338,7 @@ VkRect2D ShadowAtlas::part(std::uint32_t index) const {
 }
 
 bool hasHairMaps(const Settings& settings) {
-    const HairShadows hair = settings.shading.shadows.hair;
-    return hair != HairShadows::none && hair != HairShadows::rays && settings.render.hair &&
+    return hair::hasHairMaps(settings.shading.shadows) && settings.render.hair &&
            !mapsOfLights(settings).empty();
 }
 

@@ -438,6 +438,17 @@ std::uint32_t mapRun(const engine::Device& device, const StrandPlan& plan) {
     return std::clamp(kMostPieces / plan.forced_tessellation, 1U, plan.segments);
 }
 
+// Returns the work groups that share the large pieces, or all pieces if these are too many for
+// their list: 256 each, until a dimension has no more groups. With 60,000 iterations, lavapipe's
+// limit, a piece may then have 200 rows for each of 32 invocations, or a row of 200 samples.
+std::uint32_t largeGroups(const StrandPlan& plan) {
+    constexpr std::uint64_t kPieces = 256;
+    constexpr std::uint64_t kMostGroups = 65535;  // of a dimension, on every device
+    const std::uint64_t pieces = plan.strands() * plan.segments * plan.forced_tessellation;
+    return static_cast<std::uint32_t>(
+        std::clamp<std::uint64_t>(pieces / kPieces, gpu::kLargeGroups, kMostGroups));
+}
+
 std::string mapVariant(const std::string& file, const engine::Device& device, bool has_texels) {
     return "shadows/" + file + (has_texels ? "+texels" : "") +
            (readsPairs(device) ? "+packed" : "");
@@ -482,7 +493,8 @@ engine::MemoryRows MapRasterizer::rows(std::uint32_t side) {
 MapRasterizer::MapRasterizer(const BackendContext& context, std::uint32_t side)
     : points_(*context.points), side_(side), group_(strandGroup(context.device)),
       runs_(divideUp(context.plan.segments, mapRun(context.device, context.plan))),
-      texels_(mapTexels(context)), rasterize_(context.device, mapStage(context, "raster.comp")),
+      large_groups_(largeGroups(context.plan)), texels_(mapTexels(context)),
+      rasterize_(context.device, mapStage(context, "raster.comp")),
       rasterize_large_(context.device, mapStage(context, "raster.comp+large")),
       store_(context.device, storeStage(context.device)) {
     const engine::MemoryRows rows = MapRasterizer::rows(side);
@@ -510,9 +522,9 @@ void MapRasterizer::record(
         push.choice = choice;
         commands.bind(pipeline, push);
         if (texels_)
-            commands.images(pipeline, picture.images.first(1), std::array{texels_});
+            commands.images(pipeline, picture.images, std::array{texels_});
         else
-            commands.images(pipeline, picture.images.first(1));
+            commands.images(pipeline, picture.images);
     };
     commands.fill(depths_, 0);
     commands.fill(layers_, 0);
@@ -522,7 +534,7 @@ void MapRasterizer::record(
         rasterize(rasterize_, choice);
         commands.dispatchInvocations(map.strands * runs_, group_);
         rasterize(rasterize_large_, choice);
-        commands.dispatch(gpu::kLargeGroups);
+        commands.dispatch(large_groups_);
     }
     gpu::ShadowRasterPush push = map;
     push.depths = commands.reads(depths_);

@@ -132,8 +132,8 @@ private:
 
 // Draws lights' maps in compute, from strands' points, as the back ends of QuadKind::light do:
 // depth, then opacity in layers, one map after the other in the same memory. Sums are whole
-// numbers, so the maps do not depend on the order of strands. On processors this is many times
-// faster than the rasteriser, whose stages for vertices have one thread: docs/performance.md.
+// numbers, so the maps do not depend on the order of strands. On processors this is faster than the
+// rasteriser, whose stages for vertices have one thread: docs/performance.md.
 class MapRasterizer {
 public:
     // Needs context.points. `side`: of a map, texels.
@@ -155,6 +155,7 @@ private:
     std::uint32_t side_;
     std::uint32_t group_;  // invocations of a work group of passes with strands
     std::uint32_t runs_;  // invocations of a strand
+    std::uint32_t large_groups_;  // work groups of rasterize_large_
     const engine::TexelView* texels_;  // the points; null if shaders read by address alone
     engine::Buffer depths_;  // gpu::ShadowRasterPush
     engine::Buffer layers_;

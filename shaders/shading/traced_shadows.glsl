@@ -42,7 +42,7 @@ struct MetStrands {
                   // is none
 };
 
-// Where a ray is nearest to a piece's axis.
+// The place on a ray that is nearest to a piece's axis.
 struct NearestPlace {
     float t;  // m: parameter of the ray
     bool meets;  // between the piece's ends, no farther from it than its radius there
