@@ -440,7 +440,7 @@ std::uint32_t mapRun(const engine::Device& device, const StrandPlan& plan) {
 
 // Returns the work groups that share the large pieces, or all pieces if these are too many for
 // their list: 256 each, until a dimension has no more groups. With 60,000 iterations, lavapipe's
-// limit, a piece may then have 200 rows for each of 32 invocations, or a row of 200 samples.
+// limit, each of 32 invocations may then have 230 samples of each piece.
 std::uint32_t largeGroups(const StrandPlan& plan) {
     constexpr std::uint64_t kPieces = 256;
     constexpr std::uint64_t kMostGroups = 65535;  // of a dimension, on every device

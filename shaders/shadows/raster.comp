@@ -86,8 +86,9 @@ void rasterizeLarge(PictureParameters picture, uint number, bool listed) {
     RasterQuad raster;
     if (!setUpPiece(from, to, raster)) return;
     if (!listed && !isLarge(raster)) return;
-    rasterizeRows(picture, raster, raster.begin + int(gl_LocalInvocationID.x),
-                  int(gl_WorkGroupSize.x), number);
+    RowShare share =
+        shareOfGroup(raster, int(gl_LocalInvocationID.x), int(gl_WorkGroupSize.x));
+    rasterizeRows(picture, raster, share, number);
 }
 
 void main() {
@@ -137,7 +138,7 @@ void main() {
         RasterQuad raster;
         if (setUpPiece(from, to, raster)) {
             if (isLarge(raster)) listLarge(first);
-            else rasterizeRows(picture, raster, raster.begin, 1, first);
+            else rasterizeRows(picture, raster, kWholePiece, first);
         }
         from = to;
     }

@@ -36,18 +36,20 @@ protected:
         float depth;
     };
 
-    // Runs the probe, which covers the quads in this order.
+    // Runs the probe, which covers the quads in this order by so many invocations.
     struct Probe {
         gpu::SamplePlaces places;
         std::vector<Shown> shown;
     };
-    static Probe probe(std::size_t samples, std::vector<gpu::QuadProbe> quads = {}) {
+    static Probe
+    probe(std::size_t samples, std::vector<gpu::QuadProbe> quads = {}, std::uint32_t group = 1) {
         probe_shaders::addTo(device());
         const engine::ComputePipeline pipeline(
-            device(),
-            {.shader = "probe_software.comp",
-             .constants = {{gpu::kPixelSamplesConstant, static_cast<std::uint32_t>(samples)}},
-             .push_size = sizeof(gpu::SoftwarePush)});
+            device(), {.shader = "probe_software.comp",
+                       .constants =
+                           {{gpu::kPixelSamplesConstant, static_cast<std::uint32_t>(samples)},
+                            {gpu::kGroupConstant, group}},
+                       .push_size = sizeof(gpu::SoftwarePush)});
         const auto count = static_cast<std::uint32_t>(quads.size());
         quads.resize(quads.size() + 1);  // a buffer has at least one
         const auto buffer = [&]<class Value>(const std::vector<Value>& values) {
@@ -132,6 +134,21 @@ TEST_F(SoftwareSamples, OnAnEdgeAreOfTheQuadThatItBoundsFromBelow) {
         }
         EXPECT_EQ(across, (std::set{2.5f, 3.5f})) << turned;
         EXPECT_EQ(along, (std::set{1.5f, 2.5f, 3.5f, 4.5f})) << turned;
+    }
+}
+
+// Invocations have whole rows of a quad, or parts of rows if there are fewer rows than invocations.
+TEST_F(SoftwareSamples, AreAllTakenByAWorkGroup) {
+    for (const std::uint32_t group : {1u, 8u, 32u, 64u}) {
+        for (const std::uint32_t rows : {1u, 3u, 11u}) {
+            const gpu::QuadProbe quad = upright(7.25f, 2.25f, static_cast<float>(rows), 6.5f);
+            const std::vector<Shown> shown = probe(1, {quad}, group).shown;
+            ASSERT_EQ(shown.size(), 13 * rows) << group;
+            for (std::size_t i = 0; i < shown.size(); ++i) {
+                const glm::vec2 expected(i % 13, i / 13);
+                EXPECT_EQ(shown[i].place, expected + glm::vec2(1.5f, 2.5f)) << group;
+            }
+        }
     }
 }
 

@@ -1,12 +1,12 @@
 #version 460
 // Writes the sample positions of the back end `software`, and covers quads in the given order. One
-// invocation.
+// work group, whose invocations share each quad.
 #extension GL_GOOGLE_include_directive : require
 
 #include "probes.glsl"
 #include "strands/software/raster.glsl"
 
-layout(local_size_x = 1) in;
+layout(local_size_x_id = kGroupConstant) in;
 
 layout(buffer_reference, scalar) buffer PlacesReference { SamplePlaces all; };
 layout(buffer_reference, scalar) readonly buffer QuadsReference { QuadProbe at[]; };
@@ -30,6 +30,8 @@ void main() {
         PieceQuad quad =
             PieceQuad(screenEnd(probe.from), screenEnd(probe.to), vec2(0.0, 1.0), true);
         RasterQuad raster = setUpQuad(quad);
-        rasterizeRows(picture, raster, raster.begin, 1, probe.number);
+        RowShare share =
+            shareOfGroup(raster, int(gl_LocalInvocationID.x), int(gl_WorkGroupSize.x));
+        rasterizeRows(picture, raster, share, probe.number);
     }
 }

@@ -26,8 +26,9 @@ void main() {
         if (!quad.visible) continue;
         RasterQuad raster = setUpQuad(quad);
         if (!listed && !isLarge(raster)) continue;
-        rasterizeRows(picture, raster, raster.begin + int(gl_LocalInvocationID.x),
-                      int(gl_WorkGroupSize.x), piece);
+        RowShare share =
+            shareOfGroup(raster, int(gl_LocalInvocationID.x), int(gl_WorkGroupSize.x));
+        rasterizeRows(picture, raster, share, piece);
     }
 }
 #else
@@ -51,7 +52,7 @@ void main() {
         if (!quad.visible) continue;
         RasterQuad raster = setUpQuad(quad);
         if (isLarge(raster)) listLarge(piece);
-        else rasterizeRows(picture, raster, raster.begin, 1, piece);
+        else rasterizeRows(picture, raster, kWholePiece, piece);
     }
 }
 #endif

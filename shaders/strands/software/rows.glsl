@@ -95,24 +95,48 @@ bool isLarge(RasterQuad raster) {
 void takeSample(PictureParameters picture, uint piece, uvec2 pixel, uint index, vec2 place,
                 float depth);
 
-// Takes the samples of every `step`-th row from `row` on. The search for the next sample does not
-// access memory, so that invocations that run together access memory together.
-void rasterizeRows(PictureParameters picture, RasterQuad raster, int row, int step, uint piece) {
+// An invocation's share of a piece: every `step`-th row from row `first` of the piece on. Each row has
+// `parts` equal parts, and the invocation takes part `part` of them.
+struct RowShare {
+    int first;
+    int step;
+    int part;
+    int parts;
+};
+
+const RowShare kWholePiece = RowShare(0, 1, 0, 1);
+
+// The share of invocation `place` of a work group that draws the piece: whole rows, or parts of them
+// if there are fewer rows than invocations. So no invocation has a long row alone
+// (kLargePieceSamples).
+RowShare shareOfGroup(RasterQuad raster, int place, int group) {
+    int parts = max(group / max(raster.end - raster.begin, 1), 1);
+    return RowShare(place / parts, group / parts, place % parts, parts);
+}
+
+// Takes the samples of a share of a piece. The search for the next sample does not access memory, so
+// that invocations that run together access memory together.
+void rasterizeRows(PictureParameters picture, RasterQuad raster, RowShare share, uint piece) {
     uint places = raster.columns ? columnPositions() : rowPositions();
     uint samples = raster.columns ? columnSamples() : rowSamples();
     float across = 0.0;
     float end = -1.0;
     float depth = 0.0;
-    row -= step;
+    int row = raster.begin + share.first - share.step;
     while (true) {
-        while (!(across < end) && row + step < raster.end) {
-            row += step;
+        while (!(across < end) && row + share.step < raster.end) {
+            row += share.step;
             float down = (float(row) + 0.5) / float(kSamples);
             vec4 bounds = raster.starts + raster.slopes * down;
             float place = float(entry(places, uint(row) % kSamples)) / 16.0;
             float begin = most(mix(vec4(-1.0), bounds, raster.lower));
             across = max(ceil(begin - place), 0.0) + place;
             end = least(mix(bounds, vec4(raster.size), raster.lower));
+            if (share.parts > 1) {
+                float part = ceil((end - across) / float(share.parts));
+                across += float(share.part) * part;
+                end = min(end, across + part);
+            }
             depth = raster.depth + raster.gradient.x * (down - raster.origin.x) +
                     raster.gradient.y * (across - raster.origin.y);
         }
