@@ -207,7 +207,10 @@ const Table& tableOf(const CutSettings*) {
          number(
              "normal", &S::normal, -1, 1, "1",
              "normal of the cutting plane: hair on the side that it points to is cut off; zero: no "
-             "plane")});
+             "plane"),
+         number(
+             "variation", &S::variation, 0, 1, "m",
+             "a strand that is cut is shorter by a random length up to this")});
     return table;
 }
 

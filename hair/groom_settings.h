@@ -128,6 +128,7 @@ struct CutSettings {
     float length = 0.0f;
     glm::vec3 point{0.0f, 0.0f, 0.0f};
     glm::vec3 normal{0.0f, 0.0f, 0.0f};
+    float variation = 0.0f;
 };
 
 const Table& tableOf(const CutSettings*);

@@ -51,6 +51,7 @@ inline constexpr std::uint32_t vellus_length = 33;
 inline constexpr std::uint32_t vellus_turn = 34;
 inline constexpr std::uint32_t braid_angle = 35;
 inline constexpr std::uint32_t braid_radius = 36;
+inline constexpr std::uint32_t cut_length = 37;
 }  // namespace purpose
 
 }  // namespace hair

@@ -32,7 +32,7 @@ Groom style(Groom groom, const StyleSettings& settings, std::uint32_t seed, cons
             groom = keepClear(std::move(groom), *mesh, settings.clearance);
     };
     clear();
-    groom = cut(std::move(groom), settings.cut);
+    groom = cut(std::move(groom), settings.cut, seed);
     clear();  // shorter strands have their vertices elsewhere
     return taper(std::move(groom), settings.taper);
 }
@@ -95,10 +95,11 @@ arcAtPlane(std::span<const glm::vec3> points, const AlongStrand& along, const Cu
     return std::numeric_limits<double>::infinity();
 }
 
-double arcLeft(std::span<const glm::vec3> points, const AlongStrand& along, const CutSettings& s) {
-    double left = s.length > 0.0f ? s.length : std::numeric_limits<double>::infinity();
-    if (s.normal != glm::vec3(0.0f)) left = std::min(left, arcAtPlane(points, along, s));
-    return std::max(left, kLeast * along.length());
+// Arc length at which the strand passes the plane or is as long as allowed; infinite if neither.
+double arcOfCut(std::span<const glm::vec3> points, const AlongStrand& along, const CutSettings& s) {
+    const double most = s.length > 0.0f ? s.length : std::numeric_limits<double>::infinity();
+    if (s.normal == glm::vec3(0.0f)) return most;
+    return std::min(most, arcAtPlane(points, along, s));
 }
 
 // The first of the two old points that a new point of a strand lies between, and the share of the
@@ -133,13 +134,16 @@ void moveTo(std::span<Value> values, const std::vector<Between>& places, Wide&& 
 
 }  // namespace
 
-Groom cut(Groom groom, const CutSettings& settings) {
+Groom cut(Groom groom, const CutSettings& settings, std::uint32_t seed) {
     if (settings.length == 0.0f && settings.normal == glm::vec3(0.0f)) return groom;
     const std::uint32_t vertices = groom.vertices_per_strand;
     for (std::uint32_t strand = 0; strand < groom.strand_count; ++strand) {
         const AlongStrand along(groom.strand(strand));
-        const double left = arcLeft(groom.strand(strand), along, settings);
-        if (left >= along.length()) continue;
+        const double end = arcOfCut(groom.strand(strand), along, settings);
+        if (end >= along.length()) continue;
+        const double shorter =
+            double{settings.variation} * random01(seed, strand, purpose::cut_length);
+        const double left = std::max(end - shorter, kLeast * along.length());
         const std::vector<Between> places = evenly(along, vertices, left);
         const std::size_t first = std::size_t{strand} * vertices;
         moveTo(std::span(groom.points).subspan(first, vertices), places, [](const glm::vec3& v) {

@@ -33,10 +33,11 @@ Groom braid(Groom groom, const BraidSettings& settings, std::uint32_t seed, cons
 // this is done for spacing / 2^(levels - 1) first and for `spacing` last.
 Groom clump(Groom groom, const ClumpSettings& settings, std::uint32_t seed);
 
-// Cuts strands at settings.length of arc, and where they first pass the plane. The rest is
-// resampled evenly to as many vertices. A strand with its root beyond the plane, or one that would
-// be shorter than a thousandth of its length, keeps that thousandth.
-Groom cut(Groom groom, const CutSettings& settings);
+// Cuts strands at settings.length of arc, and where they first pass the plane; each that is cut is
+// shorter by a random length, uniform from 0 to settings.variation. The rest is resampled evenly to
+// as many vertices. A strand with its root beyond the plane, or one that would be shorter than a
+// thousandth of its length, keeps that thousandth.
+Groom cut(Groom groom, const CutSettings& settings, std::uint32_t seed);
 
 // Sets widths: root_width up to `start`, from there linear in arc length to tip_width.
 Groom taper(Groom groom, const TaperSettings& settings);

@@ -46,7 +46,7 @@ TEST(Style, IsItsPartsInTheirOrder) {
     const StyleSettings s = everything();
     Groom expected = clump(sample(), s.clump, 5);
     expected = frizz(curl(wave(expected, s.wave, 5), s.curl, 5), s.frizz, 5);
-    expected = taper(cut(flyaways(expected, s.flyaways, 5), s.cut), s.taper);
+    expected = taper(cut(flyaways(expected, s.flyaways, 5), s.cut, 5), s.taper);
     const Groom after = style(sample(), s, 5, nullptr);
     EXPECT_EQ(after.points, expected.points);
     EXPECT_EQ(after.widths, expected.widths);
