@@ -116,63 +116,70 @@ namespace {
 
 // ---- Names of files -----------------------------------------------------------------------------
 
-// `pointer`: of the settings.
-void visitNames(
-    hair::SettingsRef settings, const std::string& pointer, const FileNameVisitor& visit);
-
-void visitNames(const hair::Place&, hair::SettingsRef, const std::string&, const FileNameVisitor&) {
+bool isAtOrBelow(std::string_view pointer, std::string_view top) {
+    return pointer.starts_with(top) && (pointer.size() == top.size() || pointer[top.size()] == '/');
 }
 
-void visitNames(
-    const hair::FileName& row, hair::SettingsRef settings, const std::string& pointer,
-    const FileNameVisitor& visit) {
-    if (std::string& name = row.in(settings); !name.empty()) visit(pointer, name);
-}
+// Visits the names at a JSON pointer or below it.
+class NameWalk {
+public:
+    NameWalk(std::string top, const FileNameVisitor& visit) : top_(std::move(top)), visit_(visit) {}
 
-void visitNames(
-    const hair::ChoiceOrFile& row, hair::SettingsRef settings, const std::string& pointer,
-    const FileNameVisitor& visit) {
-    visitNames(hair::FileName{{row.file}}, settings, pointer, visit);
-}
+    // `pointer`: of the settings.
+    void walk(hair::SettingsRef settings, const std::string& pointer) const {
+        for (const hair::Field& field : settings.fields()) {
+            const std::string place = pointer + '/' + field.name;
+            if (isAtOrBelow(place, top_) || isAtOrBelow(top_, place))
+                std::visit([&](const auto& row) { visit(row, settings, place); }, field.kind);
+        }
+    }
 
-void visitNames(
-    const hair::Group& row, hair::SettingsRef settings, const std::string& pointer,
-    const FileNameVisitor& visit) {
-    visitNames(row.in(settings), pointer, visit);
-}
+private:
+    void visit(const hair::Place&, hair::SettingsRef, const std::string&) const {}
 
-void visitNames(
-    const hair::List& row, hair::SettingsRef settings, const std::string& pointer,
-    const FileNameVisitor& visit) {
-    for (std::size_t i = 0; i < row.size(settings); ++i)
-        visitNames(row.at(settings, i), pointer + '/' + std::to_string(i), visit);
-}
+    void
+    visit(const hair::FileName& row, hair::SettingsRef settings, const std::string& pointer) const {
+        if (std::string& name = row.in(settings); !name.empty()) visit_(pointer, name);
+    }
 
-void visitNames(
-    hair::SettingsRef settings, const std::string& pointer, const FileNameVisitor& visit) {
-    for (const hair::Field& field : settings.fields())
-        std::visit(
-            [&](const auto& row) { visitNames(row, settings, pointer + '/' + field.name, visit); },
-            field.kind);
-}
+    void visit(
+        const hair::ChoiceOrFile& row, hair::SettingsRef settings,
+        const std::string& pointer) const {
+        visit(hair::FileName{{row.file}}, settings, pointer);
+    }
+
+    void
+    visit(const hair::Group& row, hair::SettingsRef settings, const std::string& pointer) const {
+        walk(row.in(settings), pointer);
+    }
+
+    void
+    visit(const hair::List& row, hair::SettingsRef settings, const std::string& pointer) const {
+        for (std::size_t i = 0; i < row.size(settings); ++i)
+            walk(row.at(settings, i), pointer + '/' + std::to_string(i));
+    }
+
+    std::string top_;
+    const FileNameVisitor& visit_;
+};
 
 }  // namespace
 
 void forEachFileName(hair::Settings& settings, const FileNameVisitor& visit) {
-    visitNames(settings, "", visit);
+    NameWalk("", visit).walk(settings, "");
 }
 
 void checkNamedFiles(
     hair::Settings settings, const std::string& pointer, const fs::path& directory,
     const Reach& reach) {
-    forEachFileName(settings, [&](const std::string& place, const std::string& name) {
-        if (!(place + '/').starts_with(pointer + '/')) return;
+    const FileNameVisitor check = [&](const std::string& place, const std::string& name) {
         try {
             reach.check(directory / name);
         } catch (const engine::Error& error) {
             throw engine::Error(place, error.what());
         }
-    });
+    };
+    NameWalk(pointer, check).walk(settings, "");
 }
 
 // ---- Extensions ---------------------------------------------------------------------------------
