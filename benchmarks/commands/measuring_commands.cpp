@@ -252,7 +252,6 @@ int compileShaders(const ShadersOptions& options) {
          .case_count = plan.case_count}};
     measure::Progress progress(plan.cases.size());
     const auto finish = [&] {
-        progress.clear();
         report::writeReport(report::reportJson(report), out);
         for (const report::CaseResult& each : report.cases)
             if (each.status != report::Status::ok)
@@ -261,6 +260,9 @@ int compileShaders(const ShadersOptions& options) {
         std::cout << measure::shaderTable(report.cases) << "report: " << out.string() << '\n';
     };
     const engine::InterruptMessage last_words([&] {
+        if (report.interrupted)
+            std::cerr << "interrupted after " << report.cases.size() << " of " << plan.cases.size()
+                      << " cases\n";
         report.interrupted = true;
         finish();
     });
@@ -268,13 +270,17 @@ int compileShaders(const ShadersOptions& options) {
         for (const run::PlannedCase& each : plan.cases) {
             engine::checkInterrupted();
             progress.begin(each.spec.name);
-            report.cases.push_back(compileCase(device, each, cache));
+            report::CaseResult compiled = compileCase(device, each, cache);
+            const engine::HeldMessages held;
+            report.cases.push_back(std::move(compiled));
         }
     } catch (const engine::Interrupted&) {
         report.interrupted = true;
     }
     finish();
     if (report.interrupted) return report::kInterrupted;
+    engine::finishInAnyCase();
+    progress.clear();
     const bool any_ran = std::ranges::any_of(
         report.cases, [](const auto& each) { return each.status == report::Status::ok; });
     return any_ran ? report::kOk : report::kNothingRan;
@@ -295,17 +301,19 @@ std::vector<std::string> notesFor(const report::DeviceRecord& device) {
 
 void ablateAll(
     const engine::Device& device, const run::RunPlan& plan, std::uint32_t laps,
-    measure::HairCache& cache, measure::Progress& progress,
+// Adds finished cases to `cases`. `current`: the case under way, which an InterruptMessage reads.
+    measure::HairCache& cache, measure::Progress& progress, ablate::CaseAblation& current,
     std::vector<ablate::CaseAblation>& cases) {
     for (const run::PlannedCase& each : plan.cases) {
         progress.begin(each.spec.name);
         const auto update = [&](const std::string& state) { progress.update(state); };
-        ablate::ablateCase(
-            device, each.spec, each.directory, laps, update, cache, cases.emplace_back());
-        for (const std::string& message : device.messages().take())
-            cases.back().warnings.push_back("validation: " + message);
+        ablate::ablateCase(device, each.spec, each.directory, laps, update, cache, current);
         progress.clear();
-        std::cout << ablate::ablationTable(cases.back()) << std::endl;
+        const engine::HeldMessages held;
+        for (const std::string& message : device.messages().take())
+            current.warnings.push_back("validation: " + message);
+        std::cout << ablate::ablationTable(current) << std::endl;
+        cases.push_back(std::exchange(current, {}));
     }
 }
 
@@ -331,31 +339,32 @@ int ablateScene(const AblateOptions& options) {
     measure::Progress progress(plan.cases.size());
     const auto finish = [&] {
         engine::writeFileAtomically(out, ablate::ablationText(report));
+    ablate::CaseAblation current;
         for (const std::string& note : report.notes)
             std::cout << "note: " << engine::shownText(note) << '\n';
         std::cout << "report: " << out.string() << '\n';
     };
     const auto finish_interrupted = [&] {
         report.interrupted = true;
-        progress.clear();
-        const ablate::CaseAblation& interrupted_case = report.cases.back();
-        if (interrupted_case.attribution)
-            std::cout << ablate::ablationTable(interrupted_case) << '\n';
-        else
-            report.cases.pop_back();
+        if (current.attribution) {
+            std::cout << ablate::ablationTable(current) << '\n';
+            report.cases.push_back(current);
+        }
         finish();
         std::cerr << "interrupted: " << report.cases.size() << " of " << plan.cases.size()
                   << " cases have results\n";
     };
     const engine::InterruptMessage last_words(finish_interrupted);
     try {
-        ablateAll(device, plan, options.passes, cache, progress, report.cases);
+        ablateAll(device, plan, options.passes, cache, progress, current, report.cases);
     } catch (const engine::Interrupted&) {
         finish_interrupted();
         return report::kInterrupted;
+        progress.clear();
     }
     finish();
     const bool any_ran = std::ranges::any_of(
+    engine::finishInAnyCase();
         report.cases, [](const auto& each) { return each.status == report::Status::ok; });
     return any_ran ? report::kOk : report::kNothingRan;
 }
@@ -406,7 +415,6 @@ int walkLod(const LodOptions& options) {
         .frame = options.frame};
     measure::Progress progress(path.steps);
     const auto finish = [&] {
-        progress.clear();
         for (const std::string& message : device.messages().take()) std::cerr << message << '\n';
         engine::writeFileAtomically(out, lod::lodReportText(report));
         std::cout << lod::lodTable(report) << "report: " << out.string() << '\n';
@@ -426,15 +434,22 @@ int walkLod(const LodOptions& options) {
             [&](double distance) { progress.begin(report::shortNumber(distance) + " m"); },
             report.steps);
         progress.clear();
-        if (options.reference)
+        if (options.reference) {
+            {
+                const engine::HeldMessages held;
+                report.truth.emplace();
+            }
             lod::compareWithTruth(
                 device, scene, hair, settings, {.frame = options.frame, .samples = options.samples},
-                cache, report.truth.emplace());
+                cache, *report.truth);
+        }
     } catch (const engine::Interrupted&) {
         report.interrupted = true;
     }
     finish();
     return report.interrupted ? report::kInterrupted : report::kOk;
+    engine::finishInAnyCase();
+    progress.clear();
 }
 
 // ---- hairbench shimmer --------------------------------------------------------------------------
@@ -495,10 +510,12 @@ int measureShimmer(const ShimmerOptions& options) {
                 pictures = truth.pictures(device, hair, settings, path, begin);
             });
             with_progress(each.spec.name, [&](const auto& begin) {
-                measured.push_back(
-                    {.name = each.spec.name,
-                     .axes = each.spec.axes,
-                     .figures = lod::shimmerOf(device, hair, settings, path, pictures, begin)});
+                lod::ShimmerCase result{
+                    .name = each.spec.name,
+                    .axes = each.spec.axes,
+                    .figures = lod::shimmerOf(device, hair, settings, path, pictures, begin)};
+                const engine::HeldMessages held;
+                measured.push_back(std::move(result));
             });
             for (const std::string& message : device.messages().take())
                 std::cerr << message << '\n';
@@ -508,6 +525,7 @@ int measureShimmer(const ShimmerOptions& options) {
     }
     finish();
     return interrupted ? report::kInterrupted : report::kOk;
+    engine::finishInAnyCase();
 }
 
 // ---- hairbench physics --------------------------------------------------------------------------
@@ -559,6 +577,7 @@ int checkPhysics(const PhysicsOptions& options) {
         physics::runChecks(device, checks, solvers, report);
     finish();
     return physics::exitStatus(report);
+    engine::finishInAnyCase();
 }
 
 }  // namespace benchmarks::commands

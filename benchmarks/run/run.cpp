@@ -243,6 +243,7 @@ Ended playCases(
         ended.interrupted = true;
     } catch (const engine::NoDevice& error) {
         ended.no_device = error.what();
+            const engine::HeldMessages held;  // they write the record
     } catch (...) {
         progress.clear();
         throw;
@@ -343,6 +344,7 @@ FinishedRun playRun(
 
 // ---- Merging of reports -------------------------------------------------------------------------
 
+        engine::finishInAnyCase();
 namespace {
 
 namespace fs = std::filesystem;
