@@ -82,6 +82,10 @@ void addRunOptions(CLI::App& command, run::RunOptions& options) {
     command.add_flag_callback(
         "--no-pictures", [&options] { options.pictures = false; },
         "write no pictures of the cases beside the report");
+    command.add_flag_callback(
+        "--no-shader-costs", [&options] { options.shader_costs = false; },
+        "do not ask the driver's compiler for figures of shaders (see 'shaders'): it may then use "
+        "its cache of pipelines");
     command.add_option("--save-baseline", options.save_baseline, "keep the report under this name")
         ->type_name("NAME");
     command

@@ -4,6 +4,7 @@
 #include <sstream>
 #include <span>
 #include <string>
+#include <utility>
 
 #include <nlohmann/json.hpp>
 
@@ -102,7 +103,9 @@ int runScene(const run::RunOptions& options) {
     run::checkReferences(plan);
 
     engine::processUse();  // counts threads that start from here on, including the device's
-    run::RunDevice device(options.scene.device);
+    engine::DeviceOptions wanted = options.scene.device;
+    if (options.shader_costs) wanted.shader_figures = engine::ShaderFigures::where_told;
+    run::RunDevice device(wanted);
     std::cerr << report::versionOnDevice(device.get()) << '\n';
     const auto print_short = [&](const char* why, const run::FinishedRun& finished) {
         printReport(finished, out);
@@ -242,7 +245,7 @@ int compileShaders(const ShadersOptions& options) {
     engine::checkWritable(out);
 
     engine::DeviceOptions wanted = options.scene.device;
-    wanted.shader_figures = true;
+    wanted.shader_figures = engine::ShaderFigures::required;
     const engine::Device device(wanted);
     std::cerr << report::versionOnDevice(device) << '\n';
     report::Report report{
@@ -258,11 +261,11 @@ int compileShaders(const ShadersOptions& options) {
                 std::cout << engine::shownText(each.name) << ": " << report::statusName(each.status)
                           << ": " << engine::shownText(each.reason) << '\n';
         std::cout << measure::shaderTable(report.cases) << "report: " << out.string() << '\n';
-    };
-    const engine::InterruptMessage last_words([&] {
         if (report.interrupted)
             std::cerr << "interrupted after " << report.cases.size() << " of " << plan.cases.size()
                       << " cases\n";
+    };
+    const engine::InterruptMessage last_words([&] {
         report.interrupted = true;
         finish();
     });
@@ -277,10 +280,10 @@ int compileShaders(const ShadersOptions& options) {
     } catch (const engine::Interrupted&) {
         report.interrupted = true;
     }
-    finish();
-    if (report.interrupted) return report::kInterrupted;
     engine::finishInAnyCase();
     progress.clear();
+    finish();
+    if (report.interrupted) return report::kInterrupted;
     const bool any_ran = std::ranges::any_of(
         report.cases, [](const auto& each) { return each.status == report::Status::ok; });
     return any_ran ? report::kOk : report::kNothingRan;
@@ -299,9 +302,9 @@ std::vector<std::string> notesFor(const report::DeviceRecord& device) {
     return notes;
 }
 
+// Adds finished cases to `cases`. `current`: the case under way, which an InterruptMessage reads.
 void ablateAll(
     const engine::Device& device, const run::RunPlan& plan, std::uint32_t laps,
-// Adds finished cases to `cases`. `current`: the case under way, which an InterruptMessage reads.
     measure::HairCache& cache, measure::Progress& progress, ablate::CaseAblation& current,
     std::vector<ablate::CaseAblation>& cases) {
     for (const run::PlannedCase& each : plan.cases) {
@@ -337,9 +340,9 @@ int ablateScene(const AblateOptions& options) {
         .laps = options.passes};
     report.notes = notesFor(report.environment.device);
     measure::Progress progress(plan.cases.size());
+    ablate::CaseAblation current;
     const auto finish = [&] {
         engine::writeFileAtomically(out, ablate::ablationText(report));
-    ablate::CaseAblation current;
         for (const std::string& note : report.notes)
             std::cout << "note: " << engine::shownText(note) << '\n';
         std::cout << "report: " << out.string() << '\n';
@@ -358,13 +361,13 @@ int ablateScene(const AblateOptions& options) {
     try {
         ablateAll(device, plan, options.passes, cache, progress, current, report.cases);
     } catch (const engine::Interrupted&) {
+        progress.clear();
         finish_interrupted();
         return report::kInterrupted;
-        progress.clear();
     }
+    engine::finishInAnyCase();
     finish();
     const bool any_ran = std::ranges::any_of(
-    engine::finishInAnyCase();
         report.cases, [](const auto& each) { return each.status == report::Status::ok; });
     return any_ran ? report::kOk : report::kNothingRan;
 }
@@ -446,10 +449,10 @@ int walkLod(const LodOptions& options) {
     } catch (const engine::Interrupted&) {
         report.interrupted = true;
     }
-    finish();
-    return report.interrupted ? report::kInterrupted : report::kOk;
     engine::finishInAnyCase();
     progress.clear();
+    finish();
+    return report.interrupted ? report::kInterrupted : report::kOk;
 }
 
 // ---- hairbench shimmer --------------------------------------------------------------------------
@@ -523,9 +526,9 @@ int measureShimmer(const ShimmerOptions& options) {
     } catch (const engine::Interrupted&) {
         interrupted = true;
     }
+    engine::finishInAnyCase();
     finish();
     return interrupted ? report::kInterrupted : report::kOk;
-    engine::finishInAnyCase();
 }
 
 // ---- hairbench physics --------------------------------------------------------------------------
@@ -575,9 +578,9 @@ int checkPhysics(const PhysicsOptions& options) {
         physics::playPapers(device, report);
     else
         physics::runChecks(device, checks, solvers, report);
+    engine::finishInAnyCase();
     finish();
     return physics::exitStatus(report);
-    engine::finishInAnyCase();
 }
 
 }  // namespace benchmarks::commands

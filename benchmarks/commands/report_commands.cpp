@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 #include <iostream>
+#include <utility>
 #include <vector>
 
 #include <nlohmann/json.hpp>
@@ -71,6 +72,7 @@ void print(
     const bool has_times = std::ranges::any_of(comparison.changes, [](const report::Change& each) {
         return each.metric.of != report::MetricOf::shader && !report::isProbe(each.metric);
     });
+    std::cout << report::codeChangesText(comparison.code);
     if (has_times) std::cout << report::kOneProcessCaveat << '\n';
 }
 
@@ -223,9 +225,9 @@ void examineDevice(const DoctorOptions& options, doctor::DoctorReport& report) {
     const engine::Step step("examines the machine");
     std::vector<doctor::Finding> findings =
         doctor::judgeAll(doctor::gatherFacts(device, options.device.validation, hooks));
-}
     const engine::HeldMessages held;
     report.findings = std::move(findings);
+}
 
 void examineGates(const DoctorOptions& options, doctor::DoctorReport& report) {
     if (options.pairs == 0) return;
@@ -298,8 +300,8 @@ int examineMachine(const DoctorOptions& options) {
     } catch (const engine::Interrupted&) {
         report.interrupted = true;
     }
-    finish();
     engine::finishInAnyCase();
+    finish();
     if (report.interrupted) return report::kInterrupted;
     return doctor::isTrusted(report) ? report::kOk : report::kCheckFailed;
 }
