@@ -234,8 +234,10 @@ Device::Device(const DeviceOptions& options)
     shaders_ = std::make_unique<ShaderLibrary>();
     cache_ = std::make_unique<PipelineCache>(get(), info_);
     pipelines_ = std::make_unique<PipelineStore>();
-    if (options.shader_figures) require(Feature::shader_figures, info_.name);
-    shader_figures_ = options.shader_figures;
+    if (options.shader_figures == ShaderFigures::required)
+        require(Feature::shader_figures, info_.name);
+    shader_figures_ =
+        options.shader_figures != ShaderFigures::unasked && has(Feature::shader_figures);
 
     const VkCommandPoolCreateInfo pool{
         .sType = VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO,

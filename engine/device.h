@@ -65,7 +65,7 @@ struct PipelineObjects {
     Handle<VkPipelineLayout, &vkDestroyPipelineLayout> layout;
     Handle<VkPipeline, &vkDestroyPipeline> pipeline;
     VkShaderStageFlags push_stages = 0;  // stages that have the push constants
-    std::vector<ShaderProgram> programs{};  // if DeviceOptions::shader_figures
+    std::vector<ShaderProgram> programs{};  // if Device::tellsShaderFigures()
 };
 
 // LRU cache of the device's pipelines. Its key consists of all parts of a pipeline: stage code,
@@ -89,6 +89,10 @@ private:
     std::list<std::pair<std::string, Objects>> lru_;
 };
 
+// Whether the driver's compiler is asked for figures of each pipeline. Asking changes no code, but
+// may keep the driver's cache of pipelines from being used (VkPipelineCreateFlagBits).
+enum class ShaderFigures { unasked, where_told, required };
+
 struct DeviceOptions {
     std::string wanted;  // index or part of the name; empty: the best
     Validation validation = Validation::off;
@@ -101,9 +105,8 @@ struct DeviceOptions {
     // Longest wait for one submission. Absent: ten minutes, or an hour for a software device, which
     // may need many minutes for a large frame.
     std::optional<std::chrono::duration<double>> patience{};
-    // Asks the driver's compiler for figures of each pipeline. Throws Unsupported without
-    // Feature::shader_figures.
-    bool shader_figures = false;
+    // If required, the device throws Unsupported without Feature::shader_figures.
+    ShaderFigures shader_figures = ShaderFigures::unasked;
 };
 
 // One logical device with its queues, its memory allocator and pipeline cache. Everything else
@@ -163,7 +166,7 @@ public:
     ShaderLibrary& shaders() const { return *shaders_; }
     // The pipelines made from that code.
     PipelineStore& pipelines() const { return *pipelines_; }
-    // Whether pipelines come with figures: DeviceOptions::shader_figures.
+    // Whether pipelines come with figures: asked for, and told.
     bool tellsShaderFigures() const { return shader_figures_; }
     // Registers an allocation's buffer or image, which keeps the entry. Finds its heap and size.
     TrackedResources::Entry

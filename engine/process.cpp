@@ -48,6 +48,7 @@ static_assert(std::atomic<bool>::is_always_lock_free);  // otherwise a handler m
 // Who handles an interrupt: the first to claim it.
 enum class Heeded { not_yet, by_work, by_end };
 std::atomic<Heeded> heeded = Heeded::not_yet;
+thread_local bool ends_program = false;  // this thread, in endInterrupted()
 
 // Time for work to report that it ends itself.
 constexpr auto kPatience = 1200ms;
@@ -57,6 +58,7 @@ constexpr auto kDevicePatience = 700ms;
 // Last actions of endInterrupted(): files to remove and InterruptMessages to call.
 struct Ending {
     std::mutex mutex;
+    std::recursive_mutex speaking;  // held by HeldMessages, and by who ends the program
     std::multiset<std::filesystem::path> leftovers;
     const InterruptMessage* last_words = nullptr;
     std::optional<Clock::time_point> came;  // first seen by a waiting thread
@@ -74,11 +76,6 @@ struct {
     std::string reason;  // guarded by the mutex of Ending
 } time_limit;
 
-void sayInterrupted() {
-    forgetSteps();
-    std::cerr << "interrupted\n";
-}
-
 [[noreturn]] void leave(int status) {
     std::multiset<std::filesystem::path> leftovers;
     {
@@ -94,14 +91,37 @@ void sayInterrupted() {
     for (;;) std::this_thread::sleep_for(1h);
 }
 
+// The caller has claimed the end. Other threads work on until they ask or change results.
+[[noreturn]] void endWithLastWords() {
+    ends_program = true;
+    const HeldMessages held;
+    int status = kInterruptedStatus;
+    forgetSteps();
+    try {
+        const InterruptMessage* words = ending().last_words;
+        if (!words) std::cerr << "interrupted\n";
+        for (; words; words = words->before()) words->speak();
+    } catch (const std::exception& error) {
+        std::cerr << "hairbench: " << error.what() << '\n';
+        status = 1;
+    }
+    std::cout.flush();
+    std::fflush(stdout);
+    leave(status);
+}
+
 // Runs on a thread of its own after an interrupt.
 void endUnheeded() {
     std::this_thread::sleep_for(kPatience);
     Heeded now = Heeded::not_yet;
-    if (heeded.compare_exchange_strong(now, Heeded::by_end)) {
-        sayInterrupted();
-        leave(kInterruptedStatus);
-    }
+    if (heeded.compare_exchange_strong(now, Heeded::by_end)) endWithLastWords();
+}
+
+// The work ends the program from here on, except if another thread already does.
+void claimEnd() {
+    Heeded now = Heeded::not_yet;
+    heeded.compare_exchange_strong(now, Heeded::by_work);
+    if (now == Heeded::by_end) waitForEver();
 }
 
 }  // namespace
@@ -111,11 +131,12 @@ void catchInterrupts() {
 }
 
 bool interrupted() {
-    if (!interrupt_came) return false;
-    Heeded now = Heeded::not_yet;
-    heeded.compare_exchange_strong(now, Heeded::by_work);
+    if (!interrupt_came || ends_program) return false;
+    claimEnd();
     return true;
 }
+
+void finishInAnyCase() { claimEnd(); }
 
 void checkInterrupted() {
     if (interrupted()) throw Interrupted();
@@ -138,35 +159,23 @@ TimeLimit::TimeLimit(double seconds, const std::string& name) {
 TimeLimit::~TimeLimit() { time_limit.end = kNoEnd; }
 
 InterruptMessage::InterruptMessage(std::function<void()> speak) : speak_(std::move(speak)) {
-    const std::lock_guard lock(ending().mutex);
+    const HeldMessages held;
     before_ = std::exchange(ending().last_words, this);
 }
 
 InterruptMessage::~InterruptMessage() {
-    const std::lock_guard lock(ending().mutex);
+    const HeldMessages held;
     ending().last_words = before_;
 }
+
+HeldMessages::HeldMessages() { ending().speaking.lock(); }
+
+HeldMessages::~HeldMessages() { ending().speaking.unlock(); }
 
 void endInterrupted() {
     if (heeded.exchange(Heeded::by_end) == Heeded::by_end)
         waitForEver();  // another thread ends the program
-    const InterruptMessage* words{};
-    {
-        const std::lock_guard lock(ending().mutex);
-        words = ending().last_words;
-    }
-    int status = kInterruptedStatus;
-    forgetSteps();
-    try {
-        if (!words) sayInterrupted();
-        for (; words; words = words->before()) words->speak();
-    } catch (const std::exception& error) {
-        std::cerr << "hairbench: " << error.what() << '\n';
-        status = 1;
-    }
-    std::cout.flush();
-    std::fflush(stdout);
-    leave(status);
+    endWithLastWords();
 }
 
 void endIfLongInterrupted() {

@@ -21,13 +21,19 @@ namespace engine {
 // - work that calls interrupted() or checkInterrupted() ends itself;
 // - a wait for a device (waitInterruptibly()) that isn't done 0.7 s after the interrupt ends the
 //   program at once, by endInterrupted(), because a driver's work can't be cancelled;
-// - if nothing asks for 1.2 s (kPatience), as within a library, a thread ends the program, without
-//   InterruptMessages.
+// - if nothing asks for 1.2 s (kPatience), as within a library, another thread ends the program by
+//   endInterrupted().
+// A thread that asks, or changes what an InterruptMessage reads, while another thread ends the
+// program, stops there for ever.
 void catchInterrupts();
 
 // Whether an interrupt came since catchInterrupts(). A caller that gets true must end its work:
-// nobody else does.
+// nobody else does. Returns false within an InterruptMessage: that is finished in any case.
 bool interrupted();
+
+// From here on the program's work is over and its results are written: an interrupt no longer ends
+// the program before it ends by itself. A second interrupt does.
+void finishInAnyCase();
 
 // Thrown to end interrupted work.
 class Interrupted {};
@@ -54,8 +60,9 @@ public:
 inline constexpr int kInterruptedStatus = 130;  // shell convention: 128 + SIGINT
 
 // A function that prints messages and writes files before endInterrupted() ends the program, as
-// long as this object lives. The newest object's function runs first. The thread that waits for the
-// device calls it, so it must not wait for a device itself.
+// long as this object lives. The newest object's function runs first. It must not wait for a
+// device. Any thread may call it, while the others work: it reads only data that doesn't change, or
+// that is changed under HeldMessages.
 class InterruptMessage {
 public:
     explicit InterruptMessage(std::function<void()> speak);
@@ -69,6 +76,16 @@ public:
 private:
     std::function<void()> speak_;
     const InterruptMessage* before_ = nullptr;
+};
+
+// No InterruptMessage is called during this object's lifetime, so that it never sees half a change.
+// The thread must neither wait for a device nor check for interrupts meanwhile. May nest.
+class HeldMessages {
+public:
+    HeldMessages();
+    ~HeldMessages();
+    HeldMessages(const HeldMessages&) = delete;
+    HeldMessages& operator=(const HeldMessages&) = delete;
 };
 
 // Ends the program with kInterruptedStatus, or with another status if an InterruptMessage throws.

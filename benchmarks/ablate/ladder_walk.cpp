@@ -222,8 +222,13 @@ StopView& LadderWalk::pass() const {
 }
 
 void LadderWalk::walk(std::uint32_t laps, const std::function<void(const std::string&)>& progress) {
-    const engine::Timing timing = trustedTiming(device_, pass(), result_.warnings);
-    result_.timing = timing == engine::Timing::isolated ? "isolated" : "wall_clock";
+    std::vector<std::string> warnings;
+    const engine::Timing timing = trustedTiming(device_, pass(), warnings);
+    {
+        const engine::HeldMessages held;
+        std::ranges::move(warnings, std::back_inserter(result_.warnings));
+        result_.timing = timing == engine::Timing::isolated ? "isolated" : "wall_clock";
+    }
     engine::FrameLoop loop(device_, timing);
     for (const auto& view : views_) view->visit(loop, kWarmUps);
     for (std::uint32_t lap = 0; lap < laps; ++lap) {
@@ -233,6 +238,7 @@ void LadderWalk::walk(std::uint32_t laps, const std::function<void(const std::st
             visits[i].up = views_[i]->visit(loop, kVisitFrames);
         for (std::size_t i = views_.size(); i-- > 0;)
             visits[i].down = views_[i]->visit(loop, kVisitFrames);
+        const engine::HeldMessages held;  // they write the laps
         for (std::size_t i = 0; i < views_.size(); ++i)
             result_.stops[i].times.laps.push_back(std::move(visits[i]));
     }
@@ -258,7 +264,7 @@ WorkCounts workOf(const std::vector<StopRecord>& stops, const hair::rendering::S
 }
 
 void attributeCase(const hair::rendering::StrandPlan& plan, CaseAblation& result) {
-    if (result.stops.front().times.laps.empty()) return;
+    if (result.attribution || result.stops.front().times.laps.empty()) return;
     std::vector<StopTimes> times;
     for (const StopRecord& stop : result.stops) times.push_back(stop.times);
     result.attribution = attribute(times);
@@ -287,6 +293,7 @@ void measureCase(
         attribute_done();
         throw;
     }
+    const engine::HeldMessages held;
     attribute_done();
 }
 
@@ -300,6 +307,7 @@ void ablateCase(
     const hair::RunSettings& run = spec.settings.run;
     result = {.name = spec.name, .axes = spec.axes, .frame = run.warmup + run.frames};
     const auto without = [&](report::Status status, const std::string& reason) {
+        const engine::HeldMessages held;
         result = {.name = spec.name, .axes = spec.axes, .status = status, .reason = reason};
     };
     if (const std::string obstacle = ablationObstacle(spec.settings); !obstacle.empty())

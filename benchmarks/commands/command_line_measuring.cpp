@@ -82,6 +82,10 @@ void addRunOptions(CLI::App& command, run::RunOptions& options) {
     command.add_flag_callback(
         "--no-pictures", [&options] { options.pictures = false; },
         "write no pictures of the cases beside the report");
+    command.add_flag_callback(
+        "--no-shader-costs", [&options] { options.shader_costs = false; },
+        "do not ask the driver's compiler for figures of shaders (see 'shaders'): it may then use "
+        "its cache of pipelines");
     command.add_option("--save-baseline", options.save_baseline, "keep the report under this name")
         ->type_name("NAME");
     command
@@ -108,7 +112,8 @@ constexpr const char* kShadersNotes =
     R"(Registers, spills, scratch memory, occupancy, instructions, code size and latency of every stage, as the
 device's driver tells them (VK_KHR_pipeline_executable_properties): the worst of all cases in the table, each
 case in the report. Nothing is timed, so the figures have no noise: 'compare' and 'gate --shaders' judge them.
-Drivers of GPUs compile without their GPU, too: docs/devices.md, "Drivers without their GPU".)";
+Drivers of GPUs compile without their GPU, too: docs/devices.md, "Drivers without their GPU". If interrupted,
+it tells and saves the cases that are compiled.)";
 
 void addShadersOptions(CLI::App& command, ShadersOptions& options) {
     addSceneOptions(command, options.scene);

@@ -4,6 +4,7 @@
 #include <sstream>
 #include <span>
 #include <string>
+#include <utility>
 
 #include <nlohmann/json.hpp>
 
@@ -102,7 +103,9 @@ int runScene(const run::RunOptions& options) {
     run::checkReferences(plan);
 
     engine::processUse();  // counts threads that start from here on, including the device's
-    run::RunDevice device(options.scene.device);
+    engine::DeviceOptions wanted = options.scene.device;
+    if (options.shader_costs) wanted.shader_figures = engine::ShaderFigures::where_told;
+    run::RunDevice device(wanted);
     std::cerr << report::versionOnDevice(device.get()) << '\n';
     const auto print_short = [&](const char* why, const run::FinishedRun& finished) {
         printReport(finished, out);
@@ -242,7 +245,7 @@ int compileShaders(const ShadersOptions& options) {
     engine::checkWritable(out);
 
     engine::DeviceOptions wanted = options.scene.device;
-    wanted.shader_figures = true;
+    wanted.shader_figures = engine::ShaderFigures::required;
     const engine::Device device(wanted);
     std::cerr << report::versionOnDevice(device) << '\n';
     report::Report report{
@@ -252,13 +255,15 @@ int compileShaders(const ShadersOptions& options) {
          .case_count = plan.case_count}};
     measure::Progress progress(plan.cases.size());
     const auto finish = [&] {
-        progress.clear();
         report::writeReport(report::reportJson(report), out);
         for (const report::CaseResult& each : report.cases)
             if (each.status != report::Status::ok)
                 std::cout << engine::shownText(each.name) << ": " << report::statusName(each.status)
                           << ": " << engine::shownText(each.reason) << '\n';
         std::cout << measure::shaderTable(report.cases) << "report: " << out.string() << '\n';
+        if (report.interrupted)
+            std::cerr << "interrupted after " << report.cases.size() << " of " << plan.cases.size()
+                      << " cases\n";
     };
     const engine::InterruptMessage last_words([&] {
         report.interrupted = true;
@@ -268,11 +273,15 @@ int compileShaders(const ShadersOptions& options) {
         for (const run::PlannedCase& each : plan.cases) {
             engine::checkInterrupted();
             progress.begin(each.spec.name);
-            report.cases.push_back(compileCase(device, each, cache));
+            report::CaseResult compiled = compileCase(device, each, cache);
+            const engine::HeldMessages held;
+            report.cases.push_back(std::move(compiled));
         }
     } catch (const engine::Interrupted&) {
         report.interrupted = true;
     }
+    engine::finishInAnyCase();
+    progress.clear();
     finish();
     if (report.interrupted) return report::kInterrupted;
     const bool any_ran = std::ranges::any_of(
@@ -293,19 +302,21 @@ std::vector<std::string> notesFor(const report::DeviceRecord& device) {
     return notes;
 }
 
+// Adds finished cases to `cases`. `current`: the case under way, which an InterruptMessage reads.
 void ablateAll(
     const engine::Device& device, const run::RunPlan& plan, std::uint32_t laps,
-    measure::HairCache& cache, measure::Progress& progress,
+    measure::HairCache& cache, measure::Progress& progress, ablate::CaseAblation& current,
     std::vector<ablate::CaseAblation>& cases) {
     for (const run::PlannedCase& each : plan.cases) {
         progress.begin(each.spec.name);
         const auto update = [&](const std::string& state) { progress.update(state); };
-        ablate::ablateCase(
-            device, each.spec, each.directory, laps, update, cache, cases.emplace_back());
-        for (const std::string& message : device.messages().take())
-            cases.back().warnings.push_back("validation: " + message);
+        ablate::ablateCase(device, each.spec, each.directory, laps, update, cache, current);
         progress.clear();
-        std::cout << ablate::ablationTable(cases.back()) << std::endl;
+        const engine::HeldMessages held;
+        for (const std::string& message : device.messages().take())
+            current.warnings.push_back("validation: " + message);
+        std::cout << ablate::ablationTable(current) << std::endl;
+        cases.push_back(std::exchange(current, {}));
     }
 }
 
@@ -329,6 +340,7 @@ int ablateScene(const AblateOptions& options) {
         .laps = options.passes};
     report.notes = notesFor(report.environment.device);
     measure::Progress progress(plan.cases.size());
+    ablate::CaseAblation current;
     const auto finish = [&] {
         engine::writeFileAtomically(out, ablate::ablationText(report));
         for (const std::string& note : report.notes)
@@ -337,23 +349,23 @@ int ablateScene(const AblateOptions& options) {
     };
     const auto finish_interrupted = [&] {
         report.interrupted = true;
-        progress.clear();
-        const ablate::CaseAblation& interrupted_case = report.cases.back();
-        if (interrupted_case.attribution)
-            std::cout << ablate::ablationTable(interrupted_case) << '\n';
-        else
-            report.cases.pop_back();
+        if (current.attribution) {
+            std::cout << ablate::ablationTable(current) << '\n';
+            report.cases.push_back(current);
+        }
         finish();
         std::cerr << "interrupted: " << report.cases.size() << " of " << plan.cases.size()
                   << " cases have results\n";
     };
     const engine::InterruptMessage last_words(finish_interrupted);
     try {
-        ablateAll(device, plan, options.passes, cache, progress, report.cases);
+        ablateAll(device, plan, options.passes, cache, progress, current, report.cases);
     } catch (const engine::Interrupted&) {
+        progress.clear();
         finish_interrupted();
         return report::kInterrupted;
     }
+    engine::finishInAnyCase();
     finish();
     const bool any_ran = std::ranges::any_of(
         report.cases, [](const auto& each) { return each.status == report::Status::ok; });
@@ -406,7 +418,6 @@ int walkLod(const LodOptions& options) {
         .frame = options.frame};
     measure::Progress progress(path.steps);
     const auto finish = [&] {
-        progress.clear();
         for (const std::string& message : device.messages().take()) std::cerr << message << '\n';
         engine::writeFileAtomically(out, lod::lodReportText(report));
         std::cout << lod::lodTable(report) << "report: " << out.string() << '\n';
@@ -426,13 +437,20 @@ int walkLod(const LodOptions& options) {
             [&](double distance) { progress.begin(report::shortNumber(distance) + " m"); },
             report.steps);
         progress.clear();
-        if (options.reference)
+        if (options.reference) {
+            {
+                const engine::HeldMessages held;
+                report.truth.emplace();
+            }
             lod::compareWithTruth(
                 device, scene, hair, settings, {.frame = options.frame, .samples = options.samples},
-                cache, report.truth.emplace());
+                cache, *report.truth);
+        }
     } catch (const engine::Interrupted&) {
         report.interrupted = true;
     }
+    engine::finishInAnyCase();
+    progress.clear();
     finish();
     return report.interrupted ? report::kInterrupted : report::kOk;
 }
@@ -495,10 +513,12 @@ int measureShimmer(const ShimmerOptions& options) {
                 pictures = truth.pictures(device, hair, settings, path, begin);
             });
             with_progress(each.spec.name, [&](const auto& begin) {
-                measured.push_back(
-                    {.name = each.spec.name,
-                     .axes = each.spec.axes,
-                     .figures = lod::shimmerOf(device, hair, settings, path, pictures, begin)});
+                lod::ShimmerCase result{
+                    .name = each.spec.name,
+                    .axes = each.spec.axes,
+                    .figures = lod::shimmerOf(device, hair, settings, path, pictures, begin)};
+                const engine::HeldMessages held;
+                measured.push_back(std::move(result));
             });
             for (const std::string& message : device.messages().take())
                 std::cerr << message << '\n';
@@ -506,6 +526,7 @@ int measureShimmer(const ShimmerOptions& options) {
     } catch (const engine::Interrupted&) {
         interrupted = true;
     }
+    engine::finishInAnyCase();
     finish();
     return interrupted ? report::kInterrupted : report::kOk;
 }
@@ -557,6 +578,7 @@ int checkPhysics(const PhysicsOptions& options) {
         physics::playPapers(device, report);
     else
         physics::runChecks(device, checks, solvers, report);
+    engine::finishInAnyCase();
     finish();
     return physics::exitStatus(report);
 }

@@ -218,19 +218,27 @@ void renderCase(
     const RenderOptions& options, measure::HairCache& cache, measure::Progress& progress,
     scene::Json& written) {
     const hair::RenderSettings& render = planned.spec.settings.render;
-    written = toJson(planned.spec);
-    written["width"] = render.width;
-    written["height"] = render.height;
-    scene::Json& pictures = written["pictures"] = scene::Json::array();
+    {
+        const engine::HeldMessages held;  // they count the pictures
+        written = toJson(planned.spec);
+        written["width"] = render.width;
+        written["height"] = render.height;
+        written["pictures"] = scene::Json::array();
+    }
     measure::Case picture(device, planned.spec.settings, planned.directory, &cache);
     for (const std::string& warning : measure::inspectStart(picture).warnings)
         std::cerr << "hairbench: " << engine::shownText(warning) << '\n';
     play(device, picture, files.range, progress, [&](std::uint32_t frame) {
         writePicture(picture, options.linear, files.of(frame));
-        pictures.push_back({{"frame", frame}, {"file", files.of(frame).string()}});
+        const engine::HeldMessages held;
+        written["pictures"].push_back({{"frame", frame}, {"file", files.of(frame).string()}});
     });
     progress.clear();
-    written["image_hash"] = picture.pictureHash();
+    std::string hash = picture.pictureHash();
+    {
+        const engine::HeldMessages held;
+        written["image_hash"] = std::move(hash);
+    }
     for (const std::string& warning : picture.warnings())
         std::cerr << "hairbench: " << engine::shownText(warning) << '\n';
     for (const std::string& message : device.messages().take()) std::cerr << message << '\n';
@@ -296,11 +304,17 @@ int renderScene(const RenderOptions& options) {
     const engine::InterruptMessage last_words(say_interrupted);
     try {
         for (std::size_t i = 0; i < cases.size(); ++i) {
-            scene::Json& entry = written.emplace_back(std::move(kept[i]));
-            if (!entry.is_null()) continue;
-            renderCase(device, cases[i], files[i], options, cache, progress, entry);
-            if (record) record->add(cases[i].spec, entry);
+            scene::Json entry = std::move(kept[i]);
+            const bool is_kept = !entry.is_null();
+            {
+                const engine::HeldMessages held;
+                written.push_back(std::move(entry));
+            }
+            if (is_kept) continue;
+            renderCase(device, cases[i], files[i], options, cache, progress, written.back());
+            if (record) record->add(cases[i].spec, written.back());
         }
+        engine::finishInAnyCase();
         if (record) record->complete();
     } catch (const engine::Interrupted&) {
         progress.clear();

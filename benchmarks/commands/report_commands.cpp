@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 #include <iostream>
+#include <utility>
 #include <vector>
 
 #include <nlohmann/json.hpp>
@@ -71,6 +72,7 @@ void print(
     const bool has_times = std::ranges::any_of(comparison.changes, [](const report::Change& each) {
         return each.metric.of != report::MetricOf::shader && !report::isProbe(each.metric);
     });
+    std::cout << report::codeChangesText(comparison.code);
     if (has_times) std::cout << report::kOneProcessCaveat << '\n';
 }
 
@@ -221,17 +223,27 @@ void examineDevice(const DoctorOptions& options, doctor::DoctorReport& report) {
     measure::addBoard(device.info(), report.environment.device);
     const measure::MeasureHooks hooks{.stop = engine::interrupted};
     const engine::Step step("examines the machine");
-    report.findings =
+    std::vector<doctor::Finding> findings =
         doctor::judgeAll(doctor::gatherFacts(device, options.device.validation, hooks));
+    const engine::HeldMessages held;
+    report.findings = std::move(findings);
 }
 
 void examineGates(const DoctorOptions& options, doctor::DoctorReport& report) {
     if (options.pairs == 0) return;
     std::cerr << "measuring " << options.pairs << " pairs of processes\n";
-    report.sensitivities = doctor::measureSensitivity(options.device, options.pairs);
+    std::vector<doctor::Sensitivity> sensitivities =
+        doctor::measureSensitivity(options.device, options.pairs);
+    {
+        const engine::HeldMessages held;
+        report.sensitivities = std::move(sensitivities);
+    }
     if (!options.planted) return;
     std::cerr << "looking for " << kPlantedGates << " planted slowdowns\n";
-    report.planted = doctor::plantSlowdowns(options.device, report.sensitivities, kPlantedGates);
+    std::vector<doctor::PlantedGate> planted =
+        doctor::plantSlowdowns(options.device, report.sensitivities, kPlantedGates);
+    const engine::HeldMessages held;
+    report.planted = std::move(planted);
     report.findings.push_back(doctor::judgePlanted(report.planted));
 }
 
@@ -288,6 +300,7 @@ int examineMachine(const DoctorOptions& options) {
     } catch (const engine::Interrupted&) {
         report.interrupted = true;
     }
+    engine::finishInAnyCase();
     finish();
     if (report.interrupted) return report::kInterrupted;
     return doctor::isTrusted(report) ? report::kOk : report::kCheckFailed;

@@ -193,13 +193,15 @@ void GateSession::chooseTimes() {
     std::vector<report::MetricId> metrics;
     for (const CommonMetric& each : common) metrics.push_back(each.a->id);
     const bool software = run_.first_a->software_device && run_.first_b->software_device;
-    const report::MetricChoice judged =
-        judged_ ? judged_ : report::timesBy(report::judgedClock(software, metrics));
+    const report::MetricChoice judged = judged_ ? judged_ : report::usualMetrics(software, metrics);
     for (const CommonMetric& each : common) {
         const report::Judgement judgement = report::judgementOf(
             judged, *each.a, *each.b,
             software ? report::kShortestTime : report::kShortestTimestamped);
-        if (judgement == report::Judgement::not_wanted) continue;
+        if (judgement == report::Judgement::not_wanted) {
+            report::addCodeChange(*each.a, *each.b, run_.code);
+            continue;
+        }
         GateTime time{.case_name = each.case_name, .metric = *each.a};
         for (const auto& [block, metric] :
              {std::pair(&*run_.first_a, each.a), std::pair(&*run_.first_b, each.b)})
@@ -457,6 +459,7 @@ scene::Json gateReport(
     scene::Json& too_short = object["too_short"] = scene::Json::array();
     for (const GateTime& each : run.too_short)
         too_short.push_back({{"case", each.case_name}, {"metric", each.metric.name()}});
+    object["code"] = report::codeChangesJson(run.code);
     object["blocks"] = blocksJson(run);
     scene::Json& differing = object["mismatches"] = scene::Json::array();
     for (const report::Mismatch& each : run.mismatches)
@@ -546,7 +549,7 @@ std::string gateText(const GateRun& run) {
     text += run.scene + ", " + std::to_string(run.pairs) + (run.pairs == 1 ? " pair" : " pairs") +
             calibrationText(run) + "\n\n";
     text += report::changesTable(run.changes, showCases(run)) + tooShortText(run) +
-            incomparableText(run) + '\n';
+            incomparableText(run) + report::codeChangesText(run.code) + '\n';
     if (run.end != GateRun::End::decided)
         text += run.decided_at > 0 ? "stopped; the verdicts are those passed at " +
                                          std::to_string(run.decided_at) + " pairs\n"

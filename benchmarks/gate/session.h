@@ -53,6 +53,7 @@ struct GateRun {
     std::vector<std::string> unmatched;  // "only in A: thesis/msaa:4"
     std::vector<GateTime> times;
     std::vector<GateTime> too_short;  // see kShortestTime
+    std::vector<report::CodeChange> code;  // of the first blocks
     std::vector<BlockRecord> blocks;  // in the order in which they ran
     std::vector<report::Mismatch> mismatches;
     std::size_t repeated_blocks = 0;  // blocks that were lost, for example to heat, and run again
@@ -130,7 +131,7 @@ GateRun runGate(const GateOptions& options);
 
 // Report of a gate, as JSON and for a terminal.
 
-inline constexpr const char* kGateSchema = "hairbench-gate/1.2.0";
+inline constexpr const char* kGateSchema = "hairbench-gate/1.3.0";
 
 // The complete gate, as described by results/gate.schema.json; verdicts can be recomputed from it.
 // Unknown values are absent.

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
+#include <utility>
 
 #include <glm/geometric.hpp>
 #include <glm/gtc/quaternion.hpp>
@@ -100,10 +101,14 @@ void compareWithTruth(
     const engine::Device& device, const scene::Scene& scene, const measure::Case& hair,
     const hair::Settings& settings, const TruthOptions& options, measure::HairCache& cache,
     LodTruth& truth) {
-    truth.samples = options.samples;
+    {
+        const engine::HeldMessages held;
+        truth.samples = options.samples;
+    }
     for (const float level : comparedLevels(settings.lod)) {
         LevelErrors errors = levelErrors(device, hair, settings, level);
         errors.full_coverage = truth.levels.empty() ? errors.coverage : truth.levels[0].coverage;
+        const engine::HeldMessages held;  // they write what is known
         truth.levels.push_back(std::move(errors));
     }
     const engine::ScratchFolder folder;
@@ -113,10 +118,13 @@ void compareWithTruth(
         reference::exportMitsuba(
             device, scene, atLevel(lit, 0.0f), options.frame, folder.path(), cache);
         reference::traceMitsuba(folder.path(), options.samples, traced);
-        for (LevelErrors& each : truth.levels)
-            each.lights.push_back(lightErrors(
+        for (LevelErrors& each : truth.levels) {
+            LightErrors errors = lightErrors(
                 device, hair, lit, angle, static_cast<float>(each.level), traced,
-                folder.path() / "level.exr"));
+                folder.path() / "level.exr");
+            const engine::HeldMessages held;
+            each.lights.push_back(std::move(errors));
+        }
     }
 }
 
@@ -512,6 +520,7 @@ void walk(
         if (!before.empty()) step.popping = popping(before, picture, full_before, full_picture);
         before = std::move(picture);
         full_before = std::move(full_picture);
+        const engine::HeldMessages held;
         steps.push_back(step);
     }
 }

@@ -322,13 +322,6 @@ void runCheck(
     const engine::Device& device, const Check& check, const CheckedSolver& solver,
     PhysicsReport& report) {
     Findings findings(check.name, solver);
-    const auto keep = [&] {
-        for (const std::string& message : device.messages().take())
-            findings.fail("validation: " + message);
-        std::ranges::copy(findings.outcomes(), std::back_inserter(report.outcomes));
-        std::ranges::copy(findings.curves(), std::back_inserter(report.curves));
-    };
-    const engine::InterruptMessage last_words(keep);
     try {
         check.run(device, solver, findings);
     } catch (const engine::Unsupported& error) {
@@ -338,7 +331,11 @@ void runCheck(
     } catch (const engine::Interrupted&) {
         report.interrupted = true;
     }
-    keep();
+    for (const std::string& message : device.messages().take())
+        findings.fail("validation: " + message);
+    const engine::HeldMessages held;
+    std::ranges::copy(findings.outcomes(), std::back_inserter(report.outcomes));
+    std::ranges::copy(findings.curves(), std::back_inserter(report.curves));
 }
 
 }  // namespace

@@ -11,6 +11,8 @@
 #include <nlohmann/json.hpp>
 
 #include "benchmarks/report/report.h"
+#include "benchmarks/report/table.h"
+#include "benchmarks/report/text.h"
 #include "benchmarks/report/verdict.h"
 #include "benchmarks/scene/pattern.h"
 #include "engine/error.h"
@@ -87,11 +89,11 @@ MetricChoice metricsNamed(const std::string& regex) {
     }
 }
 
-MetricChoice timesBy(Clock clock) {
-    return [clock](const MetricId& id) {
-        if (id.of == MetricOf::shader) return true;
-        return clock == Clock::processor ? isOfProcessor(id) : isFrameOrPassTime(id);
-    };
+MetricChoice usualMetrics(bool software_device, std::span<const MetricId> metrics) {
+    if (std::ranges::none_of(metrics, isFrameOrPassCost))
+        return [](const MetricId& id) { return id.of == MetricOf::shader; };
+    const bool by_processor = judgedClock(software_device, metrics) == Clock::processor;
+    return by_processor ? isOfProcessor : isFrameOrPassTime;
 }
 
 Judgement judgementOf(
@@ -153,6 +155,47 @@ scene::Json mismatchJson(const Mismatch& mismatch) {
         {"what", mismatch.what},
         {"a", mismatch.a},
         {"b", mismatch.b}};
+}
+
+// ---- Compiled code ------------------------------------------------------------------------------
+
+void addCodeChange(
+    const MetricReading& a, const MetricReading& b, std::vector<CodeChange>& changes) {
+    if (a.id.of != MetricOf::shader || a.median == b.median) return;
+    const auto found = std::ranges::find_if(changes, [&](const CodeChange& each) {
+        return each.metric == a.id && each.a == a.median && each.b == b.median;
+    });
+    if (found == changes.end())
+        changes.push_back({.metric = a.id, .unit = a.unit, .a = a.median, .b = b.median});
+    else
+        ++found->cases;
+}
+
+std::string codeChangesText(std::span<const CodeChange> changes) {
+    if (changes.empty()) return {};
+    std::vector<Column> columns{
+        {"compiled shader", false}, {"figure", false}, {"A"}, {"B"}, {"cases"}};
+    for (const CodeChange& each : changes) {
+        const std::string name = each.metric.name();
+        const std::string figure = name.substr(name.rfind('.') + 1);
+        const std::string cells[] = {
+            each.metric.part, figure + (each.unit == "1" ? "" : ", " + each.unit),
+            plainNumber(each.a), plainNumber(each.b), std::to_string(each.cases)};
+        for (std::size_t i = 0; i < columns.size(); ++i) columns[i].cells.push_back(cells[i]);
+    }
+    return "changed code, which may explain times and decides nothing:\n" + columnsText(columns);
+}
+
+scene::Json codeChangesJson(std::span<const CodeChange> changes) {
+    scene::Json array = scene::Json::array();
+    for (const CodeChange& each : changes)
+        array.push_back(
+            {{"metric", each.metric.name()},
+             {"unit", each.unit},
+             {"a", each.a},
+             {"b", each.b},
+             {"cases", each.cases}});
+    return array;
 }
 
 namespace {
@@ -234,7 +277,7 @@ Comparison exactComparison(double a, double b, double decisive_change) {
         .p = outside ? 0.0 : 1.0};
 }
 
-Clock clockFor(const scene::Json& a, const scene::Json& b) {
+MetricChoice choiceFor(const scene::Json& a, const scene::Json& b) {
     std::vector<MetricId> metrics;
     for (const scene::Json& each : a.at("cases")) {
         const scene::Json* const other = findCase(b, each.at("name"));
@@ -242,7 +285,7 @@ Clock clockFor(const scene::Json& a, const scene::Json& b) {
         for (const auto& [name, metric] : each.at("metrics").items())
             if (other->at("metrics").contains(name)) metrics.push_back(metricNamed(name));
     }
-    return judgedClock(
+    return usualMetrics(
         isSoftwareDevice(a.at("environment")) && isSoftwareDevice(b.at("environment")), metrics);
 }
 
@@ -251,7 +294,7 @@ public:
     Comparer(const scene::Json& a, const scene::Json& b, const VerdictOptions& options)
         : options_(options), judged_(metricsNamed(options.metrics)) {
         if (options.probes) judged_ = probesAmong(std::move(judged_));
-        if (!judged_) judged_ = timesBy(clockFor(a, b));
+        if (!judged_) judged_ = choiceFor(a, b);
         const bool software =
             isSoftwareDevice(a.at("environment")) || isSoftwareDevice(b.at("environment"));
         shortest_ = software ? kShortestTime : kShortestTimestamped;
@@ -347,7 +390,7 @@ private:
         const std::string& case_name, const MetricReading& a, const MetricReading& b,
         std::span<const MetricReading> all_of_a) {
         const Judgement judgement = judgementOf(judged_, a, b, shortest_);
-        if (judgement == Judgement::not_wanted) return;
+        if (judgement == Judgement::not_wanted) return addCodeChange(a, b, found_.code);
         Change change{case_name, a.id, a.unit, a.median, b.median, {}};
         if (judgement == Judgement::too_short) {
             found_.too_short.push_back(std::move(change));
@@ -408,7 +451,7 @@ Verdict overallVerdict(const ReportComparison& comparison) {
 
 scene::Json
 comparisonJson(const ReportComparison& comparison, const std::string& a, const std::string& b) {
-    scene::Json object = {{"schema", "hairbench-comparison/1.0.0"}, {"a", a}, {"b", b}};
+    scene::Json object = {{"schema", "hairbench-comparison/1.1.0"}, {"a", a}, {"b", b}};
     object["verdict"] = verdictName(overallVerdict(comparison));
     object["warnings"] = comparison.warnings;
     object["unmatched"] = comparison.unmatched;
@@ -419,6 +462,7 @@ comparisonJson(const ReportComparison& comparison, const std::string& a, const s
     scene::Json& too_short = object["too_short"] = scene::Json::array();
     for (const Change& each : comparison.too_short)
         too_short.push_back({{"case", each.case_name}, {"metric", each.metric.name()}});
+    object["code"] = codeChangesJson(comparison.code);
     object["caveat"] = kOneProcessCaveat;
     return object;
 }

@@ -49,9 +49,10 @@ using MetricChoice = std::function<bool(const MetricId&)>;
 // an empty regex. Throws engine::Error "--metrics: ..." for a malformed one.
 MetricChoice metricsNamed(const std::string& regex);
 
-// Chooses the wall-clock times of frames and passes, or their CPU times and instructions. Chooses
-// figures of compiled shaders in either case.
-MetricChoice timesBy(Clock clock);
+// Returns the choice without --metrics: times of frames and passes by judgedClock(), or their CPU
+// times and instructions. If both reports have no time of a frame or pass, returns a choice of the
+// figures of compiled shaders, which otherwise only explain times. `metrics` as for judgedClock().
+MetricChoice usualMetrics(bool software_device, std::span<const MetricId> metrics);
 
 // Decides whether to judge a metric that both reports have. Metrics without a better direction are
 // not judged, nor are times below `shortest`, ms.
@@ -91,6 +92,25 @@ std::string mismatchText(const Mismatch& mismatch);
 // {"case", "what", "a", "b"}
 scene::Json mismatchJson(const Mismatch& mismatch);
 
+// A figure of a compiled shader that differs and isn't judged. It may explain a change of times.
+struct CodeChange {
+    MetricId metric;
+    std::string unit;
+    double a = 0.0;
+    double b = 0.0;
+    std::size_t cases = 1;  // with these values
+};
+
+// Adds the change of a metric of a case if it is a figure of a compiled shader and differs.
+void addCodeChange(
+    const MetricReading& a, const MetricReading& b, std::vector<CodeChange>& changes);
+
+// A table under a title, with a row for each change; empty without changes.
+std::string codeChangesText(std::span<const CodeChange> changes);
+
+// [{"metric", "unit", "a", "b", "cases"}]
+scene::Json codeChangesJson(std::span<const CodeChange> changes);
+
 // Comparison of two reports, each of one process.
 
 struct CompareOptions {
@@ -113,6 +133,7 @@ struct ReportComparison {
     std::vector<Mismatch> mismatches;
     std::vector<Change> changes;  // of cases without a mismatch
     std::vector<Change> too_short;  // not judged: see kShortestTime
+    std::vector<CodeChange> code;  // of cases without a mismatch
 };
 
 // Gives verdicts on all metrics of all cases that ran in both reports, at level 5 %. Does not
@@ -124,7 +145,7 @@ compareReports(const scene::Json& a, const scene::Json& b, const VerdictOptions&
 // Returns `mismatch` if there is a mismatch, otherwise the overall verdict of the changes.
 Verdict overallVerdict(const ReportComparison& comparison);
 
-// Returns the whole comparison, with the names of both reports, as "hairbench-comparison/1.0.0".
+// Returns the whole comparison, with the names of both reports, as "hairbench-comparison/1.1.0".
 scene::Json
 comparisonJson(const ReportComparison& comparison, const std::string& a, const std::string& b);
 

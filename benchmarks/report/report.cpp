@@ -214,6 +214,16 @@ void put(scene::Json& object, const char* name, const std::optional<StartRecord>
     put(made, "unbalanced", start->unbalanced);
 }
 
+void putShaders(scene::Json& object, const CaseResult& result) {
+    for (const ShaderRecord& shader : result.shaders) {
+        scene::Json& record = object["shaders"].emplace_back(
+            scene::Json{{"name", shader.name}, {"shaders", shader.shaders}});
+        if (shader.subgroup_size > 0) record["subgroup_size"] = shader.subgroup_size;
+        scene::Json& figures = record["figures"] = scene::Json::object();
+        for (const auto& [name, value] : shader.figures) put(figures, name.c_str(), value);
+    }
+}
+
 void putMeasured(scene::Json& object, const CaseResult& result) {
     scene::Json& metrics = object["metrics"] = scene::Json::object();
     for (const Metric& metric : result.metrics)
@@ -222,13 +232,6 @@ void putMeasured(scene::Json& object, const CaseResult& result) {
     scene::Json& statistics = object["statistics"] = scene::Json::object();
     for (const Statistic& statistic : result.statistics)
         statistics[statistic.name] = toJson(statistic);
-    for (const ShaderRecord& shader : result.shaders) {
-        scene::Json& record = object["shaders"].emplace_back(
-            scene::Json{{"name", shader.name}, {"shaders", shader.shaders}});
-        if (shader.subgroup_size > 0) record["subgroup_size"] = shader.subgroup_size;
-        scene::Json& figures = record["figures"] = scene::Json::object();
-        for (const auto& [name, value] : shader.figures) put(figures, name.c_str(), value);
-    }
     scene::Json& counts = object["counts"] = scene::Json::object();
     for (const auto& [name, count] : result.counts) counts[name] = count;
     scene::Json& sampling = object["sampling"] = scene::Json::array();
@@ -258,6 +261,7 @@ scene::Json toJson(const CaseResult& result) {
             {"device", result.memory_need->device}, {"host", result.memory_need->host}};
     put(object, "backend", result.backend);
     put(object, "start", result.start);
+    putShaders(object, result);
     // A case that was throttled throughout has failed, but its measurements show by how much.
     if (result.status == Status::ok || !result.metrics.empty())
         putMeasured(object, result);

@@ -184,7 +184,7 @@ struct ExtensionRecord {
     std::string sha256;
 };
 
-// A program that the driver's compiler made of shaders: `hairbench shaders`.
+// A program that the driver's compiler made of shaders.
 struct ShaderRecord {
     std::string name;  // the driver's
     std::vector<std::string> shaders;  // paths

@@ -33,6 +33,7 @@ struct RunOptions {
     bool resume = false;  // continue with the journal beside `out`
     std::string shard;  // "2/8": the second of eight parts; empty: all
     bool pictures = true;  // save a picture of each case beside the report
+    bool shader_costs = true;  // in the report, where the driver tells them
     std::optional<std::uint64_t> max_memory;  // limit for a case, B; absent: the available memory
     std::string save_baseline;  // name; empty: none
     std::string baseline;  // name of a baseline to compare with; empty: none

@@ -12,6 +12,7 @@
 #include "benchmarks/measure/case.h"
 #include "benchmarks/measure/machine_watch.h"
 #include "benchmarks/measure/memory_need.h"
+#include "benchmarks/measure/metrics.h"
 #include "benchmarks/measure/progress.h"
 #include "benchmarks/report/environment.h"
 #include "benchmarks/report/table.h"
@@ -135,6 +136,8 @@ PlayedCase runCase(
     PlayedCase played{.result = emptyResult(planned)};
     report::CaseResult& result = played.result;
     std::optional<report::MemoryNeed> need;
+    std::vector<report::ShaderRecord> shaders;
+    device.pipelines().takePrograms();  // those of the case before
     try {
         const engine::TimeLimit limit(double{run.case_timeout}, "/run/case_timeout");
         need = measure::caseMemory(device, planned.spec.settings, planned.directory, &cache).need;
@@ -143,6 +146,8 @@ PlayedCase runCase(
             !reason.empty())
             throw engine::Unsupported(reason);
         measure::Case test_case(device, planned.spec.settings, planned.directory, &cache);
+        measure::addShaderCosts(device.pipelines().takePrograms(), result);
+        shaders = result.shaders;
         result.trust.warnings = test_case.warnings();
         for (const scene::NamedExtension& each : scene::namedExtensions(test_case.settings()))
             result.extensions.push_back({each.pointer, each.file, report::sha256(each.text)});
@@ -167,6 +172,7 @@ PlayedCase runCase(
         result = without(planned, report::Status::failed, "the host has not enough memory");
     }
     result.memory_need = need;
+    result.shaders = std::move(shaders);  // also of a case that failed later
     for (const std::string& message : device.messages().take())
         result.trust.warnings.push_back("validation: " + message);
     return played;
@@ -237,6 +243,7 @@ Ended playCases(
                 device.get(), each, hooks, pictures_of, comparisons, cache, plan.max_memory);
             if (played.lost_device) device.drop();
             played.result.order = order;
+            const engine::HeldMessages held;  // they write the record
             record.add(played.result);
         }
     } catch (const engine::Interrupted&) {
@@ -337,6 +344,7 @@ FinishedRun playRun(
             [&] { last_words(finishRun(record, {.interrupted = true}, out)); });
         ended =
             playCases(device, plan, record, keeps_pictures ? out : std::filesystem::path(), cache);
+        engine::finishInAnyCase();
     }
     return finishRun(record, ended, out);
 }

@@ -99,8 +99,8 @@ struct FinishedRun {
 };
 
 // Plays the remaining cases of a plan, with progress on stderr, and writes the report to `out`. If
-// an interrupt arrives during a long frame, writes the report, passes the result to `last_words`
-// and ends the program (engine/process.h).
+// an interrupt arrives during a long frame or within a library, writes the report, passes the
+// result to `last_words` and ends the program (engine/process.h): another thread may call it.
 // A case that loses the device fails, and the next case gets a new device. If none can be created,
 // the run ends.
 // Throws engine::Error, and WriteFailed (record.h).

@@ -51,6 +51,57 @@ TEST(ReportComparison, HasFourVerdicts) {
     EXPECT_EQ(verdictOfOne(10.0, 10.2), Verdict::inconclusive);
 }
 
+scene::Json codedReport(double time, double registers, double waves) {
+    const auto coded = [&](const std::string& name) {
+        return madeCase(
+            name, {{"pass.points.time", about(time)},
+                   {"shader.strands/points:comp.registers", {registers}, "1", "lower", ""},
+                   {"shader.strands/points:comp.waves", {waves}, "1", "higher", ""},
+                   {"shader.strands/points:comp.spills", {0.0}, "1", "lower", ""}});
+    };
+    return reportOf({coded("x"), coded("y")});
+}
+
+// A register more is no slowdown where times say that there is none.
+TEST(ReportComparison, ExplainsTimesByChangedCode) {
+    const ReportComparison same =
+        compareReports(codedReport(10.0, 64.0, 8.0), codedReport(10.0, 96.0, 5.0), {});
+    EXPECT_EQ(overallVerdict(same), Verdict::same);
+    EXPECT_EQ(same.changes.size(), 2u);
+    ASSERT_EQ(same.code.size(), 2u);
+    EXPECT_EQ(same.code[0].metric.name(), "shader.strands/points:comp.registers");
+    EXPECT_EQ(same.code[0].a, 64.0);
+    EXPECT_EQ(same.code[0].b, 96.0);
+    EXPECT_EQ(same.code[0].cases, 2u);
+    EXPECT_THAT(
+        codeChangesText(same.code),
+        testing::ContainsRegex("strands/points:comp +registers +64 +96 +2\n"));
+    const scene::Json json = comparisonJson(same, "a", "b");
+    EXPECT_EQ(json["code"][1]["metric"], "shader.strands/points:comp.waves");
+    EXPECT_EQ(json["code"][1]["b"], 5.0);
+
+    const ReportComparison slower =
+        compareReports(codedReport(10.0, 64.0, 8.0), codedReport(11.0, 64.0, 8.0), {});
+    EXPECT_EQ(overallVerdict(slower), Verdict::regressed);
+    EXPECT_THAT(slower.code, IsEmpty());
+    EXPECT_EQ(codeChangesText(slower.code), "");
+}
+
+TEST(ReportComparison, JudgesCodeWhereItIsWantedOrNothingIsTimed) {
+    const ReportComparison wanted = compareReports(
+        codedReport(10.0, 64.0, 8.0), codedReport(10.0, 96.0, 8.0), {.metrics = "registers"});
+    EXPECT_EQ(overallVerdict(wanted), Verdict::regressed);
+    EXPECT_THAT(wanted.code, IsEmpty());
+
+    const auto untimed = [](double registers) {
+        return reportOf(
+            {madeCase("x", {{"shader.a:comp.registers", {registers}, "1", "lower", ""}})});
+    };
+    const ReportComparison found = compareReports(untimed(64.0), untimed(96.0), {});
+    EXPECT_EQ(overallVerdict(found), Verdict::regressed);
+    EXPECT_THAT(found.code, IsEmpty());
+}
+
 TEST(ReportComparison, PairsCasesByName) {
     const ReportComparison found = compareReports(
         reportOf({frameCase("x", 10.0), frameCase("y", 20.0), frameCase("gone", 1.0)}),

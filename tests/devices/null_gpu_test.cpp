@@ -1,17 +1,21 @@
 // Tests drivers of GPUs that the machine lacks: scripts/null-gpu. They compile and validate, and
 // execute nothing.
 #include <algorithm>
+#include <chrono>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <regex>
 #include <sstream>
 #include <string>
+#include <thread>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
 #include "benchmarks/scene/extensions.h"
+#include "engine/system/child.h"
 #include "tests/cli/run_hairbench.h"
 #include "tests/required.h"
 #include "tests/temporary_folder.h"
@@ -127,6 +131,65 @@ TEST_P(NullGpu, RecordsFramesThatValidationAccepts) {
     const nlohmann::json cases = casesOf("run.json");
     EXPECT_FALSE(cases.empty());
     for (const nlohmann::json& each : cases) EXPECT_FALSE(each.contains("trust")) << each["trust"];
+}
+
+// The driver answers nothing that a frame computes, so that the cases fail, but compiles them.
+TEST_P(NullGpu, TellsARunTheCostsOfItsShaders) {
+    const std::string scene = shippedScene("smoke.json");
+    run("run " + scene + "--frames 2 --max-time 0 --out '" + file("run.json").string() + "'");
+    run("run " + scene + "--frames 2 --max-time 0 --no-shader-costs --out '" +
+        file("without.json").string() + "'");
+    ASSERT_EQ(run("shaders " + scene + "--out '" + file("shaders.json").string() + "'").status, 0);
+    const nlohmann::json cases = casesOf("run.json"), without = casesOf("without.json"),
+                         compiled = casesOf("shaders.json");
+    ASSERT_EQ(cases.size(), compiled.size());
+    ASSERT_EQ(without.size(), compiled.size());
+    for (std::size_t i = 0; i < cases.size(); ++i) {
+        ASSERT_FALSE(compiled[i]["shaders"].empty());
+        EXPECT_EQ(cases[i]["shaders"], compiled[i]["shaders"]);
+        EXPECT_FALSE(without[i].contains("shaders"));
+    }
+}
+
+// The interrupt comes once a case is compiled, and long before the last one is.
+TEST_P(NullGpu, InterruptedShadersSaveTheCasesThatAreCompiled) {
+    setenv("HAIRBENCH_PROGRESS_SECONDS", "0.1", 1);
+    engine::system::Program program(
+        {HAIRBENCH_SOURCE_DIR "/scripts/null-gpu", GetParam(), HAIRBENCH_PROGRAM, "shaders",
+         "backends", "--out", file("shaders.json").string()},
+        file("output"), folder_.path());
+    unsetenv("HAIRBENCH_PROGRESS_SECONDS");
+    const auto ended = [&](const auto& meanwhile) {  // within minutes, or the test has failed
+        for (int i = 0; i < 18'000; ++i) {
+            if (const auto end = program.end()) return end;
+            if (meanwhile()) break;
+            std::this_thread::sleep_for(std::chrono::milliseconds(10));
+        }
+        return program.end();
+    };
+    const std::regex later(R"(\[([2-9]|[0-9]{2,})/)");  // "[2/54] 0:01": the second case
+    ASSERT_FALSE(
+        ended([&] { return std::regex_search(textOf(file("output")), later); }).has_value())
+        << textOf(file("output"));
+    program.interrupt();
+    const auto end = ended([] { return false; });
+    const std::string output = textOf(file("output"));
+    ASSERT_TRUE(end.has_value()) << output;
+    EXPECT_FALSE(end->signaled) << output;
+    EXPECT_EQ(end->status, 130) << output;
+
+    const auto report = nlohmann::json::parse(textOf(file("shaders.json")));
+    const nlohmann::json& cases = report.at("cases");
+    EXPECT_EQ(report.at("interrupted"), true);
+    EXPECT_FALSE(cases.empty());
+    EXPECT_LT(cases.size(), report.at("case_count").get<std::size_t>());
+    for (const nlohmann::json& each : cases)
+        EXPECT_TRUE(each.at("status") != "ok" || each.contains("shaders")) << each["name"];
+    EXPECT_THAT(
+        output, HasSubstr(
+                    "interrupted after " + std::to_string(cases.size()) + " of " +
+                    report.at("case_count").dump() + " cases"));
+    EXPECT_THAT(output, HasSubstr("instructions"));  // of the table
 }
 
 // A shading model that keeps more numbers than there are registers.

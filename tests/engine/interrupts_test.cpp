@@ -1,5 +1,6 @@
 // Effects of an interrupt, and the texts of steps in progress. An interrupted process stays
 // interrupted, so each test has its own.
+#include <atomic>
 #include <chrono>
 #include <csignal>
 #include <cstdlib>
@@ -83,6 +84,66 @@ TEST_F(Interrupts, EndWhatNeverAsks) {
             for (;;) pause();
         },
         testing::ExitedWithCode(130), "interrupted\n");
+}
+
+TEST_F(Interrupts, EndWhatNeverAsksWithLastWords) {
+    EXPECT_EXIT(
+        {
+            const InterruptMessage words([] {
+                checkInterrupted();  // last words may use work that asks
+                std::cerr << "the report\n";
+            });
+            interrupt();
+            for (;;) pause();
+        },
+        testing::ExitedWithCode(130), "the report\n");
+}
+
+TEST_F(Interrupts, LetChangesEndBeforeLastWords) {
+    EXPECT_EXIT(
+        {
+            int done = 0;
+            const InterruptMessage words([&] { std::cerr << done << " are done\n"; });
+            interrupt();
+            {
+                const HeldMessages held;
+                const HeldMessages nested;
+                done = 1;
+                std::this_thread::sleep_for(2s);  // longer than the program waits for who asks
+                done = 2;
+            }
+            for (;;) pause();
+        },
+        testing::ExitedWithCode(130), "2 are done\n");
+}
+
+// Otherwise the work would end the program before the last words are complete.
+TEST_F(Interrupts, HoldWorkThatAsksDuringLastWords) {
+    EXPECT_EXIT(
+        {
+            std::atomic<bool> speaks = false;
+            const InterruptMessage words([&] {
+                speaks = true;
+                std::this_thread::sleep_for(200ms);
+                std::cerr << "the report\n";
+            });
+            interrupt();
+            while (!speaks) std::this_thread::sleep_for(1ms);
+            std::_Exit(interrupted() ? 7 : 8);
+        },
+        testing::ExitedWithCode(130), "the report\n");
+}
+
+TEST_F(Interrupts, DoNotEndWhatFinishesInAnyCase) {
+    EXPECT_EXIT(
+        {
+            const InterruptMessage words([] { std::cerr << "interrupted\n"; });
+            finishInAnyCase();
+            interrupt();
+            std::this_thread::sleep_for(2s);  // stands for writing results
+            std::_Exit(7);
+        },
+        testing::ExitedWithCode(7), "^$");
 }
 
 TEST_F(Interrupts, LeaveTheEndToWhoAsked) {

@@ -68,6 +68,30 @@ TEST(GateReport, IsOfItsSchemaHoweverTheGateEnds) {
     EXPECT_THAT(errorsOf(odd), IsEmpty());
 }
 
+// Code of shaders that the driver tells of decides nothing.
+TEST(GateReport, NamesChangedCode) {
+    const FakeBuilds builds([](char side, int n) {
+        scene::Json report = report::madeReport();
+        report["cases"].push_back(report::madeCase(
+            "x", {{"frame.time", {10.0 + 0.001 * (n % 3)}},
+                  {"shader.strands/points:comp.registers",
+                   {side == 'B' ? 96.0 : 64.0},
+                   "1",
+                   "lower",
+                   ""}}));
+        return report;
+    });
+    const Outcome gate = builds.gate();
+    EXPECT_EQ(gate.status, 0) << gate.output;
+    EXPECT_THAT(gate.output, testing::ContainsRegex("strands/points:comp +registers +64 +96 +1"));
+    const scene::Json report = builds.report();
+    EXPECT_EQ(report["times"].size(), 1u);
+    ASSERT_EQ(report["code"].size(), 1u);
+    EXPECT_EQ(report["code"][0]["a"], 64.0);
+    EXPECT_EQ(report["code"][0]["b"], 96.0);
+    EXPECT_THAT(errorsOf(builds), IsEmpty());
+}
+
 TEST(GateReport, SchemaRefusesWhatIsNoReport) {
     EXPECT_FALSE(report::schemaErrors(
                      textOf(HAIRBENCH_SOURCE_DIR "/results/gate.schema.json"),

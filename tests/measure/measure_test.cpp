@@ -11,6 +11,7 @@
 #include <gtest/gtest.h>
 
 #include "benchmarks/measure/hair_cache.h"
+#include "benchmarks/measure/metrics.h"
 #include "benchmarks/measure/sampling.h"
 #include "benchmarks/report/environment.h"
 #include "benchmarks/run/run.h"
@@ -145,6 +146,21 @@ TEST_F(MeasureTest, TellsHowLongTheDeviceWasAtWork) {
     const report::CaseResult result = measured(smallCase());
     ASSERT_EQ(samplesOf(result, "frame.device.time"), 5u);
     for (const double time : find(result, "frame.device.time")->samples) EXPECT_GT(time, 0.0);
+}
+
+// `run` asks the driver for them before the first frame.
+TEST_F(MeasureTest, KeepsTheCostsOfShaders) {
+    const hair::Settings settings = smallCase();
+    Case test_case(device(), settings, HAIRBENCH_SOURCE_DIR "/scenes");
+    report::CaseResult result;
+    addShaderCosts(
+        std::vector<engine::ShaderProgram>{
+            {.name = "Compute", .shaders = {"a.comp"}, .figures = {{"VGPRs", 24.0}}}},
+        result);
+    measure(device(), test_case, settings.run, {.stop = [] { return false; }}, result);
+    EXPECT_EQ(onlySample(result, "shader.a:comp.registers"), 24.0);
+    ASSERT_EQ(result.shaders.size(), 1u);
+    EXPECT_EQ(samplesOf(result, "frame.time"), 5u);
 }
 
 // Plays by hand 2 warm-up frames, 5 counted frames and the one that ends the last of them.

@@ -74,6 +74,20 @@ TEST_F(WrittenReport, HasNoPicturesWhereNoneAreWanted) {
     EXPECT_FALSE(std::filesystem::exists(folder_.file("smoke.pictures")));
 }
 
+// Drivers of software devices tell nothing of their code, and it isn't missed.
+TEST_F(WrittenReport, HasNoCostsOfShadersThatNobodyTells) {
+    if (hairbench("shaders '" HAIRBENCH_SCENES_DIR "/smoke.json' -o '" + out_.string() + "'")
+            .status == 0)
+        GTEST_SKIP() << "the driver tells them";
+    const scene::Json report = smoke("");
+    for (const scene::Json& each : report["cases"]) {
+        EXPECT_FALSE(each.contains("shaders"));
+        for (const auto& [name, metric] : each["metrics"].items())
+            EXPECT_FALSE(name.starts_with("shader."));
+        EXPECT_THAT(each["trust"]["warnings"].dump(), testing::Not(HasSubstr("shader")));
+    }
+}
+
 TEST_F(WrittenReport, MovesManySamplesIntoAFileOfTheirOwn) {
     smoke("-a /render/msaa=1 --frames 2001 --set /render/width=32 --set /render/height=32 "
           "--set /groom/guides=4 --set /render/hair=false --set /render/head=false");

@@ -580,6 +580,7 @@ RunOptions = TypedDict("RunOptions", {
     "resume": 'bool',
     "shard": 'Option',
     "no_pictures": 'bool',
+    "no_shader_costs": 'bool',
     "save_baseline": 'Option',
     "baseline": 'Option',
     "threshold": 'Option',
