@@ -137,7 +137,18 @@ const Table& tableOf(const MaterialSettings*) {
              "damping of `rod` (Kelvin-Voigt): this times the rate of strain is added to the "
              "strain, so that the amplitude of a mode of w rad/s halves in 1.386 / (w^2 damping) "
              "seconds; "
-             "an implicit Euler substep damps by at least its own length")});
+             "an implicit Euler substep damps by at least its own length"),
+         number(
+             "set_share", &S::set_share, 0, 0.95, "1",
+             "share of the stiffness of `rod` that yields when hair is held bent or twisted "
+             "(Zener's "
+             "standard linear solid): the moment of held hair falls to 1 - set_share of its first, "
+             "and hair that was held for long keeps set_share of its bend when it is let go; 0: "
+             "hair takes no set"),
+         number(
+             "set_time", &S::set_time, 0.001, 1000, "s",
+             "time in which that share's moment falls to 1/e while hair is held; the set of free "
+             "hair falls to 1/e in set_time / (1 - set_share)")});
     return table;
 }
 

@@ -99,6 +99,8 @@ struct MaterialSettings {
     float youngs_modulus = 3.9e9f;
     float shear_modulus = 0.6e9f;
     float damping = 0.0f;
+    float set_share = 0.0f;
+    float set_time = 1.0f;
 };
 
 const Table& tableOf(const MaterialSettings*);

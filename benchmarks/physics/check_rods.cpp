@@ -417,6 +417,118 @@ void checkBendingDecay(
 
 namespace {
 
+// ---- Set ----------------------------------------------------------------------------------------
+
+// Hair that yields to a share s of its stiffness in the time tau (Zener's standard linear solid).
+// Level hair sags under its weight to (1 - s exp(-(1 - s) t / tau)) / (1 - s) of its first sag.
+// Straight hair that is held on an arc for T and let go has s (1 - exp(-T / tau)) of the arc's
+// bend at once, and exp(-(1 - s) t / tau) of that after t. Hair is so short that it comes to rest
+// within steps.
+constexpr std::uint32_t kSetSegments = 32;
+constexpr double kSetGamma = 0.1;  // the beam sags linearly to 1e-4
+constexpr double kSetTurn = 1.0;  // rad, of the arc
+constexpr double kSetTime = 0.5;  // tau, s
+constexpr double kHoldTime = 0.5;  // T, s
+constexpr double kSetShares[] = {0.3, 0.8};
+constexpr double kSetRates[] = {60.0, 240.0};  // time steps of one substep, 1/s
+constexpr double kSetSamples[] = {0.1, 0.25, 0.5, 1.0, 2.0};  // s
+// The weight needs up to a step of 1/60 s to bend hair. That delays a creep of at most
+// s / tau = 1.6 of the first sag in a second.
+constexpr double kCreepTolerance = 0.02;
+// Steps are of second order: (h / tau)^2 / 12 = 1e-4 at 1/60 s. The last of the vibrations that the
+// release starts, at 37 Hz, are 1e-3 of the bend after 0.1 s.
+constexpr double kSetTolerance = 0.005;
+// Set that is left after ten times of its own time is exp(-10). Positions are rounded to 1e-7 of
+// the length, the turn of the last segment to 32 times as much.
+constexpr double kReturnTolerance = 1e-4;
+
+// The turn of the last segment from -y towards +x, rad.
+double turnOfTip(const Experiment& experiment) {
+    const std::vector<glm::dvec3> points = experiment.positions();
+    const glm::dvec3 edge = points[points.size() - 1] - points[points.size() - 2];
+    return std::atan2(edge.x, -edge.y);
+}
+
+void checkCreep(
+    const engine::Device& device, const hair::SimulationSettings& settings, double length,
+    const std::vector<Parameter>& with, Findings& findings) {
+    const double share = settings.material.set_share;
+    Experiment experiment(device, straightStrand(kSetSegments, length, {1.0, 0.0, 0.0}), settings);
+    std::uint32_t step = 0;
+    for (const double time : kSetSamples) {
+        const std::uint32_t target = experiment.stepsIn(time);
+        experiment.advance(target - step);
+        step = target;
+        std::vector<Parameter> at = with;
+        at.push_back({"time", time, "s"});
+        findings.compare(
+            {"sag of level hair / length", "1", at}, -experiment.positions().back().y / length,
+            kSetGamma / 8.0 * (1.0 - share * std::exp(-(1.0 - share) * time / kSetTime)) /
+                (1.0 - share),
+            kCreepTolerance);
+    }
+}
+
+void checkRelease(
+    const engine::Device& device, hair::SimulationSettings settings, double length,
+    const std::vector<Parameter>& with, Findings& findings) {
+    const double share = settings.material.set_share;
+    settings.gravity = {};
+    Experiment experiment(device, straightStrand(kSetSegments, length, {0.0, -1.0, 0.0}), settings);
+    const hair::groom::Groom arc = curvedStrand(kSetSegments, length, kSetTurn / length);
+    const std::vector<glm::dvec3> held(arc.points.begin(), arc.points.end());
+    for (std::uint32_t i = 0; i < experiment.stepsIn(kHoldTime); ++i) {
+        experiment.place(held);
+        experiment.advance(1);
+    }
+    // Curvature is linear in a step, so the step after the last hold releases hair at its middle.
+    const double whole = kSetTurn * (1.0 - 0.5 / kSetSegments);  // of the last segment
+    const double first = share * -std::expm1(-kHoldTime / kSetTime);
+    const auto left = [&](double time) {
+        return first * std::exp(-(1.0 - share) * time / kSetTime);
+    };
+    std::uint32_t step = 0;
+    for (const double time : kSetSamples) {
+        const std::uint32_t target = experiment.stepsIn(time);
+        experiment.advance(target - step);
+        step = target;
+        std::vector<Parameter> at = with;
+        at.push_back({"time", time, "s"});
+        findings.compare(
+            {"bend of released hair / bend that it was held at", "1", at},
+            turnOfTip(experiment) / whole, left((step + 0.5) * experiment.timeStep()),
+            kSetTolerance);
+    }
+    experiment.advance(experiment.stepsIn(10.0 * kSetTime / (1.0 - share)));
+    findings.deviation(
+        {"bend that is left at last / bend that it was held at", "1", with},
+        std::abs(turnOfTip(experiment)) / whole, kReturnTolerance);
+}
+
+}  // namespace
+
+void checkBendingSet(
+    const engine::Device& device, const CheckedSolver& solver, Findings& findings) {
+    if (solver != hair::Solver::rod) return findings.skip("it takes no set");
+    hair::SimulationSettings settings = freeHair(solver);
+    settings.substeps = 1;
+    settings.material.set_time = static_cast<float>(kSetTime);
+    const double length = lengthOf(settings.material, kSetGamma);
+    for (const double rate : kSetRates)
+        for (const double share : kSetShares) {
+            settings.time_step = static_cast<float>(1.0 / rate);
+            settings.material.set_share = static_cast<float>(share);
+            const std::vector<Parameter> with{
+                {"set_share", share, "1"},
+                {"set_time", kSetTime, "s"},
+                {"time_step", 1.0 / rate, "s"}};
+            checkCreep(device, settings, length, with, findings);
+            checkRelease(device, settings, length, with, findings);
+        }
+}
+
+namespace {
+
 // ---- A turning head -----------------------------------------------------------------------------
 
 // Hair hangs from a head that turns steadily about the vertical. In the turning frame it is a rod

@@ -292,6 +292,7 @@ constexpr Check kChecks[] = {
     {"curled_cantilever", checkCurledCantilever},
     {"bending_frequency", checkBendingFrequency},
     {"bending_decay", checkBendingDecay},
+    {"bending_set", checkBendingSet},
     {"turning_head", checkTurningHead},
     {"clamp_twist", checkClampTwist},
     {"bend_twist", checkBendTwist},

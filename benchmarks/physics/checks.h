@@ -203,6 +203,8 @@ void checkConvergence(const engine::Device&, const CheckedSolver&, Findings&);
 void checkBendingFrequency(const engine::Device&, const CheckedSolver&, Findings&);
 // Half-life of the same vibration against the material's damping, and against the integrator's.
 void checkBendingDecay(const engine::Device&, const CheckedSolver&, Findings&);
+// Hair with a set: creep of level hair under its weight, and hair that was held bent and let go.
+void checkBendingSet(const engine::Device&, const CheckedSolver&, Findings&);
 // Rest shape of level and raised hair with a natural curvature.
 void checkCurledCantilever(const engine::Device&, const CheckedSolver&, Findings&);
 // Hair on a head that turns steadily stays in its state at rest.

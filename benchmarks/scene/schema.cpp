@@ -110,6 +110,12 @@ Broken solverHasEllipticSections(const hair::Settings& s) {
     }
 }
 
+Broken solverTakesSets(const hair::Settings& s) {
+    if (s.simulation.material.set_share == 0.0f || s.simulation.solver == hair::Solver::rod)
+        return {};
+    return "is above 0, but only the solver rod takes a set";
+}
+
 Broken solverCarriesContact(const hair::Settings& s) {
     if (!s.simulation.collision.warm_start) return {};
     if (s.simulation.solver != hair::Solver::rod)
@@ -299,6 +305,7 @@ constexpr Rule kRules[] = {
     {"/strands/curve", groomsStrandsHaveTheirCurve},
     {"/simulation/rest", solverHasBalancedRest},
     {"/simulation/material/ellipticity", solverHasEllipticSections},
+    {"/simulation/material/set_share", solverTakesSets},
     {"/simulation/collision/warm_start", solverCarriesContact},
     {"/simulation/collision/parts", solverKeepsSegmentsOut},
     {"/simulation/hair_hair/friction", hairHasOneFriction},

@@ -76,11 +76,30 @@ glm::dquat turned(const glm::dquat& orientation, const glm::dvec3& rotation) {
     return glm::normalize(glm::dquat(1.0, 0.5 * rotation) * orientation);
 }
 
-Joint jointAt(const RodState& state, const RodRest& rest, std::size_t i) {
-    return bendAndTwist(
-        state.orientations[i - 1] * rest.half_rotations[i],
-        state.orientations[i] * glm::conjugate(rest.half_rotations[i]), rest.bend_stiffness[i],
-        rest.twist_stiffness[i], i == 1 ? Clamp::yes : Clamp::no, rest.ellipticity);
+// Share of a strain that Maxwell's element keeps on average during a step.
+double meanKept(const RodScheme& scheme, double substep) {
+    return -std::expm1(-substep / scheme.set_time) * scheme.set_time / substep;
+}
+
+Joint jointAt(
+    const RodState& state, const RodRest& rest, std::size_t i, const RodScheme& scheme,
+    double substep) {
+    const glm::dquat first = state.orientations[i - 1] * rest.half_rotations[i];
+    const glm::dquat second = state.orientations[i] * glm::conjugate(rest.half_rotations[i]);
+    const auto about = [&](const glm::dquat& half, double share) {
+        return bendAndTwist(
+            first * half, second * glm::conjugate(half), share * rest.bend_stiffness[i],
+            share * rest.twist_stiffness[i], i == 1 ? Clamp::yes : Clamp::no, rest.ellipticity);
+    };
+    Joint joint = about(glm::dquat(1.0, 0.0, 0.0, 0.0), 1.0 - scheme.set_share);
+    if (scheme.set_share > 0.0) {
+        const double mean = meanKept(scheme, substep);
+        const Joint yielding = about(halfOf(state.set[i]), scheme.set_share * mean);
+        joint.energy += mean * yielding.energy;
+        joint.torque += yielding.torque;
+        joint.stiffness += yielding.stiffness;
+    }
+    return joint;
 }
 
 // A step's unknowns are the segments' rotations. The vertices follow, so lengths never change. The
@@ -143,7 +162,8 @@ void RodSubstep::predict(
     state.velocities[0] = (root_now - state.root) / substep;
     state.root = root_now;
     const glm::dquat follicle = root.rotation * rest.orientations[0];
-    const glm::dquat turned_by = follicle * glm::conjugate(state.orientations[0]);
+    const glm::dquat follicle_before = state.orientations[0];
+    const glm::dquat turned_by = follicle * glm::conjugate(follicle_before);
     predicted_turns = {
         (turned_by.w < 0.0 ? -2.0 : 2.0) * glm::dvec3(turned_by.x, turned_by.y, turned_by.z)};
     state.orientations[0] = follicle;
@@ -154,6 +174,14 @@ void RodSubstep::predict(
     glm::dvec3 position = state.root;
     std::vector<glm::dvec3> turns{glm::dvec3(0.0)};
     for (std::size_t i = 1; i < size(); ++i) {
+        if (scheme.set_share > 0.0) {
+            const glm::dquat above = i == 1 ? follicle_before : state.orientations[i - 1];
+            const glm::dquat& half = rest.half_rotations[i];
+            const glm::dquat now =
+                glm::conjugate(above * half) * state.orientations[i] * glm::conjugate(half);
+            const glm::dquat apart = glm::conjugate(now) * state.set[i];
+            state.set[i] = now * quarterTangentOf(apart, std::exp(-substep / scheme.set_time));
+        }
         state.velocities[i] *= velocity_kept;
         if (!second_order) state.velocities[i] += substep * accelerations[i];
         if (air)
@@ -214,7 +242,7 @@ void RodSubstep::iterate() {
         const glm::dmat3 mass = massOf(i) * per_square;
         const double inertia = rest.inertias[i] * per_square;
         const glm::dvec3 axis = axisOf(state.orientations[i]);
-        Joint joint = jointAt(state, rest, i);
+        Joint joint = jointAt(state, rest, i, scheme, substep);
         const glm::dvec3 turn_above =
             i == 1 ? predicted_turns[0] : predicted_turns[i - 1] + rotations[i - 1];
         const glm::dvec3 bent = predicted_turns[i] + rotations[i] - turn_above;
@@ -385,6 +413,15 @@ glm::dquat halfOf(const glm::dquat& rotation) {
     return glm::normalize(near + glm::dquat(1.0, 0.0, 0.0, 0.0));
 }
 
+glm::dquat quarterTangentOf(const glm::dquat& rotation, double kept) {
+    const glm::dquat near = rotation.w < 0.0 ? -rotation : rotation;
+    const glm::dvec3 vector(near.x, near.y, near.z);
+    const double sine = glm::length(vector);  // of half the angle
+    if (sine == 0.0) return {1.0, 0.0, 0.0, 0.0};
+    const double half = 2.0 * std::atan(kept * std::tan(std::atan2(sine, near.w) / 2.0));
+    return {std::cos(half), std::sin(half) / sine * vector};
+}
+
 // ---- Rods ---------------------------------------------------------------------------------------
 
 std::vector<glm::dvec3> RodState::positions() const {
@@ -449,6 +486,7 @@ RodState rodAtRest(const RodRest& rest, const RodRoot& root) {
         state.orientations.push_back(root.rotation * rest.orientations[i]);
         state.edges.push_back(rest.lengths[i] * axisOf(state.orientations[i]));
     }
+    state.set.assign(rest.lengths.size(), glm::dquat(1.0, 0.0, 0.0, 0.0));
     state.velocities.assign(rest.lengths.size(), glm::dvec3(0.0));
     state.angular_velocities = state.velocities;
     state.accelerations = state.true_accelerations = state.velocities;
@@ -524,13 +562,14 @@ void pushRod(
     }
 }
 
-double rodEnergy(const RodState& state, const RodRest& rest) {
+double
+rodEnergy(const RodState& state, const RodRest& rest, const RodScheme& scheme, double substep) {
     double energy = 0.0;
     for (std::size_t i = 1; i < rest.lengths.size(); ++i) {
         energy += rest.masses[i] * glm::dot(state.velocities[i], state.velocities[i]) / 2.0 +
                   rest.inertias[i] *
                       glm::dot(state.angular_velocities[i], state.angular_velocities[i]) / 2.0 +
-                  jointAt(state, rest, i).energy;
+                  jointAt(state, rest, i, scheme, substep).energy;
     }
     return energy;
 }

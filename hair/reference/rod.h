@@ -56,6 +56,7 @@ struct RodState {
     std::vector<glm::dvec3> accelerations, true_accelerations;  // m/s^2
     std::vector<glm::dvec3> angular_accelerations, true_angular_accelerations;  // rad/s^2
     bool smooth = false;  // they are valid for a step of second order
+    std::vector<glm::dquat> set;  // at joints, strain at which the share that yields has no torque
     std::map<std::size_t, glm::dvec3> pins;  // held vertices besides the root, and where, m
 
     std::vector<glm::dvec3> positions() const;  // m
@@ -100,6 +101,20 @@ enum class Integrator { implicit_euler, generalized_alpha };
 
 constexpr double kSmoothTurn = 1e-3;  // rad
 
+// Hair that is held bent takes a set, by Zener's standard linear solid: share s of each joint's
+// stiffness belongs to Maxwell's element, whose natural strain q relaxes towards the joint's
+// present strain r in the time tau, and the rest to the rest shape. Strains are rotations between
+// the frames that coincide at rest. The difference of r and q, 4 tan(angle / 4) round the axis of
+// q^-1 r, falls as exp(-t / tau) while r is held. For small angles the laws are those of a linear
+// solid: a held moment falls to 1 - s of its first, and the set of free hair falls as exp(-(1 - s)
+// t / tau).
+//
+// A step of h takes r as linear in time, for which the strain e of Maxwell's element is exactly
+// e' = E e + D (r' - r), with E = exp(-h / tau) and D = (1 - E) tau / h: Taylor, Pister and
+// Goudreau 1970, Thermomechanical analysis of viscoelastic solids. `set` holds the strain p with e'
+// = D (r' - p). It relaxes at the start of a step by E towards r, and the joint then pulls to it
+// with the stiffness s D K. The step is of second order in h / tau.
+
 // Numerical scheme of a step.
 struct RodScheme {
     std::uint32_t iterations = 2;
@@ -108,6 +123,8 @@ struct RodScheme {
     // strain (bend and twist) and tau times the strain rate. Implicit Euler acts like a tau of one
     // substep in every force; this counts as part of `damping`.
     double damping = 0.0;
+    double set_share = 0.0;  // s; 0: no set
+    double set_time = 1.0;  // tau, s
 };
 
 // One step under these vertex accelerations, m/s^2, in this air, if any. `root` places the follicle
@@ -128,8 +145,10 @@ void stepRod(
 void pushRod(
     RodState& state, const RodRest& rest, std::span<const glm::dvec3> positions, double substep);
 
-// Returns the kinetic energy plus that of bending and twist, J. The caller adds the weight's.
-double rodEnergy(const RodState& state, const RodRest& rest);
+// Returns the kinetic energy plus that of bending and twist, J. The caller adds the weight's. With
+// a set, `scheme` and `substep` are those of the step before.
+double rodEnergy(
+    const RodState& state, const RodRest& rest, const RodScheme& scheme = {}, double substep = 1.0);
 
 // Response of a joint between two frames that coincide at rest, in space axes.
 struct Joint {
@@ -162,5 +181,8 @@ glm::dquat rotationBetween(const glm::dvec3& from, const glm::dvec3& to);
 
 // Returns the rotation, of unit length, that gives `rotation` when done twice, the short way round.
 glm::dquat halfOf(const glm::dquat& rotation);
+
+// Returns the rotation with the share `kept` of the tangent of a quarter of its angle, at most pi.
+glm::dquat quarterTangentOf(const glm::dquat& rotation, double kept);
 
 }  // namespace hair::reference

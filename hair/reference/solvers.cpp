@@ -215,9 +215,12 @@ void RodSolver::step(const Substep& substep) {
 }
 
 void RodSolver::adopt(const Substep& substep) {
-    states_[substep.strand] = rodFrom(
+    RodState& state = states_[substep.strand];
+    std::vector<glm::dquat> set = std::move(state.set);
+    state = rodFrom(
         rests_[substep.strand], substep.positions, substep.previous, step_.sub,
         rootOf(substep.frame));
+    state.set = std::move(set);
 }
 
 // Inextensible rods, by Newton's method.
@@ -229,7 +232,9 @@ void stepInextensibleRod(RodState& state, const RodRest& rest, const RodStep& st
         keptFactor(step.settings, step.step),
         {.iterations = settings.iterations,
          .integrator = alpha ? Integrator::generalized_alpha : Integrator::implicit_euler,
-         .damping = step.settings.material.damping},
+         .damping = step.settings.material.damping,
+         .set_share = step.settings.material.set_share,
+         .set_time = step.settings.material.set_time},
         step.air);
 }
 

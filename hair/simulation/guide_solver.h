@@ -40,6 +40,7 @@ struct GuideView {
 struct ElasticRods {
     std::uint64_t parameters = 0;  // device address of gpu::RodParameters; 0: there are none
     std::uint64_t motion = 0;  // device address of their motion
+    std::uint64_t set = 0;  // device address of their set; 0: they take none
 };
 
 // The guides on the device, for probes. Valid until the next step.
@@ -87,6 +88,7 @@ public:
     virtual void record(engine::Commands& commands, gpu::SubstepPush push) const = 0;
 
     // Derives the solver's own state from positions and previous positions that other code wrote.
+    // What the material remembers, like the set of rods, stays.
     virtual void recordAdopt(engine::Commands&, gpu::SubstepPush) const {}
 
     // The solver's own state that is 0 then instead.

@@ -250,6 +250,7 @@ Probes::Probes(
           device, {.shader = "simulation/probe.comp",
                    .constants =
                        {{gpu::kEllipticSectionConstant, settings.material.ellipticity != 1.0f},
+                        {gpu::kRodSetConstant, settings.material.set_share > 0.0f},
                         {gpu::kSkinnedRootsConstant, hasSkinnedRoots(settings)}},
                    .push_size = sizeof(gpu::ProbePush)}),
       reduce_(
@@ -281,6 +282,7 @@ void Probes::record(engine::Commands& commands, const ProbedGuides& guides) {
         {{guides.positions, engine::Access::compute_read},
          {guides.previous, engine::Access::compute_read}});
     if (guides.rods.parameters) commands.uses({{guides.rods.motion, engine::Access::compute_read}});
+    if (guides.rods.set) commands.uses({{guides.rods.set, engine::Access::compute_read}});
     commands.bind(
         guides_, gpu::ProbePush{
                      .guides = guides.parameters,

@@ -315,6 +315,7 @@ std::optional<BalancedRod> balanceRod(const HangingRod& rod, double most_stiffen
 struct RodRest {
     std::vector<glm::vec4> segments;  // [vertex][gpu::kRodSegmentRows][strand]
     std::vector<float> units;  // [strand], m
+    std::vector<glm::vec4> set;  // [vertex][strand], if hair takes a set: gpu::RodParameters
     std::optional<RestBalance> balance;
 };
 
@@ -390,12 +391,16 @@ Strand restOfStrand(
     return strand;
 }
 
-// `pull`: h^2 g, m.
+// `pull`: h^2 g, m. `lasting`: the share of the stiffness that does not yield, which has to bear
+// the weight.
 void balance(
     Strand& strand, std::uint32_t index, const glm::dvec3& pull, double most_stiffening,
-    RestBalance& result) {
+    double lasting, RestBalance& result) {
     for (const double mass : strand.masses) strand.rod.weights.push_back(mass / strand.unit * pull);
-    const std::optional<BalancedRod> balanced = balanceRod(strand.rod, most_stiffening);
+    HangingRod hanging = strand.rod;
+    for (double& stiffness : hanging.bend_stiffness) stiffness *= lasting;
+    for (double& stiffness : hanging.twist_stiffness) stiffness *= lasting;
+    const std::optional<BalancedRod> balanced = balanceRod(hanging, most_stiffening);
     if (!balanced) {
         result.unbalanced.push_back(index);
         return;
@@ -426,11 +431,24 @@ restOfRods(const groom::Groom& groom, const SimulationSettings& settings, const 
     if (settings.rest == RestShape::balanced && settings.solver == Solver::rod)
         rest.balance.emplace();
     rest.segments.resize(groom.points.size() * gpu::kRodSegmentRows);
+    const double set_share = double{material.set_share};
+    const bool sets = set_share > 0.0 && settings.solver == Solver::rod;
+    if (sets) rest.set.resize(groom.points.size());
     for (std::uint32_t s = 0; s < groom.strand_count; ++s) {
         Strand strand =
             restOfStrand(groom.strand(s), bending, twisting, double{material.ellipticity});
-        if (rest.balance) balance(strand, s, pull, double{settings.most_stiffening}, *rest.balance);
+        const std::vector<glm::dquat> groomed = strand.half_rotations;
+        if (rest.balance)
+            balance(
+                strand, s, pull, double{settings.most_stiffening}, sets ? 1.0 - set_share : 1.0,
+                *rest.balance);
         rest.units.push_back(static_cast<float>(strand.unit));
+        // Hair has had the groom's shape for long.
+        for (std::size_t i = 0; sets && i < strand.masses.size(); ++i) {
+            const glm::dquat back = glm::conjugate(strand.half_rotations[i]);
+            rest.set[i * groom.strand_count + s] =
+                toGpu(halfOf(back * groomed[i] * groomed[i] * back));
+        }
         for (std::size_t i = 0; i < strand.masses.size(); ++i) {
             const auto row = [&](std::size_t which) -> glm::vec4& {
                 return rest.segments[(i * gpu::kRodSegmentRows + which) * groom.strand_count + s];
@@ -450,6 +468,7 @@ static_assert(offsetof(gpu::RodParameters, most_strands) == 40);
 static_assert(offsetof(gpu::RodParameters, stretching) == 48);
 static_assert(offsetof(gpu::RodParameters, ellipticity) == 52);
 static_assert(offsetof(gpu::RodParameters, damping) == 64);
+static_assert(offsetof(gpu::RodParameters, set) == 72 && sizeof(gpu::RodParameters) == 88);
 
 // Scratch memory takes at most 1 / kScratchShare of the device-local heap. It depends on the heap's
 // size, not on the free memory, so that the same case always has the same dispatches.
@@ -497,6 +516,8 @@ engine::MemoryRows RodSolver::rows(
         rows.add(
             "simulation", {{"rod accelerations", vectors(gpu::kRodAccelerationRows)},
                            {"settled state", vectors(gpu::kRodAccelerationRows)}});
+    if (method.set_share > 0.0)
+        rows.add("simulation", {{"rod set", vectors(1)}, {"settled state", vectors(1)}});
     return rows;
 }
 
@@ -508,7 +529,9 @@ RodMethod rodMethod(const SimulationSettings& settings) {
                         (segmentsOf(settings) == gpu::kRodNoSegments ? 0 : 1),
         .iterations = settings.rod.iterations,
         .integrator = settings.rod.integrator,
-        .damping = settings.material.damping};
+        .damping = settings.material.damping,
+        .set_share = settings.material.set_share,
+        .set_time = settings.material.set_time};
 }
 
 RodMethod stableCosseratMethod(const SimulationSettings& settings) {
@@ -562,6 +585,7 @@ RodSolver::RodSolver(
                 {gpu::kRodSegmentsConstant, segmentsOf(settings)},
                 {gpu::kRodAlphaConstant, method.integrator != RodIntegrator::implicit_euler},
                 {gpu::kRodDampedConstant, method.damping > 0.0},
+                {gpu::kRodSetConstant, method.set_share > 0.0},
                 {gpu::kCosseratDescentConstant, method.cosserat == CosseratMethod::descent},
                 {gpu::kSkinnedRootsConstant, hasSkinnedRoots(settings)}},
            .push_size = sizeof(gpu::SubstepPush)}),
@@ -575,6 +599,8 @@ RodSolver::RodSolver(
     motion_ = {device, rows["rod motion"]};
     if (method.integrator != RodIntegrator::implicit_euler)
         accelerations_.emplace(device, rows["rod accelerations"]);
+    if (method.set_share > 0.0) set_ = engine::makeBuffer(device, rest.set, rows, "rod set");
+    const double relaxation = double{step.sub} / method.set_time;
     scratch_ = {device, rows["rod scratch"]};
     parameters_ = engine::makeBuffer(
         device,
@@ -590,7 +616,11 @@ RodSolver::RodSolver(
             .ellipticity = settings.material.ellipticity,
             .integrity = static_cast<float>(method.integrity * step.sub * step.sub),
             .angular = static_cast<float>(method.angular * step.sub * step.sub),
-            .damping = static_cast<float>(method.damping / step.sub)}},
+            .damping = static_cast<float>(method.damping / step.sub),
+            .set_share = static_cast<float>(method.set_share),
+            .set = set_ ? set_->address() : 0,
+            .set_kept = static_cast<float>(std::exp(-relaxation)),
+            .set_mean = static_cast<float>(-std::expm1(-relaxation) / relaxation)}},
         rows, "rod parameters");
 }
 
@@ -602,6 +632,7 @@ void RodSolver::record(engine::Commands& commands, gpu::SubstepPush push) const 
         if (first > 0) commands.usesAgain();
         commands.uses({{motion_, Access::compute_write}, {scratch_, Access::compute_write}});
         if (accelerations_) commands.uses({{*accelerations_, Access::compute_write}});
+        if (set_) commands.uses({{*set_, Access::compute_write}});
         commands.dispatchInvocations(
             std::min(most_strands_, strand_count_ - first), gpu::kRodGroupSize);
     }
@@ -610,13 +641,17 @@ void RodSolver::record(engine::Commands& commands, gpu::SubstepPush push) const 
 std::vector<const engine::Buffer*> RodSolver::state() const {
     std::vector<const engine::Buffer*> state{&motion_};
     if (accelerations_) state.push_back(&*accelerations_);
+    if (set_) state.push_back(&*set_);
     return state;
 }
 
 // Rods that stretch have another energy.
 ElasticRods RodSolver::elasticRods() const {
     if (stretches_) return {};
-    return {.parameters = parameters_.address(), .motion = motion_.address()};
+    return {
+        .parameters = parameters_.address(),
+        .motion = motion_.address(),
+        .set = set_ ? set_->address() : 0};
 }
 
 void RodSolver::recordAdopt(engine::Commands& commands, gpu::SubstepPush push) const {

@@ -64,6 +64,8 @@ struct RodMethod {
     double angular = 0.0;
     RodIntegrator integrator = RodIntegrator::implicit_euler;
     double damping = 0.0;  // of `rod`: material damping, s
+    double set_share = 0.0;  // of `rod`: share of the stiffness that yields, and its time, s
+    double set_time = 1.0;
     CosseratMethod cosserat = CosseratMethod::direct;  // of `stable_cosserat`
 };
 
@@ -110,6 +112,7 @@ private:
     engine::Buffer motion_;
     std::optional<engine::Buffer>
         accelerations_;  // if the method needs those of the previous substep
+    std::optional<engine::Buffer> set_;  // if hair takes a set
     engine::Buffer scratch_;
     engine::Buffer parameters_;
     engine::ComputePipeline step_;

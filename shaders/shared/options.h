@@ -185,6 +185,7 @@ const uint kRodSegmentsConstant = 10u;
 const uint kRodNoSegments = 0u;  // segments do not collide with bodies
 const uint kRodSegments = 1u;
 const uint kRodSegmentsAtRest = 2u;  // pushed no farther out than they are at rest
+const uint kRodSetConstant = 13u;
 
 // Constant of simulation/stable_cosserat.comp.
 const uint kCosseratDescentConstant = 12u;

@@ -64,6 +64,13 @@ struct RodParameters {
     float integrity;
     float angular;
     float damping;  // for `rod`: damping of the material, over the substep
+    // For `rod`: set. `set_kept` is the share of a strain that is left after a substep; `set_mean`
+    // is the mean of that share during the substep.
+    float set_share;
+    Address set;  // vec4 [vertex][strand], half of a joint's strain from rest at which the share of
+                  // its stiffness that yields has no torque; 0: hair takes no set
+    float set_kept;
+    float set_mean;
 };
 
 #endif

@@ -46,15 +46,27 @@ float elasticEnergy(GuideParameters guides, uint strand, RigidFrame carried) {
     RodParameters rod = RodReference(push.rods).parameters;
     uint strands = guides.strand_count;
     float sum = 0.0;
+    // The yielding share has the strain that is left at the end of the substep.
+    float yielding = rod.set_share * rod.set_mean * rod.set_mean;
     vec4 above = multiply(
         carried.rotation, segmentRow(rod.segments, 0, kRodHalfRotation, strands, strand));
     for (uint i = 1; i < guides.vertices_per_strand; ++i) {
         RodSegment segment = loadSegment(rod.segments, i, strands, strand);
         vec4 orientation = loadMotion(rod.motion, i, strands, strand).orientation;
-        sum += jointEnergy(
-            multiply(above, segment.half_rotation),
-            multiply(orientation, conjugate(segment.half_rotation)), segment.bend_stiffness,
-            segment.twist_stiffness, rod.ellipticity, i == 1);
+        vec4 first = multiply(above, segment.half_rotation);
+        vec4 second = multiply(orientation, conjugate(segment.half_rotation));
+        float energy = jointEnergy(
+            first, second, segment.bend_stiffness, segment.twist_stiffness, rod.ellipticity,
+            i == 1);
+        if (kSets) {
+            vec4 set = loadVector(rod.set, setIndex(i, strands, strand));
+            energy = (1.0 - rod.set_share) * energy +
+                     yielding * jointEnergy(
+                                    multiply(first, set), multiply(second, conjugate(set)),
+                                    segment.bend_stiffness, segment.twist_stiffness,
+                                    rod.ellipticity, i == 1);
+        }
+        sum += energy;
         above = orientation;
     }
     float unit = Factors(rod.units).at[strand];

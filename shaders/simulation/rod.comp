@@ -104,6 +104,11 @@ void predict() {
     vec3 edges = vec3(0.0);    // from the root to here
     vec3 residuals = vec3(0.0);  // from the root to here
     vec3 moved = vec3(0.0);    // by rotating segments
+    vec4 above = vec4(0.0);  // orientation of the segment above, before the substep
+    if (kSets)
+        above = multiply(
+            root_frame_before.rotation,
+            segmentRow(rod.segments, 0, kRodHalfRotation, guides.strand_count, strand));
     for (uint i = 1; i < guides.vertices_per_strand; ++i) {
         RodMotion motion = motionAt(i);
         float len = restLength(i);
@@ -124,6 +129,16 @@ void predict() {
         }
         motion.angular_velocity *= guides.velocity_kept;
         if (!second_order) free = motion.velocity;
+        if (kSets) {
+            uint at = setIndex(i, guides.strand_count, strand);
+            vec4 half_rotation =
+                segmentRow(rod.segments, i, kRodHalfRotation, guides.strand_count, strand);
+            vec4 set = relaxed(
+                loadVector(rod.set, at), multiply(above, half_rotation),
+                multiply(motion.orientation, conjugate(half_rotation)), rod.set_kept);
+            storeVector(rod.set, at, set);
+            above = motion.orientation;
+        }
         vec3 turn = predictedTurn(i, motion.angular_velocity);
         moved += gainOf(len * axisOf(motion.orientation), turn);
         motion.orientation = turned(motion.orientation, turn);
@@ -222,10 +237,21 @@ void eliminate(bool first) {
         B += A * lever;
         b += transpose(lever) * a;
 
+        vec4 joint_above = multiply(above, segment.half_rotation);
+        vec4 joint_below = multiply(orientation, conjugate(segment.half_rotation));
         RodJoint joint = bendAndTwist(
-            multiply(above, segment.half_rotation),
-            multiply(orientation, conjugate(segment.half_rotation)), segment.bend_stiffness,
-            segment.twist_stiffness, rod.ellipticity, i == 1);
+            joint_above, joint_below, segment.bend_stiffness, segment.twist_stiffness,
+            rod.ellipticity, i == 1);
+        if (kSets) {
+            vec4 set = loadVector(rod.set, setIndex(i, guides.strand_count, strand));
+            RodJoint yielding = bendAndTwist(
+                multiply(joint_above, set), multiply(joint_below, conjugate(set)),
+                segment.bend_stiffness, segment.twist_stiffness, rod.ellipticity, i == 1);
+            float share = rod.set_share * rod.set_mean;
+            joint.torque = (1.0 - rod.set_share) * joint.torque + share * yielding.torque;
+            joint.stiffness =
+                (1.0 - rod.set_share) * joint.stiffness + share * yielding.stiffness;
+        }
         vec3 torque = from_space * joint.torque;
         mat3 stiffness = symmetric(from_space * joint.stiffness * transpose(from_space));
         if (kDamped && viscosity > 0.0) {

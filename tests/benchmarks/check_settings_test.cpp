@@ -163,6 +163,24 @@ TEST(CheckSettings, WantsSolversThatKnowSectionsAndForcesOfContact) {
         "from one substep to the next");
 }
 
+TEST(CheckSettings, WantsASolverThatTakesSets) {
+    const auto with = [](hair::Solver solver, float share) {
+        return broken([&](hair::Settings& s) {
+            s.simulation.solver = solver;
+            s.simulation.material.set_share = share;
+        });
+    };
+    EXPECT_EQ(with(hair::Solver::rod, 0.5f), "no error");
+    EXPECT_EQ(with(hair::Solver::shape, 0.0f), "no error");
+    for (const hair::Solver solver :
+         {hair::Solver::none, hair::Solver::shape, hair::Solver::ftl, hair::Solver::stable_cosserat,
+          hair::Solver::position_based_rod, hair::Solver::augmented_mass_spring,
+          hair::Solver::extension})
+        EXPECT_EQ(
+            with(solver, 0.5f),
+            "/simulation/material/set_share: is above 0, but only the solver rod takes a set");
+}
+
 TEST(CheckSettings, WantsSolversThatKeepSegmentsOut) {
     const auto with = [](hair::Solver solver, bool warm_start) {
         return broken([&](hair::Settings& s) {

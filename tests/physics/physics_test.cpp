@@ -158,6 +158,12 @@ TEST_F(Physics, RodLosesWhatItsMaterialsDampingSays) {
     expectPass(findings);
 }
 
+TEST_F(Physics, RodTakesASetAsAStandardLinearSolidDoes) {
+    Findings findings("bending_set", hair::Solver::rod);
+    checkBendingSet(device(), hair::Solver::rod, findings);
+    expectPass(findings);
+}
+
 TEST_F(Physics, RodRestsInWindLikeAnElastica) {
     Findings findings("drag_deflection", hair::Solver::rod);
     checkDragDeflection(device(), hair::Solver::rod, findings);

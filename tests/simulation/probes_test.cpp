@@ -378,6 +378,30 @@ TEST_F(GuideProbes, GiveTheElasticEnergyOfABentRod) {
     }
 }
 
+// A rod that takes a set is held on an arc: the energy of the share that yields falls as
+// exp(-2 t / tau), t from the middle of the substep before the first to the end of the last.
+// Squares of h / tau are left out, 1e-3 / 12.
+TEST_F(GuideProbes, GiveTheElasticEnergyOfARodThatYields) {
+    SimulationSettings settings = still();
+    settings.solver = Solver::rod;
+    settings.substeps = 1;
+    const groom::Groom groom = oneGuide(straightRod(20, 0.2));
+    const groom::Groom bent = oneGuide(arc(20, 0.2, 0.6));
+    const double whole = probedAt(groom, settings, bent.points, bent.points).at("elastic_energy");
+    settings.material.set_share = 0.7f;
+    settings.material.set_time = 0.5f;
+    Simulation simulation(device(), groom, settings, 1);
+    for (int steps = 0; steps <= 40; ++steps) {
+        simulation.setState(bent.points, bent.points);
+        const double time = (steps + 0.5) * double{settings.time_step};
+        EXPECT_NEAR(
+            probed(simulation, groom, settings).at("elastic_energy") / whole,
+            0.3 + 0.7 * std::exp(-2.0 * time / 0.5), 1e-3)
+            << steps;
+        advance(device(), simulation, 1);
+    }
+}
+
 // A hair is let go level and swings. Without friction its energy stays what it was, 0, since it
 // begins at rest: kinetic and elastic energy come from gravity. The error is that of the step.
 // Generalised alpha keeps energy to second order; a velocity over a substep h is that half of it

@@ -14,7 +14,7 @@
 #include "tests/simulation/rods.h"
 #include "tests/simulation/strands.h"
 
-// Tests the time integration of `rod`: material damping, and implicit Euler beside generalised
+// Tests the time integration of `rod`: material damping, set, and implicit Euler beside generalised
 // alpha. The reference in double precision is compared with theory, and the device with the
 // reference.
 namespace hair::simulation {
@@ -153,14 +153,139 @@ TEST(ReferenceRodTime, GainsNoEnergyWhereItWhips) {
         }
 }
 
+// ---- Set ----------------------------------------------------------------------------------------
+
+// A straight rod whose segments are turned further and further by this rotation.
+RodState wound(const RodRest& rest, double angle, const glm::dvec3& axis) {
+    RodState state = rodAtRest(rest);
+    for (std::size_t i = 1; i < rest.lengths.size(); ++i) {
+        state.orientations[i] = state.orientations[i - 1] * glm::angleAxis(angle, axis);
+        state.edges[i] = rest.lengths[i] * (state.orientations[i] * glm::dvec3(0.0, 0.0, 1.0));
+    }
+    return state;
+}
+
+// The rod is held as wound for this time, without forces.
+RodState held(
+    const RodRest& rest, const RodState& state, const RodScheme& scheme, double substep,
+    int steps) {
+    const std::vector<glm::dvec3> none(rest.lengths.size(), glm::dvec3(0.0));
+    RodState now = state;
+    for (int i = 0; i < steps; ++i) {
+        stepRod(now, rest, none, {}, substep, 0.0, scheme);
+        std::vector<glm::dquat> set = now.set;
+        now = state;
+        now.set = std::move(set);
+    }
+    return now;
+}
+
+const glm::dvec3 kBends(1.0, 0.0, 0.0), kTwists(0.0, 0.0, 1.0);
+constexpr double kWinding = 0.05;  // rad per joint
+constexpr double kSetTime = 0.5;  // s
+
+// The energy of a held bend or twist falls from K b^2 / 2 to ((1 - s) + s exp(-2 t / tau)) of that,
+// as the moment falls to (1 - s) + s exp(-t / tau). Here t counts from the middle of the substep in
+// which the strain grew. The mean of exp(-t / tau) over a substep is (h / tau)^2 / 24 above that of
+// its middle, and a discrete joint's energy b^2 / 24 above K b^2 / 2: 2e-4 both.
+TEST(ReferenceRodTime, HeldMomentsRelaxAsThoseOfAStandardLinearSolid) {
+    const RodRest rest = makeRodRest(straightRod(16, 0.03), {});
+    for (const glm::dvec3& axis : {kBends, kTwists})
+        for (const double share : {0.3, 0.8})
+            for (const double substep : {1.0 / 60.0, 1.0 / 240.0})
+                for (const double time : {0.1, 0.5, 2.0}) {
+                    const RodState state = wound(rest, kWinding, axis);
+                    const int steps = static_cast<int>(std::lround(time / substep));
+                    const RodScheme scheme{.set_share = share, .set_time = kSetTime};
+                    const double energy =
+                        rodEnergy(held(rest, state, scheme, substep, steps), rest, scheme, substep);
+                    const double strain = std::exp(-(steps + 0.5) * substep / kSetTime);
+                    EXPECT_NEAR(
+                        energy / rodEnergy(state, rest), 1.0 - share + share * strain * strain,
+                        5e-4)
+                        << axis.z << ' ' << share << ' ' << substep << ' ' << time;
+                }
+}
+
+// Released at once, hair keeps s (1 - exp(-T / tau)) of the bend or twist that it was held at for
+// T, and exp(-(1 - s) t / tau) of this after t. The first step of the release holds hair for a step
+// more, and lets it go in its middle. Steps are of second order in h / tau: 1e-4. They carry no
+// velocity, and leave a sixteenth of a bend's distance from equilibrium, so that it lags behind by
+// h / 15, in which it loses 1.6e-3.
+TEST(ReferenceRodTime, SetGoesInItsOwnTime) {
+    constexpr double kHold = 0.5;  // s
+    const RodRest rest = makeRodRest(straightRod(16, 0.02), {});
+    const std::vector<glm::dvec3> none(17, glm::dvec3(0.0));
+    for (const glm::dvec3& axis : {kBends, kTwists})
+        for (const double share : {0.3, 0.8})
+            for (const double substep : {1.0 / 60.0, 1.0 / 240.0}) {
+                const RodScheme scheme{.iterations = 4, .set_share = share, .set_time = kSetTime};
+                RodState state = held(
+                    rest, wound(rest, kWinding, axis), scheme, substep,
+                    static_cast<int>(std::lround(kHold / substep)));
+                const int whole = static_cast<int>(std::lround(1.0 / substep));
+                for (int i = 1; i <= 2 * whole; ++i) {
+                    stepRod(state, rest, none, {}, substep, 0.0, scheme);
+                    if (i % (whole / 4) != 0) continue;
+                    double left = 0.0;
+                    for (std::size_t joint = 1; joint <= 16; ++joint) {
+                        const glm::dquat strain = glm::conjugate(state.orientations[joint - 1]) *
+                                                  state.orientations[joint];
+                        left += 2.0 * glm::dot(glm::dvec3(strain.x, strain.y, strain.z), axis) /
+                                kWinding / 16.0;
+                    }
+                    const double expected =
+                        share * -std::expm1(-(kHold + substep) / kSetTime) *
+                        std::exp(-(1.0 - share) * (i - 0.5) * substep / kSetTime);
+                    EXPECT_NEAR(left / expected, 1.0, 3e-3)
+                        << axis.z << ' ' << share << ' ' << substep << ' ' << i;
+                }
+            }
+}
+
+// Nothing acts on a curl that lets go of a strong bend but its own joints. Few Newton steps leave
+// 1e-6 of the energy, as in ReferenceRod.NeverGainsEnergy.
+TEST(ReferenceRodTime, SetOnlyTakesEnergy) {
+    const RodRest rest = makeRodRest(helix(32, 0.01, 0.03, 3.0), {});
+    const std::vector<glm::dvec3> none(33, glm::dvec3(0.0));
+    for (const double share : {0.3, 0.95})
+        for (const double time : {0.002, 0.05, 1.0})
+            for (const double angle : {0.3, 1.0}) {
+                const RodScheme scheme{.iterations = 8, .set_share = share, .set_time = time};
+                RodState state = rodAtRest(rest);
+                for (std::size_t i = 1; i < 33; ++i) {
+                    state.orientations[i] =
+                        state.orientations[i] *
+                        glm::angleAxis(
+                            angle * std::sin(double(i)), glm::normalize(glm::dvec3(1, 2, 1)));
+                    state.edges[i] =
+                        rest.lengths[i] * (state.orientations[i] * glm::dvec3(0.0, 0.0, 1.0));
+                }
+                double before = std::numeric_limits<double>::infinity();
+                double first = 0.0;
+                for (int i = 0; i < 500; ++i) {
+                    stepRod(state, rest, none, {}, kDefaultSubstep, 1.0, scheme);
+                    const double now = rodEnergy(state, rest, scheme, kDefaultSubstep);
+                    if (i == 0) first = now;
+                    ASSERT_LE(now, before + 1e-6 * first) << share << ' ' << time << ' ' << i;
+                    before = now;
+                }
+                EXPECT_LT(before, 0.5 * first);
+            }
+}
+
+// ---- On the device ------------------------------------------------------------------------------
+
 using GpuRodTime = GpuTest;
 
-SimulationSettings settingsOf(RodIntegrator integrator, float damping) {
+SimulationSettings settingsOf(RodIntegrator integrator, float damping, float set_share = 0.0f) {
     SimulationSettings settings;
     settings.solver = Solver::rod;
     settings.friction = 0.0f;
     settings.rod.integrator = integrator;
     settings.material.damping = damping;
+    settings.material.set_share = set_share;
+    settings.material.set_time = 0.1f;
     return settings;
 }
 
@@ -170,25 +295,102 @@ SimulationSettings settingsOf(RodIntegrator integrator, float damping) {
 TEST_F(GpuRodTime, TakesTheReferencesSteps) {
     for (const RodIntegrator integrator :
          {RodIntegrator::implicit_euler, RodIntegrator::generalized_alpha})
-        for (const float damping : {0.0f, 0.01f}) {
-            const groom::Groom groom = wavyGroom(10, 17, 0.2 / 16.0);
-            const SimulationSettings settings = settingsOf(integrator, damping);
-            Simulation simulation(device(), groom, settings, 1);
-            reference::Reference reference(groom, settings, 1);
-            advance(device(), simulation, 25);
-            for (int i = 0; i < 25; ++i) reference.step();
-            EXPECT_LT(
-                largestDifference(simulation.readPositions(), reference.positions()) /
-                    longestStrand(groom),
-                4e-5)
-                << static_cast<int>(integrator) << " " << damping;
-        }
+        for (const float damping : {0.0f, 0.01f})
+            for (const float set_share : {0.0f, 0.7f}) {
+                const groom::Groom groom = wavyGroom(10, 17, 0.2 / 16.0);
+                const SimulationSettings settings = settingsOf(integrator, damping, set_share);
+                Simulation simulation(device(), groom, settings, 1);
+                reference::Reference reference(groom, settings, 1);
+                advance(device(), simulation, 25);
+                for (int i = 0; i < 25; ++i) reference.step();
+                EXPECT_LT(
+                    largestDifference(simulation.readPositions(), reference.positions()) /
+                        longestStrand(groom),
+                    4e-5)
+                    << static_cast<int>(integrator) << " " << damping << " " << set_share;
+            }
 }
 
-// A reset also restores the state that the integrator keeps between substeps.
+// Half a second of hair that takes a set on a head that turns, in wind and among bodies, with the
+// rounding of EveryGpuRod.FollowsTheHeadAndKeepsOutOfBodiesAsTheReferenceDoes.
+TEST_F(GpuRodTime, TakesASetOnAMovingHeadAsTheReferenceDoes) {
+    for (const float ellipticity : {1.0f, 1.8f}) {
+        SimulationSettings settings = settingsOf(RodIntegrator::implicit_euler, 0.0f, 0.7f);
+        settings.material.ellipticity = ellipticity;
+        settings.substeps = 4;
+        settings.friction = 0.02f;
+        settings.wind.strength = 10.0f;
+        settings.motion.keyframes = {
+            {.time = 0.0f},
+            {.time = 0.25f, .rotation = {10.0f, 40.0f, -5.0f}, .translation = {0.0f, 0.05f, 0.1f}},
+            {.time = 0.5f, .rotation = {0.0f, -30.0f, 0.0f}, .translation = {0.1f, 0.0f, 0.0f}}};
+        settings.colliders = {
+            {.a = {0.1f, -0.1f, 0.03f}, .b = {0.3f, -0.1f, 0.03f}, .radius = 0.03f}};
+        settings.collision = {.margin = 0.001f, .friction = 0.2f};
+        const groom::Groom groom = straightGroom(8, 17, 0.015);
+        Simulation simulation(device(), groom, settings, 1);
+        reference::Reference reference(groom, settings, 1);
+        advance(device(), simulation, 30);
+        for (int i = 0; i < 30; ++i) reference.step();
+        EXPECT_LT(
+            largestDifference(simulation.readPositions(), reference.positions()) /
+                longestStrand(groom),
+            1e-4)
+            << ellipticity;
+        settings.material.set_share = 0.0f;
+        Simulation elastic(device(), groom, settings, 1);
+        advance(device(), elastic, 30);
+        EXPECT_GT(
+            largestDifference(elastic.readPositions(), reference.positions()) /
+                longestStrand(groom),
+            0.01)
+            << ellipticity;
+    }
+}
+
+// A set is one of the material: it turns with the hair. A curl turns with its head by three
+// quarters of a turn a second, without weight, so slowly that it keeps its shape; a set in axes of
+// space would pull it off by its own size.
+TEST_F(GpuRodTime, TurningTakesNoSet) {
+    const std::vector<glm::dvec3> curl = helix(24, 0.004, 0.003, 2.0);
+    groom::Groom groom{.strand_count = 1, .vertices_per_strand = 25};
+    groom.points.assign(curl.begin(), curl.end());
+    SimulationSettings settings = settingsOf(RodIntegrator::implicit_euler, 0.0f, 0.9f);
+    settings.gravity = {};
+    settings.friction = 0.02f;
+    settings.motion.keyframes = {
+        {}, {.time = 2.0f, .rotation = {60.0f, 540.0f, 0.0f}, .translation = {}}};
+    Simulation simulation(device(), groom, settings, 1);
+    advance(device(), simulation, 120);
+    const RigidMotion head = simulation.pose();
+    std::vector<glm::dvec3> carried;
+    for (const glm::vec3& point : groom.points) carried.push_back(head(point));
+    EXPECT_LT(largestDifference(simulation.readPositions(), carried) / 0.004, 0.02);
+}
+
+// The share that yields bears none of the weight in the groom's shape, so hair hangs there for
+// good: a balanced rod moves by the rounding of its segments' directions, 1e-7 rad each, which its
+// weight answers with up to ten times that.
+TEST_F(GpuRodTime, BalancedHairTakesNoSetFromItsWeight) {
+    const groom::Groom groom = wavyGroom(10, 17, 0.1 / 16.0);
+    SimulationSettings settings = settingsOf(RodIntegrator::implicit_euler, 0.0f, 0.6f);
+    settings.rest = RestShape::balanced;
+    Simulation simulation(device(), groom, settings, 1);
+    ASSERT_NE(simulation.balance(), nullptr);
+    EXPECT_TRUE(simulation.balance()->unbalanced.empty());
+    advance(device(), simulation, 120);  // 20 times the time of the set
+    EXPECT_LT(
+        largestDifference(
+            simulation.readPositions(),
+            std::vector<glm::dvec3>(groom.points.begin(), groom.points.end())) /
+            longestStrand(groom),
+        1e-4);
+}
+
+// A reset also restores the state that the integrator keeps between substeps, and the set.
 TEST_F(GpuRodTime, RepeatsItselfToTheBit) {
     const groom::Groom groom = wavyGroom(20, 9, 0.01);
-    SimulationSettings settings = settingsOf(RodIntegrator::generalized_alpha, 0.001f);
+    SimulationSettings settings = settingsOf(RodIntegrator::generalized_alpha, 0.001f, 0.5f);
     settings.settle_steps = 5;
     settings.wind.strength = 10.0f;
     Simulation simulation(device(), groom, settings, 1);
@@ -206,7 +408,9 @@ TEST_F(GpuRodTime, EnduresBodiesAndViolence) {
     const groom::Groom groom = wavyGroom(9, 17, 0.01);
     for (const float modulus : {1.0f, 3.9e9f, 1e12f})
         for (const float damping : {0.0f, 1.0f}) {
-            SimulationSettings settings = settingsOf(RodIntegrator::generalized_alpha, damping);
+            SimulationSettings settings = settingsOf(
+                RodIntegrator::generalized_alpha, damping, damping > 0.0f ? 0.95f : 0.0f);
+            settings.material.set_time = 0.001f;
             settings.material.youngs_modulus = modulus;
             settings.material.shear_modulus = modulus;
             settings.colliders = {{.radius = 0.05f}};

@@ -7,6 +7,9 @@
 // True if cross-sections are ellipses, so that a rod bends more easily round one axis.
 layout(constant_id = kEllipticSectionConstant) const bool kEllipticSection = false;
 
+// True if hair takes a set: rod_structs.h, RodParameters. hair/reference/rod.h has the law.
+layout(constant_id = kRodSetConstant) const bool kSets = false;
+
 // Bending and twisting of a rod between two frames that coincide at rest: the discrete elastica of
 // Bobenko and Suris 1999, Discrete time Lagrangian mechanics on Lie groups, with the energy
 //     -(4 / n^2) K ln cos(n b / 2) + fade K' t^2 / 2
@@ -41,6 +44,21 @@ float logarithmOver(float x) {
     float series = 1.0 + s * (1.0 / 3.0 + s * (1.0 / 5.0 + s * (1.0 / 7.0 + s * (1.0 / 9.0 + s * (
         1.0 / 11.0 + s * (1.0 / 13.0 + s / 15.0))))));
     return 2.0 / (2.0 - x) * series;
+}
+
+// Half of the strain at which the yielding share of a joint has no torque, after a substep's
+// relaxation towards the strain from `first` to `second`: the tangent of a quarter of the angle
+// between the two falls to `kept` of itself, round the same axis. Strains are small, so their
+// vectors keep changes of a millionth that a rotation of the whole joint would lose.
+vec4 relaxed(vec4 set, vec4 first, vec4 second, float kept) {
+    vec4 now = multiply(conjugate(first), second);
+    vec4 apart = multiply(conjugate(now), multiply(set, set));
+    if (apart.w < 0.0) apart = -apart;
+    vec3 tangent = kept / (1.0 + apart.w) * apart.xyz;
+    float square = dot(tangent, tangent);
+    vec4 rotation = multiply(now, vec4(2.0 * tangent, 1.0 - square) / (1.0 + square));
+    if (rotation.w < 0.0) rotation = -rotation;
+    return normalize(rotation + kNoRotation);
 }
 
 // The energy of a joint, in units of the stiffness. The first axes coincide at rest.

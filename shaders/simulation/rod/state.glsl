@@ -42,6 +42,8 @@ RodSegment loadSegment(Address segments, uint i, uint strands, uint strand) {
     return RodSegment(rotation, numbers.x, numbers.y, numbers.z, numbers.w);
 }
 
+uint setIndex(uint i, uint strands, uint strand) { return rodIndex(i, 0, 1, strands, strand); }
+
 uint motionIndex(uint i, uint row, uint strands, uint strand) {
     return rodIndex(i, row, kRodMotionRows, strands, strand);
 }
