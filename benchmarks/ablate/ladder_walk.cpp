@@ -305,7 +305,10 @@ void ablateCase(
     const std::function<void(const std::string&)>& progress, measure::HairCache& cache,
     CaseAblation& result) {
     const hair::RunSettings& run = spec.settings.run;
-    result = {.name = spec.name, .axes = spec.axes, .frame = run.warmup + run.frames};
+    {
+        const engine::HeldMessages held;
+        result = {.name = spec.name, .axes = spec.axes, .frame = run.warmup + run.frames};
+    }
     const auto without = [&](report::Status status, const std::string& reason) {
         const engine::HeldMessages held;
         result = {.name = spec.name, .axes = spec.axes, .status = status, .reason = reason};

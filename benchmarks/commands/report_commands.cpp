@@ -72,7 +72,7 @@ void print(
     const bool has_times = std::ranges::any_of(comparison.changes, [](const report::Change& each) {
         return each.metric.of != report::MetricOf::shader && !report::isProbe(each.metric);
     });
-    std::cout << report::codeChangesText(comparison.code);
+    std::cout << report::codeChangesText(comparison.code) << (comparison.code.empty() ? "" : "\n");
     if (has_times) std::cout << report::kOneProcessCaveat << '\n';
 }
 

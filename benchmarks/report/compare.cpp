@@ -183,7 +183,8 @@ std::string codeChangesText(std::span<const CodeChange> changes) {
             plainNumber(each.a), plainNumber(each.b), std::to_string(each.cases)};
         for (std::size_t i = 0; i < columns.size(); ++i) columns[i].cells.push_back(cells[i]);
     }
-    return "changed code, which may explain times and decides nothing:\n" + columnsText(columns);
+    return "\nchanged code of shaders, which may explain times and decides nothing:\n" +
+           columnsText(columns);
 }
 
 scene::Json codeChangesJson(std::span<const CodeChange> changes) {
