@@ -88,7 +88,7 @@ public:
     virtual void record(engine::Commands& commands, gpu::SubstepPush push) const = 0;
 
     // Derives the solver's own state from positions and previous positions that other code wrote.
-    // What the material remembers, like the set of rods, stays.
+    // The set of rods stays as it was.
     virtual void recordAdopt(engine::Commands&, gpu::SubstepPush) const {}
 
     // The solver's own state that is 0 then instead.
