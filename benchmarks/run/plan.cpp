@@ -275,6 +275,7 @@ hair::Settings smaller(const hair::Settings& settings) {
     small.simulation.rest = hair::RestShape::groom;
     for (hair::DistanceFieldSettings& field : small.simulation.distance_fields)
         field.resolution = std::min(field.resolution, kMostFieldResolution);
+    for (hair::PullSettings& pull : small.simulation.pulls) pull.guide = 0;  // there may be no more
     return small;
 }
 

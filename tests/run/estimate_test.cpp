@@ -80,6 +80,7 @@ TEST(Estimate, MakesLargeCasesSmall) {
     large.strands.density = 64;
     large.simulation.settle_steps = 10'000;
     large.simulation.distance_fields.emplace_back();
+    large.simulation.pulls = {{.guide = 99'999}};
     large.render.width = 1920;
     large.render.height = 1080;
     large.render.ssaa = 4;
@@ -90,6 +91,7 @@ TEST(Estimate, MakesLargeCasesSmall) {
     // The aspect ratio is kept, to a pixel.
     EXPECT_NEAR(small.render.width * 9.0, small.render.height * 16.0, 16.0);
     EXPECT_EQ(small.render.ssaa, 4u);
+    EXPECT_LT(small.simulation.pulls[0].guide, small.groom.guides);
     EXPECT_EQ(small.strands.tessellation, large.strands.tessellation);
 }
 
