@@ -449,11 +449,11 @@ double turnOfTip(const Experiment& experiment) {
     return std::atan2(edge.x, -edge.y);
 }
 
-void checkCreep(
-    const engine::Device& device, const hair::SimulationSettings& settings, double length,
-    const std::vector<Parameter>& with, Findings& findings) {
-    const double share = settings.material.set_share;
-    Experiment experiment(device, straightStrand(kSetSegments, length, {1.0, 0.0, 0.0}), settings);
+// Plays to each of kSetSamples and calls `sampled` there with its parameters, its time, s, and the
+// number of steps.
+template <class Sampled>
+void playSetSamples(
+    Experiment& experiment, const std::vector<Parameter>& with, const Sampled& sampled) {
     std::uint32_t step = 0;
     for (const double time : kSetSamples) {
         const std::uint32_t target = experiment.stepsIn(time);
@@ -461,12 +461,22 @@ void checkCreep(
         step = target;
         std::vector<Parameter> at = with;
         at.push_back({"time", time, "s"});
+        sampled(at, time, step);
+    }
+}
+
+void checkCreep(
+    const engine::Device& device, const hair::SimulationSettings& settings, double length,
+    const std::vector<Parameter>& with, Findings& findings) {
+    const double share = settings.material.set_share;
+    Experiment experiment(device, straightStrand(kSetSegments, length, {1.0, 0.0, 0.0}), settings);
+    playSetSamples(experiment, with, [&](const auto& at, double time, std::uint32_t) {
         findings.compare(
             {"sag of level hair / length", "1", at}, -experiment.positions().back().y / length,
             kSetGamma / 8.0 * (1.0 - share * std::exp(-(1.0 - share) * time / kSetTime)) /
                 (1.0 - share),
             kCreepTolerance);
-    }
+    });
 }
 
 void checkRelease(
@@ -487,18 +497,12 @@ void checkRelease(
     const auto left = [&](double time) {
         return first * std::exp(-(1.0 - share) * time / kSetTime);
     };
-    std::uint32_t step = 0;
-    for (const double time : kSetSamples) {
-        const std::uint32_t target = experiment.stepsIn(time);
-        experiment.advance(target - step);
-        step = target;
-        std::vector<Parameter> at = with;
-        at.push_back({"time", time, "s"});
+    playSetSamples(experiment, with, [&](const auto& at, double, std::uint32_t step) {
         findings.compare(
             {"bend of released hair / bend that it was held at", "1", at},
             turnOfTip(experiment) / whole, left((step + 0.5) * experiment.timeStep()),
             kSetTolerance);
-    }
+    });
     experiment.advance(experiment.stepsIn(10.0 * kSetTime / (1.0 - share)));
     findings.deviation(
         {"bend that is left at last / bend that it was held at", "1", with},

@@ -108,7 +108,7 @@ const RowShare kWholePiece = RowShare(0, 1, 0, 1);
 
 // The share of invocation `place` of a work group that draws the piece: whole rows, or parts of them
 // if there are fewer rows than invocations. So no invocation has a long row alone
-// (kLargePieceSamples).
+// (kLargePieceSamples). `group` is gl_WorkGroupSize.x, which isn't known here, before its layout.
 RowShare shareOfGroup(RasterQuad raster, int place, int group) {
     int parts = max(group / max(raster.end - raster.begin, 1), 1);
     return RowShare(place / parts, group / parts, place % parts, parts);
