@@ -133,6 +133,11 @@ const Table& tableOf(const ShadingSettings*) {
              "density_factor", &S::density_factor, 0, 1, "1",
              "d of dual_scattering: fraction of the light scattered by a strand that meets other "
              "strands"),
+         number(
+             "orientation_spread", &S::orientation_spread, 0, 40, "deg",
+             "how much the directions of neighbouring strands differ, for dual_scattering: their "
+             "standard deviation in each of the two planes along a strand ('hairbench export "
+             "--mitsuba' measures it); 0: strands are parallel, as in Zinke et al. 2008"),
          toggle(
              "far_field", &S::far_field,
              "marschner and dual_scattering: average over the part of a strand's width that a "
@@ -145,6 +150,11 @@ const Table& tableOf(const ShadingSettings*) {
              "of the directions and with shadows of hair; 0: the irradiance of a matt surface, "
              "times "
              "ambient"),
+         toggle(
+             "indirect", &S::indirect,
+             "meshes get the light that lit hair and meshes send back, from parts of the lights' "
+             "shadow maps (Dachsbacher and Stamminger 2005); it needs a tone map and shadows of "
+             "meshes"),
          group("shadows", &S::shadows, "shadows of meshes and hair")});
     return table;
 }

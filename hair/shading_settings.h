@@ -77,9 +77,11 @@ struct ShadingSettings {
     float cuticle_tilt = 2.0f;
     float refractive_index = 1.55f;
     float density_factor = 0.99f;
+    float orientation_spread = 0.0f;
     bool far_field = false;
     std::vector<LightSettings> lights{LightSettings{}};
     std::uint32_t environment_lights = 12;
+    bool indirect = false;
     ShadowSettings shadows;
 };
 

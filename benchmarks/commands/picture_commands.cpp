@@ -361,6 +361,16 @@ int renderReference(const ReferenceOptions& options) {
 
 // ---- hairbench export ---------------------------------------------------------------------------
 
+namespace {
+
+std::string figure(double value) {
+    char text[32];
+    std::snprintf(text, sizeof text, "%.5g", value);
+    return text;
+}
+
+}  // namespace
+
 int exportScene(const ExportOptions& options) {
     scene::Scene scene = scene::loadScene(options.scene.scene, options.scene.outside);
     measure::HairCache cache = measure::userHairCache(options.scene.cache);
@@ -375,6 +385,10 @@ int exportScene(const ExportOptions& options) {
         std::cout << (options.mitsuba / "scene.xml").string() << ": frame " << options.frame
                   << " of " << scene.name << ", " << written.strands << " strands, "
                   << written.points << " points, " << written.triangles << " triangles\n";
+        if (written.strands > 0)
+            std::cout << "directions of strands within 2 mm of each other differ by "
+                      << figure(written.orientation_spread)
+                      << " degrees: /shading/orientation_spread\n";
     } catch (const engine::Interrupted&) {
         std::cerr << "interrupted: the scene is not written\n";
         return report::kInterrupted;
@@ -385,12 +399,6 @@ int exportScene(const ExportOptions& options) {
 // ---- hairbench diff -----------------------------------------------------------------------------
 
 namespace {
-
-std::string figure(double value) {
-    char text[32];
-    std::snprintf(text, sizeof text, "%.5g", value);
-    return text;
-}
 
 scene::Json toJson(const reference::PictureErrors& errors) {
     return {{"width", errors.width},

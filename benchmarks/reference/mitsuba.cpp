@@ -13,10 +13,12 @@
 #include <string>
 #include <string_view>
 #include <system_error>
+#include <tuple>
 #include <type_traits>
 #include <vector>
 
 #include <glm/geometric.hpp>
+#include <glm/trigonometric.hpp>
 
 #include "benchmarks/measure/case.h"
 #include "benchmarks/measure/progress.h"
@@ -515,6 +517,72 @@ std::string copyEnvironment(
 
 }  // namespace
 
+// ---- Directions of neighbours ----
+
+namespace {
+
+// The middle of a piece of a strand.
+struct PieceMiddle {
+    glm::ivec3 cell{0};
+    std::uint32_t strand = 0;
+    glm::vec3 position{0.0f};
+    glm::vec3 direction{0.0f};
+};
+
+bool isEarlier(const glm::ivec3& a, const glm::ivec3& b) {
+    return std::tie(a.x, a.y, a.z) < std::tie(b.x, b.y, b.z);
+}
+
+std::vector<PieceMiddle> pieceMiddles(const hair::groom::StrandSet& strands, float cell) {
+    std::vector<PieceMiddle> middles;
+    for (std::uint32_t strand = 0; strand < strands.strandCount(); ++strand) {
+        for (std::uint32_t i = strands.first(strand) + 1; i < strands.ends[strand]; ++i) {
+            const glm::vec3 piece = strands.points[i] - strands.points[i - 1];
+            const float length = glm::length(piece);
+            if (!(length > 0)) continue;
+            const glm::vec3 position = strands.points[i - 1] + 0.5f * piece;
+            middles.push_back(
+                {.cell = glm::ivec3(glm::floor(position / cell)),
+                 .strand = strand,
+                 .position = position,
+                 .direction = piece / length});
+        }
+    }
+    std::ranges::sort(middles, isEarlier, &PieceMiddle::cell);
+    return middles;
+}
+
+}  // namespace
+
+double orientationSpread(const hair::groom::StrandSet& strands) {
+    constexpr float kReach = 0.002f;
+    constexpr std::size_t kPieces = 4000;  // at most, whose neighbours are compared
+    const std::vector<PieceMiddle> middles = pieceMiddles(strands, kReach);
+    double sum = 0;
+    std::size_t counted = 0;
+    for (std::size_t i = 0; i < middles.size(); i += middles.size() / kPieces + 1) {
+        const PieceMiddle& piece = middles[i];
+        double squares = 0;
+        std::size_t neighbours = 0;
+        for (int n = 0; n < 27; ++n) {
+            const glm::ivec3 cell = piece.cell + glm::ivec3(n % 3, n / 3 % 3, n / 9) - 1;
+            for (const PieceMiddle& other :
+                 std::ranges::equal_range(middles, cell, isEarlier, &PieceMiddle::cell)) {
+                if (other.strand == piece.strand ||
+                    glm::distance(other.position, piece.position) > kReach)
+                    continue;
+                const glm::dvec3 across = glm::cross(other.direction, piece.direction);
+                squares += glm::dot(across, across);
+                ++neighbours;
+            }
+        }
+        if (neighbours == 0) continue;
+        sum += squares / static_cast<double>(neighbours);
+        ++counted;
+    }
+    return counted > 0 ? glm::degrees(std::sqrt(sum / static_cast<double>(counted) / 2)) : 0.0;
+}
+
 MitsubaExport exportMitsuba(
     const engine::Device& device, const scene::Scene& scene, const hair::Settings& settings,
     std::uint32_t frame, const std::filesystem::path& folder, measure::HairCache& cache) {
@@ -547,6 +615,7 @@ MitsubaExport exportMitsuba(
         }
         result.strands = strands.strandCount();
         result.points = strands.points.size();
+        result.orientation_spread = orientationSpread(strands);
     }
     parts.meshes = writeMeshes(folder, scene, settings, played);
     for (const MitsubaParts::Mesh& mesh : parts.meshes) result.triangles += mesh.triangles;

@@ -30,9 +30,16 @@ namespace benchmarks::reference {
 // points. The four coordinates are four splines.
 std::vector<glm::dvec4> interpolatingControlPoints(std::span<const glm::dvec4> points);
 
+// Returns how much the directions of strands within 2 mm of each other differ, in degrees: the root
+// of their mean square sine over the square root of two, which is the standard deviation in each
+// plane along a strand if it is small. It is /shading/orientation_spread. Points are in metres.
+// Returns 0 if no strands are that near.
+double orientationSpread(const hair::groom::StrandSet& strands);
+
 // Counts of the export, for the closing line.
 struct MitsubaExport {
     std::uint32_t strands = 0;
+    double orientation_spread = 0;  // degrees
     std::size_t points = 0;
     std::size_t triangles = 0;
 };

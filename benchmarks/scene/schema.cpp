@@ -20,6 +20,7 @@
 #include "hair/fields.h"
 #include "hair/gpu_structs.h"
 #include "hair/rendering/environment.h"
+#include "hair/rendering/render_assets.h"
 
 namespace benchmarks::scene {
 namespace {
@@ -291,6 +292,17 @@ Broken headsMoveByThemselves(const hair::Settings& s) {
     return {};
 }
 
+Broken indirectLightHasItsMaps(const hair::Settings& s) {
+    if (!s.shading.indirect) return {};
+    if (!hair::rendering::hasLinearLight(s.render))
+        return "is on, but /render/tone_map is none: light does not add up in display colours";
+    if (!s.shading.shadows.meshes)
+        return "is on, but /shading/shadows/meshes is off: its sources are parts of those maps";
+    if (s.shading.shadows.hair == hair::HairShadows::rays)
+        return "is on, but /shading/shadows/hair is rays: hair has no map to take sources from";
+    return {};
+}
+
 struct Rule {
     const char* pointer;
     Broken (*broken)(const hair::Settings&);
@@ -323,6 +335,7 @@ constexpr Rule kRules[] = {
     {"/render/transparency", alphaHasSamplesToCover},
     {"/shading/lights", lightsHaveDirections},
     {"/shading/lights", lightsHaveRoomForTheirMaps},
+    {"/shading/indirect", indirectLightHasItsMaps},
     {"/run/busy_work", busyWorkHasAPass},
     {"/run/overlapped_stamps", timestampsAreOfOneQueue},
     {"/run/frame_time", frameHasRoomForItsSteps}};

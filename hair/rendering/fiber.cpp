@@ -119,6 +119,9 @@ struct FiberSlice {
     double fresnel = 0;
     double length = 0;  // of a path through the fibre, in radii
     PerLobe<double> forward{};  // the part of each lobe that goes on forward
+    // Variance of theta_i + theta_o that fibres with other directions add to each lobe, rad^2.
+    PerLobe<double> forward_tilt{};
+    PerLobe<double> backward_tilt{};
 };
 
 // Strands of one absorption, and their share of all strands.
@@ -126,6 +129,45 @@ struct AbsorptionShare {
     glm::dvec3 absorption{0};
     double share = 1;
 };
+
+// Means of a lobe's 2 (1 + cos phi), where phi is the azimuth between the light's source and the
+// direction of the scattered light.
+struct AzimuthMeans {
+    double forward = 0;  // over the half turn away from the light
+    double backward = 0;
+};
+
+AzimuthMeans azimuthMeans(const Fiber& fiber, double lobe_azimuth) {
+    constexpr int kParts = 32;  // of equal light
+    const double low = logistic(-kPi, fiber.azimuthal_scale);
+    const double high = logistic(kPi, fiber.azimuthal_scale);
+    AzimuthMeans sums;
+    int forward = 0;
+    for (int i = 0; i < kParts; ++i) {
+        const double cdf = low + (high - low) * (i + 0.5) / kParts;
+        const double cosine =
+            std::cos(lobe_azimuth - fiber.azimuthal_scale * std::log(1 / cdf - 1));
+        (cosine < 0 ? sums.forward : sums.backward) += 2 * (1 + cosine);
+        forward += cosine < 0 ? 1 : 0;
+    }
+    sums.forward /= std::max(forward, 1);
+    sums.backward /= std::max(kParts - forward, 1);
+    return sums;
+}
+
+// A fibre whose direction differs by a small angle delta, as a vector, sends light into the cone
+// theta_o = -theta_i round its own axis. Round the first fibre, theta_i + theta_o then changes by
+// the component of delta along the sum of both azimuths' unit vectors, whose squared length is
+// 2 (1 + cos phi): by nothing if the light goes straight on, by 2 delta if it turns back.
+void addTilts(const Fiber& fiber, std::span<const double> azimuths, FiberSlice& slice) {
+    for (std::size_t p = 0; p < kFiberLobes; ++p) {
+        const double even = 4 / kPi;  // of 2 cos phi over a half turn
+        AzimuthMeans means{2 - even, 2 + even};
+        if (p < azimuths.size()) means = azimuthMeans(fiber, azimuths[p]);
+        slice.forward_tilt[p] = fiber.tilt_variance * means.forward;
+        slice.backward_tilt[p] = fiber.tilt_variance * means.backward;
+    }
+}
 
 std::vector<FiberSlice> slicesOf(const Fiber& fiber, double theta) {
     constexpr int kPlaces = 256;
@@ -144,6 +186,7 @@ std::vector<FiberSlice> slicesOf(const Fiber& fiber, double theta) {
             slice.forward[p] = p < way.azimuths.size()
                                    ? halfTurn(kPi - way.azimuths[p], fiber.azimuthal_scale)
                                    : 0.5;
+        if (fiber.tilt_variance > 0) addTilts(fiber, way.azimuths, slice);
     }
     return slices;
 }
@@ -167,8 +210,10 @@ FiberAverages averageOverSlices(
                 // Lobes with different shifts spread light, too.
                 const double shift = fiber.shifts[p];
                 const double spread = fiber.variances[p] + square(shift);
-                forward_means.add(forward * mean(carried), shift, spread);
-                backward_means.add((1 - forward) * mean(carried), shift, spread);
+                forward_means.add(
+                    forward * mean(carried), shift, spread + slice.forward_tilt[p]);
+                backward_means.add(
+                    (1 - forward) * mean(carried), shift, spread + slice.backward_tilt[p]);
             }
         }
     }
@@ -247,7 +292,8 @@ Fiber makeFiber(const ShadingSettings& shading) {
         .eta = shading.refractive_index,
         .variances = {v, v / 4, 4 * v, 4 * v},
         .shifts = {-2 * tilt, tilt, 4 * tilt, 0},
-        .azimuthal_scale = s};
+        .azimuthal_scale = s,
+        .tilt_variance = square(glm::radians(static_cast<double>(shading.orientation_spread)))};
 }
 
 double fresnel(double cosine, double eta) {

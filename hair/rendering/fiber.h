@@ -56,6 +56,9 @@ struct Fiber {
     // parameter grows towards the tip.
     PerLobe<double> shifts{};
     double azimuthal_scale = 0;  // s of N_p
+    // Variance of the directions of the fibres around this one in each plane along it, rad^2. Only
+    // averageOverFiber() uses it.
+    double tilt_variance = 0;
 };
 
 Fiber makeFiber(const ShadingSettings& shading);

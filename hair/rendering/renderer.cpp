@@ -320,6 +320,7 @@ engine::MemoryRows Renderer::rows(
     rows.add(targetRows(rendered(settings)));
     rows.add(HairOpticsBuffers::rows(settings.shading));
     rows.add(ShadowPass::rows(lit, plan));
+    rows.add(IndirectLight::rows(lit));
     if (!settings.render.environment.empty()) rows.add(EnvironmentPass::rows());
     if (settings.strands.texture.empty())
         rows.add("textures", {{"strand texture", sizeof(std::uint32_t)}});
@@ -367,6 +368,8 @@ Renderer::Renderer(
         parameters = parameterBuffer(device, heads_.size());
     if (settings_.render.hair && FramesPass::isNeeded(view)) frames_.emplace(device, view);
     if (view.deforming) skin_.emplace(device, settings_, plan_, view);
+    if (IndirectLight::isNeeded(settings_) && !meshes_.empty())
+        indirect_.emplace(device, settings_);
 }
 
 namespace {
@@ -457,6 +460,7 @@ void Renderer::record(engine::Passes& passes, std::span<const StrandView> views)
         if (has_points || joined) recordPoints(passes, picture);
         if (traces) recordStructure(passes, picture);
         if (moves) shadows_.record(passes, meshes_, view, picture.parameters, motion);
+        if (moves) recordIndirect(passes, picture);
         if (joined)
             recordJoined(passes, view, picture);
         else
@@ -491,6 +495,13 @@ void Renderer::recordStructure(engine::Passes& passes, const StrandPicture& pict
     if (!structure_) return;
     passes.pass("acceleration", engine::PassKind::compute, [&](engine::Commands& commands) {
         structure_->record(commands, picture);
+    });
+}
+
+void Renderer::recordIndirect(engine::Passes& passes, const StrandPicture& picture) const {
+    if (!indirect_) return;
+    passes.pass("indirect", engine::PassKind::compute, [&](engine::Commands& commands) {
+        indirect_->record(commands, meshes_, picture.address, shadows_.images());
     });
 }
 

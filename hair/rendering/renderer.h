@@ -90,7 +90,7 @@ private:
 // their strands share the memory of one head. Shadows of a head fall on that head alone. The
 // passes are: frames (if strands have offsets or residuals),
 // skin (if the mesh under the hair deforms), points (if a back end draws from them), mesh_shadow
-// and hair_shadow (if asked for), scene, strands, composite (if fragments are blended at the end),
+// and hair_shadow (if asked for), indirect (if asked for), scene, strands, composite (if fragments are blended at the end),
 // overlay (if asked for) and resolve (if the picture is not the rendered image). If passes may
 // join, scene, strands and overlay are one rendering, which resolves samples at its end.
 class Renderer {
@@ -144,6 +144,7 @@ private:
     void recordPoints(
         engine::Passes& passes, const StrandPicture& picture, Bounds bounds = Bounds::old) const;
     void recordStructure(engine::Passes& passes, const StrandPicture& picture);
+    void recordIndirect(engine::Passes& passes, const StrandPicture& picture) const;
     void recordJoined(
         engine::Passes& passes, const StrandView& view, const StrandPicture& picture) const;
     // Which of the heads is drawn: the first clears the target, the last completes the picture.
@@ -173,6 +174,7 @@ private:
     ShadowPass shadows_;
     EnvironmentPass environment_;
     SceneMeshes meshes_;
+    std::optional<IndirectLight> indirect_;
     StrandTexture texture_;
     std::vector<engine::SampledImage> strand_images_;
     StrandPass strands_;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cassert>
+#include <cmath>
 
 #include <glm/ext/matrix_transform.hpp>
 #include <glm/trigonometric.hpp>
@@ -53,6 +54,20 @@ MeshLook lookOf(const groom::Mesh& mesh, const groom::Material& material) {
         .double_sided = material.double_sided};
 }
 
+// How many sources of indirect light there are.
+struct IndirectSources {
+    std::uint32_t side;  // gpu::IndirectPush
+    std::uint32_t count;
+};
+
+IndirectSources indirectSources(const Settings& settings) {
+    const auto lights = static_cast<std::uint32_t>(settings.shading.lights.size());
+    if (lights == 0) return {0, 0};
+    const auto side = static_cast<std::uint32_t>(
+        std::sqrt(static_cast<double>(gpu::kMostIndirectSources) / (2.0 * lights)));
+    return {side, 2 * lights * side * side};
+}
+
 // The specialization constants of shaders/scene/options.glsl and shading/options.glsl.
 engine::Constants meshConstants(const MeshLook& look, const Settings& settings) {
     engine::Constants constants{
@@ -67,10 +82,12 @@ engine::Constants meshConstants(const MeshLook& look, const Settings& settings) 
 }
 
 engine::GraphicsDescription pipeline(const MeshLook& look, const Settings& settings) {
+    const bool indirect = settings.shading.indirect;
+    const char* const fragment = tracesShadows(settings) ? "scene/mesh.frag+rays"
+                                 : indirect              ? "scene/mesh.frag+indirect"
+                                                         : "scene/mesh.frag";
     return {
-        .shaders =
-            {"scene/mesh.vert",
-             tracesShadows(settings) ? "scene/mesh.frag+rays" : "scene/mesh.frag"},
+        .shaders = {indirect ? "scene/mesh.vert+indirect" : "scene/mesh.vert", fragment},
         .constants = meshConstants(look, settings),
         .push_size = sizeof(gpu::MeshPush),
         .colors = {{colorFormat(settings.render)}},
@@ -116,23 +133,27 @@ groom::Mesh placed(groom::Mesh mesh, const MeshSettings& settings) {
     return mesh;
 }
 
-engine::MemoryRows MeshGeometry::rows(const groom::Mesh& mesh) {
+engine::MemoryRows MeshGeometry::rows(const Settings& settings, const groom::Mesh& mesh) {
     const std::size_t positions = engine::bytesOf<glm::vec3>(mesh.positions.size());
     return {
         "meshes",
         {{"mesh positions", positions},
          {"mesh normals", positions},
+         {"indirect light on meshes", settings.shading.indirect ? positions : 0},
          {"mesh texture coordinates", engine::bytesOf<glm::vec2>(mesh.texture_coordinates.size())},
          {"mesh indices", engine::bytesOf<std::uint32_t>(3 * mesh.triangles.size())}}};
 }
 
-MeshGeometry::MeshGeometry(const engine::Device& device, const groom::Mesh& mesh) {
-    const engine::MemoryRows rows = MeshGeometry::rows(mesh);
+MeshGeometry::MeshGeometry(
+    const engine::Device& device, const Settings& settings, const groom::Mesh& mesh)
+    : vertices(static_cast<std::uint32_t>(mesh.positions.size())) {
+    const engine::MemoryRows rows = MeshGeometry::rows(settings, mesh);
     const auto upload = [&]<class Value>(const std::vector<Value>& values, const char* name) {
         return engine::makeBuffer(device, values, rows, name);
     };
     positions = upload(mesh.positions, "mesh positions");
     normals = upload(mesh.normals, "mesh normals");
+    if (settings.shading.indirect) indirect = {device, rows["indirect light on meshes"]};
     texture_coordinates = upload(mesh.texture_coordinates, "mesh texture coordinates");
     indices = upload(sortedIndices(mesh), "mesh indices");
     std::uint32_t first = 0;
@@ -210,7 +231,7 @@ void SceneMeshes::add(
     const engine::Device& device, const Settings& settings, const groom::Mesh& mesh,
     Motion motion) {
     const SceneMesh& added = meshes_.emplace_back(SceneMesh{
-        {device, mesh},
+        {device, settings, mesh},
         {device, settings.render, mesh, {&blank_.image(), &blank_sampler_}},
         motion});
     for (const MeshGeometry::Part& part : added.geometry.parts) {
@@ -228,25 +249,47 @@ void SceneMeshes::deform(const engine::Buffer& positions, const engine::Buffer& 
     deformed_normals_ = normals.address();
 }
 
+SceneMeshes::Vertices SceneMeshes::verticesOf(const SceneMesh& mesh) const {
+    const bool moves = mesh.motion == Motion::with_head;
+    if (moves && deformed_positions_ != 0) return {deformed_positions_, deformed_normals_, false};
+    return {mesh.geometry.positions.address(), mesh.geometry.normals.address(), moves};
+}
+
+void SceneMeshes::gatherIndirect(
+    engine::Commands& commands, const engine::ComputePipeline& gather,
+    const engine::Buffer& sources, gpu::IndirectPush push) const {
+    for (const SceneMesh& mesh : meshes_) {
+        const Vertices vertices = verticesOf(mesh);
+        push.sources = commands.reads(sources);
+        push.positions = commands.reads(vertices.positions);
+        push.normals = commands.reads(vertices.normals);
+        push.light = commands.writes(mesh.geometry.indirect);
+        push.vertices = mesh.geometry.vertices;
+        push.is_moving = vertices.is_moving ? 1u : 0u;
+        commands.bind(gather, push);
+        commands.dispatchInvocations(push.vertices, gpu::kIndirectGroupSize);
+    }
+}
+
 void SceneMeshes::bind(
     engine::Commands& commands, const engine::GraphicsPipeline& pipeline, std::uint64_t picture,
     const SceneMesh& mesh, const MeshMaterial& material) const {
-    const bool moves = mesh.motion == Motion::with_head;
-    const bool deforms = moves && deformed_positions_ != 0;
+    const Vertices vertices = verticesOf(mesh);
     commands.bind(
         pipeline,
         gpu::MeshPush{
             .picture = picture,
-            .positions = deforms ? deformed_positions_ : mesh.geometry.positions.address(),
-            .normals = deforms ? deformed_normals_ : mesh.geometry.normals.address(),
+            .positions = vertices.positions,
+            .normals = vertices.normals,
             .texture_coordinates = mesh.geometry.texture_coordinates.address(),
+            .indirect = mesh.geometry.indirect.address(),
             .base_color = material.base_color,
             .opacity = material.opacity,
             .metallic = material.metallic,
             .roughness = material.roughness,
             .normal_scale = material.normal_scale,
             .cutoff = material.cutoff,
-            .is_moving = moves && !deforms ? 1u : 0u});
+            .is_moving = vertices.is_moving ? 1u : 0u});
 }
 
 void SceneMeshes::draw(
@@ -281,6 +324,46 @@ void SceneMeshes::drawDepth(engine::Commands& commands, std::uint64_t picture) c
                 {.indices = part.index_count, .first_index = part.first_index});
         }
     }
+}
+
+// ---- Indirect light -----------------------------------------------------------------------------
+
+bool IndirectLight::isNeeded(const Settings& settings) {
+    return settings.shading.indirect && !settings.shading.lights.empty();
+}
+
+engine::MemoryRows IndirectLight::rows(const Settings& settings) {
+    if (!isNeeded(settings)) return {};
+    return {
+        "shading",
+        {{"sources of indirect light",
+          engine::bytesOf<gpu::IndirectSource>(indirectSources(settings).count)}}};
+}
+
+IndirectLight::IndirectLight(const engine::Device& device, const Settings& settings)
+    : side_(indirectSources(settings).side), count_(indirectSources(settings).count),
+      sources_(device, rows(settings)["sources of indirect light"]),
+      make_sources_(
+          device, {.shader = "shading/indirect.comp",
+                   .constants = shadingConstants(settings),
+                   .push_size = sizeof(gpu::IndirectPush),
+                   .sampled_images = kShadowImages}),
+      gather_(
+          device,
+          {.shader = "shading/indirect.comp+gather", .push_size = sizeof(gpu::IndirectPush)}) {}
+
+void IndirectLight::record(
+    engine::Commands& commands, const SceneMeshes& meshes, std::uint64_t picture,
+    std::span<const engine::SampledImage> shadows) const {
+    const gpu::IndirectPush push{
+        .picture = picture,
+        .sources = commands.writes(sources_),
+        .side = side_,
+        .sources_count = count_};
+    commands.bind(make_sources_, push);
+    commands.images(make_sources_, shadows);
+    commands.dispatchInvocations(count_, gpu::kIndirectGroupSize);
+    meshes.gatherIndirect(commands, gather_, sources_, push);
 }
 
 }  // namespace hair::rendering

@@ -15,6 +15,7 @@
 #include "engine/commands.h"
 #include "engine/pipeline.h"
 #include "engine/transfer.h"
+#include "hair/gpu_structs.h"
 #include "hair/groom/mesh/mesh.h"
 #include "hair/rendering/render_assets.h"
 #include "hair/settings.h"
@@ -34,12 +35,14 @@ struct MeshGeometry {
         std::uint32_t index_count;  // above 0
     };
 
-    MeshGeometry(const engine::Device& device, const groom::Mesh& mesh);
+    MeshGeometry(const engine::Device& device, const Settings& settings, const groom::Mesh& mesh);
 
-    static engine::MemoryRows rows(const groom::Mesh& mesh);
+    static engine::MemoryRows rows(const Settings& settings, const groom::Mesh& mesh);
 
+    std::uint32_t vertices = 0;
     engine::Buffer positions;  // vec3
     engine::Buffer normals;  // vec3
+    engine::Buffer indirect;  // vec3, gpu::IndirectPush; empty if there is no indirect light
     engine::Buffer texture_coordinates;  // vec2; empty if the mesh has none
     engine::Buffer indices;
     std::vector<Part> parts;
@@ -105,6 +108,12 @@ public:
     // Draws the head from these buffers from now on: vec3 [vertex] each, in the world.
     void deform(const engine::Buffer& positions, const engine::Buffer& normals);
 
+    // Records the gathering of indirect light on the vertices of all meshes, with the address of the
+    // picture and the sources in `push`.
+    void gatherIndirect(
+        engine::Commands& commands, const engine::ComputePipeline& gather,
+        const engine::Buffer& sources, gpu::IndirectPush push) const;
+
     // Draws the meshes, lit, into the target that is being rendered to. `shadows` are
     // ShadowPass::images().
     void draw(
@@ -133,6 +142,14 @@ private:
         engine::Commands& commands, const engine::GraphicsPipeline& pipeline, std::uint64_t picture,
         const SceneMesh& mesh, const MeshMaterial& material) const;
 
+    // The buffers that hold a mesh's vertices now.
+    struct Vertices {
+        std::uint64_t positions;
+        std::uint64_t normals;
+        bool is_moving;
+    };
+    Vertices verticesOf(const SceneMesh& mesh) const;
+
     std::uint64_t deformed_positions_ = 0;  // addresses; 0: the head keeps its shape
     std::uint64_t deformed_normals_ = 0;
     engine::Texture blank_;
@@ -140,6 +157,32 @@ private:
     std::vector<SceneMesh> meshes_;
     std::map<MeshLook, engine::GraphicsPipeline> pipelines_;
     std::map<MeshLook, engine::GraphicsPipeline> depth_pipelines_;
+};
+
+// The light that lit hair and meshes send to meshes (/shading/indirect): parts of the lights' shadow
+// maps are small lights (Dachsbacher and Stamminger 2005, Reflective shadow maps), which each vertex
+// gathers.
+class IndirectLight {
+public:
+    // `settings` have the lights of an environment. There must be a light.
+    IndirectLight(const engine::Device& device, const Settings& settings);
+
+    // Whether there is any: the settings ask for it, and something casts shadows.
+    static bool isNeeded(const Settings& settings);
+    static engine::MemoryRows rows(const Settings& settings);
+
+    // Records it, after the maps. `shadows` are ShadowPass::images(), and `picture` is the address
+    // of gpu::PictureParameters.
+    void record(
+        engine::Commands& commands, const SceneMeshes& meshes, std::uint64_t picture,
+        std::span<const engine::SampledImage> shadows) const;
+
+private:
+    std::uint32_t side_;  // gpu::IndirectPush
+    std::uint32_t count_;
+    engine::Buffer sources_;
+    engine::ComputePipeline make_sources_;
+    engine::ComputePipeline gather_;
 };
 
 }  // namespace hair::rendering

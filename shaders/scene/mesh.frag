@@ -21,6 +21,9 @@ layout(binding = 2) uniform sampler2D normal_texture;
 layout(location = 0) in vec3 position;
 layout(location = 1) in vec3 vertex_normal;
 layout(location = 2) in vec2 coordinates;
+#ifdef HAIRBENCH_INDIRECT
+layout(location = 3) in vec3 indirect;
+#endif
 layout(location = 0) out vec4 color;
 
 vec3 surfaceNormal() {
@@ -95,6 +98,9 @@ vec3 shadeSurface(PictureParameters picture, Surface surface, vec3 normal, vec3 
     } else if (kModel != kModelMarschner && kModel != kModelDualScattering) {
         sum += picture.ambient * (diffuse + straight) * around;
     }
+#ifdef HAIRBENCH_INDIRECT
+    sum += diffuse * indirect;
+#endif
     return sum;
 }
 

@@ -13,6 +13,9 @@ layout(push_constant, scalar) uniform Push { MeshPush push; };
 layout(location = 0) out vec3 position;
 layout(location = 1) out vec3 normal;
 layout(location = 2) out vec2 coordinates;
+#ifdef HAIRBENCH_INDIRECT
+layout(location = 3) out vec3 indirect;
+#endif
 invariant gl_Position;  // the same in every pass
 
 void main() {
@@ -25,5 +28,8 @@ void main() {
     }
     coordinates = vec2(0.0);
     if (kTextured) coordinates = Coordinates(push.texture_coordinates).values[gl_VertexIndex];
+#ifdef HAIRBENCH_INDIRECT
+    indirect = Vectors(push.indirect).values[gl_VertexIndex];
+#endif
     gl_Position = picture.view_projection * vec4(position, 1.0);
 }

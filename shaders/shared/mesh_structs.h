@@ -7,6 +7,7 @@ struct MeshPush {
     Address positions;  // vec3, m
     Address normals;  // vec3, unit length
     Address texture_coordinates;  // vec2, v down; read if there are textures
+    Address indirect;  // vec3 [vertex], as IndirectPush has it; read if there is indirect light
     vec3 base_color;  // in working colours
     float opacity;
     float metallic;
@@ -14,6 +15,31 @@ struct MeshPush {
     float normal_scale;
     float cutoff;  // of opacity; read if the material is a mask
     uint is_moving;  // 1: moves with the head
+};
+
+// A part of a lit surface that lights other surfaces.
+struct IndirectSource {
+    vec3 position;  // m
+    float area;  // m^2; 0: lights nothing
+    vec3 normal;  // unit length, to the lit side
+    vec3 color;  // radiance, as working colour
+};
+
+// Indirect light on meshes is gathered from this many sources at most, of all lights together.
+const uint kMostIndirectSources = 8192u;
+const uint kIndirectGroupSize = 64u;
+
+// Push constants of shading/indirect.comp.
+struct IndirectPush {
+    Address picture;  // PictureParameters
+    Address sources;  // IndirectSource
+    Address positions;  // vec3 [vertex], m
+    Address normals;  // vec3 [vertex], unit length
+    Address light;  // vec3 [vertex]: irradiance / pi, as working colour
+    uint side;  // each light has side^2 sources of hair, and as many of meshes
+    uint sources_count;
+    uint vertices;
+    uint is_moving;  // 1: the mesh moves with the head
 };
 
 #endif

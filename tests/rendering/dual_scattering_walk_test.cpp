@@ -44,6 +44,61 @@ Step meet(const Fiber& fiber, double theta_i, Walk& walk) {
             reference::scattering(fiber, from, to, h) / reference::samplingPdf(fiber, from, to, h)};
 }
 
+// Like meet(), but the fibre's direction differs by a random angle, whose variance in each plane
+// along the fibre is the fibre's own.
+Step meetTilted(const Fiber& fiber, double theta_i, Walk& walk) {
+    const double length =
+        std::sqrt(-2 * fiber.tilt_variance * std::log(1 - walk.number()));  // Box and Muller
+    const double turn = 2 * pi * walk.number();
+    const glm::dvec3 axis =
+        glm::normalize(glm::dvec3(1, length * std::cos(turn), length * std::sin(turn)));
+    // Any vectors across the axis do: light meets the fibre at a random place.
+    const glm::dvec3 side = glm::normalize(glm::cross(axis, glm::dvec3(0, 0, 1)));
+    const glm::dmat3 frame(axis, side, glm::cross(axis, side));
+    const glm::dvec3 from = direction(std::sin(theta_i), 0);
+    const double h = 2 * walk.number() - 1;
+    const std::array u{walk.number(), walk.number(), walk.number(), walk.number()};
+    const glm::dvec3 wo = from * frame;
+    const glm::dvec3 wi = reference::sampleDirection(fiber, wo, h, u);
+    const glm::dvec3 to = frame * wi;
+    return {
+        .forward = to.y < 0,
+        .theta = -inclination(to),
+        .carried =
+            reference::scattering(fiber, wo, wi, h) / reference::samplingPdf(fiber, wo, wi, h)};
+}
+
+TEST(FiberAverages, SpreadAsFibresOfDifferentDirectionsDo) {
+    constexpr std::uint32_t kSamples = 60000;
+    ShadingSettings shading = brownFiber();
+    shading.longitudinal_roughness = 0.1f;
+    for (const float spread : {5.0f, 12.0f}) {
+        for (const float roughness : {0.1f, 0.3f}) {
+            shading.azimuthal_roughness = roughness;
+            shading.orientation_spread = spread;
+            const Fiber fiber = makeFiber(shading);
+            const FiberAverages averages = averageOverFiber(fiber, 0);
+            glm::dvec2 weight(0);
+            glm::dvec2 sum(0);
+            glm::dvec2 square(0);
+            for (std::uint32_t i = 0; i < kSamples; ++i) {
+                Walk walk{i};
+                const Step step = meetTilted(fiber, 0, walk);
+                const double carried = step.carried.r + step.carried.g + step.carried.b;
+                const glm::length_t side = step.forward ? 0 : 1;
+                weight[side] += carried;
+                sum[side] += carried * step.theta;
+                square[side] += carried * step.theta * step.theta;
+            }
+            const glm::dvec2 mean = sum / weight;
+            const glm::dvec2 variance = square / weight - mean * mean;
+            // The bound of AreTheMeansOfSampledDirections, for the same reasons.
+            EXPECT_NEAR(variance.x / averages.forward_variance, 1, 0.15) << spread << roughness;
+            EXPECT_NEAR(variance.y / averages.backward_variance, 1, 0.15) << spread << roughness;
+        }
+    }
+}
+
 TEST(FiberAverages, AreTheMeansOfSampledDirections) {
     constexpr std::uint32_t kSamples = 40000;
     const Fiber fiber = makeFiber(brownFiber());

@@ -1,5 +1,7 @@
 #include <algorithm>
+#include <cmath>
 #include <numbers>
+#include <vector>
 
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
@@ -195,6 +197,119 @@ TEST_F(MeshPictureTest, HasTwoSidesIfItsMaterialHas) {
     EXPECT_EQ(at(drawQuad(device(), settings, mesh), 9, 4, 4), kBackground);
     mesh.materials[0].double_sided = true;
     expectNear(at(drawQuad(device(), settings, mesh), 9, 4, 4), 255.0 * 0.8);
+}
+
+// ---- Indirect light ----
+
+// A floor at y = 0 before a wall at z = 0. Light falls straight down, so it misses the wall.
+class IndirectLightTest : public GpuTest {
+protected:
+    static constexpr float kSide = 0.2f;  // m, of the floor and the wall
+    static constexpr std::uint32_t kPixels = 20;  // of the wall's side
+    static constexpr std::uint32_t kSteps = 20;  // of the meshes, along each side
+    static constexpr glm::vec3 kColor{0.8f, 0.5f, 0.2f};  // display RGB
+
+    static void addSquare(
+        groom::Mesh& mesh, const glm::vec3& corner, const glm::vec3& right, const glm::vec3& up) {
+        const auto first = static_cast<std::uint32_t>(mesh.positions.size());
+        constexpr float kStep = 1.0f / kSteps;
+        for (std::uint32_t y = 0; y <= kSteps; ++y) {
+            for (std::uint32_t x = 0; x <= kSteps; ++x) {
+                mesh.positions.push_back(
+                    corner + kStep * (static_cast<float>(x) * right + static_cast<float>(y) * up));
+                mesh.normals.push_back(glm::normalize(glm::cross(right, up)));
+                if (x == kSteps || y == kSteps) continue;
+                const std::uint32_t at = first + y * (kSteps + 1) + x;
+                mesh.triangles.push_back({at, at + 1, at + kSteps + 2});
+                mesh.triangles.push_back({at, at + kSteps + 2, at + kSteps + 1});
+                mesh.triangle_materials.insert(mesh.triangle_materials.end(), {0, 0});
+            }
+        }
+    }
+
+    static groom::Mesh floorAndWall() {
+        groom::Mesh mesh{.materials = {{.base_color = kColor, .roughness = 1.0f}}};
+        const glm::vec3 right(kSide, 0.0f, 0.0f);
+        addSquare(mesh, {-kSide / 2, 0.0f, kSide}, right, {0.0f, 0.0f, -kSide});
+        addSquare(mesh, {-kSide / 2, 0.0f, 0.0f}, right, {0.0f, kSide, 0.0f});
+        return mesh;
+    }
+
+    static Settings settings() {
+        Settings settings = linearSettings(kPixels);
+        settings.render.background = glm::vec3(0.0f);
+        settings.camera.position = {0.0f, kSide / 2, kSide / 2};
+        settings.camera.target = {0.0f, kSide / 2, 0.0f};
+        settings.camera.near_plane = 0.001f;
+        settings.shading.ambient = 0.0f;
+        settings.shading.lights = {
+            {.type = LightType::directional, .direction = {0.0f, -1.0f, 0.0f}}};
+        settings.shading.shadows.meshes = true;
+        settings.shading.indirect = true;
+        return settings;
+    }
+
+    // Linear light, [row][column] RGB.
+    static std::vector<float> draw(const Settings& settings, const groom::Mesh& mesh) {
+        const DeviceHair hair(
+            device(), oneTriangle(std::vector{glm::vec3(0, 0, 5), glm::vec3(0, 0.1, 5)}), settings);
+        Renderer renderer(device(), settings, hair.view(), {.head = &mesh});
+        engine::FrameLoop loop(device(), engine::Timing::overlapped);
+        loop.frame([&](engine::Passes& passes) { renderer.record(passes, hair.view()); });
+        loop.finish();
+        return engine::readRadiance(device(), renderer.target());
+    }
+
+    // The part of the hemisphere over a point of the wall, weighted by the cosine, that the floor
+    // fills.
+    static double formFactor(double x, double y) {
+        constexpr int kParts = 400;
+        const double step = double{kSide} / kParts;
+        double sum = 0.0;
+        for (int i = 0; i < kParts; ++i) {
+            for (int k = 0; k < kParts; ++k) {
+                const double across = (i + 0.5) * step - double{kSide} / 2 - x;
+                const double z = (k + 0.5) * step;
+                const double squared = across * across + y * y + z * z;
+                sum += z * y / (squared * squared) * step * step;
+            }
+        }
+        return sum / std::numbers::pi;
+    }
+};
+
+double linearOf(double display) { return std::pow((display + 0.055) / 1.055, 2.4); }
+
+TEST_F(IndirectLightTest, OfAFloorFillsItsPartOfTheWallsHemisphere) {
+    const groom::Mesh mesh = floorAndWall();
+    const std::vector<float> light = draw(settings(), mesh);
+    for (std::uint32_t row = 0; row + 3 < kPixels; ++row) {  // from 3.5 cm above the floor on
+        for (std::uint32_t column = 0; column < kPixels; ++column) {
+            const double pixel = double{kSide} / kPixels;
+            const double x = (column + 0.5) * pixel - double{kSide} / 2;
+            const double y = double{kSide} - (row + 0.5) * pixel;
+            for (std::size_t c = 0; c < 3; ++c) {
+                // A dielectric returns 0.96 of the light that its matt part gets.
+                const double color = 0.96 * linearOf(double{kColor[static_cast<int>(c)]});
+                const double expected = color * color * formFactor(x, y);
+                // The map has sources 12 mm apart, so the floor's edges are off by up to 6 mm of
+                // its 200 mm, and the nearest sources stand for areas a third as wide as they are
+                // far away.
+                EXPECT_NEAR(light[3 * (row * kPixels + column) + c] / expected, 1.0, 0.06)
+                    << row << ' ' << column << ' ' << c;
+            }
+        }
+    }
+}
+
+TEST_F(IndirectLightTest, IsNoneWhereNothingIsLit) {
+    Settings off = settings();
+    off.shading.lights[0].direction = {0.0f, 1.0f, 0.0f};  // at the floor's back
+    for (const float light : draw(off, floorAndWall())) EXPECT_EQ(light, 0.0f);
+    off = settings();
+    off.shading.indirect = false;
+    const std::vector<float> light = draw(off, floorAndWall());
+    for (std::size_t i = 0; i < std::size_t{3} * kPixels; ++i) EXPECT_EQ(light[i], 0.0f);
 }
 
 }  // namespace
