@@ -148,8 +148,17 @@ const Table& tableOf(const MaterialSettings*) {
          number(
              "set_time", &S::set_time, 0.001, 1000, "s",
              "time in which that share's moment falls to 1/e while hair is held; the set of free "
-             "hair falls to 1/e in set_time / (1 - set_share)")});
+             "hair falls to 1/e in set_time / (1 - set_share)"),
+         number(
+             "water", &S::water, 0, 10, "1",
+             "water on the hair, over the hair's own mass: its weight, and wet hair's darker "
+             "colour "
+             "and narrower highlights; 0.2 fills the gaps of a clump, soaked hair has up to 1")});
     return table;
+}
+
+double wetDensity(const MaterialSettings& material) {
+    return double{material.density} * (1.0 + double{material.water});
 }
 
 const Table& tableOf(const WindSettings*) {
@@ -269,6 +278,11 @@ const Table& tableOf(const HairHairSettings*) {
              "shear stress up to which hairs stick to each other without pressure, divided by the "
              "density; over g, the height of a layer of hair that it holds on a wall; 0.05 for "
              "dry hair with some hold to 1 for gel; instead of `friction`"),
+         number(
+             "attraction", &S::attraction, 0, 1000, "m^2/s^2",
+             "energy that two guides release where water joins them, over the mass of one; 1 for "
+             "single wet hairs and 0.1 for guides that stand for 100; used up to half of (cell / "
+             "time step)^2 in crowded hair, with friction_coefficient or cohesion up to a quarter"),
          number(
              "repulsion", &S::repulsion, 0, 1000, "m^2/s^2",
              "square of the speed of sound in crowded hair: its pressure divided by the density "

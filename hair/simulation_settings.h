@@ -101,9 +101,13 @@ struct MaterialSettings {
     float damping = 0.0f;
     float set_share = 0.0f;
     float set_time = 1.0f;
+    float water = 0.0f;
 };
 
 const Table& tableOf(const MaterialSettings*);
+
+// Mass of hair and its water per volume of dry hair, kg/m^3.
+double wetDensity(const MaterialSettings& material);
 
 enum class WindMode { thesis, drag };
 
@@ -162,11 +166,12 @@ struct CollisionSettings {
 const Table& tableOf(const CollisionSettings*);
 
 // Petrovic, Henne and Anderson 2005, Volumetric methods for simulation and rendering of hair.
-// Contact is off if friction, repulsion and cohesion are 0.
+// Contact is off if friction, repulsion, cohesion and attraction are 0.
 struct HairHairSettings {
     float friction = 0.0f;
     float friction_coefficient = 0.0f;
     float cohesion = 0.0f;
+    float attraction = 0.0f;
     float repulsion = 0.0f;
     float crowding = 1.0f;
     float shelter = 0.0f;

@@ -309,6 +309,7 @@ constexpr Check kChecks[] = {
     {"slide", checkSlide},
     {"contact_momentum", checkContactMomentum},
     {"hair_friction", checkHairFriction},
+    {"wet_hair", checkWetHair},
     {"friction_invariance", checkFrictionInvariance},
     {"length", checkLength},
     {"energy", checkEnergy},

@@ -238,6 +238,8 @@ void checkSlide(const engine::Device&, const CheckedSolver&, Findings&);
 void checkContactMomentum(const engine::Device&, const CheckedSolver&, Findings&);
 // Layers of hair on hair that friction or cohesion holds, and the stress when they slide.
 void checkHairFriction(const engine::Device&, const CheckedSolver&, Findings&);
+// Weight of water in hair, and wet hairs that join.
+void checkWetHair(const engine::Device&, const CheckedSolver&, Findings&);
 // Sliding speed of hair past hair, at any time step.
 void checkFrictionInvariance(const engine::Device&, const CheckedSolver&, Findings&);
 

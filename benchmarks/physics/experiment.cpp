@@ -260,7 +260,7 @@ double bendingStiffness(const hair::MaterialSettings& material) {
 }
 
 double lineDensity(const hair::MaterialSettings& material) {
-    return double{material.density} * kPi * std::pow(double{material.radius}, 2.0);
+    return wetDensity(material) * kPi * std::pow(double{material.radius}, 2.0);
 }
 
 std::optional<std::string> lack(hair::Solver solver, Need need) {

@@ -322,7 +322,7 @@ void writeMitsubaScene(
     out << kBegin;
     writeCamera(out, settings);
     writeMitsubaLights(out, settings, parts.environment_file);
-    if (!parts.hair_file.empty()) writeHair(out, settings.shading, parts);
+    if (!parts.hair_file.empty()) writeHair(out, hair::rendering::wetted(settings).shading, parts);
     for (const MitsubaParts::Mesh& mesh : parts.meshes) writeMesh(out, settings.render, mesh);
     out << "</scene>\n";
 }
@@ -611,7 +611,7 @@ MitsubaExport exportMitsuba(
             parts.absorption_file = "absorption.exr";
             writeMitsubaAbsorption(
                 folder / parts.absorption_file, strands, measure::drawnPowers(drawn),
-                hair::rendering::absorption(settings.shading));
+                hair::rendering::absorption(hair::rendering::wetted(settings).shading));
         }
         result.strands = strands.strandCount();
         result.points = strands.points.size();

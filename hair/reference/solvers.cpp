@@ -182,7 +182,7 @@ RodSolver::RodSolver(
         const auto points = groom.strand(i);
         rests_.push_back(makeRodRest(
             std::vector<glm::dvec3>(points.begin(), points.end()),
-            {.density = material.density,
+            {.density = wetDensity(material),
              .radius = material.radius,
              .ellipticity = material.ellipticity,
              .youngs_modulus = material.youngs_modulus,
@@ -284,8 +284,7 @@ void stepMassSpring(RodState& state, const RodRest& rest, const RodStep& step) {
          .velocity_kept = keptFactor(step.settings, step.step),
          .spring_stiffness = double{settings.spring_modulus} * section,
          .integrity = settings.integrity,
-         .angular_stiffness =
-             double{settings.angular_stiffness} * double{material.density} * section,
+         .angular_stiffness = double{settings.angular_stiffness} * wetDensity(material) * section,
          .iterations = settings.iterations},
         step.air);
 }

@@ -169,7 +169,7 @@ dragAcceleration(const WindSettings& settings, const MaterialSettings& material,
     const double reynolds = density * speed * 2.0 * radius / double{settings.air_viscosity};
     const double coefficient = 1.0 + 10.0 / std::pow(reynolds, 2.0 / 3.0);
     const double force = density / 2.0 * coefficient * 2.0 * radius * speed * speed;  // N/m
-    return force / (double{material.density} * std::numbers::pi * radius * radius);
+    return force / (wetDensity(material) * std::numbers::pi * radius * radius);
 }
 
 std::vector<glm::dvec3> tangentsBetween(ConstPoints directions) {
@@ -208,7 +208,7 @@ std::vector<glm::dvec3> alongAccelerations(
     ConstPoints positions, ConstPoints velocities, ConstPoints air,
     const SimulationSettings& settings, double step) {
     const double radius = settings.material.radius;
-    const double line = std::numbers::pi * radius * radius * double{settings.material.density};
+    const double line = std::numbers::pi * radius * radius * wetDensity(settings.material);
     const double rate = std::min(
         double{settings.wind.drag_along} * double{settings.wind.air_viscosity} / line, 1.0 / step);
     std::vector<glm::dvec3> accelerations;
@@ -415,6 +415,14 @@ lengthInside(const glm::dvec3& point, const glm::dvec3& direction, const glm::dv
     return std::max(last - first, 0.0);
 }
 
+// Returns the length of all strands at rest, m.
+double lengthOf(const VolumeState& state) {
+    double length = 0.0;
+    for (std::size_t root = 0; root < state.rest.size(); root += state.vertices)
+        length += lengthBetween(state.rest, root, root + state.vertices - 1);
+    return length;
+}
+
 // Hair that sticks up to a yield stress. Returns the elastic displacement in a step, m/s, without
 // flow in this step, and the potential, both in the head's axes.
 struct Elastic {
@@ -468,11 +476,8 @@ void shelterAir(
     const std::vector<glm::dvec3> points = pointsInCells(state, box, velocities);
     const Grid grid = splat(points, velocities, sharesOf(state));
     const double diameter = 2.0 * double{settings.material.radius};
-    double length = 0.0;
-    for (std::size_t root = 0; root < state.rest.size(); root += state.vertices)
-        length += lengthBetween(state.rest, root, root + state.vertices - 1);
     const double area =
-        diameter * double{settings.hair_hair.shelter} * length / (box.cell * box.cell);
+        diameter * double{settings.hair_hair.shelter} * lengthOf(state) / (box.cell * box.cell);
     const double viscous =
         10.0 * std::pow(double{settings.wind.air_viscosity} / (density * diameter), 2.0 / 3.0);
     for (std::size_t p = 0; p < points.size(); ++p) {
@@ -498,7 +503,9 @@ volumeAccelerations(const SimulationSettings& settings, const VolumeState& state
     const HairHairSettings& contact = settings.hair_hair;
     std::vector<glm::dvec3> accelerations(state.positions.size(), glm::dvec3(0.0));
     const bool sticks = yields(contact);
-    if (contact.friction == 0.0f && contact.repulsion == 0.0f && !sticks) return accelerations;
+    if (contact.friction == 0.0f && contact.repulsion == 0.0f && contact.attraction == 0.0f &&
+        !sticks)
+        return accelerations;
 
     const double step = state.step.whole;
     const Box box = boxOf(state, contact.resolution);
@@ -509,11 +516,17 @@ volumeAccelerations(const SimulationSettings& settings, const VolumeState& state
     const double exponent = -60.0 * step * std::log(1.0 - contact.friction);
     const double predicted =
         contact.friction > 0.0f
-            ? std::min(1.0 - (1.0 - decay) / exponent, contact.repulsion > 0.0f ? decay : 0.75)
+            ? std::min(
+                  1.0 - (1.0 - decay) / exponent,
+                  contact.repulsion > 0.0f || contact.attraction > 0.0f ? decay : 0.75)
             : 0.0;
     std::vector<glm::dvec3> left;
-    const double repulsion =
-        std::min(double(contact.repulsion), (sticks ? 0.25 : 0.5) * std::pow(box.cell / step, 2.0));
+    const double stiffest = (sticks ? 0.25 : 0.5) * std::pow(box.cell / step, 2.0);
+    const double repulsion = std::min(double(contact.repulsion), stiffest);
+    // Two strands of the mass per length 1 / length release `attraction` times it.
+    const double depth = std::min(
+        double(contact.attraction) * crowded * lengthOf(state) / (0.55 * 0.55 * box.cell),
+        stiffest);
 
     std::vector<glm::dvec3> velocities = state.velocities();
     const std::vector<glm::dvec3> points = pointsInCells(state, box, velocities);
@@ -536,7 +549,8 @@ volumeAccelerations(const SimulationSettings& settings, const VolumeState& state
             std::span(velocities).subspan(first, vertices),
             std::span(shares).subspan(first, vertices));
         const auto potential = [&](double share) {
-            return share > crowded ? repulsion * std::log(share / crowded) : 0.0;
+            return (share > crowded ? repulsion * std::log(share / crowded) : 0.0) -
+                   depth * std::min(share / crowded, 1.0);
         };
         for (std::size_t p = first; p < first + vertices; ++p) {
             glm::dvec3 drag(0.0);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 namespace hair::rendering {
 namespace {
@@ -19,6 +20,30 @@ double colorScale(const ShadingSettings& shading) {
 glm::dvec3 pigmentAbsorption(const ShadingSettings& shading) {
     return static_cast<double>(shading.eumelanin) * kEumelanin +
            static_cast<double>(shading.pheomelanin) * kPheomelanin;
+}
+
+// ---- Wet hair -----------------------------------------------------------------------------------
+
+constexpr double kWaterIndex = 1.333;
+constexpr double kWaterDensity = 1000.0;  // kg/m^3
+constexpr double kSmoothest = 0.05;  // the least longitudinal roughness that may be set
+
+// Returns the part of the hair that its water covers.
+double coveredPart(const MaterialSettings& material) {
+    const double filling = (4.0 / std::numbers::pi - 1.0) * kWaterDensity / material.density;
+    return std::min(material.water / filling, 1.0);
+}
+
+// Returns the reflectance of a surface with this relative index, at normal incidence.
+double normalReflectance(double index) {
+    const double root = (index - 1.0) / (index + 1.0);
+    return root * root;
+}
+
+// Returns the index of a surface with this reflectance at normal incidence.
+double indexOf(double reflectance) {
+    const double root = std::sqrt(reflectance);
+    return (1.0 + root) / (1.0 - root);
 }
 
 }  // namespace
@@ -66,6 +91,34 @@ glm::dvec3 linearColor(const ShadingSettings& shading) {
     glm::dvec3 color;
     for (int i = 0; i < 3; ++i) color[i] = std::exp(-colorScale(shading) * std::sqrt(absorbed[i]));
     return color;
+}
+
+Settings wetted(Settings settings) {
+    const double covered = coveredPart(settings.simulation.material);
+    if (covered == 0.0) return settings;
+    ShadingSettings& shading = settings.shading;
+    const double returned = covered * (1.0 - 1.0 / (kWaterIndex * kWaterIndex));
+    const glm::dvec3 dry = linearColor(shading);
+    shading.color = toDisplay((1.0 - returned) * dry / (1.0 - returned * dry));
+    shading.color_from = ColorSource::rgb;
+
+    const double index = shading.refractive_index;
+    const double outer = normalReflectance(kWaterIndex);
+    const double inner = normalReflectance(index / kWaterIndex);
+    const double film = outer + (1.0 - outer) * (1.0 - outer) * inner / (1.0 - outer * inner);
+    const double wet_index = std::lerp(index, indexOf(film), covered);
+    const double narrowed = std::lerp(1.0, std::abs(index - kWaterIndex) / (index - 1.0), covered);
+    const auto scale = [](float& value, double factor) {
+        value = static_cast<float>(value * factor);
+    };
+    // Specular light over its width, in the one direction in which cones of highlights have one.
+    scale(shading.specular, normalReflectance(wet_index) / normalReflectance(index) / narrowed);
+    scale(shading.exponent, 1.0 / (narrowed * narrowed));
+    shading.longitudinal_roughness =
+        static_cast<float>(std::max(shading.longitudinal_roughness * narrowed, kSmoothest));
+    scale(shading.cuticle_tilt, narrowed);
+    shading.refractive_index = static_cast<float>(wet_index);
+    return settings;
 }
 
 }  // namespace hair::rendering

@@ -62,4 +62,22 @@ glm::dvec3 absorption(const ShadingSettings& shading);
 // Returns the linear RGB of a mass of hair.
 glm::dvec3 linearColor(const ShadingSettings& shading);
 
+// Returns the settings with the look of wet hair, which holds the water of /simulation/material.
+// Without water they are the same. c is the part of the hair that water covers, with the index n_w
+// = 1.333: 1 if it fills the gaps of hairs that lie side by side in a square lattice, 4 / pi - 1 of
+// their volume. All changes grow with c.
+//
+// * A mass of hair with the albedo a: water's surface throws p = 1 - 1 / n_w^2 of the light that
+//   comes out of the mass back into it, so that it is (1 - p) a / (1 - p a) (Angstrom 1925, The
+//   albedo of various surfaces of ground; Lekner and Dorf 1988, Why some things are darker when
+//   wet). The absorption of fibres follows from this colour.
+// * A fibre reflects like a film of water on hair of the index n, R_1 + (1 - R_1)^2 R_2 / (1 - R_1
+//   R_2) with the normal reflectances of air on water and of water on hair: its refractive index is
+//   that of such a surface.
+// * The surface that scatters is that of hair in water, which deflects light by s = (n - n_w) / (n
+// -
+//   1) of what it does in air: longitudinal roughness and tilt of the cuticle are s times as great.
+//   Models without a fibre have a highlight s times as wide, with the light of that reflectance.
+Settings wetted(Settings settings);
+
 }  // namespace hair::rendering

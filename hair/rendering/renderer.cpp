@@ -345,7 +345,7 @@ Renderer::Renderer(
     const RenderAssets& assets, const StrandStages& stages)
     : plan_(planStrands(view, settings, device.info().limits.maxTessellationGenerationLevel)),
       backend_(chooseBackend(device, settings, plan_, stages)),
-      settings_(litByEnvironment(withBackend(settings, backend_.backend), assets)),
+      settings_(litByEnvironment(withBackend(wetted(settings), backend_.backend), assets)),
       target_(device, rendered(settings_)),
       lights_(engine::makeBuffer(device, lightsOfHeads(settings_), "lights", "shading")),
       optics_(device, settings_), points_(makePoints(device, settings_, plan_)),

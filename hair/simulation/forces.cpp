@@ -77,7 +77,7 @@ double windMagnitude(const WindSettings& settings, double time) {
 
 // The density multiplies the power and divides nothing: it may be 0.
 DragFactors dragFactors(const WindSettings& settings, const MaterialSettings& material) {
-    const double line = std::numbers::pi * double{material.radius} * double{material.density};
+    const double line = std::numbers::pi * double{material.radius} * wetDensity(material);
     const double layer = double{settings.air_viscosity} / (2.0 * double{material.radius});
     return {
         .inertial = double{settings.air_density} / line,

@@ -25,6 +25,7 @@ static_assert(sizeof(gpu::VolumeBlock) == 8);
 static_assert(sizeof(gpu::VolumePush) == 52);
 static_assert(sizeof(gpu::ShelterPush) == 72);
 static_assert(sizeof(gpu::YieldPush) == 96 && offsetof(gpu::YieldPush, frame_before) == 60);
+static_assert(sizeof(gpu::VolumeAttraction) == 8);
 
 // Reach of the grids beyond the roots, over the longest strand's length. The thesis's length
 // constraint lets strands stretch.
@@ -37,6 +38,9 @@ constexpr double kMostPredicted = 0.75;
 // Largest repulsion in use, over (cell / step)^2.
 constexpr double kGreatestRepulsion = 0.5;
 constexpr double kGreatestRepulsionInYield = 0.25;
+// Part of a cell's face in which two strands on top of each other, along an axis of the grid, are
+// as if they were spread evenly over it: the square of the spline's own overlap, 11 / 20.
+constexpr double kPairOverlap = 0.3025;
 // Jump of the potential at which hair yields, over yield stress / density * step / cell: the mean
 // of the values for a sharp jump and for an even slope.
 constexpr double kYieldJump = 0.5 * (840.0 / 239.0 + 64.0 / 13.0);
@@ -92,14 +96,20 @@ Friction frictionIn(const HairHairSettings& contact, double step) {
     if (setting == 0.0) return {};
     const double rate = -std::log1p(-setting) / kReferenceStep;
     const double settled = -std::expm1(-rate * step);
-    const double most = contact.repulsion > 0.0f ? 1.0 - settled : kMostPredicted;
+    const bool springs = contact.repulsion > 0.0f || contact.attraction > 0.0f;
+    const double most = springs ? 1.0 - settled : kMostPredicted;
     return {.settled = settled, .predicted = std::min(1.0 - settled / (rate * step), most)};
+}
+
+// Returns the greatest stiffness that is stable, m^2/s^2.
+double greatestRepulsion(const HairHairSettings& contact, double cell, double step) {
+    const double greatest = yields(contact) ? kGreatestRepulsionInYield : kGreatestRepulsion;
+    return greatest * (cell / step) * (cell / step);
 }
 
 // Returns the repulsion in use, m^2/s^2.
 double repulsionIn(const HairHairSettings& contact, double cell, double step) {
-    const double greatest = yields(contact) ? kGreatestRepulsionInYield : kGreatestRepulsion;
-    return std::min(double{contact.repulsion}, greatest * (cell / step) * (cell / step));
+    return std::min(double{contact.repulsion}, greatestRepulsion(contact, cell, step));
 }
 
 // Returns the parameters without addresses.
@@ -135,14 +145,39 @@ yieldOf(const groom::Groom& groom, const HairHairSettings& contact, const gpu::S
     return push;
 }
 
+bool attracts(const HairHairSettings& settings) { return settings.attraction > 0.0f; }
+
 bool touches(const HairHairSettings& settings) {
-    return settings.friction > 0.0f || settings.repulsion > 0.0f || yields(settings);
+    return settings.friction > 0.0f || settings.repulsion > 0.0f || yields(settings) ||
+           attracts(settings);
 }
 
 double lengthOf(const groom::Groom& groom) {
     double length = 0.0;
     for (std::uint32_t s = 0; s < groom.strand_count; ++s) length += strandLength(groom.strand(s));
     return length;
+}
+
+// Returns the attraction's potential in crowded hair in use, m^2/s^2.
+double attractionIn(
+    const groom::Groom& groom, const HairHairSettings& contact, const VolumeGrid& grid,
+    double step) {
+    if (!attracts(contact)) return 0.0;
+    const double crowded = double{contact.crowding} * meanRestDensity(groom, grid);
+    const double strands = crowded * lengthOf(groom) / grid.cell;  // through a cell's face
+    return std::min(
+        double{contact.attraction} * strands / kPairOverlap,
+        greatestRepulsion(contact, grid.cell, step));
+}
+
+// Returns the part that is constant in a simulation's life.
+gpu::VolumeAttraction
+attractionOf(const groom::Groom& groom, const HairHairSettings& contact, const gpu::Step& step) {
+    const VolumeGrid grid = volumeGrid(groom, contact.resolution);
+    const double whole = step.whole;
+    return {
+        .attraction = static_cast<float>(attractionIn(groom, contact, grid, whole) / grid.cell),
+        .repulsion = static_cast<float>(repulsionIn(contact, grid.cell, whole) / grid.cell)};
 }
 
 // Returns the frontal area of the groom's hairs over that of a cell's face.
@@ -178,9 +213,26 @@ std::string perCell(const engine::Device& device) {
     return slices(device) + (isPacked(device) ? "+packed" : "");
 }
 
+// The push constants of simulation/volume_force.comp+attraction.
+template <class Push>
+struct WithAttraction {
+    Push push;
+    gpu::VolumeAttraction attraction;
+};
+
+static_assert(offsetof(WithAttraction<gpu::VolumePush>, attraction) == 52);
+static_assert(offsetof(WithAttraction<gpu::YieldPush>, attraction) == 96);
+
 template <class Push = gpu::VolumePush>
 engine::ComputePipeline pipeline(const engine::Device& device, const std::string& shader) {
     return {device, {.shader = shader, .push_size = sizeof(Push)}};
+}
+
+template <class Push>
+engine::ComputePipeline forcePipeline(
+    const engine::Device& device, const std::string& shader, const HairHairSettings& settings) {
+    if (!attracts(settings)) return pipeline<Push>(device, shader);
+    return pipeline<WithAttraction<Push>>(device, shader + "+attraction");
 }
 
 }  // namespace
@@ -264,6 +316,7 @@ HairHair::HairHair(
     const gpu::Step& step)
     : vertex_count_(static_cast<std::uint32_t>(groom.points.size())),
       yield_(yieldOf(groom, settings.hair_hair, step)),
+      attraction_(attractionOf(groom, settings.hair_hair, step)),
       area_per_share_(areaPerShare(groom, settings)),
       sample_(
           yields(settings.hair_hair)
@@ -274,13 +327,13 @@ HairHair::HairHair(
         throw engine::Error(
             "/simulation/hair_hair/friction",
             "is above 0, but friction_coefficient or cohesion takes its place");
+    const std::string force = "simulation/volume_force.comp" + slices(device);
     if (yields(settings.hair_hair)) {
         spread_.emplace(
             pipeline<gpu::YieldPush>(device, "simulation/volume_spread.comp" + perCell(device)));
-        force_.emplace(pipeline<gpu::YieldPush>(
-            device, "simulation/volume_force.comp" + slices(device) + "+yield"));
+        force_ = forcePipeline<gpu::YieldPush>(device, force + "+yield", settings.hair_hair);
     } else if (touches(settings.hair_hair)) {
-        force_.emplace(pipeline(device, "simulation/volume_force.comp" + slices(device)));
+        force_ = forcePipeline<gpu::VolumePush>(device, force, settings.hair_hair);
     }
     if (settings.hair_hair.shelter > 0.0f)
         shelter_.emplace(
@@ -329,6 +382,14 @@ void HairHair::recordShelter(
          {blocks_, Access::compute_read},
          {sums_, Access::compute_read}});
     commands.dispatchInvocations(vertex_count_, gpu::kGuideGroupSize);
+}
+
+template <class Push>
+void HairHair::bindForce(engine::Commands& commands, const Push& push) const {
+    if (attraction_.attraction > 0.0f)
+        commands.bind(*force_, WithAttraction<Push>{push, attraction_});
+    else
+        commands.bind(*force_, push);
 }
 
 void HairHair::record(
@@ -381,10 +442,10 @@ void HairHair::record(
 
         yield.spreads = commands.reads(*spreads_);
         yield.accelerations = commands.writes(guides.accelerations);
-        commands.bind(*force_, yield);
+        bindForce(commands, yield);
     } else {
         push.accelerations = commands.writes(guides.accelerations);
-        commands.bind(*force_, push);
+        bindForce(commands, push);
     }
     commands.uses(
         {{samples_, Access::compute_read},

@@ -196,7 +196,7 @@ std::vector<glm::vec4> withMass(const groom::Groom& groom, double line_density) 
 }
 
 double lineDensity(const MaterialSettings& material) {
-    return double{material.density} * std::numbers::pi * double{material.radius} *
+    return wetDensity(material) * std::numbers::pi * double{material.radius} *
            double{material.radius};
 }
 

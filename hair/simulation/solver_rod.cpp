@@ -419,12 +419,14 @@ restOfRods(const groom::Groom& groom, const SimulationSettings& settings, const 
     const double radius = material.radius;
     const double substep = step.sub;
     const double bending = substep * substep * double{material.youngs_modulus} * radius * radius /
-                           (4.0 * double{material.density});
+                           (4.0 * wetDensity(material));
     const double twisting = std::clamp(
         torsionOf(double{material.ellipticity}) * double{material.shear_modulus} /
             double{material.youngs_modulus},
         1.0 / kMostAnisotropy, kMostAnisotropy);
-    const glm::dvec3 pull = substep * substep * gravityOnGroom(settings);
+    // The groom is that of dry hair.
+    const double dry = double{material.density} / wetDensity(material);
+    const glm::dvec3 pull = dry * substep * substep * gravityOnGroom(settings);
 
     RodRest rest;
     // Balancing only knows the energy of `rod`.
@@ -540,7 +542,7 @@ RodMethod stableCosseratMethod(const SimulationSettings& settings) {
         .scratch_rows = gpu::kStableCosseratScratchRows,
         .iterations = settings.stable_cosserat.iterations,
         .stretching =
-            double{settings.stable_cosserat.stretch_modulus} / double{settings.material.density},
+            double{settings.stable_cosserat.stretch_modulus} / wetDensity(settings.material),
         .cosserat = settings.stable_cosserat.method};
 }
 
@@ -549,7 +551,7 @@ RodMethod positionBasedMethod(const SimulationSettings& settings) {
         .shader = "simulation/position_based_rod.comp",
         .scratch_rows = gpu::kPositionBasedScratchRows,
         .iterations = settings.position_based_rod.iterations,
-        .stretching = double{settings.material.youngs_modulus} / double{settings.material.density}};
+        .stretching = double{settings.material.youngs_modulus} / wetDensity(settings.material)};
 }
 
 RodMethod augmentedMassSpringMethod(const SimulationSettings& settings) {
@@ -558,7 +560,7 @@ RodMethod augmentedMassSpringMethod(const SimulationSettings& settings) {
         .shader = "simulation/augmented_mass_spring.comp",
         .scratch_rows = gpu::kMassSpringScratchRows,
         .iterations = springs.iterations,
-        .stretching = double{springs.spring_modulus} / double{settings.material.density},
+        .stretching = double{springs.spring_modulus} / wetDensity(settings.material),
         .integrity = springs.integrity,
         .angular = springs.angular_stiffness};
 }

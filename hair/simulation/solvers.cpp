@@ -91,7 +91,7 @@ ExtendedSolver::ExtendedSolver(
         std::array{gpu::ExtendedParameters{
             .earlier = earlier_.address(),
             .memory = memory_.address(),
-            .density = material.density,
+            .density = static_cast<float>(wetDensity(material)),
             .radius = material.radius,
             .ellipticity = material.ellipticity,
             .youngs_modulus = material.youngs_modulus,

@@ -76,6 +76,12 @@ struct YieldPush {
     float cohesive;  // that without pressure, m/s
 };
 
+// Where hair attracts hair, the push constants of simulation/volume_force.comp end with this.
+struct VolumeAttraction {
+    float attraction;  // potential in crowded hair over a cell, m/s^2
+    float repulsion;  // VolumeParameters::repulsion
+};
+
 // A distance of potentials in units of VolumeBlock::fastest's power of two is below this.
 const float kVolumeSpreadRange = 4.0;
 

@@ -1,15 +1,21 @@
 #version 460
 // Adds friction and repulsion from the grids to every guide vertex's acceleration; hair_hair.h has
 // the equations. One invocation per vertex. With HAIRBENCH_YIELD, friction holds up to a yield
-// stress.
+// stress. With HAIRBENCH_ATTRACTION, hair attracts hair.
 #extension GL_GOOGLE_include_directive : require
 
 #include "simulation/volume.glsl"
 
 layout(local_size_x = kGuideGroupSize) in;
 
+#ifdef HAIRBENCH_ATTRACTION
+#define AND_ATTRACTION VolumeAttraction attraction;
+#else
+#define AND_ATTRACTION
+#endif
+
 #ifdef HAIRBENCH_YIELD
-layout(push_constant, scalar) uniform Push { YieldPush push; };
+layout(push_constant, scalar) uniform Push { YieldPush push; AND_ATTRACTION };
 layout(buffer_reference, scalar) readonly buffer Spreads { uvec2 at[]; };
 
 // The part of its elastic friction that hair in a cell bears, from the cell's share, both sums of
@@ -22,11 +28,19 @@ float heldPart(float share, float crowded, vec2 spread, float unit) {
     return jump <= yield ? 1.0 : yield / jump;
 }
 #else
-layout(push_constant, scalar) uniform Push { VolumePush push; };
+layout(push_constant, scalar) uniform Push { VolumePush push; AND_ATTRACTION };
 #endif
 
+#ifdef HAIRBENCH_ATTRACTION
+// The potential of repulsion and attraction in a cell with this share, over a cell, m/s^2.
+float potential(float share, float crowded) {
+    return attraction.repulsion * log(max(share / crowded, 1.0)) -
+           attraction.attraction * min(share / crowded, 1.0);
+}
+#else
 // The pressure's potential in a cell with this share, divided by the setting of the repulsion.
 float potential(float share, float crowded) { return log(max(share / crowded, 1.0)); }
+#endif
 
 void main() {
     VolumeParameters volume = VolumeReference(push.volume).parameters;
@@ -43,7 +57,7 @@ void main() {
 #ifdef HAIRBENCH_YIELD
     vec3 held = vec3(0.0);  // m/s, of `dragged`
 #endif
-    vec3 pushed = vec3(0.0);   // 1/cell, head axes
+    vec3 pushed = vec3(0.0);   // head axes; 1/cell, or m/s^2 with attraction
     for (uint grid = 0; grid < kVolumeGrids; ++grid) {
         vec3 point = onGrid(vertex.point, grid);
         ivec3 middle = ivec3(floor(point));
@@ -96,7 +110,11 @@ void main() {
     dragged /= float(kVolumeGrids);
     pushed /= float(kVolumeGrids);
 
+#ifdef HAIRBENCH_ATTRACTION
+    vec3 repulsion = rotate(push.frame.rotation, pushed);
+#else
     vec3 repulsion = volume.repulsion * rotate(push.frame.rotation, pushed);
+#endif
     float size = length(repulsion);
     if (size > volume.greatest_repulsion) repulsion *= volume.greatest_repulsion / size;
 

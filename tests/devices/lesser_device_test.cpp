@@ -374,8 +374,12 @@ TEST_F(LesserDevice, HairFeelsHairTheSameWithoutAtomicsOnLongIntegers) {
         .repulsion = 0.3f,
         .crowding = 0.5f,
         .resolution = 32};
+    hair::HairHairSettings joins = slides;
+    joins.attraction = 0.1f;
+    hair::HairHairSettings joins_and_sticks = sticks;
+    joins_and_sticks.attraction = 0.1f;
     const hair::groom::Groom groom = hair::simulation::wavyGroom(100, 9);
-    for (const hair::HairHairSettings& contact : {slides, sticks}) {
+    for (const hair::HairHairSettings& contact : {slides, sticks, joins, joins_and_sticks}) {
         hair::SimulationSettings settings = hair::simulation::windy();
         settings.hair_hair = contact;
         const auto played = [&] {

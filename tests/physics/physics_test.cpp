@@ -233,6 +233,12 @@ TEST_F(Physics, HairHoldsHairUpToItsYieldStress) {
     expectPass(findings);
 }
 
+TEST_F(Physics, WetHairSagsAndJoins) {
+    Findings findings("wet_hair", hair::Solver::rod);
+    checkWetHair(device(), hair::Solver::rod, findings);
+    expectPass(findings);
+}
+
 TEST_F(Physics, HairSheltersHairFromWind) {
     Findings findings("shelter", hair::Solver::shape);
     checkShelter(device(), hair::Solver::shape, findings);

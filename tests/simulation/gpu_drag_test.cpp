@@ -142,6 +142,29 @@ TEST_F(GpuDrag, LetsHairFallAtTheSpeedWhereItBearsTheWeight) {
     }
 }
 
+// Hair with its own mass of water moves like hair of twice the density, in air and by its
+// stiffness.
+TEST_F(GpuDrag, MovesWetHairLikeHeavierHair) {
+    const groom::Groom groom = wavyGroom(33, 9);
+    for (const Solver solver :
+         {Solver::shape, Solver::ftl, Solver::rod, Solver::stable_cosserat,
+          Solver::position_based_rod, Solver::augmented_mass_spring}) {
+        const auto played = [&](float density, float water) {
+            SimulationSettings settings = turbulent(3.0f);
+            settings.solver = solver;
+            settings.wind.drag_along = 1.5f;
+            settings.material.density = density;
+            settings.material.water = water;
+            Simulation simulation(device(), groom, settings, kSeed);
+            advance(device(), simulation, 10);
+            return simulation.readPositions();
+        };
+        const auto wet = played(1000.0f, 1.0f);
+        EXPECT_EQ(wet, played(2000.0f, 0.0f)) << static_cast<int>(solver);
+        EXPECT_NE(wet, played(1000.0f, 0.0f)) << static_cast<int>(solver);
+    }
+}
+
 TEST_F(GpuDrag, StaysFiniteInAStorm) {
     const groom::Groom groom = wavyGroom(40, 8);
     for (const float step : {0.0005f, 0.1f})

@@ -94,13 +94,15 @@ TEST_P(HairOnHairRest, EndsInRest) {
 constexpr HairHairSettings kLoose{.friction = 0.3f, .repulsion = 0.3f, .crowding = 1.0f};
 constexpr HairHairSettings kTight{.friction = 1.0f, .repulsion = 1.5f, .crowding = 1.0f};
 constexpr HairHairSettings kCrowded{.friction = 0.05f, .repulsion = 0.6f, .crowding = 0.7f};
+constexpr HairHairSettings kWet{
+    .friction = 0.3f, .attraction = 0.1f, .repulsion = 0.3f, .crowding = 1.0f};
 
 INSTANTIATE_TEST_SUITE_P(
     , HairOnHairRest,
     testing::Values(
         RestCase{"loose", Solver::shape, kLoose}, RestCase{"tight", Solver::shape, kTight},
-        RestCase{"crowded", Solver::shape, kCrowded}, RestCase{"ftl", Solver::ftl, kLoose},
-        RestCase{"rod", Solver::rod, kLoose}),
+        RestCase{"crowded", Solver::shape, kCrowded}, RestCase{"wet", Solver::shape, kWet},
+        RestCase{"ftl", Solver::ftl, kLoose}, RestCase{"rod", Solver::rod, kLoose}),
     [](const auto& rest_case) { return rest_case.param.name; });
 
 }  // namespace
