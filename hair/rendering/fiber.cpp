@@ -210,8 +210,7 @@ FiberAverages averageOverSlices(
                 // Lobes with different shifts spread light, too.
                 const double shift = fiber.shifts[p];
                 const double spread = fiber.variances[p] + square(shift);
-                forward_means.add(
-                    forward * mean(carried), shift, spread + slice.forward_tilt[p]);
+                forward_means.add(forward * mean(carried), shift, spread + slice.forward_tilt[p]);
                 backward_means.add(
                     (1 - forward) * mean(carried), shift, spread + slice.backward_tilt[p]);
             }

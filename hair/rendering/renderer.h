@@ -90,9 +90,10 @@ private:
 // their strands share the memory of one head. Shadows of a head fall on that head alone. The
 // passes are: frames (if strands have offsets or residuals),
 // skin (if the mesh under the hair deforms), points (if a back end draws from them), mesh_shadow
-// and hair_shadow (if asked for), indirect (if asked for), scene, strands, composite (if fragments are blended at the end),
-// overlay (if asked for) and resolve (if the picture is not the rendered image). If passes may
-// join, scene, strands and overlay are one rendering, which resolves samples at its end.
+// and hair_shadow (if asked for), indirect (if asked for), scene, strands, composite (if fragments
+// are blended at the end), overlay (if asked for) and resolve (if the picture is not the rendered
+// image). If passes may join, scene, strands and overlay are one rendering, which resolves samples
+// at its end.
 class Renderer {
 public:
     // `view` gives the counts, which must not change. `stages` applies to the camera's picture of

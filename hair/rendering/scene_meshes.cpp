@@ -276,20 +276,19 @@ void SceneMeshes::bind(
     const SceneMesh& mesh, const MeshMaterial& material) const {
     const Vertices vertices = verticesOf(mesh);
     commands.bind(
-        pipeline,
-        gpu::MeshPush{
-            .picture = picture,
-            .positions = vertices.positions,
-            .normals = vertices.normals,
-            .texture_coordinates = mesh.geometry.texture_coordinates.address(),
-            .indirect = mesh.geometry.indirect.address(),
-            .base_color = material.base_color,
-            .opacity = material.opacity,
-            .metallic = material.metallic,
-            .roughness = material.roughness,
-            .normal_scale = material.normal_scale,
-            .cutoff = material.cutoff,
-            .is_moving = vertices.is_moving ? 1u : 0u});
+        pipeline, gpu::MeshPush{
+                      .picture = picture,
+                      .positions = vertices.positions,
+                      .normals = vertices.normals,
+                      .texture_coordinates = mesh.geometry.texture_coordinates.address(),
+                      .indirect = mesh.geometry.indirect.address(),
+                      .base_color = material.base_color,
+                      .opacity = material.opacity,
+                      .metallic = material.metallic,
+                      .roughness = material.roughness,
+                      .normal_scale = material.normal_scale,
+                      .cutoff = material.cutoff,
+                      .is_moving = vertices.is_moving ? 1u : 0u});
 }
 
 void SceneMeshes::draw(
@@ -347,7 +346,7 @@ IndirectLight::IndirectLight(const engine::Device& device, const Settings& setti
           device, {.shader = "shading/indirect.comp",
                    .constants = shadingConstants(settings),
                    .push_size = sizeof(gpu::IndirectPush),
-                   .sampled_images = kShadowImages}),
+                   .combined_images = kShadowImages}),
       gather_(
           device,
           {.shader = "shading/indirect.comp+gather", .push_size = sizeof(gpu::IndirectPush)}) {}

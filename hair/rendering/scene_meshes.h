@@ -108,8 +108,8 @@ public:
     // Draws the head from these buffers from now on: vec3 [vertex] each, in the world.
     void deform(const engine::Buffer& positions, const engine::Buffer& normals);
 
-    // Records the gathering of indirect light on the vertices of all meshes, with the address of the
-    // picture and the sources in `push`.
+    // Records the gathering of indirect light on the vertices of all meshes, with the address of
+    // the picture and the sources in `push`.
     void gatherIndirect(
         engine::Commands& commands, const engine::ComputePipeline& gather,
         const engine::Buffer& sources, gpu::IndirectPush push) const;
@@ -159,9 +159,9 @@ private:
     std::map<MeshLook, engine::GraphicsPipeline> depth_pipelines_;
 };
 
-// The light that lit hair and meshes send to meshes (/shading/indirect): parts of the lights' shadow
-// maps are small lights (Dachsbacher and Stamminger 2005, Reflective shadow maps), which each vertex
-// gathers.
+// The light that lit hair and meshes send to meshes (/shading/indirect): parts of the lights'
+// shadow maps are small lights (Dachsbacher and Stamminger 2005, Reflective shadow maps), which
+// each vertex gathers.
 class IndirectLight {
 public:
     // `settings` have the lights of an environment. There must be a light.

@@ -4,7 +4,6 @@
 #extension GL_GOOGLE_include_directive : require
 #define HAIRBENCH_SHADOW_BINDING 3
 #include "common/picture.glsl"
-#include "scene/normal_map.glsl"
 #include "scene/options.glsl"
 #include "shading/environment.glsl"
 #include "shading/lights.glsl"
@@ -25,6 +24,25 @@ layout(location = 2) in vec2 coordinates;
 layout(location = 3) in vec3 indirect;
 #endif
 layout(location = 0) out vec4 color;
+
+// `texel` is a normal with x towards growing u, y towards falling v and z outwards (glTF 2.0,
+// section 3.9.3). The tangent is the triangle's, from screen-space derivatives. Vertex tangents
+// (MikkTSpace) would be smoother.
+vec3 mappedNormal(vec3 normal, vec3 position, vec2 coordinates, vec3 texel) {
+    vec3 position_x = dFdx(position);
+    vec3 position_y = dFdy(position);
+    vec2 coordinates_x = dFdx(coordinates);
+    vec2 coordinates_y = dFdy(coordinates);
+    float turn = coordinates_x.x * coordinates_y.y - coordinates_y.x * coordinates_x.y;
+    vec3 along_u = (position_x * coordinates_y.y - position_y * coordinates_x.y) * sign(turn);
+    vec3 along_v = (position_y * coordinates_x.x - position_x * coordinates_y.x) * sign(turn);
+    vec3 tangent = along_u - normal * dot(normal, along_u);
+    if (dot(tangent, tangent) == 0.0) return normal;
+    tangent = normalize(tangent);
+    vec3 bitangent = cross(normal, tangent);
+    if (dot(bitangent, along_v) > 0.0) bitangent = -bitangent;  // the texture is mirrored
+    return normalize(texel.x * tangent + texel.y * bitangent + texel.z * normal);
+}
 
 vec3 surfaceNormal() {
     vec3 normal = normalize(vertex_normal);

@@ -49,6 +49,7 @@ hair::Settings everything() {
     hair::Settings settings = made(hair::plainSettings());
     hair::lit(settings);
     settings.shading.shadows.resolution = 64;
+    settings.shading.indirect = true;
     settings.simulation.solver = hair::Solver::shape;
     settings.simulation.substeps = 2;
     settings.simulation.hair_hair.friction = 0.2f;
@@ -185,6 +186,8 @@ TEST_F(FramesHazards, AreNoneInAnySceneOrFeatureAndNoBarrierIsSuperfluous) {
         hair::Settings skinned = hair::plainSettings();
         skinned.groom.grow.mesh = "assets/head_talk.glb";
         skinned.simulation.animation.clip = "talk";
+        hair::lit(skinned);
+        skinned.shading.indirect = true;
         skinned.strands.curl.radius = curl;
         skinned.run.frame_time = 0.5f * skinned.simulation.time_step;
         silent("skinned, curl " + std::to_string(curl), made(skinned));
@@ -323,6 +326,8 @@ const std::set<std::string> kMissed{
     "depth of meshes",
     "depth of hair",
     "opacity of hair",
+    "sources of indirect light",
+    "indirect light on meshes",
     "color",  // the frame before still resolves it
     "depth",
     "fragment heads",

@@ -251,8 +251,11 @@ protected:
 
     // Linear light, [row][column] RGB.
     static std::vector<float> draw(const Settings& settings, const groom::Mesh& mesh) {
+        // Strands that are not drawn, between floor and wall, so that the map ends at those.
         const DeviceHair hair(
-            device(), oneTriangle(std::vector{glm::vec3(0, 0, 5), glm::vec3(0, 0.1, 5)}), settings);
+            device(),
+            oneTriangle(std::vector{glm::vec3(0.0f, 0.1f, 0.1f), glm::vec3(0.0f, 0.11f, 0.1f)}),
+            settings);
         Renderer renderer(device(), settings, hair.view(), {.head = &mesh});
         engine::FrameLoop loop(device(), engine::Timing::overlapped);
         loop.frame([&](engine::Passes& passes) { renderer.record(passes, hair.view()); });
@@ -283,7 +286,7 @@ double linearOf(double display) { return std::pow((display + 0.055) / 1.055, 2.4
 TEST_F(IndirectLightTest, OfAFloorFillsItsPartOfTheWallsHemisphere) {
     const groom::Mesh mesh = floorAndWall();
     const std::vector<float> light = draw(settings(), mesh);
-    for (std::uint32_t row = 0; row + 3 < kPixels; ++row) {  // from 3.5 cm above the floor on
+    for (std::uint32_t row = 0; row + 4 < kPixels; ++row) {  // from 4.5 cm above the floor on
         for (std::uint32_t column = 0; column < kPixels; ++column) {
             const double pixel = double{kSide} / kPixels;
             const double x = (column + 0.5) * pixel - double{kSide} / 2;
@@ -292,9 +295,8 @@ TEST_F(IndirectLightTest, OfAFloorFillsItsPartOfTheWallsHemisphere) {
                 // A dielectric returns 0.96 of the light that its matt part gets.
                 const double color = 0.96 * linearOf(double{kColor[static_cast<int>(c)]});
                 const double expected = color * color * formFactor(x, y);
-                // The map has sources 12 mm apart, so the floor's edges are off by up to 6 mm of
-                // its 200 mm, and the nearest sources stand for areas a third as wide as they are
-                // far away.
+                // The map's sources are 5 mm apart, so the floor's edges are off by up to 3 mm of
+                // its 200 mm on each side.
                 EXPECT_NEAR(light[3 * (row * kPixels + column) + c] / expected, 1.0, 0.06)
                     << row << ' ' << column << ' ' << c;
             }
