@@ -261,8 +261,8 @@ void checkStateHash(const engine::Device&, const CheckedSolver&, Findings&);
 // The four checks of invariance, of hair at rest too.
 std::span<const Check> invarianceChecks();
 
-// The solvers, and those of their methods that promise more: `shape with energy`, `rod with
-// generalized_alpha`.
+// The solvers and their other methods: `shape with energy`, `rod with generalized_alpha`,
+// `stable_cosserat with descent`.
 std::vector<CheckedSolver> withVariants(std::span<const CheckedSolver> solvers);
 
 // The order p of errors c^p - finest^p at two values of the coarseness c. Absent if there is none
