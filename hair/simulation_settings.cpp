@@ -130,6 +130,13 @@ const Table& tableOf(const MaterialSettings*) {
              "longer over shorter axis of the cross-section, whose area stays that of `radius`, "
              "for the stiffness of `rod`; human hair has 1 to 1.8. The longer axis is upright "
              "at roots that are level, and goes along strands without twisting"),
+         number(
+             "section_angle", &S::section_angle, -360, 360, "deg",
+             "turn of the longer axis of `rod` at the root, about the hair"),
+         number(
+             "twist", &S::twist, -10000, 10000, "rad/m",
+             "natural twist of rods: what a hair without load is twisted by, beyond the groom's "
+             "shape. Curved hair winds to a helix, and the longer axis turns along the hair"),
          number("youngs_modulus", &S::youngs_modulus, 1, 1e12, "Pa", "E: resists bending"),
          number("shear_modulus", &S::shear_modulus, 1, 1e12, "Pa", "G: resists twist"),
          number(

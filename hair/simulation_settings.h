@@ -96,6 +96,8 @@ struct MaterialSettings {
     float density = 1320.0f;
     float radius = 37e-6f;
     float ellipticity = 1.0f;
+    float section_angle = 0.0f;
+    float twist = 0.0f;
     float youngs_modulus = 3.9e9f;
     float shear_modulus = 0.6e9f;
     float damping = 0.0f;

@@ -869,4 +869,127 @@ void checkClampTwist(
     if (!still && outcome.reason.empty()) outcome.reason = "still moving after 20 s";
 }
 
+namespace {
+
+// ---- Natural twist ------------------------------------------------------------------------------
+
+// A hair with the constant curvature k and the constant twist t, without load, is a helix of the
+// radius k / (k^2 + t^2) and the pitch 2 pi t / (k^2 + t^2). Two points s apart along it are
+// sqrt(4 r^2 sin^2(w s / 2) + (t s / w)^2) from each other, w = sqrt(k^2 + t^2).
+
+constexpr std::uint32_t kWoundSegments = 64;
+constexpr double kWoundLength = 0.08;  // m
+struct Winding {
+    double curvature;  // 1/m
+    double twist;  // rad/m
+};
+constexpr Winding kWindings[] = {{100.0, 30.0}, {60.0, 100.0}, {60.0, -100.0}};
+constexpr double kWindingPatience = 10.0;  // s
+// Segments turn by up to w l = 0.15 rad at a joint, and a chain of them is within a twelfth of the
+// square of that of the helix.
+constexpr double kWoundTolerance = 0.005;
+
+// Level hair whose section has the axes e to 1, the longer one at the angle p from upright at the
+// root and turning by t per length. Under a small weight q per length the tip is
+//     integral of q (L - s)^3 / 2 (cos^2 p / (e B) + sin^2 p e / B) ds
+// lower, and beside the hair, on the side to which the longer axis leans, by that of
+// (e / B - 1 / (e B)) sin p cos p in place of the bracket.
+constexpr std::uint32_t kSectionSegments = 64;
+constexpr float kSectionEllipticity = 2.0f;
+constexpr double kSectionGamma = 0.1;
+struct Section {
+    double angle;  // deg
+    double turns;  // in the hair's length
+};
+constexpr Section kSections[] = {{0.0, 0.0}, {90.0, 0.0}, {30.0, 0.0}, {0.0, 1.0}, {45.0, -0.4}};
+// Over the sag of a hair whose shorter axis is upright. Theory is linear in gamma, so it is off by
+// about a hundredth of gamma, and 64 segments are within 0.1 % of a beam.
+constexpr double kSectionTolerance = 0.01;
+
+double chordOfHelix(const Winding& winding, double s) {
+    const double squared = winding.curvature * winding.curvature + winding.twist * winding.twist;
+    const double w = std::sqrt(squared);
+    return std::hypot(
+        2.0 * winding.curvature / squared * std::sin(0.5 * w * s), winding.twist * s / w);
+}
+
+void compareHelix(
+    const engine::Device& device, hair::SimulationSettings settings, const Winding& winding,
+    std::optional<double> tolerance, Findings& findings) {
+    settings.gravity = {};
+    settings.friction = frictionOf(20.0);
+    settings.material.twist = static_cast<float>(winding.twist);
+    Experiment experiment(
+        device, curvedStrand(kWoundSegments, kWoundLength, winding.curvature), settings);
+    const bool still = experiment.settle(1e-5 * kWoundLength, kWindingPatience);
+    const std::vector<glm::dvec3> points = experiment.positions();
+    double off = 0.0;
+    for (std::uint32_t i = 0; i <= kWoundSegments; i += 4)
+        for (std::uint32_t j = 0; j < i; j += 4)
+            off = worst(
+                off, std::abs(
+                         glm::distance(points[i], points[j]) -
+                         chordOfHelix(winding, kWoundLength * (i - j) / kWoundSegments)));
+    const std::vector<Parameter> with{
+        {"curvature", winding.curvature, "1/m"}, {"twist", winding.twist, "rad/m"}};
+    Outcome& outcome = findings.deviation(
+        {"difference of distances from a helix's / length", "1", with}, off / kWoundLength,
+        tolerance);
+    if (!still && outcome.reason.empty()) outcome.reason = "still moving after 10 s";
+    // Distances are the same in its mirror image.
+    const auto edge = [&](std::size_t i) { return points[i + 8] - points[i]; };
+    const double hand = glm::dot(glm::cross(edge(0), edge(8)), edge(16));
+    findings.compare(
+        {"hand of the helix", "1", with}, hand > 0.0 ? 1.0 : -1.0, winding.twist > 0.0 ? 1.0 : -1.0,
+        tolerance);
+}
+
+void compareSections(
+    const engine::Device& device, hair::SimulationSettings settings, Findings& findings) {
+    settings.material.ellipticity = kSectionEllipticity;
+    settings.friction = frictionOf(40.0);
+    const double e = kSectionEllipticity;
+    const double length = lengthOf(settings.material, kSectionGamma);
+    for (const Section& section : kSections) {
+        const double turn = 2.0 * kPi * section.turns;
+        settings.material.section_angle = static_cast<float>(section.angle);
+        settings.material.twist = static_cast<float>(turn / length);
+        double lower = 0.0;
+        double beside = 0.0;
+        constexpr int kParts = 1000;
+        for (int i = 0; i < kParts; ++i) {
+            const double s = (i + 0.5) / kParts;
+            const double angle = section.angle * kPi / 180.0 + turn * s;
+            const double part = kSectionGamma * std::pow(1.0 - s, 3.0) / 2.0 / kParts;
+            const double upright = std::cos(angle);
+            const double level = std::sin(angle);
+            lower += part * (upright * upright / e + level * level * e);
+            beside += part * (e - 1.0 / e) * upright * level;
+        }
+        Experiment experiment(
+            device, straightStrand(kSectionSegments, length, {1.0, 0.0, 0.0}), settings);
+        experiment.settle(1e-6 * length, 20.0);
+        const glm::dvec3 tip = experiment.positions().back() / length;
+        findings.deviation(
+            {"distance of a flat hair's tip from theory / greatest sag",
+             "1",
+             {{"section_angle", section.angle, "deg"}, {"twist * length", turn, "rad"}}},
+            std::hypot(-tip.y - lower, tip.z - beside) / (kSectionGamma / 8.0 * e),
+            kSectionTolerance);
+    }
+}
+
+}  // namespace
+
+void checkNaturalTwist(
+    const engine::Device& device, const CheckedSolver& solver, Findings& findings) {
+    if (const auto why = lack(solver, Need::material)) return findings.skip(*why);
+    const hair::SimulationSettings settings = freeHair(solver);
+    const auto tolerance =
+        solver == hair::Solver::rod ? std::optional(kWoundTolerance) : std::nullopt;
+    for (const Winding& winding : kWindings)
+        compareHelix(device, settings, winding, tolerance, findings);
+    if (solver == hair::Solver::rod) compareSections(device, settings, findings);
+}
+
 }  // namespace benchmarks::physics

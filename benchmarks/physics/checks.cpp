@@ -295,6 +295,7 @@ constexpr Check kChecks[] = {
     {"bending_set", checkBendingSet},
     {"turning_head", checkTurningHead},
     {"clamp_twist", checkClampTwist},
+    {"natural_twist", checkNaturalTwist},
     {"bend_twist", checkBendTwist},
     {"lateral_buckling", checkLateralBuckling},
     {"drag_deflection", checkDragDeflection},

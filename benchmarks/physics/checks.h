@@ -209,6 +209,8 @@ void checkBendingSet(const engine::Device&, const CheckedSolver&, Findings&);
 void checkCurledCantilever(const engine::Device&, const CheckedSolver&, Findings&);
 // Hair on a head that turns steadily stays in its state at rest.
 void checkTurningHead(const engine::Device&, const CheckedSolver&, Findings&);
+// Hair with a natural twist: a curl that winds to a helix, and level hair with twisted sections.
+void checkNaturalTwist(const engine::Device&, const CheckedSolver&, Findings&);
 // Checks that a curl follows its root's rotation about its own axis.
 void checkClampTwist(const engine::Device&, const CheckedSolver&, Findings&);
 // Distance of a hanging curl from its plane, and the curvature at which it leaves the plane.
@@ -259,8 +261,8 @@ void checkStateHash(const engine::Device&, const CheckedSolver&, Findings&);
 // The four checks of invariance, of hair at rest too.
 std::span<const Check> invarianceChecks();
 
-// The solvers, and those of their methods that promise more: `shape with energy`, `rod with
-// generalized_alpha`.
+// The solvers and their other methods: `shape with energy`, `rod with generalized_alpha`,
+// `stable_cosserat with descent`.
 std::vector<CheckedSolver> withVariants(std::span<const CheckedSolver> solvers);
 
 // The order p of errors c^p - finest^p at two values of the coarseness c. Absent if there is none

@@ -265,6 +265,13 @@ std::vector<CheckedSolver> withVariants(std::span<const CheckedSolver> solvers) 
                 settings.rod.integrator = hair::RodIntegrator::generalized_alpha;
             };
         }
+        if (solver == hair::Solver::stable_cosserat) {
+            all.push_back(solver);
+            all.back().variant = " with descent";
+            all.back().adjust = [](hair::SimulationSettings& settings) {
+                settings.stable_cosserat.method = hair::CosseratMethod::descent;
+            };
+        }
     }
     return all;
 }

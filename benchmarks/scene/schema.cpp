@@ -117,6 +117,21 @@ Broken solverTakesSets(const hair::Settings& s) {
     return "is above 0, but only the solver rod takes a set";
 }
 
+Broken solverTwists(const hair::Settings& s) {
+    if (s.simulation.material.twist == 0.0f) return {};
+    switch (s.simulation.solver) {
+    case hair::Solver::rod:
+        if (s.simulation.rest == hair::RestShape::groom) return {};
+        return "is not 0, but balanced hair rests in the groom's shape";
+    case hair::Solver::stable_cosserat:
+    case hair::Solver::position_based_rod:
+        return {};
+    default:
+        return "is not 0, which only the solvers rod, stable_cosserat and position_based_rod "
+               "support";
+    }
+}
+
 Broken solverCarriesContact(const hair::Settings& s) {
     if (!s.simulation.collision.warm_start) return {};
     if (s.simulation.solver != hair::Solver::rod)
@@ -318,6 +333,7 @@ constexpr Rule kRules[] = {
     {"/simulation/rest", solverHasBalancedRest},
     {"/simulation/material/ellipticity", solverHasEllipticSections},
     {"/simulation/material/set_share", solverTakesSets},
+    {"/simulation/material/twist", solverTwists},
     {"/simulation/collision/warm_start", solverCarriesContact},
     {"/simulation/collision/parts", solverKeepsSegmentsOut},
     {"/simulation/hair_hair/friction", hairHasOneFriction},

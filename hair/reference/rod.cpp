@@ -451,7 +451,9 @@ RodRest makeRodRest(std::span<const glm::dvec3> points, const RodMaterial& mater
 
     glm::dvec3 tangent{0.0, 1.0, 0.0};
     if (rest.lengths[1] >= kShortest) tangent = (points[1] - points[0]) / rest.lengths[1];
-    rest.orientations.push_back(rotationBetween({0.0, 0.0, 1.0}, tangent));
+    rest.orientations.push_back(
+        glm::angleAxis(material.section_angle, tangent) *
+        rotationBetween({0.0, 0.0, 1.0}, tangent));
     for (std::size_t i = 1; i < size; ++i) {
         glm::dvec3 next = tangent;
         if (rest.lengths[i] >= kShortest) next = (points[i] - points[i - 1]) / rest.lengths[i];
@@ -460,9 +462,12 @@ RodRest makeRodRest(std::span<const glm::dvec3> points, const RodMaterial& mater
         tangent = next;
     }
     rest.half_rotations.assign(size, glm::dquat(1.0, 0.0, 0.0, 0.0));
-    for (std::size_t i = 1; i < size; ++i)
-        rest.half_rotations[i] =
-            halfOf(glm::conjugate(rest.orientations[i - 1]) * rest.orientations[i]);
+    for (std::size_t i = 1; i < size; ++i) {
+        const double joint = 0.5 * (rest.lengths[i] + (i > 1 ? rest.lengths[i - 1] : 0.0));
+        rest.half_rotations[i] = halfOf(
+            glm::conjugate(rest.orientations[i - 1]) * rest.orientations[i] *
+            glm::angleAxis(material.twist * joint, glm::dvec3(0.0, 0.0, 1.0)));
+    }
 
     for (std::size_t i = 0; i < size; ++i) {
         const double below = i + 1 < size ? rest.lengths[i + 1] : 0.0;

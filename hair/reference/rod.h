@@ -27,6 +27,8 @@ struct RodMaterial {
     double density = 1320.0;  // kg/m^3
     double radius = 37e-6;  // m, of a circle with the section's area
     double ellipticity = 1.0;  // longer over shorter axis of the section
+    double section_angle = 0.0;  // rad, of the longer axis at the root from that of the frame
+    double twist = 0.0;  // rad/m, beyond that of the points
     double youngs_modulus = 3.9e9;  // Pa
     double shear_modulus = 0.6e9;  // Pa
 };

@@ -185,6 +185,8 @@ RodSolver::RodSolver(
             {.density = wetDensity(material),
              .radius = material.radius,
              .ellipticity = material.ellipticity,
+             .section_angle = double{material.section_angle} * std::numbers::pi / 180.0,
+             .twist = material.twist,
              .youngs_modulus = material.youngs_modulus,
              .shear_modulus = material.shear_modulus}));
         states_.push_back(rodAtRest(rests_.back()));

@@ -10,6 +10,7 @@
 
 #include <glm/geometric.hpp>
 #include <glm/gtc/quaternion.hpp>
+#include <glm/trigonometric.hpp>
 #include <glm/mat3x3.hpp>
 #include <glm/matrix.hpp>
 
@@ -350,10 +351,16 @@ struct Strand {
     double unit;  // m
 };
 
+// Turns a section round its tangent, the z axis, by an angle in rad.
+glm::dquat turned(double angle) { return {std::cos(0.5 * angle), 0.0, 0.0, std::sin(0.5 * angle)}; }
+
 // `bending` is h^2 E I / lambda, m^4. Divided by the fourth power of a length, it is the stiffness
 // of a joint of that length in its own units. `twisting` is G J / (E I).
 Strand restOfStrand(
-    std::span<const glm::vec3> points, double bending, double twisting, double ellipticity) {
+    std::span<const glm::vec3> points, double bending, double twisting,
+    const MaterialSettings& material) {
+    const double angle = glm::radians(double{material.section_angle});
+    const double twist = material.twist;
     const std::size_t size = points.size();
     std::vector<double> lengths{0.0};
     for (std::size_t i = 1; i < size; ++i)
@@ -363,7 +370,10 @@ Strand restOfStrand(
     unit = std::max(unit, kShortestUnit);
 
     Strand strand{
-        .rod = {.ellipticity = ellipticity}, .masses = {}, .half_rotations = {}, .unit = unit};
+        .rod = {.ellipticity = double{material.ellipticity}},
+        .masses = {},
+        .half_rotations = {},
+        .unit = unit};
     glm::dvec3 tangent{0.0, 1.0, 0.0};
     glm::dquat orientation{1.0, 0.0, 0.0, 0.0};
     for (std::size_t i = 0; i < size; ++i) {
@@ -372,7 +382,7 @@ Strand restOfStrand(
         if (lengths[segment] >= kShortest)
             next = glm::normalize(glm::dvec3(points[segment]) - glm::dvec3(points[segment - 1]));
         const glm::dquat above = orientation;
-        orientation = i == 0 ? rotationBetween({0.0, 0.0, 1.0}, next)
+        orientation = i == 0 ? rotationBetween({0.0, 0.0, 1.0}, next) * turned(angle)
                              : glm::normalize(rotationBetween(tangent, next) * orientation);
         tangent = next;
 
@@ -386,7 +396,8 @@ Strand restOfStrand(
         strand.rod.twist_stiffness.push_back(stiffness * twisting);
         strand.masses.push_back(std::max((lengths[i] + below) / (2.0 * unit), kLeastMass));
         strand.half_rotations.push_back(
-            i == 0 ? orientation : halfOf(glm::conjugate(above) * orientation));
+            i == 0 ? orientation
+                   : halfOf(glm::conjugate(above) * orientation * turned(twist * joint)));
     }
     return strand;
 }
@@ -437,8 +448,7 @@ restOfRods(const groom::Groom& groom, const SimulationSettings& settings, const 
     const bool sets = set_share > 0.0 && settings.solver == Solver::rod;
     if (sets) rest.set.resize(groom.points.size());
     for (std::uint32_t s = 0; s < groom.strand_count; ++s) {
-        Strand strand =
-            restOfStrand(groom.strand(s), bending, twisting, double{material.ellipticity});
+        Strand strand = restOfStrand(groom.strand(s), bending, twisting, material);
         const std::vector<glm::dquat> groomed = strand.half_rotations;
         if (rest.balance)
             balance(

@@ -181,6 +181,33 @@ TEST(CheckSettings, WantsASolverThatTakesSets) {
             "/simulation/material/set_share: is above 0, but only the solver rod takes a set");
 }
 
+TEST(CheckSettings, WantsASolverThatTwists) {
+    const auto with = [](hair::Solver solver, float twist, hair::RestShape rest) {
+        return broken([&](hair::Settings& s) {
+            s.simulation.solver = solver;
+            s.simulation.rest = rest;
+            s.simulation.material.twist = twist;
+        });
+    };
+    constexpr auto kGroom = hair::RestShape::groom;
+    for (const hair::Solver solver :
+         {hair::Solver::rod, hair::Solver::stable_cosserat, hair::Solver::position_based_rod})
+        EXPECT_EQ(with(solver, -50.0f, kGroom), "no error");
+    EXPECT_EQ(with(hair::Solver::rod, 0.0f, hair::RestShape::balanced), "no error");
+    EXPECT_EQ(
+        with(hair::Solver::rod, 50.0f, hair::RestShape::balanced),
+        "/simulation/material/twist: is not 0, but balanced hair rests in the groom's shape");
+    for (const hair::Solver solver :
+         {hair::Solver::none, hair::Solver::shape, hair::Solver::ftl,
+          hair::Solver::augmented_mass_spring, hair::Solver::extension}) {
+        EXPECT_EQ(with(solver, 0.0f, kGroom), "no error");
+        EXPECT_EQ(
+            with(solver, 50.0f, kGroom),
+            "/simulation/material/twist: is not 0, which only the solvers rod, stable_cosserat and "
+            "position_based_rod support");
+    }
+}
+
 TEST(CheckSettings, WantsSolversThatKeepSegmentsOut) {
     const auto with = [](hair::Solver solver, bool warm_start) {
         return broken([&](hair::Settings& s) {

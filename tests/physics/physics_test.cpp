@@ -233,6 +233,12 @@ TEST_F(Physics, HairHoldsHairUpToItsYieldStress) {
     expectPass(findings);
 }
 
+TEST_F(Physics, TwistedHairWindsToAHelix) {
+    Findings findings("natural_twist", hair::Solver::rod);
+    checkNaturalTwist(device(), hair::Solver::rod, findings);
+    expectPass(findings);
+}
+
 TEST_F(Physics, WetHairSagsAndJoins) {
     Findings findings("wet_hair", hair::Solver::rod);
     checkWetHair(device(), hair::Solver::rod, findings);

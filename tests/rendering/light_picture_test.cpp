@@ -1,9 +1,10 @@
-// Tests pictures under many lights.
+// Tests pictures under many lights, and of wet hair.
 #include <cmath>
 
 #include <gtest/gtest.h>
 
 #include "engine/target.h"
+#include "hair/rendering/render_assets.h"
 #include "tests/gpu_fixture.h"
 #include "tests/largest_difference.h"
 #include "tests/rendering/linear_picture.h"
@@ -49,6 +50,35 @@ TEST_F(LightPictures, OfManyLightsAreTheSumOfEachAlone) {
         sums.add(sum[i]);
     }
     EXPECT_GT(sums.greatest(), 0.5);  // it is lit
+}
+
+// Water shows in the picture as the settings of wet hair do. It makes hair darker outside
+// highlights, which models with fibres have everywhere under lights all round.
+TEST_F(LightPictures, OfWetHairAreThoseOfItsSettings) {
+    const groom::Groom groom = tangledGroom(4);
+    for (const ShadingModel model :
+         {ShadingModel::phong, ShadingModel::kajiya_kay, ShadingModel::marschner,
+          ShadingModel::dual_scattering}) {
+        Settings settings = linearPicture(32, 32);
+        settings.shading.lights = manyLights();
+        settings.shading.model = model;
+        settings.shading.specular = 0.0f;
+        const std::vector<float> dry = drawLinear(device(), settings, groom);
+        settings.simulation.material.water = 0.5f;
+        const std::vector<float> wet = drawLinear(device(), settings, groom);
+        Settings replaced = wetted(settings);
+        replaced.simulation.material.water = 0.0f;
+        EXPECT_EQ(wet, drawLinear(device(), replaced, groom)) << static_cast<int>(model);
+        EXPECT_NE(wet, dry) << static_cast<int>(model);
+        if (model == ShadingModel::marschner || model == ShadingModel::dual_scattering) continue;
+        double light = 0.0;
+        double less = 0.0;
+        for (std::size_t i = 0; i < dry.size(); ++i) {
+            light += double{dry[i]};
+            less += double{wet[i]};
+        }
+        EXPECT_LT(less, 0.95 * light) << static_cast<int>(model);
+    }
 }
 
 }  // namespace

@@ -160,6 +160,21 @@ TEST_F(GpuRod, TakesTheReferencesStepsWithAnEllipticSection) {
         }
 }
 
+// The same with a section that is turned at the root and half a radian of natural twist at each
+// joint, which hair winds up by from the start.
+TEST_F(GpuRod, TakesTheReferencesStepsWithANaturalTwist) {
+    for (const float ellipticity : {1.0f, 1.8f})
+        for (const std::uint32_t vertices : {3u, 17u, 65u}) {
+            SimulationSettings settings = rodSettings();
+            settings.material.ellipticity = ellipticity;
+            settings.material.section_angle = 25.0f;
+            settings.material.twist = 0.5f * (vertices - 1.0f) / 0.2f;
+            const groom::Groom groom = wavyGroom(10, vertices, 0.2 / (vertices - 1.0));
+            EXPECT_LT(departure(groom, settings, 1), 1e-5) << vertices << ' ' << ellipticity;
+            EXPECT_LT(departure(groom, settings, 100), 2e-5) << vertices << ' ' << ellipticity;
+        }
+}
+
 // Half a second with everything that acts on a strand. Rounding moves a vertex that touches a body
 // to where the body's normal differs, so errors grow faster than without bodies.
 TEST_P(EveryGpuRod, FollowsTheHeadAndKeepsOutOfBodiesAsTheReferenceDoes) {
