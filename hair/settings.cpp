@@ -182,8 +182,12 @@ const Table& tableOf(const LodSettings*) {
     using S = LodSettings;
     static const Table table = tableWith<S>(
         {choice(
-             "mode", &S::mode, {{LodMode::forced, "forced"}, {LodMode::distance, "distance"}},
-             "forced: `level` everywhere; distance: by distance from the camera"),
+             "mode", &S::mode,
+             {{LodMode::forced, "forced"},
+              {LodMode::distance, "distance"},
+              {LodMode::cluster, "cluster"}},
+             "forced: `level` everywhere; distance: by distance from the camera; cluster: each "
+             "cluster of strands as coarse as `error` lets it be"),
          number("level", &S::level, 0, 8, "1", "forced level; may be fractional"),
          number(
              "near_distance", &S::near_distance, 0.001, 1000, "m",
@@ -192,6 +196,10 @@ const Table& tableOf(const LodSettings*) {
              "far_distance", &S::far_distance, 0.001, 1000, "m",
              "distance at which maximum_level is reached"),
          number("maximum_level", &S::maximum_level, 0, 8, "1", "level at far_distance and beyond"),
+         number(
+             "error", &S::error, 0.01, 1000, "px",
+             "with `cluster`: greatest distance in the picture between the strands that are drawn "
+             "and those of level 0"),
          choice(
              "merged", &S::merged,
              {{MergedStrands::hairs, "hairs"}, {MergedStrands::strip, "strip"}},

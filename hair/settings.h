@@ -115,7 +115,7 @@ const Table& tableOf(const StrandSettings*);
 
 // Level of detail: at level L, density and tessellation are divided by 2^L, and the width grows to
 // keep the covered area (thesis 2.3.8.1).
-enum class LodMode { forced, distance };
+enum class LodMode { forced, distance, cluster };
 
 // How a strand that stands for several is drawn: as those hairs, with gaps, or as one wide strip.
 enum class MergedStrands { hairs, strip };
@@ -126,6 +126,7 @@ struct LodSettings {
     float near_distance = 0.5f;
     float far_distance = 8.0f;
     float maximum_level = 4.0f;
+    float error = 1.0f;
     MergedStrands merged = MergedStrands::hairs;
 };
 

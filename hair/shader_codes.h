@@ -42,8 +42,10 @@ inline constexpr std::size_t kCount<Taper> =
     counted<Taper>({{Taper::strand, gpu::kTaperStrand}, {Taper::segment, gpu::kTaperSegment}});
 
 template <>
-inline constexpr std::size_t kCount<LodMode> =
-    counted<LodMode>({{LodMode::forced, gpu::kLodForced}, {LodMode::distance, gpu::kLodDistance}});
+inline constexpr std::size_t kCount<LodMode> = counted<LodMode>(
+    {{LodMode::forced, gpu::kLodForced},
+     {LodMode::distance, gpu::kLodDistance},
+     {LodMode::cluster, gpu::kLodCluster}});
 
 template <>
 inline constexpr std::size_t kCount<StrandSource> = counted<StrandSource>(

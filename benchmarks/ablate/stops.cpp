@@ -40,7 +40,7 @@ hair::Settings withPieces(hair::Settings settings, std::uint32_t pieces) {
 
 // Most drawn segments per guide segment.
 std::uint32_t drawnPieces(const hair::Settings& settings) {
-    if (settings.lod.mode == hair::LodMode::distance) return settings.strands.tessellation;
+    if (settings.lod.mode != hair::LodMode::forced) return settings.strands.tessellation;
     return hair::rendering::drawnPieces(
                settings.strands.tessellation, std::exp2(-settings.lod.level))
         .count;

@@ -9,6 +9,7 @@ namespace {
 constexpr const char* kLodNotes =
     R"(The hair of one frame stands still; the camera keeps its direction. Error: root mean square of the
 difference between the pictures with /lod's levels and at level 0, in display values from 0 to 1.
+FLIP: the mean error by FLIP between the same pictures.
 Popping: root mean square of the change from one distance to the next, minus the change at level 0.
 Coverage: share of a square round the hair that the hair covers, without the head. Times: medians of
 isolated frames. With --reference, whole levels are compared with the path-traced level 0, lit by one
@@ -212,6 +213,9 @@ void addPictureCommands(const CommandLine& line) {
                 ->type_name("FILE");
             command.add_option(
                 "--frame", options.frame, "frame whose hair is drawn, from 0 (default 0)");
+            command.add_flag(
+                "--clusters", options.clusters,
+                "compare levels by cluster, with the scene's /lod/error, as well");
             command.add_flag(
                 "--reference", options.reference,
                 "compare levels with the path-traced level 0, lit from 0, 45, 90 and 180 degrees "

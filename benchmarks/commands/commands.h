@@ -287,6 +287,7 @@ struct LodOptions {
     double from = 0.5;  // m, distance from /camera/target
     double to = 20.0;
     std::uint32_t steps = 40;
+    bool clusters = false;  // also compare levels by cluster
     bool reference = false;  // also compare levels with the path-traced level 0
     std::uint32_t samples = 64;  // per pixel of the reference
     std::uint32_t frame = 0;

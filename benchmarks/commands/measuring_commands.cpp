@@ -434,6 +434,7 @@ int walkLod(const LodOptions& options) {
         simulateTo(device, hair, options.frame);
         lod::walk(
             device, hair, settings, path,
+            options.clusters ? lod::LodKind::cluster : lod::LodKind::distance,
             [&](double distance) { progress.begin(report::shortNumber(distance) + " m"); },
             report.steps);
         progress.clear();

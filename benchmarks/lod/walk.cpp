@@ -239,6 +239,18 @@ LodTimes FrozenView::times() {
         .frame = report::summarize(walls).median};
 }
 
+hair::rendering::DistanceLod FrozenView::clusters() const {
+    hair::rendering::DistanceLod state{.strands = 0};
+    const std::vector<hair::gpu::ClusterLevel> levels = renderer_.clusterLevels(device_);
+    for (const hair::gpu::ClusterLevel& level : levels) {
+        state.mean_level +=
+            std::log2(static_cast<double>(renderer_.plan().density) / level.strands) /
+            static_cast<double>(levels.size());
+        *state.strands += static_cast<std::uint64_t>(std::ceil(level.strands));
+    }
+    return state;
+}
+
 Picture FrozenView::picture() {
     loop_.finish();
     return engine::readOutput(device_, renderer_.target());
@@ -323,16 +335,25 @@ scene::Json toJson(const LodTimes& times) {
     return {{"strands", times.strands}, {"frame", times.frame}};
 }
 
+scene::Json toJson(const LodDrawn& drawn) {
+    scene::Json object = {
+        {"mean_level", drawn.mean_level},
+        {"error", drawn.error},
+        {"flip", drawn.flip},
+        {"coverage", drawn.coverage},
+        {"time", toJson(drawn.time)}};
+    if (drawn.strands) object["strands"] = *drawn.strands;
+    if (drawn.popping) object["popping"] = *drawn.popping;
+    return object;
+}
+
 scene::Json toJson(const LodStep& step) {
-    scene::Json object = {{"distance", step.distance}, {"mean_level", step.mean_level}};
-    if (step.strands) object["strands"] = *step.strands;
+    scene::Json object = toJson(step.drawn);
+    object["distance"] = step.distance;
     object["full_strands"] = step.full_strands;
-    object["error"] = step.error;
-    if (step.popping) object["popping"] = *step.popping;
-    object["coverage"] = step.coverage;
     object["full_coverage"] = step.full_coverage;
-    object["time"] = toJson(step.time);
     object["full_time"] = toJson(step.full_time);
+    if (step.clusters) object["clusters"] = toJson(*step.clusters);
     return object;
 }
 
@@ -346,23 +367,35 @@ scene::Json toJson(const LodTotals& totals) {
     return object;
 }
 
+const LodDrawn& drawnOf(const LodStep& step, LodKind kind) {
+    return kind == LodKind::cluster ? step.clusters.value() : step.drawn;
+}
+
+double changeOfCoverage(const LodStep& step, LodKind kind) {
+    return step.full_coverage > 0.0 ? drawnOf(step, kind).coverage / step.full_coverage - 1.0 : 0.0;
+}
+
+bool hasClusters(const std::vector<LodStep>& steps) {
+    return !steps.empty() && steps.front().clusters;
+}
+
 }  // namespace
 
-LodTotals totalsOf(const std::vector<LodStep>& steps) {
+LodTotals totalsOf(const std::vector<LodStep>& steps, LodKind kind) {
     assert(!steps.empty());
     LodTotals totals;
     LodTimes time;
     LodTimes full;
     for (const LodStep& step : steps) {
-        if (step.popping)
-            totals.worst_popping = std::max(totals.worst_popping.value_or(0.0), *step.popping);
-        const double change =
-            step.full_coverage > 0.0 ? step.coverage / step.full_coverage - 1.0 : 0.0;
+        const LodDrawn& drawn = drawnOf(step, kind);
+        if (drawn.popping)
+            totals.worst_popping = std::max(totals.worst_popping.value_or(0.0), *drawn.popping);
+        const double change = changeOfCoverage(step, kind);
         totals.mean_coverage_change += change / static_cast<double>(steps.size());
         if (std::abs(change) > std::abs(totals.worst_coverage_change))
             totals.worst_coverage_change = change;
-        time.strands += step.time.strands;
-        time.frame += step.time.frame;
+        time.strands += drawn.time.strands;
+        time.frame += drawn.time.frame;
         full.strands += step.full_time.strands;
         full.frame += step.full_time.frame;
     }
@@ -384,6 +417,8 @@ std::string lodReportText(const LodReport& report) {
     scene::Json& steps = object["steps"] = scene::Json::array();
     for (const LodStep& step : report.steps) steps.push_back(toJson(step));
     if (!report.steps.empty()) object["totals"] = toJson(totalsOf(report.steps));
+    if (hasClusters(report.steps))
+        object["cluster_totals"] = toJson(totalsOf(report.steps, LodKind::cluster));
     if (report.truth) object["reference"] = truthJson(*report.truth);
     // Output of drivers and commands need not be UTF-8.
     return object.dump(2, ' ', false, scene::Json::error_handler_t::replace) + '\n';
@@ -406,45 +441,45 @@ std::string thousandths(std::optional<double> value) {
     return value ? fixed(1000.0 * *value, "%.2f") : "-";
 }
 
-std::vector<report::Column> columns(const std::vector<LodStep>& steps) {
-    std::vector<report::Column> all{{"distance, m"},   {"level"},           {"strands"},
-                                    {"error, 1/1000"}, {"popping, 1/1000"}, {"coverage, %"},
-                                    {"change, %"},     {"strands, ms"},     {"full, ms"},
-                                    {"frame, ms"},     {"full, ms"}};
+std::string stepsTable(const std::vector<LodStep>& steps, LodKind kind) {
+    std::vector<report::Column> all{{"distance, m"},   {"level"},        {"strands"},
+                                    {"error, 1/1000"}, {"FLIP, 1/1000"}, {"popping, 1/1000"},
+                                    {"coverage, %"},   {"change, %"},    {"strands, ms"},
+                                    {"full, ms"},      {"frame, ms"},    {"full, ms"}};
     for (const LodStep& step : steps) {
-        const double change =
-            step.full_coverage > 0.0 ? step.coverage / step.full_coverage - 1.0 : 0.0;
+        const LodDrawn& drawn = drawnOf(step, kind);
         const std::array cells{
             fixed(step.distance, "%.3f"),
-            fixed(step.mean_level, "%.2f"),
-            step.strands ? std::to_string(*step.strands) : "-",
-            thousandths(step.error),
-            thousandths(step.popping),
-            fixed(100.0 * step.coverage, "%.2f"),
-            percent(change),
-            report::shortNumber(step.time.strands),
+            fixed(drawn.mean_level, "%.2f"),
+            drawn.strands ? std::to_string(*drawn.strands) : "-",
+            thousandths(drawn.error),
+            thousandths(drawn.flip),
+            thousandths(drawn.popping),
+            fixed(100.0 * drawn.coverage, "%.2f"),
+            percent(changeOfCoverage(step, kind)),
+            report::shortNumber(drawn.time.strands),
             report::shortNumber(step.full_time.strands),
-            report::shortNumber(step.time.frame),
+            report::shortNumber(drawn.time.frame),
             report::shortNumber(step.full_time.frame)};
         for (std::size_t i = 0; i < all.size(); ++i) all[i].cells.push_back(cells[i]);
     }
-    return all;
+    std::string text;
+    for (std::size_t row = 0; row <= steps.size(); ++row) text += report::columnsLine(all, row);
+    if (steps.empty()) return text;
+    const LodTotals totals = totalsOf(steps, kind);
+    return text + "\nworst popping: " + thousandths(totals.worst_popping) +
+           " thousandths\ncoverage change: mean " + percent(totals.mean_coverage_change) +
+           " %, worst " + percent(totals.worst_coverage_change) + " %\nspeed-up: strands " +
+           report::shortNumber(totals.strands_speed_up) + ", frame " +
+           report::shortNumber(totals.frame_speed_up) + '\n';
 }
 
 }  // namespace
 
 std::string lodTable(const LodReport& report) {
-    const std::vector<report::Column> all = columns(report.steps);
-    std::string text;
-    for (std::size_t row = 0; row <= report.steps.size(); ++row)
-        text += report::columnsLine(all, row);
-    if (report.steps.empty()) return text;
-    const LodTotals totals = totalsOf(report.steps);
-    text += "\nworst popping: " + thousandths(totals.worst_popping) +
-            " thousandths\ncoverage change: mean " + percent(totals.mean_coverage_change) +
-            " %, worst " + percent(totals.worst_coverage_change) + " %\nspeed-up: strands " +
-            report::shortNumber(totals.strands_speed_up) + ", frame " +
-            report::shortNumber(totals.frame_speed_up) + '\n';
+    std::string text = stepsTable(report.steps, LodKind::distance);
+    if (hasClusters(report.steps))
+        text += "\nlevels by cluster:\n" + stepsTable(report.steps, LodKind::cluster);
     if (report.truth) text += truthTable(*report.truth);
     return text;
 }
@@ -474,52 +509,117 @@ hair::CameraSettings cameraAt(const hair::CameraSettings& camera, double distanc
     return moved;
 }
 
+namespace {
+
+// Half of a pixel's height at a distance of 1 m, m.
+double pixelSlope(const hair::CameraSettings& camera, const hair::RenderSettings& render) {
+    return std::tan(glm::radians(double{camera.field_of_view}) / 2.0) / render.height;
+}
+
+// The hair with one choice of levels, and as the measure of coverage needs it.
+class WalkedHair {
+public:
+    WalkedHair(
+        const engine::Device& device, const measure::Case& hair, const hair::Settings& settings)
+        : view_(device, hair, settings), cover_(device, hair, coverageOf(settings)) {}
+
+    FrozenView& view() { return view_; }
+    const LodTimes& times() const { return times_; }
+
+    // Sets the camera and returns the coverage of the hair, from the same place with `zoomed`. The
+    // error of levels by cluster is as long there as in the picture.
+    double coverageFrom(
+        const hair::Settings& settings, const hair::CameraSettings& camera,
+        const hair::CameraSettings& zoomed) {
+        view_.setCamera(camera);
+        cover_.setCamera(zoomed);
+        cover_.setLodError(static_cast<float>(
+            double{settings.lod.error} * pixelSlope(camera, settings.render) /
+            pixelSlope(zoomed, coverageOf(settings).render)));
+        cover_.draw();
+        return whiteShare(cover_.picture());
+    }
+
+    // Takes the times and the last picture of the frames since the last call. Keeps the picture
+    // before.
+    void take() {
+        times_ = view_.times();
+        before_ = std::move(picture_);
+        picture_ = view_.picture();
+    }
+
+    LodDrawn comparedWith(const WalkedHair& full, const hair::RenderSettings& render) {
+        LodDrawn drawn{
+            .error = rootMeanSquare(picture_, full.picture_),
+            .flip = reference::flipError(full.picture_, picture_, render.width, render.height),
+            .time = times_};
+        if (!before_.empty())
+            drawn.popping = popping(before_, picture_, full.before_, full.picture_);
+        return drawn;
+    }
+
+private:
+    FrozenView view_;
+    FrozenView cover_;
+    LodTimes times_;
+    Picture picture_;
+    Picture before_;
+};
+
+hair::Settings withMode(hair::Settings settings, hair::LodMode mode) {
+    settings.lod.mode = mode;
+    return settings;
+}
+
+}  // namespace
+
 void walk(
     const engine::Device& device, measure::Case& hair, const hair::Settings& settings,
-    const LodPath& path, const std::function<void(double)>& begin, std::vector<LodStep>& steps) {
-    hair::Settings by_distance = settings;
-    by_distance.lod.mode = hair::LodMode::distance;
-    FrozenView lod(device, hair, by_distance);
-    FrozenView full(device, hair, atLevel(settings, 0.0f));
-    FrozenView lod_cover(device, hair, coverageOf(by_distance));
-    FrozenView full_cover(device, hair, coverageOf(atLevel(settings, 0.0f)));
+    const LodPath& path, LodKind kind, const std::function<void(double)>& begin,
+    std::vector<LodStep>& steps) {
+    hair::Settings by_distance = withMode(settings, hair::LodMode::distance);
+    WalkedHair lod(device, hair, by_distance);
+    WalkedHair full(device, hair, atLevel(settings, 0.0f));
+    std::optional<WalkedHair> clusters;
+    if (kind == LodKind::cluster)
+        clusters.emplace(device, hair, withMode(settings, hair::LodMode::cluster));
+    std::vector<WalkedHair*> all{&lod, &full};
+    if (clusters) all.push_back(&*clusters);
     const std::vector<glm::vec3> guides = hair.guides();
 
-    Picture before;
-    Picture full_before;
     for (const double distance : distancesOf(path)) {
         begin(distance);
         const hair::CameraSettings camera = cameraAt(settings.camera, distance);
+        const hair::CameraSettings zoomed = zoomedOn(hair.view(), camera);
         by_distance.camera = camera;
-        for (FrozenView* each : {&lod, &full}) each->setCamera(camera);
-        for (FrozenView* each : {&lod_cover, &full_cover}) {
-            each->setCamera(zoomedOn(hair.view(), camera));
-            each->draw();
-        }
+        std::vector<double> coverages;
+        for (WalkedHair* each : all)
+            coverages.push_back(each->coverageFrom(settings, camera, zoomed));
         for (std::uint32_t i = 0; i < kWarmUps; ++i)
-            for (FrozenView* each : {&lod, &full}) each->draw();
-        lod.times();
-        full.times();
-        for (std::uint32_t i = 0; i < kRepeats; ++i)  // alternately: disturbances affect both
-            for (FrozenView* each : {&lod, &full}) each->draw();
+            for (WalkedHair* each : all) each->view().draw();
+        for (WalkedHair* each : all) each->view().times();
+        for (std::uint32_t i = 0; i < kRepeats; ++i)  // alternately: disturbances affect all
+            for (WalkedHair* each : all) each->view().draw();
+        for (WalkedHair* each : all) each->take();
 
-        const hair::rendering::DistanceLod state =
-            hair::rendering::distanceLod(hair.groom(), guides, hair.view(), by_distance);
         LodStep step{
             .distance = distance,
-            .mean_level = state.mean_level,
-            .strands = state.strands,
-            .full_strands = full.strands(),
-            .coverage = whiteShare(lod_cover.picture()),
-            .full_coverage = whiteShare(full_cover.picture()),
-            .time = lod.times(),
+            .drawn = lod.comparedWith(full, settings.render),
+            .full_strands = full.view().strands(),
+            .full_coverage = coverages[1],
             .full_time = full.times()};
-        Picture picture = lod.picture();
-        Picture full_picture = full.picture();
-        step.error = rootMeanSquare(picture, full_picture);
-        if (!before.empty()) step.popping = popping(before, picture, full_before, full_picture);
-        before = std::move(picture);
-        full_before = std::move(full_picture);
+        const auto say = [&](LodDrawn& drawn, const hair::rendering::DistanceLod& state) {
+            drawn.mean_level = state.mean_level;
+            drawn.strands = state.strands;
+        };
+        step.drawn.coverage = coverages[0];
+        say(step.drawn,
+            hair::rendering::distanceLod(hair.groom(), guides, hair.view(), by_distance));
+        if (clusters) {
+            step.clusters = clusters->comparedWith(full, settings.render);
+            step.clusters->coverage = coverages[2];
+            say(*step.clusters, clusters->view().clusters());
+        }
         const engine::HeldMessages held;
         steps.push_back(step);
     }

@@ -15,6 +15,7 @@
 #include "benchmarks/scene/sweep.h"
 #include "engine/frame_loop.h"
 #include "hair/rendering/renderer.h"
+#include "hair/rendering/strand_plan.h"
 
 // Compares levels of detail with a path-traced level 0, lit from several directions.
 namespace benchmarks::measure {
@@ -129,6 +130,7 @@ public:
         const engine::Device& device, const measure::Case& hair, const hair::Settings& settings);
 
     void setCamera(const hair::CameraSettings& camera) { renderer_.setCamera(camera); }
+    void setLodError(float pixels) { renderer_.setLodError(pixels); }
     std::uint64_t strands() const { return renderer_.plan().strands(); }
 
     // Throws Interrupted.
@@ -136,6 +138,9 @@ public:
 
     // Medians of the frames since the last call.
     LodTimes times();
+
+    // Level of the frame before, over root triangles, and its strands; only for levels by cluster.
+    hair::rendering::DistanceLod clusters() const;
 
     Picture picture();
 
@@ -152,19 +157,26 @@ private:
 // Costs and savings of level of detail along a camera path, and their report, which
 // results/lod.schema.json describes.
 
-inline constexpr const char* kLodSchema = "hairbench-lod/1.0.0";
+inline constexpr const char* kLodSchema = "hairbench-lod/1.1.0";
 
-// One camera position: level of detail by distance, compared with level 0.
-struct LodStep {
-    double distance = 0.0;  // of the camera from its target, m
+// Levels of detail at one camera position, compared with level 0.
+struct LodDrawn {
     double mean_level = 0.0;  // over root triangles
-    std::optional<std::uint64_t> strands;  // drawn with level of detail
-    std::uint64_t full_strands = 0;
+    std::optional<std::uint64_t> strands;  // drawn
     double error = 0.0;  // rootMeanSquare of the two pictures
+    double flip = 0.0;  // mean FLIP between them
     std::optional<double> popping;  // since the previous step
     double coverage = 0.0;  // share of a square round the hair that the hair covers
-    double full_coverage = 0.0;
     LodTimes time;
+};
+
+// One camera position.
+struct LodStep {
+    double distance = 0.0;  // of the camera from its target, m
+    LodDrawn drawn;  // by distance
+    std::optional<LodDrawn> clusters;  // if requested
+    std::uint64_t full_strands = 0;
+    double full_coverage = 0.0;
     LodTimes full_time;
 };
 
@@ -185,8 +197,11 @@ struct LodReport {
     bool interrupted = false;  // stopped by the user: `steps` has those that were complete
 };
 
-// Needs at least one step.
-LodTotals totalsOf(const std::vector<LodStep>& steps);
+// Which of a step's levels are summed up.
+enum class LodKind { distance, cluster };
+
+// Needs at least one step, with these levels.
+LodTotals totalsOf(const std::vector<LodStep>& steps, LodKind kind = LodKind::distance);
 
 // Indented JSON. Unknown values are absent.
 std::string lodReportText(const LodReport& report);
@@ -207,12 +222,14 @@ std::vector<double> distancesOf(const LodPath& path);
 // The scene's camera at this distance from its target.
 hair::CameraSettings cameraAt(const hair::CameraSettings& camera, double distance);
 
-// Draws the frozen hair of one frame of the case from every position of the path, once by /lod with
-// the mode distance and once at level 0. `settings` are the case's. `begin` is called with each
-// distance. Throws Interrupted between pictures; `steps` then has what was complete.
+// Draws the frozen hair of one frame of the case from every position of the path, by /lod with the
+// mode distance, at level 0 and, for LodKind::cluster, also with that mode. `settings` are the
+// case's. `begin` is called with each distance. Throws Interrupted between pictures; `steps` then
+// has what was complete.
 void walk(
     const engine::Device& device, measure::Case& hair, const hair::Settings& settings,
-    const LodPath& path, const std::function<void(double)>& begin, std::vector<LodStep>& steps);
+    const LodPath& path, LodKind kind, const std::function<void(double)>& begin,
+    std::vector<LodStep>& steps);
 
 // How much a still subject shimmers while the camera walks round it: what its pictures change by
 // from one view to the next, beyond what supersampled pictures change by.

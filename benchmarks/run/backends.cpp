@@ -538,7 +538,7 @@ void BackendComparison::add(
         result.metrics.push_back(*time);
     else
         warn("the passes were not timed");
-    if (settings.lod.mode == hair::LodMode::distance)
+    if (settings.lod.mode != hair::LodMode::forced)
         return warn("only the device knows how many points are drawn");
     if (!settings.strands.texture.empty())
         return warn("samples in the holes of a texture are not counted");

@@ -508,14 +508,14 @@ void print(const RunPlan& plan, const Trials& trials) {
     std::uint64_t bytes = 0;
     for (std::size_t i = 0; i < plan.cases.size(); ++i) {
         const Estimate& each = trials.estimates()[i];
-        const std::string about = each.was_tried ? "" : "about ";
+        const std::string bound = each.was_tried ? "" : "at most ";
         std::optional<double> most;
         if (each.frame)
             most = each.creation + mostSeconds(plan.cases[i].spec.settings.run, *each.frame);
         columns[0].cells.push_back(plan.cases[i].spec.name);
-        columns[1].cells.push_back(each.bytes ? about + report::sizeText(*each.bytes) : "-");
-        columns[2].cells.push_back(each.frame ? about + report::shortNumber(*each.frame) : "-");
-        columns[3].cells.push_back(most ? about + report::shortNumber(*most) : "-");
+        columns[1].cells.push_back(each.bytes ? bound + report::sizeText(*each.bytes) : "-");
+        columns[2].cells.push_back(each.frame ? bound + report::shortNumber(*each.frame) : "-");
+        columns[3].cells.push_back(most ? report::shortNumber(*most) : "-");
         columns[4].cells.push_back(each.problem);
         seconds += most.value_or(0.0);
         if (each.problem.empty()) bytes = std::max(bytes, each.bytes.value_or(0));

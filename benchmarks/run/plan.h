@@ -122,7 +122,7 @@ double mostTimesLonger(const FrameWork& of, const FrameWork& tried);
 // Prints an upper bound of the time of each case, from its creation to its last round, and the sum.
 // Tries two frames of cases: first those with the most work of a sort, made smaller(), then one of
 // each CaseKind, then the small cases unchanged until some seconds are over. Estimates the times of
-// other cases from those of their kind by mostTimesLonger() and marks them as estimates. Memory is
+// other cases from those of their kind by mostTimesLonger() and marks them as bounds. Memory is
 // the device memory that a case held if it was tried unchanged, otherwise an upper bound
 // (measure/memory_need.h). Cases that do not fit are not tried. Without a device, prints only the
 // names and the reason. Returns the exit status.

@@ -86,6 +86,7 @@ constexpr double kLongestWait = 3.0;
 // Thesis 2.3.8.1, as in hair/rendering/strand_plan.cpp for every root.
 float lodAtTarget(const hair::LodSettings& lod, const hair::CameraSettings& camera) {
     if (lod.mode == hair::LodMode::forced) return lod.level;
+    if (lod.mode == hair::LodMode::cluster) return 0.0f;  // only the device knows
     const float distance = glm::length(camera.position - camera.target);
     if (distance <= lod.near_distance || lod.far_distance <= lod.near_distance) return 0.0f;
     const float share =

@@ -10,6 +10,7 @@
 #include <glm/mat2x2.hpp>
 #include <glm/mat3x3.hpp>
 #include <glm/matrix.hpp>
+#include <glm/vec2.hpp>
 #include <glm/vec4.hpp>
 
 #include "engine/error.h"
@@ -18,12 +19,71 @@
 #include "hair/rendering/strand_offsets.h"
 
 namespace hair::rendering {
+namespace {
+
+using engine::Access;
+
+}  // namespace
+
+// ---- Levels of detail by cluster ----------------------------------------------------------------
+
+namespace {
+
+static_assert(sizeof(gpu::LevelsPush) == 48 && sizeof(gpu::ClusterLevel) == 8);
+
+// m, of strands at level 0, without gaps.
+float widthOfStrands(const StrandPlan& plan) {
+    return plan.greatest_width / (plan.merged_hairs ? gpu::kMostMergedSpread : 1.0f);
+}
+
+}  // namespace
+
+engine::MemoryRows LevelsPass::rows(const StrandPlan& plan) {
+    return {
+        "strands",
+        {{"cluster levels", engine::bytesOf<gpu::ClusterLevel>(plan.triangles)},
+         {"cluster order",
+          engine::bytesOf<std::uint32_t>(std::uint64_t{plan.triangles} * plan.density)},
+         {"cluster coverings", engine::bytesOf<float>(plan.triangles)}}};
+}
+
+LevelsPass::LevelsPass(
+    const engine::Device& device, const Settings& settings, const StrandPlan& plan)
+    : push_{
+          .slopes = 0.5f * static_cast<float>(settings.render.ssaa) *
+                    glm::vec2(settings.render.width, settings.render.height),
+          .error = static_cast<float>(settings.render.ssaa),
+          .reach = plan.reach,
+          .greatest_width = widthOfStrands(plan),
+          .clusters = plan.triangles},
+      pipeline_(
+          device, {.shader = "strands/levels.comp",
+                   .constants = strandConstants(settings.strands, plan),
+                   .push_size = sizeof(gpu::LevelsPush)}) {
+    const ClusterOrder order = orderClusters(settings.seed, plan.triangles, settings.strands);
+    const engine::MemoryRows rows = LevelsPass::rows(plan);
+    levels_ = {device, rows["cluster levels"]};
+    order_ = engine::makeBuffer(device, order.strands, rows, "cluster order");
+    coverings_ = engine::makeBuffer(device, order.coverings, rows, "cluster coverings");
+    push_.coverings = coverings_.address();
+}
+
+void LevelsPass::record(
+    engine::Commands& commands, std::uint64_t picture, const gpu::PictureParameters& parameters,
+    const LodSettings& lod) const {
+    gpu::LevelsPush push = push_;
+    push.picture = picture;
+    push.slopes *= parameters.pixel_slope;
+    push.error *= lod.error;
+    push.levels = commands.writes(levels_);
+    commands.uses({{parameters.guides, Access::compute_read}});
+    commands.bind(pipeline_, push);
+    commands.dispatchInvocations(push.clusters, gpu::kLevelsGroupSize);
+}
 
 // ---- Skinned roots ------------------------------------------------------------------------------
 
 namespace {
-
-using engine::Access;
 
 static_assert(sizeof(gpu::CarriedRoot) == 52 && offsetof(gpu::CarriedRoot, inverse_edges) == 36);
 static_assert(sizeof(gpu::SkinPush) == 36);
@@ -72,7 +132,7 @@ SkinnedHead::rows(std::uint64_t vertices, std::uint64_t strands, const RenderSet
 
 SkinnedHead::SkinnedHead(
     const engine::Device& device, const Settings& settings, const StrandPlan& plan,
-    const StrandView& view)
+    const StrandView& view, const LevelsPass* levels)
     : strand_count_(plan.triangles * plan.density),
       pipeline_(device, skinStage(settings.strands, plan)) {
     const engine::MemoryRows rows =
@@ -93,11 +153,18 @@ SkinnedHead::SkinnedHead(
                  .usage = engine::Usage::upload,
                  .name = "picture parameters",
                  .purpose = "shading"});
-    parameters.write(pictureParameters(
+    const gpu::PictureParameters picture = pictureParameters(
         settings, plan, rest,
         {.guide_normals = frames ? frames->normals().address() : 0,
-         .guide_turns = frames ? frames->turns().address() : 0}));
+         .guide_turns = frames ? frames->turns().address() : 0,
+         .cluster_levels = levels ? levels->levels().address() : 0,
+         .strand_order = levels ? levels->order().address() : 0});
+    parameters.write(picture);
     runOnce(device, [&](engine::Commands& commands) {
+        if (levels) {
+            levels->record(commands, parameters.address(), picture, settings.lod);
+            commands.uses({{picture.cluster_levels, Access::compute_read}});
+        }
         if (frames) {
             frames->record(commands, rest);
             commands.uses(
@@ -142,7 +209,8 @@ void SkinnedHead::record(
         {{parameters.guides, Access::compute_read},
          {parameters.contacts, Access::compute_read},
          {parameters.guide_normals, Access::compute_read},
-         {parameters.guide_turns, Access::compute_read}});
+         {parameters.guide_turns, Access::compute_read},
+         {parameters.cluster_levels, Access::compute_read}});
     commands.bind(
         pipeline_, gpu::SkinPush{
                        .picture = picture,

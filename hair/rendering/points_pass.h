@@ -21,15 +21,57 @@
 
 namespace hair::rendering {
 
+// Levels of detail by cluster (Huang et al. 2025, Real-time Level-of-detail Strand-based Rendering,
+// whose clusters become thick strands by their width in the picture). A cluster has the strands of
+// a root triangle. It draws as few strands and points as /lod/error lets it, e px. In the picture,
+// at the same place along the strand:
+// * Each strand of level 0 has a drawn strand within 0.9 e. By ClusterOrder, k strands leave at
+// most
+//   covering / sqrt(k + 1) times the greatest distance between the guides.
+// * Drawn strands stick out of their strand of level 0 by at most 0.9 e on each side, which limits
+//   how many hairs one of them stands for, as greatestWidthScale() does too.
+// * Drawn pieces leave their curve by at most 0.1 e: a piece of 1 / p of a guide segment by |r''| /
+// (8
+//   p^2), and r'' lies between the second differences of the guides.
+// Distances become pixels where the cluster is nearest to the eye. Offsets count twice their reach.
+class LevelsPass {
+public:
+    static bool isNeeded(const StrandPlan& plan) {
+        return plan.lod_mode == LodMode::cluster && plan.strands() > 0;
+    }
+
+    LevelsPass(const engine::Device& device, const Settings& settings, const StrandPlan& plan);
+
+    static engine::MemoryRows rows(const StrandPlan& plan);
+
+    // Chooses the levels for the picture of the camera. Belongs after the pass that moves the
+    // guides, and before all that draws strands. `picture` is the device address of `parameters`.
+    void record(
+        engine::Commands& commands, std::uint64_t picture, const gpu::PictureParameters& parameters,
+        const LodSettings& lod) const;
+
+    const engine::Buffer& levels() const { return levels_; }  // gpu::ClusterLevel [triangle]
+    const engine::Buffer& order() const { return order_; }  // PictureParameters::strand_order
+
+private:
+    gpu::LevelsPush push_;  // without the picture and the levels; slopes in rendered pixels, error
+                            // in such per pixel
+    engine::ComputePipeline pipeline_;
+    engine::Buffer levels_;
+    engine::Buffer order_;
+    engine::Buffer coverings_;
+};
+
 // The mesh under the hair if an animation deforms it, and the roots of drawn strands, each bound to
 // the triangle of the mesh that was nearest to it at rest. The simulation moves the roots of
 // guides. The roots of strands between guides follow their guides and are then corrected here.
 class SkinnedHead {
 public:
-    // `view` must have a mesh that deforms. Finds the roots at rest on the device and waits.
+    // `view` must have a mesh that deforms. `levels` is set if LevelsPass::isNeeded(). Finds the
+    // roots at rest on the device and waits.
     SkinnedHead(
         const engine::Device& device, const Settings& settings, const StrandPlan& plan,
-        const StrandView& view);
+        const StrandView& view, const LevelsPass* levels = nullptr);
 
     // `vertices`: of the mesh.
     static engine::MemoryRows

@@ -329,6 +329,7 @@ engine::MemoryRows Renderer::rows(
     const bool has_residuals =
         settings.strands.source == StrandSource::groom && size.bound_points > 0;
     rows.add(FramesPass::rows(size.vertices(), hasFrames(settings.strands), has_residuals));
+    if (LevelsPass::isNeeded(plan)) rows.add(LevelsPass::rows(plan));
     if (readsPoints(settings)) rows.add(PointsPass::rows(settings.strands, plan));
     rows.add(transparencyRows(settings.render));
     rows.add(backendRows(device, settings, plan, QuadKind::camera));
@@ -367,7 +368,9 @@ Renderer::Renderer(
     for (engine::Buffer& parameters : parameters_)
         parameters = parameterBuffer(device, heads_.size());
     if (settings_.render.hair && FramesPass::isNeeded(view)) frames_.emplace(device, view);
-    if (view.deforming) skin_.emplace(device, settings_, plan_, view);
+    if (settings_.render.hair && LevelsPass::isNeeded(plan_))
+        levels_.emplace(device, settings_, plan_);
+    if (view.deforming) skin_.emplace(device, settings_, plan_, view, pointerTo(levels_));
     if (IndirectLight::isNeeded(settings_) && !meshes_.empty())
         indirect_.emplace(device, settings_);
 }
@@ -402,6 +405,8 @@ void Renderer::writePictures(std::uint32_t slot, std::span<const StrandView> vie
             {.guide_normals = frames_ ? frames_->normals().address() : 0,
              .guide_turns = frames_ ? frames_->turns().address() : 0,
              .root_corrections = skin_ ? skin_->corrections().address() : 0,
+             .cluster_levels = levels_ ? levels_->levels().address() : 0,
+             .strand_order = levels_ ? levels_->order().address() : 0,
              .lights = lights_.address() + i * lights_per_head * sizeof(gpu::Light),
              .optics = optics_.address(),
              .shadows = shadows_.address(slot, motion),
@@ -421,6 +426,18 @@ void Renderer::writePictures(std::uint32_t slot, std::span<const StrandView> vie
     std::iota(order_.begin(), order_.end(), 0u);
     std::ranges::sort(order_, [&](std::uint32_t a, std::uint32_t b) {
         return std::pair(distance(a), a) < std::pair(distance(b), b);
+    });
+}
+
+std::vector<gpu::ClusterLevel> Renderer::clusterLevels(const engine::Device& device) const {
+    if (!levels_) return {};
+    return engine::downloadAs<gpu::ClusterLevel>(device, levels_->levels());
+}
+
+void Renderer::recordLevels(engine::Passes& passes, const StrandPicture& picture) const {
+    if (!levels_) return;
+    passes.pass("levels", engine::PassKind::compute, [&](engine::Commands& commands) {
+        levels_->record(commands, picture.address, picture.parameters, settings_.lod);
     });
 }
 
@@ -455,6 +472,7 @@ void Renderer::record(engine::Passes& passes, std::span<const StrandView> views)
         const StrandView& view = views[motion];
         const StrandPicture picture = pictureOf(heads_[i]);
         const bool moves = is_first || views.size() > 1;
+        recordLevels(passes, picture);
         if (moves) recordShape(passes, view, picture);
         const bool has_points = (moves && shadows_need_points) || traces;
         if (has_points || joined) recordPoints(passes, picture);
@@ -619,13 +637,17 @@ StrandPoints evaluateStrandPoints(
         device, {.size = size * sizeof(Record), .name = "strand points", .purpose = "measuring"});
     std::optional<FramesPass> frames;
     if (FramesPass::isNeeded(view)) frames.emplace(device, view);
+    std::optional<LevelsPass> levels;
+    if (LevelsPass::isNeeded(result.plan)) levels.emplace(device, settings, result.plan);
     std::optional<SkinnedHead> skin;
-    if (view.deforming) skin.emplace(device, settings, result.plan, view);
+    if (view.deforming) skin.emplace(device, settings, result.plan, view, pointerTo(levels));
     const gpu::PictureParameters picture = pictureParameters(
         settings, result.plan, view,
         {.guide_normals = frames ? frames->normals().address() : 0,
          .guide_turns = frames ? frames->turns().address() : 0,
-         .root_corrections = skin ? skin->corrections().address() : 0});
+         .root_corrections = skin ? skin->corrections().address() : 0,
+         .cluster_levels = levels ? levels->levels().address() : 0,
+         .strand_order = levels ? levels->order().address() : 0});
     parameters.write(picture);
     result.records.reserve(count);
     for (std::uint32_t first = 0; first < count; first += std::min(size, count - first)) {
@@ -634,6 +656,8 @@ StrandPoints evaluateStrandPoints(
             if (frames && first == 0) {
                 frames->record(commands, view);
             }
+            if (levels && first == 0)
+                levels->record(commands, parameters.address(), picture, settings.lod);
             if (skin && first == 0) {
                 skin->record(commands, parameters.address(), picture, 0);
             }

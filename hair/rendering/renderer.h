@@ -89,11 +89,11 @@ private:
 // Draws pictures of a head of hair, or of copies of it (copyOffsets), one after the other, so that
 // their strands share the memory of one head. Shadows of a head fall on that head alone. The
 // passes are: frames (if strands have offsets or residuals),
-// skin (if the mesh under the hair deforms), points (if a back end draws from them), mesh_shadow
-// and hair_shadow (if asked for), indirect (if asked for), scene, strands, composite (if fragments
-// are blended at the end), overlay (if asked for) and resolve (if the picture is not the rendered
-// image). If passes may join, scene, strands and overlay are one rendering, which resolves samples
-// at its end.
+// levels (if they are by cluster), skin (if the mesh under the hair deforms), points (if a back end
+// draws from them), mesh_shadow and hair_shadow (if asked for), indirect (if asked for), scene,
+// strands, composite (if fragments are blended at the end), overlay (if asked for) and resolve (if
+// the picture is not the rendered image). If passes may join, scene, strands and overlay are one
+// rendering, which resolves samples at its end.
 class Renderer {
 public:
     // `view` gives the counts, which must not change. `stages` applies to the camera's picture of
@@ -119,6 +119,7 @@ public:
 
     // Takes effect from the next picture on.
     void setCamera(const CameraSettings& camera) { settings_.camera = camera; }
+    void setLodError(float pixels) { settings_.lod.error = pixels; }
 
     const engine::Target& target() const { return target_; }
     const StrandPlan& plan() const { return plan_; }
@@ -126,6 +127,9 @@ public:
     std::uint32_t heads() const { return static_cast<std::uint32_t>(heads_.size()); }
     // Counts those of all heads.
     std::optional<ExpectedCounts> expected() const;
+    // Reads the levels by cluster of the picture that was drawn last, of its last head, and waits:
+    // [root triangle]. Empty in other modes.
+    std::vector<gpu::ClusterLevel> clusterLevels(const engine::Device& device) const;
     const StrandBlend& blend() const { return strands_.blend(); }
 
 private:
@@ -141,6 +145,7 @@ private:
         return {.address = head.address, .parameters = head.parameters, .images = strand_images_};
     }
     void writePictures(std::uint32_t slot, std::span<const StrandView> views);
+    void recordLevels(engine::Passes& passes, const StrandPicture& picture) const;
     void recordShape(engine::Passes& passes, const StrandView& view, const StrandPicture& picture);
     void recordPoints(
         engine::Passes& passes, const StrandPicture& picture, Bounds bounds = Bounds::old) const;
@@ -169,6 +174,7 @@ private:
     engine::Buffer lights_;  // gpu::Light [head][light]
     HairOpticsBuffers optics_;
     std::optional<FramesPass> frames_;
+    std::optional<LevelsPass> levels_;  // for LodMode::cluster
     std::optional<SkinnedHead> skin_;
     std::optional<PointsPass> points_;
     std::optional<StrandStructure> structure_;

@@ -32,7 +32,7 @@ glm::vec3 hairColor(const Settings& settings) {
 // ---- Parameters of a picture --------------------------------------------------------------------
 
 static_assert(offsetof(gpu::PictureParameters, lights) == 228);
-static_assert(sizeof(gpu::PictureParameters) == 436);
+static_assert(sizeof(gpu::PictureParameters) == 452);
 
 gpu::PictureParameters pictureParameters(
     const Settings& settings, const StrandPlan& plan, const StrandView& view,
@@ -99,7 +99,9 @@ gpu::PictureParameters pictureParameters(
         .least_density_scale =
             view.greatest_width_scale > 0.0f ? 1.0f / view.greatest_width_scale : 0.0f,
         .seed = settings.seed,
-        .blend = settings.strands.blend};
+        .blend = settings.strands.blend,
+        .cluster_levels = buffers.cluster_levels,
+        .strand_order = buffers.strand_order};
 }
 
 // ---- Pipelines of strands -----------------------------------------------------------------------
@@ -134,7 +136,8 @@ void declareStrands(
          {picture.contacts, access},
          {picture.guide_normals, access},
          {picture.guide_turns, access},
-         {picture.root_corrections, access}});
+         {picture.root_corrections, access},
+         {picture.cluster_levels, access}});
 }
 
 namespace {

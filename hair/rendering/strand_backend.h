@@ -121,6 +121,8 @@ struct PictureBuffers {
     std::uint64_t guide_normals = 0;  // FramesPass::normals()
     std::uint64_t guide_turns = 0;  // FramesPass::turns()
     std::uint64_t root_corrections = 0;  // SkinnedHead::corrections()
+    std::uint64_t cluster_levels = 0;  // LevelsPass::levels()
+    std::uint64_t strand_order = 0;  // LevelsPass::order()
     std::uint64_t lights = 0;
     std::uint64_t optics = 0;
     std::uint64_t shadows = 0;

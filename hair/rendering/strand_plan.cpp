@@ -5,11 +5,13 @@
 #include <cmath>
 #include <limits>
 #include <numeric>
+#include <string>
 
 #include <glm/geometric.hpp>
 
 #include "engine/error.h"
 #include "hair/gpu_structs.h"
+#include "hair/random.h"
 
 namespace hair::rendering {
 namespace {
@@ -50,13 +52,29 @@ std::uint32_t smallestFactor(std::uint32_t number) {
 bool drawsMergedHairs(const Settings& settings) {
     const LodSettings& lod = settings.lod;
     return lod.merged == MergedStrands::hairs &&
-           (lod.mode == LodMode::distance || lod.level > 0.0f) &&
+           (lod.mode != LodMode::forced || lod.level > 0.0f) &&
            settings.render.show == Show::shading && settings.strands.backend != Backend::lines;
 }
 
 // Equals the number in strands/lod.glsl to the last bit.
 float scaledCount(std::uint32_t count, float scale) {
     return std::max(static_cast<float>(count) * scale, 1.0f);
+}
+
+// Throws engine::Error if nothing bounds how far the strands of a cluster are from one another.
+void checkClusters(const Settings& settings) {
+    if (settings.lod.mode != LodMode::cluster) return;
+    const StrandSettings& strands = settings.strands;
+    const auto refuse = [](const char* why) {
+        throw engine::Error("/lod/mode", std::string("is cluster, but ") + why);
+    };
+    if (strands.source == StrandSource::groom)
+        refuse(
+            "/strands/source is groom, whose strands have shapes of their own; they take distance");
+    if (strands.curve == Curve::extension)
+        refuse("nothing bounds the bends of a curve from a file; it takes distance");
+    if (strands.collision == StrandCollision::push_out)
+        refuse("/strands/collision moves strands by any distance; they take distance");
 }
 
 // Thesis program 2.3: fract(sin(dot(co, (12.9898, 78.233))) * 43758.5453).
@@ -115,7 +133,7 @@ StrandPlan planStrands(
     const DrawnPieces pieces = drawnPieces(strands.tessellation, plan.forced_scale);
     plan.forced_density = drawnStrands(strands.density, plan.forced_scale);
     plan.forced_tessellation = pieces.count;
-    plan.morphs = lod.mode == LodMode::distance || pieces.morphs;
+    plan.morphs = lod.mode != LodMode::forced || pieces.morphs;
     plan.patches_per_triangle =
         isoline_limit == 0 ? 1 : divideUp(plan.forced_density, isoline_limit);
     plan.strands_per_patch = divideUp(plan.forced_density, plan.patches_per_triangle);
@@ -131,6 +149,7 @@ planStrands(const StrandView& view, const Settings& settings, std::uint32_t isol
     if (pushed && view.bodies == 0)
         throw engine::Error(
             "/strands/collision", "is push_out, but it is not known what strands collide with");
+    checkClusters(settings);
     const std::uint32_t segments = view.vertices_per_guide - 1;
     StrandSettings strands = settings.strands;
     std::uint32_t triangles = view.triangle_count;
@@ -163,7 +182,7 @@ std::uint64_t StrandPlan::drawnSegments() const {
 
 ExpectedCounts expectedCounts(const StrandPlan& plan) {
     ExpectedCounts counts{.tessellation_control_patches = plan.patches()};
-    if (plan.lod_mode == LodMode::distance) return counts;
+    if (plan.lod_mode != LodMode::forced) return counts;
     counts.tessellation_evaluation_invocations =
         plan.strands() * plan.segments * (plan.forced_tessellation + 1);
     counts.geometry_invocations = plan.drawnSegments();
@@ -239,6 +258,107 @@ DistanceLod distanceLod(
     }
     result.strands = strands;
     return result;
+}
+
+// ---- Levels by cluster --------------------------------------------------------------------------
+
+namespace {
+
+// A strand's weights of the first two guides; the third has the rest.
+struct Place {
+    float u;
+    float v;
+};
+
+// A number in [0, 1), as unitFloat() of common/random.glsl.
+float unitFloat(std::uint32_t bits) { return static_cast<float>(bits >> 8u) * 0x1p-24f; }
+
+// rootWeights() of strands/roots.glsl.
+Place folded(float u, float v) { return u > 1.0f - v ? Place{1.0f - u, 1.0f - v} : Place{u, v}; }
+
+int heaviest(const Place& place) {
+    const float w = 1.0f - place.u - place.v;
+    if (place.u >= place.v && place.u >= w) return 0;
+    return place.v >= w ? 1 : 2;
+}
+
+// Half of the sum of the weights' differences.
+float weightsApart(const Place& a, const Place& b) {
+    const float u = std::abs(a.u - b.u);
+    const float v = std::abs(a.v - b.v);
+    return std::max({u, v, std::abs(a.u - b.u + a.v - b.v)});
+}
+
+// The least of the weights: in the measure of weightsApart(), the distance to the nearest edge.
+float distanceToEdge(const Place& place) {
+    return std::min({place.u, place.v, 1.0f - place.u - place.v});
+}
+
+// Puts the places in their order, `strands`, and returns their covering. The next strand is the
+// one that is farthest from all before it and from the edges, where strands of the neighbours are.
+// `nearest` has room for all.
+float orderCluster(
+    std::span<const Place> places, bool follows_one, std::span<float> nearest,
+    std::span<std::uint32_t> strands) {
+    const auto apart = [&](std::size_t a, std::size_t b) {
+        const bool differ = follows_one && heaviest(places[a]) != heaviest(places[b]);
+        return weightsApart(places[a], places[b]) + (differ ? 2.0f : 0.0f);
+    };
+    // Beyond an edge, a neighbour's strand may be as far from it.
+    const auto room = [&](std::size_t i) {
+        return std::min(nearest[i], 2.0f * distanceToEdge(places[i]));
+    };
+    std::ranges::fill(nearest, std::numeric_limits<float>::max());
+    std::size_t next = 0;
+    for (std::size_t i = 1; i < places.size(); ++i)
+        if (room(i) > room(next)) next = i;
+    float covering = 0.0f;
+    for (std::size_t kept = 0; kept < places.size(); ++kept) {
+        strands[kept] = static_cast<std::uint32_t>(next);
+        const std::size_t newest = next;
+        float farthest = 0.0f;
+        float most = -std::numeric_limits<float>::max();
+        for (std::size_t i = 0; i < places.size(); ++i) {
+            if (nearest[i] < 0.0f) continue;  // kept, and not again if another is at its place
+            nearest[i] = i == newest ? -1.0f : std::min(nearest[i], apart(i, newest));
+            if (i == newest) continue;
+            farthest = std::max(farthest, nearest[i]);
+            if (room(i) <= most) continue;
+            most = room(i);
+            next = i;
+        }
+        covering = std::max(covering, std::sqrt(static_cast<float>(kept + 2)) * farthest);
+    }
+    return covering;
+}
+
+}  // namespace
+
+ClusterOrder
+orderClusters(std::uint32_t seed, std::uint32_t triangles, const StrandSettings& settings) {
+    constexpr float kRounding = 1.0f + 1e-5f;
+    const std::uint32_t density = settings.density;
+    const bool follows_one =
+        settings.interpolation != Interpolation::multi || settings.collision_rule;
+    ClusterOrder order;
+    order.strands.resize(std::size_t{triangles} * density);
+    order.coverings.reserve(triangles);
+    std::vector<glm::vec2> pattern;
+    if (settings.randomness == Randomness::thesis) pattern = thesisRootPattern(density);
+    std::vector<Place> places(density);
+    std::vector<float> nearest(density);
+    for (std::uint32_t triangle = 0; triangle < triangles; ++triangle) {
+        const std::uint32_t key = hash(seed, triangle, gpu::kRootPurpose);
+        for (std::uint32_t strand = 0; strand < density; ++strand) {
+            const std::uint32_t bits = pcg(key + strand);
+            places[strand] = pattern.empty() ? folded(unitFloat(bits), unitFloat(pcg(bits)))
+                                             : folded(pattern[strand].x, pattern[strand].y);
+        }
+        const auto strands =
+            std::span(order.strands).subspan(std::size_t{triangle} * density, density);
+        order.coverings.push_back(kRounding * orderCluster(places, follows_one, nearest, strands));
+    }
+    return order;
 }
 
 // ---- The published program's random pairs -------------------------------------------------------

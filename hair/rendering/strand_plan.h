@@ -26,10 +26,10 @@ struct StrandPlan {
     std::uint32_t segments = 0;  // guide segments per guide
     std::uint32_t density = 0;  // strands per root triangle at level 0
     std::uint32_t tessellation = 0;  // drawn segments per guide segment at level 0
-    // Counts at the forced level, or at level 0 in LodMode::distance.
+    // Counts at the forced level, or at level 0 in other modes.
     std::uint32_t forced_density = 0;
     std::uint32_t forced_tessellation = 0;
-    float forced_level = 0.0f;  // 0 in LodMode::distance
+    float forced_level = 0.0f;  // 0 in other modes
     float forced_scale = 1.0f;  // 2^-forced_level
     bool morphs = false;  // ends of drawn segments may leave their curve: DrawnPieces
     std::uint32_t patches_per_triangle = 0;  // per guide segment
@@ -46,7 +46,7 @@ struct StrandPlan {
     std::uint32_t patches() const { return triangles * patches_per_triangle * segments; }
     // Most vertices that one patch tessellates to.
     std::uint32_t verticesPerPatch() const;
-    // Drawn strands and their drawn segments; in LodMode::distance, those of level 0.
+    // Drawn strands and their drawn segments; unless the level is forced, those of level 0.
     std::uint64_t strands() const;
     std::uint64_t drawnSegments() const;
 };
@@ -116,6 +116,24 @@ struct DistanceLod {
 DistanceLod distanceLod(
     const groom::Groom& groom, std::span<const glm::vec3> guides, const StrandView& view,
     const Settings& settings);
+
+// Order of the strands of each cluster, a root triangle, for levels of detail that keep the first
+// of them.
+//
+// A strand is the mean of its guides, so two strands of a cluster are never farther apart than half
+// of the sum of their weights' differences times the greatest distance between two of the guides at
+// one vertex. In that measure, the first k strands have one within covering / sqrt(k + 1) of each
+// other strand. The order is that of Gonzalez 1985, Clustering to Minimize the Maximum Intercluster
+// Distance, but keeps away from edges too. If strands follow one guide, the measure of strands of
+// different guides is greater by 2.
+struct ClusterOrder {
+    std::vector<std::uint32_t> strands;  // [triangle][place in the order]
+    std::vector<float> coverings;  // [triangle]
+};
+
+// Takes a time proportional to the square of the density.
+ClusterOrder
+orderClusters(std::uint32_t seed, std::uint32_t triangles, const StrandSettings& settings);
 
 // Returns the published program's random pairs, the same for every root triangle: [strand], in [0,
 // 1), multiples of 2^-24. The host computes them, because the formula uses the last bits of sines,

@@ -21,6 +21,7 @@ const uint kTaperSegment = 1u;
 // Source of the level of detail (LodMode).
 const uint kLodForced = 0u;
 const uint kLodDistance = 1u;
+const uint kLodCluster = 2u;
 
 // Source of the strands (StrandSource).
 const uint kSourceRootTriangles = 0u;
@@ -111,7 +112,7 @@ const uint kBoxesConstant = 38u;
 const uint kStrictLinesConstant = 13u;
 const uint kLinesConstant = 14u;
 
-// Constant of strands' quads and fragments: strands/pixel_samples.glsl.
+// Constant of strands' quads and fragments: strands/pixel_margin.glsl.
 const uint kPixelSamplesConstant = 15u;
 
 // Constants of the back end `mesh`: strands/mesh/block.glsl. The last is the number of invocations

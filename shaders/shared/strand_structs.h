@@ -85,6 +85,30 @@ struct PictureParameters {
     float least_density_scale;  // for levels by distance: 1 / StrandView::greatest_width_scale
     uint seed;
     float blend;  // 0: mixed strands follow one guide; 1: all three
+    Address cluster_levels;  // ClusterLevel [root triangle]; read for levels by cluster
+    Address strand_order;  // uint [root triangle][strand], `density` per triangle: the order in
+                           // which levels by cluster keep strands; read for them
+};
+
+// The level of detail of a cluster, which has the strands of a root triangle: strands/levels.comp.
+struct ClusterLevel {
+    float strands;  // StrandLod::density
+    float pieces;  // drawn segments per guide segment that keep the error; may be fractional
+};
+
+// Invocations in a work group of strands/levels.comp.
+const uint kLevelsGroupSize = 64u;
+
+// Push constants of strands/levels.comp.
+struct LevelsPush {
+    Address picture;  // PictureParameters
+    Address coverings;  // float [root triangle]: hair/rendering/strand_plan.h
+    Address levels;  // ClusterLevel [root triangle]; written
+    vec2 slopes;  // half of the picture's width and height at a distance of 1
+    float error;  // rendered pixels, over 0
+    float reach;  // m; greatest distance by which offsets move points
+    float greatest_width;  // m, of strands at level 0
+    uint clusters;
 };
 
 // A strand of the groom: the weighted mean of its guides plus `offset`, and a residual if residuals

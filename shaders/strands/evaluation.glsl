@@ -34,7 +34,7 @@ StrandPoint evaluatedPoint(PictureParameters picture) {
     PatchStrand strand;
     strand.index = patch_ids.z + isoline;
     strand.guides = patch_guides;
-    strand.weights = strandWeights(picture, strand_patch.key, strand.index);
+    strand.weights = strandWeights(picture, strand_patch, strand.index);
     strand.lift = strandLift(RootLift(root_lift), strand.weights);
     strandControlPoints(picture, patch_guides, strand_patch.segment, strand.weights,
                         control_points, single_shares, strand.r);

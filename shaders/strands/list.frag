@@ -3,7 +3,7 @@
 // list construction on the GPU. With several samples, alpha is scaled by the covered part of them.
 #extension GL_GOOGLE_include_directive : require
 #include "strands/fragment.glsl"
-#include "strands/pixel_samples.glsl"
+#include "strands/pixel_margin.glsl"
 
 layout(early_fragment_tests) in;
 

@@ -1,7 +1,7 @@
 // Level of detail, thesis 2.3.8.1. With growing level, there are fewer strands and drawn segments,
 // and strands are wider. Everything is continuous in the level. A root triangle's level is that of
-// its roots and applies to all segments of a strand, so strands never break between patches.
-// Coarser levels keep the first strands of the list.
+// its roots, or one that keeps an error in pixels, and applies to all segments of a strand, so
+// strands never break between patches. Coarser levels keep the first strands of the list.
 #ifndef HAIRBENCH_LOD_GLSL
 #define HAIRBENCH_LOD_GLSL
 
@@ -31,12 +31,20 @@ uint smallestFactor(uint number) {
     return number;
 }
 
-// Chooses the coarsest of the nested sets of pieces that has at least finest * scale pieces. Each
-// set's count is that of the set before divided by its smallest factor, down to 1. Just above the
-// next set's count, the ends that the next set lacks have almost reached its lines, so they are
+// The place of `wanted` between two counts of pieces: 0 at the smaller, 1 at the greater. For levels
+// by cluster the error, which falls with the square of the count, is linear in it.
+float placeBetween(float wanted, float fewer, float more) {
+    if (kLodMode != kLodCluster) return (wanted - fewer) / (more - fewer);
+    precise float most = 1.0 / (fewer * fewer);
+    precise float place = (most - 1.0 / (wanted * wanted)) / (most - 1.0 / (more * more));
+    return place;
+}
+
+// Chooses the coarsest of the nested sets of pieces that has at least `wanted` pieces, 1 or more.
+// Each set's count is that of the set before divided by its smallest factor, down to 1. Just above
+// the next set's count, the ends that the next set lacks have almost reached its lines, so they are
 // dropped without a jump.
-void choosePieces(uint finest, float scale, inout StrandLod lod) {
-    float wanted = max(float(finest) * scale, 1.0);
+void choosePieces(uint finest, float wanted, inout StrandLod lod) {
     lod.pieces = finest;
     lod.step = 1u;
     lod.morph = 1.0;
@@ -45,15 +53,17 @@ void choosePieces(uint finest, float scale, inout StrandLod lod) {
         uint fewer = lod.pieces / factor;
         if (wanted > float(fewer)) {
             lod.step = factor;
-            lod.morph = (wanted - float(fewer)) / float(lod.pieces - fewer);
+            lod.morph = placeBetween(wanted, float(fewer), float(lod.pieces));
             return;
         }
         lod.pieces = fewer;
     }
 }
 
-void chooseStrands(uint finest, float scale, inout StrandLod lod) {
-    lod.density = max(float(finest) * scale, 1.0);
+float scaledCount(uint finest, float scale) { return max(float(finest) * scale, 1.0); }
+
+void chooseStrands(uint finest, float strands, inout StrandLod lod) {
+    lod.density = strands;
     lod.width_scale = float(finest) / lod.density;
 }
 
@@ -61,22 +71,32 @@ StrandLod lodAtDistance(PictureParameters picture, float distance_to_eye) {
     StrandLod lod;
     lod.level = lodLevel(picture, distance_to_eye);
     float scale = lod.level > 0.0 ? exp2(-lod.level) : 1.0;
-    chooseStrands(picture.density, max(scale, picture.least_density_scale), lod);
-    choosePieces(picture.tessellation, scale, lod);
+    float least = max(scale, picture.least_density_scale);
+    chooseStrands(picture.density, scaledCount(picture.density, least), lod);
+    choosePieces(picture.tessellation, scaledCount(picture.tessellation, scale), lod);
     return lod;
 }
 
 StrandLod forcedLod(PictureParameters picture) {
     StrandLod lod;
     lod.level = picture.forced_level;
-    chooseStrands(picture.density, picture.forced_scale, lod);
+    float scale = picture.forced_scale;
+    chooseStrands(picture.density, scaledCount(picture.density, scale), lod);
     if (kLodMorph != 0) {
-        choosePieces(picture.tessellation, picture.forced_scale, lod);
+        choosePieces(picture.tessellation, scaledCount(picture.tessellation, scale), lod);
     } else {
         lod.pieces = picture.forced_tessellation;
         lod.step = 1u;
         lod.morph = 1.0;
     }
+    return lod;
+}
+
+StrandLod lodOfCluster(PictureParameters picture, ClusterLevel level) {
+    StrandLod lod;
+    chooseStrands(picture.density, level.strands, lod);
+    lod.level = log2(lod.width_scale);
+    choosePieces(picture.tessellation, level.pieces, lod);
     return lod;
 }
 

@@ -8,6 +8,8 @@
 #include "strands/options.glsl"
 
 layout(buffer_reference, scalar) readonly buffer BoundStrands { BoundStrand strands[]; };
+layout(buffer_reference, scalar) readonly buffer ClusterLevels { ClusterLevel at[]; };
+layout(buffer_reference, scalar) readonly buffer StrandOrder { uint at[]; };
 
 // One (root triangle, guide segment) pair, or a part of its strands. The strands of a groom count
 // as those of one triangle, and a level of detail keeps the first of them. Each of them is a patch.
@@ -83,8 +85,19 @@ vec3 lodCentre(PictureParameters picture, StrandPatch strand_patch, uvec3 guides
 
 StrandLod patchLod(PictureParameters picture, StrandPatch strand_patch, uvec3 guides) {
     if (kLodMode == kLodForced) return forcedLod(picture);
+    if (kLodMode == kLodCluster)
+        return lodOfCluster(picture,
+                            ClusterLevels(picture.cluster_levels).at[strand_patch.triangle]);
     vec3 centre = lodCentre(picture, strand_patch, guides);
     return lodAtDistance(picture, distance(centre, picture.lod_eye));
+}
+
+// The number that a strand's random numbers come from. `index` is its place in the order in which
+// levels of detail keep the strands of a triangle.
+uint strandNumber(PictureParameters picture, uint triangle, uint index) {
+    if (kLodMode != kLodCluster) return index;
+    uint place = min(index, picture.density - 1u);  // a patch may have unused places
+    return StrandOrder(picture.strand_order).at[triangle * picture.density + place];
 }
 
 // Number of the patch's strands that its level of detail draws; may be 0.

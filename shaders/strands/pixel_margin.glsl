@@ -1,10 +1,12 @@
-// The margin of a quad beyond the strand's edges, so that it covers every pixel that the strand
-// touches.
+// The samples of a pixel, and the margin of a quad beyond the strand's edges, so that it covers every
+// pixel that the strand touches.
 #ifndef HAIRBENCH_PIXEL_MARGIN_GLSL
 #define HAIRBENCH_PIXEL_MARGIN_GLSL
 
 #include "common/picture.glsl"
-#include "strands/pixel_samples.glsl"
+#include "shared/options.h"
+
+layout(constant_id = kPixelSamplesConstant) const uint kSamples = 1;  // of a rendered pixel
 
 // A pixel with a corner on the edge has its centre half a diagonal away, and one of its samples may
 // be as far again. The value is a little more than half, for rounding.

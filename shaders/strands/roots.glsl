@@ -29,9 +29,10 @@ vec3 rootWeights(vec2 pair) {
     return vec3(u, v, 1.0 - u - v);
 }
 
-vec3 strandWeights(PictureParameters picture, uint key, uint strand) {
-    if (kSource == kSourceGroom) return boundStrand(picture, strand).weights;
-    return rootWeights(rootPair(picture, key, strand));
+vec3 strandWeights(PictureParameters picture, StrandPatch strand_patch, uint index) {
+    if (kSource == kSourceGroom) return boundStrand(picture, index).weights;
+    uint number = strandNumber(picture, strand_patch.triangle, index);
+    return rootWeights(rootPair(picture, strand_patch.key, number));
 }
 
 // The corner whose guide has the greatest weight. The medians cut a triangle into thirds; it is the

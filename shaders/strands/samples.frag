@@ -6,7 +6,7 @@
 #extension GL_GOOGLE_include_directive : require
 #include "common/random.glsl"
 #include "strands/fragment.glsl"
-#include "strands/pixel_samples.glsl"
+#include "strands/pixel_margin.glsl"
 
 layout(location = 0) out vec4 color;
 

@@ -22,7 +22,7 @@ layout(buffer_reference, scalar) readonly buffer GroupShades { float at[]; };
 
 // One strand of a patch.
 struct PatchStrand {
-    uint index;    // of the triangle
+    uint index;    // of the triangle, in the order in which levels of detail keep its strands
     uvec3 guides;
     vec3 weights;  // of the guides
     vec3 lift;     // m, displacement of the whole strand
@@ -62,8 +62,9 @@ float strandWidth(PictureParameters picture, PatchStrand strand, uint segment, f
 // is the curvature times the offset, small compared with 1.
 void offsetPoint(PictureParameters picture, StrandPatch strand_patch, PatchStrand strand, float t,
                  inout StrandPoint point) {
+    uint strand_number = strandNumber(picture, strand_patch.triangle, strand.index);
     uint profile =
-        hash(strand_patch.key, strand.index, kOffsetPurpose) % picture.offset_profiles;
+        hash(strand_patch.key, strand_number, kOffsetPurpose) % picture.offset_profiles;
     StrandOffset offset = strandOffset(picture, profile, point.along);
     uint guide = strand.guides[heaviestCorner(strand.weights)];
     mat3 frame = strandFrame(picture, guide, strand_patch.segment, t, point.tangent);
@@ -96,7 +97,9 @@ vec3 boundedOffset(HairPlace place) {
 void extendPoint(PictureParameters picture, StrandPatch strand_patch, PatchStrand strand, float t,
                  inout StrandPoint point) {
     const float kBeside = 1.0 / 1024.0;  // of the strand
-    uint number = hash(strand_patch.key, strand.index, kExtensionPurpose);
+    uint number = hash(strand_patch.key,
+                       strandNumber(picture, strand_patch.triangle, strand.index),
+                       kExtensionPurpose);
     float from = max(point.along - kBeside, 0.0);
     float to = min(point.along + kBeside, 1.0);
     vec3 value = boundedOffset(HairPlace(point.along, number));
@@ -180,8 +183,11 @@ vec4 curveSlopes(float t) {
 }
 
 // Returns the word for the hairs that a strand stands for.
-uint strandMerged(StrandLod lod, uint key, uint index) {
-    return mergedWord(lod.width_scale * strandShare(lod, index), hash(key, index, kMergedPurpose));
+uint strandMerged(PictureParameters picture, StrandPatch strand_patch, uint index) {
+    StrandLod lod = strand_patch.lod;
+    uint number = strandNumber(picture, strand_patch.triangle, index);
+    return mergedWord(lod.width_scale * strandShare(lod, index),
+                      hash(strand_patch.key, number, kMergedPurpose));
 }
 
 // Returns the point at t in [0, 1] of a patch's segment.
@@ -212,7 +218,8 @@ StrandPoint pointOnStrand(PictureParameters picture, StrandPatch strand_patch, P
 }
 
 // True if a strand's point depends on the root triangle itself, beyond its guides' points.
-const bool kNeedsTriangle = kSkinnedStrands != 0 || kShow == kShowGroups;
+const bool kNeedsTriangle =
+    kSkinnedStrands != 0 || kShow == kShowGroups || kLodMode == kLodCluster;
 
 // Returns the shade of the group that a patch's strands belong to: that of the groom's own strand,
 // or of the first guide.
@@ -229,7 +236,10 @@ void putShown(PictureParameters picture, StrandPatch strand_patch, uint index,
               inout StrandPoint point) {
     if (kShow == kShowLod)
         point.along = strand_patch.lod.level / max(picture.lod_maximum_level, 1e-6);
-    if (kShow == kShowStrands) point.along = random01(strand_patch.key, index, kColorPurpose);
+    if (kShow == kShowStrands) {
+        uint number = strandNumber(picture, strand_patch.triangle, index);
+        point.along = random01(strand_patch.key, number, kColorPurpose);
+    }
     if (kShow == kShowGroups) point.along = groupShade(picture, strand_patch);
 }
 
@@ -254,8 +264,7 @@ StrandPoint drawnPoint(PictureParameters picture, StrandPatch strand_patch, Patc
         pushStrandOut(picture, along_guides, point.position, point.tangent);
     }
     putShown(picture, strand_patch, strand.index, point);
-    if (kTellsHairs)
-        point.merged = strandMerged(lod, strand_patch.key, strand.index);
+    if (kTellsHairs) point.merged = strandMerged(picture, strand_patch, strand.index);
     return point;
 }
 
@@ -265,7 +274,7 @@ PatchStrand strandFromGuides(PictureParameters picture, StrandPatch strand_patch
     PatchStrand strand;
     strand.index = index;
     strand.guides = guides;
-    strand.weights = strandWeights(picture, strand_patch.key, index);
+    strand.weights = strandWeights(picture, strand_patch, index);
     strand.lift = strandLift(rootLift(picture, strand_patch, guides), strand.weights);
     uint segment = strand_patch.segment;
     vec3 points[12];

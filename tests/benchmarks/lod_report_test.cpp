@@ -27,21 +27,31 @@ lod::LodReport sampleLod() {
         .frame = 60,
         .steps =
             {{.distance = 0.5,
+              .drawn = {.error = 0.0, .coverage = 0.3, .time = {10.0, 20.0}},
+              .clusters = lod::LodDrawn{.strands = 8704, .coverage = 0.3, .time = {11.0, 21.0}},
               .full_strands = 8704,
-              .error = 0.0,
-              .coverage = 0.3,
               .full_coverage = 0.3,
-              .time = {10.0, 20.0},
               .full_time = {10.0, 20.0}},
              {.distance = 20.0,
-              .mean_level = 4.0,
-              .strands = 1000,
+              .drawn =
+                  {.mean_level = 4.0,
+                   .strands = 1000,
+                   .error = 0.01,
+                   .flip = 0.02,
+                   .popping = 0.002,
+                   .coverage = 0.09,
+                   .time = {2.0, 10.0}},
+              .clusters =
+                  lod::LodDrawn{
+                      .mean_level = 5.0,
+                      .strands = 500,
+                      .error = 0.02,
+                      .flip = 0.03,
+                      .popping = 0.004,
+                      .coverage = 0.12,
+                      .time = {1.0, 9.0}},
               .full_strands = 8704,
-              .error = 0.01,
-              .popping = 0.002,
-              .coverage = 0.09,
               .full_coverage = 0.1,
-              .time = {2.0, 10.0},
               .full_time = {14.0, 20.0}}},
         .truth = lod::LodTruth{
             .samples = 64,
@@ -68,6 +78,11 @@ TEST(LodTotals, AreThoseOfAllSteps) {
     EXPECT_NEAR(totals.worst_coverage_change, -0.1, 1e-15);
     EXPECT_DOUBLE_EQ(totals.strands_speed_up, 2.0);  // 24 ms / 12 ms
     EXPECT_DOUBLE_EQ(totals.frame_speed_up, 40.0 / 30.0);
+    const lod::LodTotals clusters = lod::totalsOf(sampleLod().steps, lod::LodKind::cluster);
+    EXPECT_EQ(clusters.worst_popping, 0.004);
+    EXPECT_NEAR(clusters.worst_coverage_change, 0.2, 1e-15);
+    EXPECT_DOUBLE_EQ(clusters.strands_speed_up, 2.0);  // 24 ms / 12 ms
+    EXPECT_DOUBLE_EQ(clusters.frame_speed_up, 40.0 / 30.0);
 }
 
 TEST(LodReport, LeavesOutWhatIsNotKnown) {
@@ -76,6 +91,8 @@ TEST(LodReport, LeavesOutWhatIsNotKnown) {
     EXPECT_FALSE(report["steps"][0].contains("strands"));
     EXPECT_EQ(report["steps"][1]["strands"], 1000);
     EXPECT_EQ(report["steps"][1]["full_time"]["strands"], 14.0);
+    EXPECT_EQ(report["steps"][1]["clusters"]["strands"], 500);
+    EXPECT_EQ(report["cluster_totals"]["worst_popping"], 0.004);
     lod::LodReport interrupted = sampleLod();
     interrupted.steps.clear();
     interrupted.interrupted = true;

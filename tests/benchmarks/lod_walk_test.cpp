@@ -93,31 +93,43 @@ TEST_F(LodWalkTest, ComparesWithFullDetail) {
     settings.render.width = 96;
     settings.render.height = 64;
     settings.lod.near_distance = 1.0f;
+    settings.lod.error = 4.0f;
     measure::Case hair(device(), settings, HAIRBENCH_SOURCE_DIR "/scenes");
     std::vector<lod::LodStep> steps;
     std::vector<double> begun;
     lod::walk(
-        device(), hair, settings, {.from = 0.5, .to = 4.0, .steps = 2},
+        device(), hair, settings, {.from = 0.5, .to = 4.0, .steps = 2}, lod::LodKind::cluster,
         [&](double distance) { begun.push_back(distance); }, steps);
     ASSERT_EQ(steps.size(), 2u);
     EXPECT_EQ(begun, (std::vector{0.5, 4.0}));
 
     // Everything within 1 m is level 0, so both pictures are equal.
-    EXPECT_EQ(steps[0].mean_level, 0.0);
-    EXPECT_EQ(steps[0].error, 0.0);
-    EXPECT_EQ(steps[0].coverage, steps[0].full_coverage);
-    EXPECT_EQ(steps[0].strands, steps[0].full_strands);
-    EXPECT_FALSE(steps[0].popping);
+    EXPECT_EQ(steps[0].drawn.mean_level, 0.0);
+    EXPECT_EQ(steps[0].drawn.error, 0.0);
+    EXPECT_EQ(steps[0].drawn.flip, 0.0);
+    EXPECT_EQ(steps[0].drawn.coverage, steps[0].full_coverage);
+    EXPECT_EQ(steps[0].drawn.strands, steps[0].full_strands);
+    EXPECT_FALSE(steps[0].drawn.popping);
 
     // At 4 m, level 4 log(4) / log(8) = 2.67; roots are up to about 0.1 m nearer or farther.
-    EXPECT_NEAR(steps[1].mean_level, 2.67, 0.1);
-    EXPECT_GT(steps[1].error, 0.0);
+    EXPECT_NEAR(steps[1].drawn.mean_level, 2.67, 0.1);
+    EXPECT_GT(steps[1].drawn.error, 0.0);
     // The picture before has no error, so all of the error at 4 m is popping.
-    ASSERT_TRUE(steps[1].popping);
-    EXPECT_DOUBLE_EQ(*steps[1].popping, steps[1].error);
-    EXPECT_LT(*steps[1].strands, steps[1].full_strands);
+    ASSERT_TRUE(steps[1].drawn.popping);
+    EXPECT_DOUBLE_EQ(*steps[1].drawn.popping, steps[1].drawn.error);
+    EXPECT_LT(*steps[1].drawn.strands, steps[1].full_strands);
     EXPECT_GT(steps[1].full_coverage, 0.05);
     EXPECT_GT(steps[1].full_time.frame, steps[1].full_time.strands);
+
+    // The head is some 80 px high at 0.5 m, and 10 at 4 m, where 4 px leave few strands.
+    ASSERT_TRUE(steps[0].clusters && steps[1].clusters);
+    EXPECT_EQ(steps[0].clusters->strands, steps[0].full_strands);
+    EXPECT_LT(steps[0].clusters->error, steps[1].clusters->error);
+    EXPECT_LT(*steps[1].clusters->strands, steps[1].full_strands / 2);
+    EXPECT_GT(steps[1].clusters->mean_level, 1.0);
+    EXPECT_GT(steps[1].clusters->flip, 0.0);
+    // Levels are those of the picture, not of the one that measures coverage, so it changes.
+    EXPECT_NE(steps[1].clusters->coverage, steps[1].full_coverage);
 }
 
 }  // namespace

@@ -211,7 +211,7 @@ const BadScene kBadReaderMembers[] = {
      ": /sweep: /lod~2: '~' must be written ~0, and '/' in a name ~1"},
     {R"({"sweep": {"/lod/levle": [1]}})", ": /sweep: /lod/levle: unknown key (did you mean "
                                           "'level'?); known: mode, level, near_distance, "
-                                          "far_distance, maximum_level, merged"},
+                                          "far_distance, maximum_level, error, merged"},
     {R"({"sweep": {"/seed/x": [1]}})", ": /sweep: /seed/x: 1 has no members"},
     {R"({"sweep": {"/sweep": [1]}})",
      ": /sweep: /sweep: unknown key (did you mean 'seed'?); known: description, seed, "

@@ -171,7 +171,7 @@ TEST(Cli, SkipsCasesThatNeedMoreMemoryThanTheyMayTake) {
     EXPECT_EQ(estimated.status, 0);
     EXPECT_THAT(
         estimated.output,
-        testing::ContainsRegex("smoke/msaa:4 +about [0-9.]+ MB .*needs about [0-9.]+ [MG]B of "
+        testing::ContainsRegex("smoke/msaa:4 +at most [0-9.]+ MB .*needs about [0-9.]+ [MG]B of "
                                "[a-z ]*memory; 1.05 MB are free .--max-memory."));
     const Outcome run =
         hairbench(smoke + " --max-memory 1M -o '" + folder.file("r.json").string() + "'");

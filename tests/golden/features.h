@@ -106,6 +106,7 @@ inline const std::vector<Feature>& features() {
              s.lod.merged = MergedStrands::strip;
          }},
         {"lod_hairs", [](Settings& s) { s.lod.level = 1.6f; }, "lod"},
+        {"lod_clusters", [](Settings& s) { s.lod = {.mode = LodMode::cluster, .error = 12.0f}; }},
         {"msaa", [](Settings& s) { s.render.msaa = 4; }},
         {"ssaa", [](Settings& s) { s.render.ssaa = 2; }},
         {"ssaa4", [](Settings& s) { s.render.ssaa = 4; }},

@@ -100,6 +100,15 @@ TEST_F(BackendPictureTest, AreEqualWhereDistanceThinsTheHair) {
     expectEqualPictures(settings, 625);
 }
 
+TEST_F(BackendPictureTest, AreEqualWhereClustersThinTheHair) {
+    Settings settings = small();
+    settings.strands.density = 100;
+    const Pixels full = drawCase(device(), settings);
+    settings.lod = {.mode = LodMode::cluster, .error = 20.0f};
+    EXPECT_GT(differingPixels(drawCase(device(), settings), full), 1000u);
+    expectEqualPictures(settings, 625);
+}
+
 TEST_F(BackendPictureTest, AreEqualForThePublishedProgramsCurveAndTaper) {
     Settings settings = small();
     settings.strands.curve = Curve::bspline_unpinned;

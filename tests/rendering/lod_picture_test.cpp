@@ -34,6 +34,22 @@ TEST_F(LodPictureTest, NearHairIsThatOfLevelZero) {
     EXPECT_EQ(differingPixels(draw(settings), forced), 0u);
 }
 
+// With an error that no strand's absence keeps, all are drawn in full, in another order. Only
+// points of straight pieces may be left out, and these guides have none.
+TEST_F(LodPictureTest, ClustersOfNoErrorAreLevelZero) {
+    for (const Backend backend : {Backend::tessellation, Backend::expanded, Backend::software}) {
+        Settings settings = with(small(), backend);
+        settings.camera.position = {0.0f, 0.1f, 1.0f};
+        const groom::Groom groom = tangledGroom(8);
+        const auto draw_groom = [&] { return drawGroom(device(), settings, groom, nullptr); };
+        const Pixels full = draw_groom();
+        settings.lod = {.mode = LodMode::cluster, .error = 0.01f};
+        EXPECT_EQ(differingPixels(draw_groom(), full), 0u);
+        settings.lod.error = 10.0f;
+        EXPECT_GT(differingPixels(draw_groom(), full), 100u);
+    }
+}
+
 TEST_F(LodPictureTest, FarHairIsThatOfTheMaximumLevel) {
     Settings settings = small();
     const Pixels full = draw(settings);

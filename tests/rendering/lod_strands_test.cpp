@@ -2,10 +2,15 @@
 #include <array>
 #include <cmath>
 #include <optional>
+#include <string>
+#include <vector>
 
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
+#include <glm/trigonometric.hpp>
 #include <gtest/gtest.h>
 
+#include "engine/error.h"
 #include "hair/rendering/renderer.h"
 #include "hair/rendering/strand_plan.h"
 #include "tests/gpu_fixture.h"
@@ -335,6 +340,310 @@ TEST_F(LodStrandsTest, HostCountsWhatTheDeviceDraws) {
         const DistanceLod state = distanceLod(groom, groom.points, hair.view(), settings);
         EXPECT_EQ(state.strands, drawn) << distance;
     }
+}
+
+// ---- Levels by cluster --------------------------------------------------------------------------
+
+// The weights of the strands of a triangle in the order in which clusters keep them: a root of
+// unitTriangles() is at its weights.
+std::vector<glm::dvec3> weightsOf(const StrandPoints& points, std::uint32_t triangle) {
+    std::vector<glm::dvec3> weights;
+    for (std::uint32_t strand = 0; strand < points.plan.forced_density; ++strand)
+        weights.emplace_back(points.at(triangle, strand, 0, 0).position);
+    return weights;
+}
+
+// Half of the sum of the differences, and 2 more if strands follow one guide and these two don't
+// follow the same.
+double apart(const glm::dvec3& a, const glm::dvec3& b, bool follows_one) {
+    const auto heaviest = [](const glm::dvec3& w) {
+        return w.x >= w.y && w.x >= w.z ? 0 : w.y >= w.z ? 1 : 2;
+    };
+    const glm::dvec3 difference = glm::abs(a - b);
+    return 0.5 * (difference.x + difference.y + difference.z) +
+           (follows_one && heaviest(a) != heaviest(b) ? 2.0 : 0.0);
+}
+
+// The least number that, divided by sqrt(k + 1), bounds how far a strand is from the first k.
+double coveringOf(const std::vector<glm::dvec3>& weights, bool follows_one) {
+    std::vector<double> nearest(weights.size(), 1e9);
+    double covering = 0.0;
+    for (std::size_t kept = 1; kept < weights.size(); ++kept) {
+        for (std::size_t i = 0; i < weights.size(); ++i)
+            nearest[i] = std::min(nearest[i], apart(weights[i], weights[kept - 1], follows_one));
+        covering = std::max(
+            covering, std::ranges::max(nearest) * std::sqrt(static_cast<double>(kept) + 1.0));
+    }
+    return covering;
+}
+
+// The device places strands in the host's order, and the first k cover the others as promised.
+TEST_F(LodStrandsTest, ClustersBeginWithStrandsThatCoverTheRest) {
+    const groom::Groom groom = unitTriangles(5);
+    for (const std::uint32_t density : {2u, 7u, 64u, 200u})
+        for (const Interpolation interpolation : {Interpolation::multi, Interpolation::single}) {
+            Settings settings{
+                .seed = 9, .strands = {.interpolation = interpolation, .density = density}};
+            const StrandPoints all = evaluate(groom, settings);
+            settings.lod = {.mode = LodMode::cluster, .error = 0.01f};
+            settings.camera.position = {0.3f, 0.3f, 1.5f};
+            const StrandPoints ordered = evaluate(groom, settings);
+            const ClusterOrder order = orderClusters(9, 5, settings.strands);
+            double covering_before = 0.0;
+            double covering_of_order = 0.0;
+            for (std::uint32_t triangle = 0; triangle < 5; ++triangle) {
+                const auto before = weightsOf(all, triangle);
+                const auto weights = weightsOf(ordered, triangle);
+                for (std::uint32_t i = 0; i < density; ++i)
+                    ASSERT_EQ(weights[i], before[order.strands[triangle * density + i]]);
+                auto numbers = std::vector(
+                    order.strands.begin() + triangle * density,
+                    order.strands.begin() + (triangle + 1) * density);
+                std::ranges::sort(numbers);
+                for (std::uint32_t i = 0; i < density; ++i) ASSERT_EQ(numbers[i], i);
+
+                const bool follows_one = interpolation == Interpolation::single;
+                const double covering = order.coverings[triangle];
+                ASSERT_LE(coveringOf(weights, follows_one), covering) << density << " strands";
+                covering_before += coveringOf(before, follows_one);
+                covering_of_order += covering;
+            }
+            // The order is worth its cost: that of level 0 is random.
+            if (density >= 64) {
+                EXPECT_LT(covering_of_order, 0.9 * covering_before);
+            }
+        }
+}
+
+// A camera and its picture in double precision.
+class Projection {
+public:
+    explicit Projection(const Settings& settings)
+        : eye_(settings.camera.position),
+          forward_(glm::normalize(
+              glm::dvec3(settings.camera.target) - glm::dvec3(settings.camera.position))),
+          right_(glm::normalize(glm::cross(forward_, glm::dvec3(settings.camera.up)))),
+          height_(settings.render.height), width_(settings.render.width),
+          scale_(0.5 * height_ / std::tan(glm::radians(settings.camera.field_of_view * 0.5))) {}
+
+    // px from the middle of the picture.
+    glm::dvec2 operator()(const glm::dvec3& point) const {
+        const glm::dvec3 seen = point - eye_;
+        const glm::dvec3 up = glm::cross(right_, forward_);
+        return scale_ / depth(point) * glm::dvec2(glm::dot(seen, right_), glm::dot(seen, up));
+    }
+    double depth(const glm::dvec3& point) const { return glm::dot(point - eye_, forward_); }
+    double pixelsPerMetre(const glm::dvec3& point) const { return scale_ / depth(point); }
+    bool shows(const glm::dvec3& point) const {
+        if (depth(point) <= 0.0) return false;
+        const glm::dvec2 place = glm::abs((*this)(point));
+        return place.x <= 0.5 * width_ && place.y <= 0.5 * height_;
+    }
+
+private:
+    glm::dvec3 eye_;
+    glm::dvec3 forward_;
+    glm::dvec3 right_;
+    double height_;
+    double width_;
+    double scale_;
+};
+
+// The line of a drawn strand at kPlaces places of each segment, root first.
+struct DrawnLine {
+    std::vector<glm::dvec3> points;
+    std::vector<double> widths;  // m
+};
+
+constexpr std::uint32_t kPlaces = 8;
+
+// Drawn strands of a triangle. `pieces` is set to the pieces of a segment.
+std::vector<DrawnLine>
+linesOf(const StrandPoints& points, std::uint32_t triangle, std::uint32_t& pieces) {
+    pieces = 0;
+    while (pieces < points.plan.forced_tessellation &&
+           points.at(triangle, 0, 0, pieces + 1).width >= 0.0f)
+        ++pieces;
+    std::vector<DrawnLine> lines;
+    for (std::uint32_t strand = 0; strand < points.plan.forced_density; ++strand) {
+        if (points.at(triangle, strand, 0, 0).width < 0.0f) break;
+        DrawnLine& line = lines.emplace_back();
+        for (std::uint32_t segment = 0; segment < points.plan.segments; ++segment)
+            for (std::uint32_t i = 0; i <= kPlaces; ++i) {
+                const double place = static_cast<double>(pieces) * i / kPlaces;
+                const std::uint32_t piece = std::min(static_cast<std::uint32_t>(place), pieces - 1);
+                const auto& a = points.at(triangle, strand, segment, piece);
+                const auto& b = points.at(triangle, strand, segment, piece + 1);
+                line.points.push_back(
+                    glm::mix(glm::dvec3(a.position), glm::dvec3(b.position), place - piece));
+                line.widths.push_back(std::lerp(double{a.width}, double{b.width}, place - piece));
+            }
+    }
+    return lines;
+}
+
+// The greatest distance between two lines in the picture at the same place along them, px, where
+// it shows one of them.
+double apartInPicture(const Projection& projection, const DrawnLine& a, const DrawnLine& b) {
+    double greatest = 0.0;
+    for (std::size_t i = 0; i < a.points.size(); ++i)
+        if (projection.shows(a.points[i]) || projection.shows(b.points[i]))
+            greatest =
+                std::max(greatest, glm::distance(projection(a.points[i]), projection(b.points[i])));
+    return greatest;
+}
+
+struct ClusterCase {
+    const char* name;
+    void (*change)(Settings&);
+    bool follows_one = false;
+};
+
+// The bounds of points_pass.h hold for the device's points, projected in double precision.
+TEST_F(LodStrandsTest, ClustersKeepTheirErrorInPixels) {
+    const groom::Groom groom = tangledGroom(8);
+    constexpr double kRounding = 1e-3;  // px: points of 1 m in 24 bits, at most 1e4 px per metre
+    for (const ClusterCase& each :
+         {ClusterCase{"as it is", [](Settings&) {}},
+          ClusterCase{"catmull_rom", [](Settings& s) { s.strands.curve = Curve::catmull_rom; }},
+          ClusterCase{"unpinned", [](Settings& s) { s.strands.curve = Curve::bspline_unpinned; }},
+          ClusterCase{
+              "single", [](Settings& s) { s.strands.interpolation = Interpolation::single; }, true},
+          ClusterCase{
+              "mixed", [](Settings& s) { s.strands.interpolation = Interpolation::mixed; }, true},
+          ClusterCase{"contacts", [](Settings& s) { s.strands.collision_rule = true; }, true},
+          ClusterCase{"offsets", [](Settings& s) { s.strands.variation.amplitude = 0.002f; }},
+          ClusterCase{"strips", [](Settings& s) { s.lod.merged = MergedStrands::strip; }},
+          ClusterCase{"narrow view", [](Settings& s) { s.camera.field_of_view = 12.0f; }}}) {
+        Settings settings{
+            .strands = {.density = 50, .tessellation = 8, .root_width = 2e-3f, .tip_width = 1e-3f}};
+        settings.render.width = 400;
+        settings.render.height = 300;
+        each.change(settings);
+        const DeviceHair hair(device(), groom, settings);
+        const StrandPoints full = evaluateStrandPoints(device(), settings, hair.view());
+        std::uint32_t fewest = 50;
+        std::uint32_t fewest_pieces = 8;
+        double greatest = 0.0;  // share of the error
+        settings.lod.mode = LodMode::cluster;
+        for (const float error : {1.0f, 6.0f})
+            for (const glm::vec3 eye :
+                 {glm::vec3(0.0f, 0.1f, 0.4f), glm::vec3(-2.0f, 0.5f, 2.0f),
+                  glm::vec3(4.0f, 20.0f, 56.0f)}) {
+                settings.lod.error = error;
+                settings.camera.position = eye;
+                settings.camera.target = {0.1f, 0.1f, 0.0f};
+                const StrandPoints drawn = evaluateStrandPoints(device(), settings, hair.view());
+                const Projection projection(settings);
+                for (std::uint32_t triangle = 0; triangle < 4; ++triangle) {
+                    std::uint32_t pieces = 0;
+                    const auto all = linesOf(full, triangle, pieces);
+                    const auto kept = linesOf(drawn, triangle, pieces);
+                    fewest = std::min(fewest, static_cast<std::uint32_t>(kept.size()));
+                    fewest_pieces = std::min(fewest_pieces, pieces);
+                    for (const DrawnLine& line : all) {
+                        double nearest = 1e9;
+                        for (const DrawnLine& other : kept)
+                            nearest = std::min(nearest, apartInPicture(projection, line, other));
+                        ASSERT_LE(nearest, error + kRounding) << each.name << ", eye at " << eye.z;
+                        greatest = std::max(greatest, nearest / error);
+                    }
+                    const ClusterOrder order = orderClusters(1, 4, settings.strands);
+                    for (std::size_t i = 0; i < kept.size(); ++i) {
+                        const DrawnLine& own = all[order.strands[triangle * 50 + i]];
+                        ASSERT_LE(apartInPicture(projection, kept[i], own), 0.1 * error + kRounding)
+                            << each.name << ", eye at " << eye.z;
+                        for (std::size_t at = 0; at < own.points.size(); ++at) {
+                            if (!projection.shows(own.points[at])) continue;
+                            const bool strip = settings.lod.merged == MergedStrands::strip;
+                            const double spread =
+                                strip || kept.size() == all.size() ? 1.0 : gpu::kMostMergedSpread;
+                            const double out = 0.5 * (spread * kept[i].widths[at] - own.widths[at]);
+                            ASSERT_LE(
+                                out * projection.pixelsPerMetre(own.points[at]),
+                                0.9 * error + kRounding)
+                                << each.name;
+                        }
+                    }
+                }
+            }
+        // The picture is coarser, and not much less than the error allows: the bounds of the four
+        // parts don't add up in one place.
+        EXPECT_LT(fewest, each.follows_one ? 40u : 20u) << each.name;
+        EXPECT_LE(fewest_pieces, 2u) << each.name;
+        EXPECT_GT(greatest, 0.05) << each.name;
+    }
+}
+
+// Moving the eye by a part of its distance from the hair changes the levels by as much: strands'
+// widths, whose number grows with the square, by four times that part in all (what one strand
+// loses, others gain), and their places by a fifth of it times the error. A strand that came or
+// went at once would change the widths by 1/50, and a point left out its place by 1/10 of the
+// error.
+TEST_F(LodStrandsTest, ClustersHaveNoJumps) {
+    const groom::Groom groom = tangledGroom(8);
+    constexpr double kStep = 1e-3;
+    constexpr float kError = 2.0f;
+    Settings settings{.strands = {.density = 50, .tessellation = 8}};
+    settings.render.width = 400;
+    settings.render.height = 300;
+    settings.camera.target = {0.1f, 0.1f, 0.0f};
+    settings.lod = {.mode = LodMode::cluster, .error = kError};
+    const DeviceHair hair(device(), groom, settings);
+    const auto at = [&](double distance) {
+        settings.camera.position =
+            settings.camera.target +
+            static_cast<float>(distance) * glm::normalize(glm::vec3(0.3f, 0.1f, 1.0f));
+        return evaluateStrandPoints(device(), settings, hair.view());
+    };
+    constexpr double kReach = 0.9;  // m, of the hair, from the target
+    double moved = 0.0;
+    for (double distance = 1.3; distance < 60.0; distance *= 1.07) {
+        const double step = kStep * (distance - kReach);
+        const StrandPoints before = at(distance);
+        const Projection projection(settings);
+        const StrandPoints behind = at(distance + step);
+        for (std::uint32_t triangle = 0; triangle < 4; ++triangle) {
+            std::uint32_t pieces = 0;
+            const auto a = linesOf(before, triangle, pieces);
+            const auto b = linesOf(behind, triangle, pieces);
+            double change = 0.0;
+            double width = 0.0;
+            for (std::size_t i = 0; i < std::max(a.size(), b.size()); ++i) {
+                const double from = i < a.size() ? a[i].widths[0] : 0.0;
+                const double to = i < b.size() ? b[i].widths[0] : 0.0;
+                change += std::abs(from - to);
+                width += from;
+                if (i < std::min(a.size(), b.size())) {
+                    const double places = apartInPicture(projection, a[i], b[i]);
+                    ASSERT_LE(places, 0.2 * kStep * kError + 2e-4) << distance;
+                    moved = std::max(moved, places);
+                }
+            }
+            ASSERT_LE(change / width, 4.0 * kStep + 1e-5) << distance;
+        }
+    }
+    EXPECT_GT(moved, 0.0);  // points were left out on the way
+}
+
+TEST_F(LodStrandsTest, ClustersRefuseStrandsWithoutABound) {
+    const groom::Groom groom = tangledGroom(4);
+    Settings settings{.lod = {.mode = LodMode::cluster}};
+    settings.strands.collision = StrandCollision::push_out;
+    const DeviceHair hair(device(), groom);
+    const auto refused = [&] {
+        try {
+            evaluateStrandPoints(device(), settings, hair.view());
+        } catch (const engine::Error& error) {
+            return std::string(error.what());
+        }
+        return std::string();
+    };
+    EXPECT_NE(refused().find("/lod/mode"), std::string::npos);
+    settings.strands.collision = StrandCollision::none;
+    EXPECT_EQ(refused(), "");
+    settings.strands.source = StrandSource::groom;
+    EXPECT_NE(refused().find("/strands/source"), std::string::npos);
 }
 
 }  // namespace

@@ -154,13 +154,17 @@ TEST_F(MovedHeadTest, ManyHeadsAreThePicturesOfEach) {
         for (const std::uint32_t samples : {1u, 4u}) {
             Settings settings = with(twoHeads(), backend);
             settings.render.msaa = samples;
-            settings.lod = {.mode = LodMode::distance, .near_distance = 0.5f, .far_distance = 4.0f};
-            const Pixels left = drawCase(device(), oneHead(settings, 0));
-            const Pixels right = drawCase(device(), oneHead(settings, 1));
-            EXPECT_GT(differingPixels(left, right), 2000u);
-            EXPECT_EQ(
-                differingPixels(drawCase(device(), settings), halves(settings, left, right)), 0u)
-                << static_cast<int>(backend) << " with " << samples << " samples";
+            settings.lod = {.near_distance = 0.5f, .far_distance = 4.0f, .error = 3.0f};
+            for (const LodMode mode : {LodMode::distance, LodMode::cluster}) {
+                settings.lod.mode = mode;
+                const Pixels left = drawCase(device(), oneHead(settings, 0));
+                const Pixels right = drawCase(device(), oneHead(settings, 1));
+                EXPECT_GT(differingPixels(left, right), 2000u);
+                EXPECT_EQ(
+                    differingPixels(drawCase(device(), settings), halves(settings, left, right)),
+                    0u)
+                    << static_cast<int>(backend) << " with " << samples << " samples";
+            }
         }
 }
 

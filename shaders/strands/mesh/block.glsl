@@ -67,7 +67,7 @@ StrandBlock strandBlock(PictureParameters picture, uint index) {
     block.triangle = index / blocks;
     block.pieces = kMostPieces;
     uint drawn = picture.forced_density;
-    if (kLodMode == kLodDistance && kSource != kSourceGroom) {
+    if (kLodMode != kLodForced && kSource != kSourceGroom) {
         StrandPatch strand_patch = patchOfStrand(picture, block.triangle, 0u);
         StrandLod lod = patchLod(picture, strand_patch, patchGuides(picture, strand_patch));
         block.pieces = lod.pieces;

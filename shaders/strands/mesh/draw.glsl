@@ -29,7 +29,7 @@ void fetchStrand(PictureParameters picture, StrandBlock block, uint number) {
     StrandPatch strand_patch = patchOfStrand(picture, block.triangle, index);
     BlockStrand strand;
     strand.guides = patchGuides(picture, strand_patch);
-    strand.weights = strandWeights(picture, strand_patch.key, index);
+    strand.weights = strandWeights(picture, strand_patch, index);
     strand.lift =
         strandLift(rootLift(picture, strand_patch, strand.guides), strand.weights);
     strand.lod = patchLod(picture, strand_patch, strand.guides);

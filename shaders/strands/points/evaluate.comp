@@ -81,7 +81,7 @@ void main() {
     for (uint index = begin; index < end && first_segment == 0u; ++index) {
         uint word = pieces;
         if (kMergedHairs != 0)
-            word |= strandMerged(strand_patch.lod, strand_patch.key, index) & 0xffff0000u;
+            word |= strandMerged(picture, strand_patch, index) & 0xffff0000u;
         StrandPieces(push.pieces).at[number + index - begin] = index < drawn ? word : 0u;
     }
     if (drawn <= begin) return;
@@ -103,7 +103,7 @@ void main() {
         for (uint i = 0u; i < kBlock; ++i) {
             strand.index = begin + i;
             if (strand.index >= drawn) break;
-            strand.weights = strandWeights(picture, strand_patch.key, strand.index);
+            strand.weights = strandWeights(picture, strand_patch, strand.index);
             strand.lift = strandLift(lift, strand.weights);
             strandControlPoints(
                 picture, guides, segment, strand.weights, controls, shares, strand.r);

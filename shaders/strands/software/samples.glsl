@@ -4,7 +4,7 @@
 #ifndef HAIRBENCH_SOFTWARE_SAMPLES_GLSL
 #define HAIRBENCH_SOFTWARE_SAMPLES_GLSL
 
-#include "strands/pixel_samples.glsl"
+#include "strands/pixel_margin.glsl"
 
 // Returns the entry for the pipeline's number of samples.
 uint bySamples(uint of_1, uint of_2, uint of_4, uint of_8) {

@@ -6,7 +6,7 @@
 #include "common/picture.glsl"
 #include "common/vectors.glsl"
 #include "shared/software_structs.h"
-#include "strands/pixel_samples.glsl"
+#include "strands/pixel_margin.glsl"
 #include "strands/points/layout.glsl"
 
 layout(constant_id = kStrandBlockConstant) const uint kBlock = 1;  // strands per invocation
