@@ -575,6 +575,65 @@ TEST_F(LodStrandsTest, ClustersKeepTheirErrorInPixels) {
     }
 }
 
+// The strands between parallel guides, seen along them from afar: the guides' distances are those
+// in the picture, and nothing else takes a share of the error. The bound is for the worst place
+// along the order and for the longest edge of the triangle, so some of it stays unused, but less
+// than 3/5.
+TEST_F(LodStrandsTest, ClustersAreAsCoarseAsTheirErrorLets) {
+    const groom::Groom groom = uprightGroom();
+    Settings settings{
+        .strands = {.density = 200, .tessellation = 2, .root_width = 1e-5f, .tip_width = 1e-5f}};
+    settings.render.width = 400;
+    settings.render.height = 300;
+    settings.camera = {
+        .position = {0.017f, 30.0f, 0.017f},
+        .target = {0.017f, 0.0f, 0.017f},
+        .up = {0.0f, 0.0f, 1.0f},
+        .field_of_view = 2.0f};
+    const DeviceHair hair(device(), groom, settings);
+    std::uint32_t pieces = 0;
+    const auto all = linesOf(evaluateStrandPoints(device(), settings, hair.view()), 0, pieces);
+    double greatest = 0.0;
+    settings.lod.mode = LodMode::cluster;
+    for (const float error : {3.5f, 5.0f, 7.0f, 10.0f}) {
+        settings.lod.error = error;
+        const StrandPoints drawn = evaluateStrandPoints(device(), settings, hair.view());
+        const Projection projection(settings);
+        const auto kept = linesOf(drawn, 0, pieces);
+        ASSERT_LT(kept.size(), all.size());
+        for (const DrawnLine& line : all) {
+            double nearest = 1e9;
+            for (const DrawnLine& other : kept)
+                nearest = std::min(nearest, apartInPicture(projection, line, other));
+            ASSERT_LE(nearest, 0.9 * error + 1e-3) << error;
+            greatest = std::max(greatest, nearest / error);
+        }
+    }
+    EXPECT_GT(greatest, 0.4);
+}
+
+// Strands at one place: only their width limits how many one of them stands for.
+TEST_F(LodStrandsTest, ClustersStickOutByTheirError) {
+    std::vector<glm::vec3> guide;
+    for (int v = 0; v < 8; ++v) guide.emplace_back(0.0f, 0.04f * static_cast<float>(v), 0.0f);
+    constexpr float kWidth = 1e-4f;  // m
+    constexpr float kError = 3.0f;
+    Settings settings{
+        .strands = {.density = 200, .tessellation = 1, .root_width = kWidth, .tip_width = kWidth}};
+    settings.render.width = 300;
+    settings.render.height = 300;
+    settings.camera = {
+        .position = {0.0f, 0.01f, 1.0f}, .target = {0.0f, 0.01f, 0.0f}, .field_of_view = 2.0f};
+    settings.lod = {.mode = LodMode::cluster, .error = kError};
+    const StrandPoints drawn = evaluate(oneTriangle(guide), settings);
+    const double px = Projection(settings).pixelsPerMetre(glm::dvec3(0.0));
+    const double width = drawn.at(0, 0, 0, 0).width;
+    const double out = 0.5 * (gpu::kMostMergedSpread * width - kWidth) * px;
+    EXPECT_LE(out, 0.9 * kError);
+    // The picture's corner stretches by 0.06 %.
+    EXPECT_GT(out, 0.9 * kError * 0.99);
+}
+
 // Moving the eye by a part of its distance from the hair changes the levels by as much: strands'
 // widths, whose number grows with the square, by four times that part in all (what one strand
 // loses, others gain), and their places by a fifth of it times the error. A strand that came or
