@@ -529,6 +529,7 @@ void Renderer::recordJoined(
     passes.pass(
         "strands", kind, [&](engine::Commands& commands) { strands_.prepare(commands, picture); });
     passes.pass("scene", engine::PassKind::graphics, [&](engine::Commands& commands) {
+        meshes_.declareDraw(commands);
         target_.beginRendering(commands, engine::Load::clear, background(), Last::yes);
         meshes_.draw(commands, picture.address, shadows_.images());
         environment_.draw(commands, picture.address);
@@ -562,6 +563,7 @@ void Renderer::recordApart(
     passes.pass("scene", engine::PassKind::graphics, [&](engine::Commands& commands) {
         const engine::Load load = turn.first ? engine::Load::clear : engine::Load::keep;
         if (traces) structure_->tracesLight(commands, StrandStructure::Tracer::fragments);
+        meshes_.declareDraw(commands);
         target_.beginRendering(commands, load, background(), after_scene);
         meshes_.draw(commands, picture.address, shadows_.images());
         if (turn.first) environment_.draw(commands, picture.address);

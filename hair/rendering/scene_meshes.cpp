@@ -135,13 +135,14 @@ groom::Mesh placed(groom::Mesh mesh, const MeshSettings& settings) {
 
 engine::MemoryRows MeshGeometry::rows(const Settings& settings, const groom::Mesh& mesh) {
     const std::size_t positions = engine::bytesOf<glm::vec3>(mesh.positions.size());
-    return {
+    engine::MemoryRows rows(
         "meshes",
         {{"mesh positions", positions},
          {"mesh normals", positions},
-         {"indirect light on meshes", settings.shading.indirect ? positions : 0},
          {"mesh texture coordinates", engine::bytesOf<glm::vec2>(mesh.texture_coordinates.size())},
-         {"mesh indices", engine::bytesOf<std::uint32_t>(3 * mesh.triangles.size())}}};
+         {"mesh indices", engine::bytesOf<std::uint32_t>(3 * mesh.triangles.size())}});
+    if (settings.shading.indirect) rows.add("meshes", {{"indirect light on meshes", positions}});
+    return rows;
 }
 
 MeshGeometry::MeshGeometry(
@@ -261,8 +262,8 @@ void SceneMeshes::gatherIndirect(
     for (const SceneMesh& mesh : meshes_) {
         const Vertices vertices = verticesOf(mesh);
         push.sources = commands.reads(sources);
-        push.positions = commands.reads(vertices.positions);
-        push.normals = commands.reads(vertices.normals);
+        push.positions = vertices.positions;
+        push.normals = vertices.normals;
         push.light = commands.writes(mesh.geometry.indirect);
         push.vertices = mesh.geometry.vertices;
         push.is_moving = vertices.is_moving ? 1u : 0u;
@@ -289,6 +290,12 @@ void SceneMeshes::bind(
                       .normal_scale = material.normal_scale,
                       .cutoff = material.cutoff,
                       .is_moving = vertices.is_moving ? 1u : 0u});
+}
+
+void SceneMeshes::declareDraw(engine::Commands& commands) const {
+    for (const SceneMesh& mesh : meshes_)
+        if (mesh.geometry.indirect.address() != 0)
+            commands.uses({{mesh.geometry.indirect, engine::Access::vertex_read}});
 }
 
 void SceneMeshes::draw(

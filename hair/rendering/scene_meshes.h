@@ -114,6 +114,9 @@ public:
         engine::Commands& commands, const engine::ComputePipeline& gather,
         const engine::Buffer& sources, gpu::IndirectPush push) const;
 
+    // Declares what draw() reads of what frames write, in front of the rendering.
+    void declareDraw(engine::Commands& commands) const;
+
     // Draws the meshes, lit, into the target that is being rendered to. `shadows` are
     // ShadowPass::images().
     void draw(

@@ -191,7 +191,7 @@ class Figures(unittest.TestCase):
         self.addCleanup(folder.cleanup)
         self.root = Path(folder.name)
         (work,) = (REPOSITORY / "results").glob("physics-work-llvmpipe-*.json")
-        for name in (*self.PAGES, "scripts/figures",
+        for name in (*self.PAGES, "scripts/figures", "results/shaders-ga102.txt",
                      *(f"results/{each.name}" for each in (MEASURED, MEASURED_ON_A_GPU, work))):
             (self.root / name).parent.mkdir(exist_ok=True)
             shutil.copy(REPOSITORY / name, self.root / name)
