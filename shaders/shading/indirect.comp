@@ -35,7 +35,7 @@ void main() {
         float squared = dot(offset, offset);
         float here = max(dot(normal, offset), 0.0);
         float there = max(-dot(source.normal, offset), 0.0);
-        if (source.normal == vec3(0.0)) there = 0.25 * sqrt(squared);
+        if (source.normal == vec3(0.0)) there = 0.25 * sqrt(squared);  // its mean over all sides
         // The form factor of a disc, which stays below 1 near it: Wallace, Elmquist and Haines
         // 1989, A ray tracing algorithm for progressive radiosity, equation (2).
         float factor = source.area / (3.14159265 * squared + source.area);
@@ -68,6 +68,18 @@ vec3 worldPosition(MapOfSources from, vec2 texel, float depth) {
 float depthOf(MapOfSources from, sampler2D depths, vec2 texel) {
     ivec2 place = ivec2(clamp(texel, vec2(0.0), vec2(from.side - 1.0)));
     return texelFetch(depths, ivec2(from.map.corner) + place, 0).r;
+}
+
+// The mean number of strands that light meets in front of the first mesh.
+float strandsBeforeMeshes(MapOfSources from, vec2 texel) {
+    if ((from.map.casters & kHairCasts) == 0u) return 0.0;
+    vec4 layers = texelFetch(hair_layers, ivec2(from.map.corner) + ivec2(texel), 0);
+    bool has_meshes = (from.map.casters & kMeshesCast) != 0u;
+    float surface = has_meshes ? depthOf(from, mesh_depths, texel) : float(kFarDepth);
+    if (from.map.ends_at_meshes != 0u || !isNearer(surface, float(kFarDepth))) return layers.w;
+    float behind = viewDepth(from.map.depth_terms, surface) -
+                   viewDepth(from.map.depth_terms, depthOf(from, hair_depths, texel));
+    return strandsBefore(layers, max(behind, 0.0), from.map.layer_depth);
 }
 
 // The vector to a neighbouring point of the surface, along one axis of the map: to the side on
@@ -124,12 +136,7 @@ void main() {
         vec2 texel =
             floor((vec2(texel_number % push.side, texel_number / push.side) + 0.5) * from.step) +
             0.5;
-        bool has_hair = (from.map.casters & kHairCasts) != 0u;
-        float strands = 0.0;
-        if (has_hair) {
-            ivec2 place = ivec2(from.map.corner) + ivec2(texel);
-            strands = texelFetch(hair_layers, place, 0).w;
-        }
+        float strands = strandsBeforeMeshes(from, texel);
         vec3 through = exp(-strands * (1.0 - shadows.parameters.transmittance));
         if (is_hair) {
             // Strands scatter the light that they do not absorb evenly to all sides.

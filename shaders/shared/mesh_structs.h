@@ -21,7 +21,7 @@ struct MeshPush {
 struct IndirectSource {
     vec3 position;  // m
     float area;  // m^2; 0: lights nothing
-    vec3 normal;  // unit length, to the lit side
+    vec3 normal;  // unit length, to the lit side; 0: it shines evenly to all sides
     vec3 color;  // radiance, as working colour
 };
 

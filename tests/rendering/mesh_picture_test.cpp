@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 #include <vector>
@@ -249,13 +250,15 @@ protected:
         return settings;
     }
 
+    // Strands between floor and wall, so that the lights' maps show no more than those.
+    static groom::Groom between() {
+        return oneTriangle(std::vector{glm::vec3(0.0f, 0.1f, 0.1f), glm::vec3(0.0f, 0.11f, 0.1f)});
+    }
+
     // Linear light, [row][column] RGB.
-    static std::vector<float> draw(const Settings& settings, const groom::Mesh& mesh) {
-        // Strands that are not drawn, between floor and wall, so that the map ends at those.
-        const DeviceHair hair(
-            device(),
-            oneTriangle(std::vector{glm::vec3(0.0f, 0.1f, 0.1f), glm::vec3(0.0f, 0.11f, 0.1f)}),
-            settings);
+    static std::vector<float>
+    draw(const Settings& settings, const groom::Mesh& mesh, const groom::Groom& groom = between()) {
+        const DeviceHair hair(device(), groom, settings);
         Renderer renderer(device(), settings, hair.view(), {.head = &mesh});
         engine::FrameLoop loop(device(), engine::Timing::overlapped);
         loop.frame([&](engine::Passes& passes) { renderer.record(passes, hair.view()); });
@@ -302,6 +305,30 @@ TEST_F(IndirectLightTest, OfAFloorFillsItsPartOfTheWallsHemisphere) {
             }
         }
     }
+}
+
+// Opacity maps count strands behind the floor as well. Those get no light and take none.
+TEST_F(IndirectLightTest, IsTheSameWithHairBehindTheFloor) {
+    std::array<std::vector<glm::vec3>, 3> guides;
+    for (std::size_t i = 0; i < guides.size(); ++i)
+        for (int v = 0; v < 8; ++v)
+            guides[i].emplace_back(
+                -0.09f + 0.025f * static_cast<float>(v), -0.05f,
+                i == 0 ? 0.1f : 0.02f + 0.08f * static_cast<float>(i));
+    const groom::Groom groom = oneTriangle(guides);
+    const groom::Mesh mesh = floorAndWall();
+    Settings hairy = settings();
+    hairy.render.hair = true;
+    hairy.strands.density = 64;
+    hairy.strands.root_width = hairy.strands.tip_width = 0.004f;
+    std::vector<std::vector<float>> pictures;
+    for (const HairShadows shadows :
+         {HairShadows::none, HairShadows::deep_opacity, HairShadows::deep_shadow}) {
+        hairy.shading.shadows.hair = shadows;
+        pictures.push_back(draw(hairy, mesh, groom));
+    }
+    EXPECT_EQ(pictures[1], pictures[0]);
+    EXPECT_EQ(pictures[2], pictures[0]);
 }
 
 TEST_F(IndirectLightTest, IsNoneWhereNothingIsLit) {
