@@ -25,14 +25,14 @@ namespace hair::rendering {
 // whose clusters become thick strands by their width in the picture). A cluster has the strands of
 // a root triangle. It draws as few strands and points as /lod/error lets it, e px. In the picture,
 // at the same place along the strand:
-// * Each strand of level 0 has a drawn strand within 0.9 e. By ClusterOrder, k strands leave at
-// most
-//   covering / sqrt(k + 1) times the greatest distance between the guides.
+// * Each strand of level 0 has a drawn strand within 0.9 e. By ClusterOrder, k strands leave none
+//   farther than covering / sqrt(k + 1) times the greatest distance between
+//   the guides.
 // * Drawn strands stick out of their strand of level 0 by at most 0.9 e on each side, which limits
 //   how many hairs one of them stands for, as greatestWidthScale() does too.
-// * Drawn pieces leave their curve by at most 0.1 e: a piece of 1 / p of a guide segment by |r''| /
-// (8
-//   p^2), and r'' lies between the second differences of the guides.
+// * Drawn pieces leave their curve by at most 0.1 e. A piece of 1 / p of a guide segment leaves it
+//   by |r''| / (8 p^2), and r'' lies between the second
+//   differences of the guides.
 // Distances become pixels where the cluster is nearest to the eye. Offsets count twice their reach.
 class LevelsPass {
 public:

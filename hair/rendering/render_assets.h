@@ -74,9 +74,9 @@ glm::dvec3 linearColor(const ShadingSettings& shading);
 // * A fibre reflects like a film of water on hair of the index n, R_1 + (1 - R_1)^2 R_2 / (1 - R_1
 //   R_2) with the normal reflectances of air on water and of water on hair: its refractive index is
 //   that of such a surface.
-// * The surface that scatters is that of hair in water, which deflects light by s = (n - n_w) / (n
-// -
-//   1) of what it does in air: longitudinal roughness and tilt of the cuticle are s times as great.
+// * The surface that scatters is that of hair in water. It deflects light by
+//   s = (n - n_w) / (n - 1) of what it does in air, so that longitudinal roughness and
+//   tilt of the cuticle are s times as great.
 //   Models without a fibre have a highlight s times as wide, with the light of that reflectance.
 Settings wetted(Settings settings);
 

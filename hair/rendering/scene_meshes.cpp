@@ -334,16 +334,14 @@ void SceneMeshes::drawDepth(engine::Commands& commands, std::uint64_t picture) c
 
 // ---- Indirect light -----------------------------------------------------------------------------
 
-bool IndirectLight::isNeeded(const Settings& settings) {
-    return settings.shading.indirect && !settings.shading.lights.empty();
-}
+bool IndirectLight::isNeeded(const Settings& settings) { return settings.shading.indirect; }
 
 engine::MemoryRows IndirectLight::rows(const Settings& settings) {
     if (!isNeeded(settings)) return {};
     return {
         "shading",
         {{"sources of indirect light",
-          engine::bytesOf<gpu::IndirectSource>(indirectSources(settings).count)}}};
+          engine::bytesOf<gpu::IndirectSource>(std::max(indirectSources(settings).count, 1u))}}};
 }
 
 IndirectLight::IndirectLight(const engine::Device& device, const Settings& settings)

@@ -167,10 +167,10 @@ private:
 // each vertex gathers.
 class IndirectLight {
 public:
-    // `settings` have the lights of an environment. There must be a light.
+    // `settings` have the lights of an environment. Without lights, vertices get none.
     IndirectLight(const engine::Device& device, const Settings& settings);
 
-    // Whether there is any: the settings ask for it, and something casts shadows.
+    // Whether meshes read it.
     static bool isNeeded(const Settings& settings);
     static engine::MemoryRows rows(const Settings& settings);
 

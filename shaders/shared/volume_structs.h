@@ -76,7 +76,7 @@ struct YieldPush {
     float cohesive;  // that without pressure, m/s
 };
 
-// Where hair attracts hair, the push constants of simulation/volume_force.comp end with this.
+// The push constants of simulation/volume_force.comp end with this if hair attracts hair.
 struct VolumeAttraction {
     float attraction;  // potential in crowded hair over a cell, m/s^2
     float repulsion;  // VolumeParameters::repulsion

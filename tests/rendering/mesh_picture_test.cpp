@@ -335,6 +335,8 @@ TEST_F(IndirectLightTest, IsNoneWhereNothingIsLit) {
     Settings off = settings();
     off.shading.lights[0].direction = {0.0f, 1.0f, 0.0f};  // at the floor's back
     for (const float light : draw(off, floorAndWall())) EXPECT_EQ(light, 0.0f);
+    off.shading.lights.clear();
+    for (const float light : draw(off, floorAndWall())) EXPECT_EQ(light, 0.0f);
     off = settings();
     off.shading.indirect = false;
     const std::vector<float> light = draw(off, floorAndWall());
