@@ -31,6 +31,7 @@ void main() {
     vec3 sum = vec3(0.0);
     for (uint i = 0u; i < push.sources_count; ++i) {
         IndirectSource source = Sources(push.sources).at[i];
+        if (source.area == 0.0) continue;  // its texel shows nothing
         vec3 offset = source.position - position;
         float squared = dot(offset, offset);
         float here = max(dot(normal, offset), 0.0);
