@@ -155,6 +155,11 @@ const Table& tableOf(const ShadingSettings*) {
              "meshes get the light that lit hair and meshes send back, from parts of the lights' "
              "shadow maps (Dachsbacher and Stamminger 2005); it needs a tone map and shadows of "
              "meshes"),
+         number(
+             "skin_scattering", &S::skin_scattering, 0, 10, "1",
+             "how far light scatters in the mesh that hair grows on, as a factor of the lengths of "
+             "human skin's profile (d'Eon and Luebke 2007), by the mesh's curvature (Penner 2011); "
+             "it needs a tone map; 0: it does not"),
          group("shadows", &S::shadows, "shadows of meshes and hair")});
     return table;
 }

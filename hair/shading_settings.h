@@ -82,6 +82,7 @@ struct ShadingSettings {
     std::vector<LightSettings> lights{LightSettings{}};
     std::uint32_t environment_lights = 12;
     bool indirect = false;
+    float skin_scattering = 0.0f;
     ShadowSettings shadows;
 };
 

@@ -175,7 +175,7 @@ CaseMemory caseMemory(
             mesh ? mesh->positions.size() : mesh_file / sizeof(glm::vec3), plan.strands(),
             settings.render));
     if (settings.render.head && mesh) {
-        rows.add(MeshGeometry::rows(settings, *mesh));
+        rows.add(MeshGeometry::rows(settings, *mesh, MeshGeometry::Scattering::skin));
         rows.add(MeshMaterials::rows(*mesh));
     }
 

@@ -318,6 +318,11 @@ Broken indirectLightHasItsMaps(const hair::Settings& s) {
     return {};
 }
 
+Broken scatteredLightAddsUp(const hair::Settings& s) {
+    if (s.shading.skin_scattering == 0.0f || hair::rendering::hasLinearLight(s.render)) return {};
+    return "is above 0, but /render/tone_map is none: light does not add up in display colours";
+}
+
 struct Rule {
     const char* pointer;
     Broken (*broken)(const hair::Settings&);
@@ -352,6 +357,7 @@ constexpr Rule kRules[] = {
     {"/shading/lights", lightsHaveDirections},
     {"/shading/lights", lightsHaveRoomForTheirMaps},
     {"/shading/indirect", indirectLightHasItsMaps},
+    {"/shading/skin_scattering", scatteredLightAddsUp},
     {"/run/busy_work", busyWorkHasAPass},
     {"/run/overlapped_stamps", timestampsAreOfOneQueue},
     {"/run/frame_time", frameHasRoomForItsSteps}};

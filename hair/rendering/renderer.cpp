@@ -321,6 +321,7 @@ engine::MemoryRows Renderer::rows(
     rows.add(HairOpticsBuffers::rows(settings.shading));
     rows.add(ShadowPass::rows(lit, plan));
     rows.add(IndirectLight::rows(lit));
+    rows.add(SceneMeshes::rows(settings));
     if (!settings.render.environment.empty()) rows.add(EnvironmentPass::rows());
     if (settings.strands.texture.empty())
         rows.add("textures", {{"strand texture", sizeof(std::uint32_t)}});

@@ -4,6 +4,8 @@
 #include <array>
 #include <cassert>
 #include <cmath>
+#include <set>
+#include <string>
 
 #include <glm/ext/matrix_transform.hpp>
 #include <glm/trigonometric.hpp>
@@ -68,6 +70,8 @@ IndirectSources indirectSources(const Settings& settings) {
     return {side, 2 * lights * side * side};
 }
 
+bool scatters(const Settings& settings) { return settings.shading.skin_scattering > 0.0f; }
+
 // The specialization constants of shaders/scene/options.glsl and shading/options.glsl.
 engine::Constants meshConstants(const MeshLook& look, const Settings& settings) {
     engine::Constants constants{
@@ -82,12 +86,12 @@ engine::Constants meshConstants(const MeshLook& look, const Settings& settings) 
 }
 
 engine::GraphicsDescription pipeline(const MeshLook& look, const Settings& settings) {
-    const bool indirect = settings.shading.indirect;
-    const char* const fragment = tracesShadows(settings) ? "scene/mesh.frag+rays"
-                                 : indirect              ? "scene/mesh.frag+indirect"
-                                                         : "scene/mesh.frag";
+    const std::string indirect = settings.shading.indirect ? "+indirect" : "";
+    const std::string scattering = scatters(settings) ? "+scattering" : "";
+    const std::string shadows = tracesShadows(settings) ? "+rays" : indirect;
     return {
-        .shaders = {indirect ? "scene/mesh.vert+indirect" : "scene/mesh.vert", fragment},
+        .shaders =
+            {"scene/mesh.vert" + indirect + scattering, "scene/mesh.frag" + shadows + scattering},
         .constants = meshConstants(look, settings),
         .push_size = sizeof(gpu::MeshPush),
         .colors = {{colorFormat(settings.render)}},
@@ -133,7 +137,8 @@ groom::Mesh placed(groom::Mesh mesh, const MeshSettings& settings) {
     return mesh;
 }
 
-engine::MemoryRows MeshGeometry::rows(const Settings& settings, const groom::Mesh& mesh) {
+engine::MemoryRows
+MeshGeometry::rows(const Settings& settings, const groom::Mesh& mesh, Scattering scattering) {
     const std::size_t positions = engine::bytesOf<glm::vec3>(mesh.positions.size());
     engine::MemoryRows rows(
         "meshes",
@@ -142,19 +147,24 @@ engine::MemoryRows MeshGeometry::rows(const Settings& settings, const groom::Mes
          {"mesh texture coordinates", engine::bytesOf<glm::vec2>(mesh.texture_coordinates.size())},
          {"mesh indices", engine::bytesOf<std::uint32_t>(3 * mesh.triangles.size())}});
     if (settings.shading.indirect) rows.add("meshes", {{"indirect light on meshes", positions}});
+    if (scatters(settings) && scattering == Scattering::skin)
+        rows.add("meshes", {{"mesh curvatures", engine::bytesOf<float>(mesh.positions.size())}});
     return rows;
 }
 
 MeshGeometry::MeshGeometry(
-    const engine::Device& device, const Settings& settings, const groom::Mesh& mesh)
+    const engine::Device& device, const Settings& settings, const groom::Mesh& mesh,
+    Scattering scattering)
     : vertices(static_cast<std::uint32_t>(mesh.positions.size())) {
-    const engine::MemoryRows rows = MeshGeometry::rows(settings, mesh);
+    const engine::MemoryRows rows = MeshGeometry::rows(settings, mesh, scattering);
     const auto upload = [&]<class Value>(const std::vector<Value>& values, const char* name) {
         return engine::makeBuffer(device, values, rows, name);
     };
     positions = upload(mesh.positions, "mesh positions");
     normals = upload(mesh.normals, "mesh normals");
     if (settings.shading.indirect) indirect = {device, rows["indirect light on meshes"]};
+    if (scatters(settings) && scattering == Scattering::skin)
+        curvatures = upload(rendering::curvatures(mesh), "mesh curvatures");
     texture_coordinates = upload(mesh.texture_coordinates, "mesh texture coordinates");
     indices = upload(sortedIndices(mesh), "mesh indices");
     std::uint32_t first = 0;
@@ -164,6 +174,113 @@ MeshGeometry::MeshGeometry(
         if (triangles > 0) parts.push_back({material, first, 3 * triangles});
         first += 3 * triangles;
     }
+}
+
+// ---- Light that scatters in skin
+// ------------------------------------------------------------------
+
+std::vector<float> curvatures(const groom::Mesh& mesh) {
+    std::map<std::array<float, 3>, std::uint32_t> places;
+    std::vector<std::uint32_t> place_of;
+    place_of.reserve(mesh.positions.size());
+    for (const glm::vec3& p : mesh.positions) {
+        const auto number = static_cast<std::uint32_t>(places.size());
+        place_of.push_back(places.try_emplace({p.x, p.y, p.z}, number).first->second);
+    }
+    std::set<std::pair<std::uint32_t, std::uint32_t>> edges;
+    std::vector<double> bend(places.size(), 0.0);
+    std::vector<std::uint32_t> neighbours(places.size(), 0);
+    for (const auto& corners : mesh.triangles) {
+        for (std::size_t i = 0; i < 3; ++i) {
+            const std::uint32_t a = corners[i];
+            const std::uint32_t b = corners[(i + 1) % 3];
+            const std::pair<std::uint32_t, std::uint32_t> edge =
+                std::minmax(place_of[a], place_of[b]);
+            const glm::dvec3 along(mesh.positions[b] - mesh.positions[a]);
+            const double squared = glm::dot(along, along);
+            if (squared == 0.0 || !edges.insert(edge).second) continue;
+            const double curvature =
+                std::abs(glm::dot(glm::dvec3(mesh.normals[b] - mesh.normals[a]), along) / squared);
+            for (const std::uint32_t end : {edge.first, edge.second}) {
+                bend[end] += curvature;
+                ++neighbours[end];
+            }
+        }
+    }
+    for (std::size_t i = 0; i < bend.size(); ++i) bend[i] /= std::max(neighbours[i], 1u);
+    constexpr int kAveraged = 3;
+    for (int pass = 0; pass < kAveraged; ++pass) {
+        std::vector<double> sum = bend;
+        for (const auto& [a, b] : edges) {
+            sum[a] += bend[b];
+            sum[b] += bend[a];
+        }
+        for (std::size_t i = 0; i < bend.size(); ++i) bend[i] = sum[i] / (neighbours[i] + 1.0);
+    }
+    std::vector<float> result;
+    result.reserve(place_of.size());
+    for (const std::uint32_t place : place_of) result.push_back(static_cast<float>(bend[place]));
+    return result;
+}
+
+namespace {
+
+// A Gaussian of skin's profile: variance, mm^2, and its weights in red, green and blue.
+struct ProfileTerm {
+    double variance;
+    glm::dvec3 weight;
+};
+
+constexpr std::array<ProfileTerm, 6> kSkin{
+    {{0.0064, {0.233, 0.455, 0.649}},
+     {0.0484, {0.100, 0.336, 0.344}},
+     {0.187, {0.118, 0.198, 0.0}},
+     {0.567, {0.113, 0.007, 0.007}},
+     {1.99, {0.358, 0.004, 0.0}},
+     {7.41, {0.078, 0.0, 0.0}}}};
+
+constexpr int kLegendreTerms = 1024;
+
+}  // namespace
+
+std::vector<glm::vec3> scatteringResponses() {
+    constexpr double kMillimetre = 1e-3;
+    // The clamped cosine is the sum of c_l P_l: c_0 = 1/4, c_1 = 1/2, and for even l
+    // c_l = -c_(l-2) (2 l + 1) (l - 3) / ((2 l - 3) (l + 2)).
+    std::vector<std::pair<int, double>> terms{{0, 0.25}, {1, 0.5}};
+    double even = 0.25;
+    for (int l = 2; l < kLegendreTerms; l += 2) {
+        even *= -(2.0 * l + 1.0) * (l - 3.0) / ((2.0 * l - 3.0) * (l + 2.0));
+        terms.emplace_back(l, even);
+    }
+    // [curvature][term]: what scattering changes a term by
+    std::vector<std::vector<glm::dvec3>> changes;
+    for (std::uint32_t row = 0; row < gpu::kScatteringCurvatures; ++row) {
+        const double curvature = row * double{gpu::kScatteringStep} * kMillimetre;  // 1/mm
+        std::vector<glm::dvec3>& change = changes.emplace_back();
+        for (const auto& [l, coefficient] : terms) {
+            glm::dvec3 kept(0.0);
+            for (const ProfileTerm& term : kSkin)
+                kept += term.weight *
+                        std::exp(-0.5 * l * (l + 1.0) * term.variance * curvature * curvature);
+            change.push_back(coefficient * (kept - 1.0));
+        }
+    }
+    std::vector<glm::vec3> table(gpu::kScatteringCurvatures * gpu::kScatteringCosines);
+    for (std::uint32_t column = 0; column < gpu::kScatteringCosines; ++column) {
+        const double x = 2.0 * column / (gpu::kScatteringCosines - 1.0) - 1.0;
+        std::vector<double> legendre{1.0, x};
+        for (int l = 2; l < kLegendreTerms; ++l)
+            legendre.push_back(
+                ((2.0 * l - 1.0) * x * legendre[l - 1] - (l - 1.0) * legendre[l - 2]) / l);
+        for (std::uint32_t row = 0; row < gpu::kScatteringCurvatures; ++row) {
+            glm::dvec3 sum(std::max(x, 0.0));
+            for (std::size_t i = 0; i < terms.size(); ++i)
+                sum += changes[row][i] * legendre[terms[i].first];
+            table[row * gpu::kScatteringCosines + column] = sum;
+        }
+    }
+    return table;
 }
 
 // ---- Materials ----------------------------------------------------------------------------------
@@ -218,21 +335,35 @@ MeshMaterials::MeshMaterials(
 
 SceneMeshes::SceneMeshes(
     const engine::Device& device, const Settings& settings, const RenderAssets& assets)
-    : blank_(
+    : scattering_(settings.shading.skin_scattering),
+      blank_(
           device, {1, 1, {255, 255, 255, 255}}, engine::Texels::data, engine::Decoding::none,
           "no texture"),
       blank_sampler_(device, {}) {
+    if (scatters(settings))
+        responses_ = engine::makeBuffer(
+            device, scatteringResponses(), rows(settings), "responses of scattering spheres");
     if (assets.head && settings.render.head) add(device, settings, *assets.head, Motion::with_head);
     for (std::size_t i = 0; i < assets.meshes.size(); ++i)
         add(device, settings, placed(assets.meshes[i], settings.render.meshes.at(i)),
             Motion::still);
 }
 
+engine::MemoryRows SceneMeshes::rows(const Settings& settings) {
+    if (!scatters(settings)) return {};
+    return {
+        "shading",
+        {{"responses of scattering spheres",
+          engine::bytesOf<glm::vec3>(gpu::kScatteringCosines * gpu::kScatteringCurvatures)}}};
+}
+
 void SceneMeshes::add(
     const engine::Device& device, const Settings& settings, const groom::Mesh& mesh,
     Motion motion) {
     const SceneMesh& added = meshes_.emplace_back(SceneMesh{
-        {device, settings, mesh},
+        {device, settings, mesh,
+         motion == Motion::with_head ? MeshGeometry::Scattering::skin
+                                     : MeshGeometry::Scattering::none},
         {device, settings.render, mesh, {&blank_.image(), &blank_sampler_}},
         motion});
     for (const MeshGeometry::Part& part : added.geometry.parts) {
@@ -289,7 +420,10 @@ void SceneMeshes::bind(
                       .roughness = material.roughness,
                       .normal_scale = material.normal_scale,
                       .cutoff = material.cutoff,
-                      .is_moving = vertices.is_moving ? 1u : 0u});
+                      .is_moving = vertices.is_moving ? 1u : 0u,
+                      .scattering = scattering_,
+                      .curvatures = mesh.geometry.curvatures.address(),
+                      .responses = responses_.address()});
 }
 
 void SceneMeshes::declareDraw(engine::Commands& commands) const {

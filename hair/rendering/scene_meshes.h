@@ -26,6 +26,22 @@ namespace hair::rendering {
 // Returns the mesh at the place that the settings give it.
 groom::Mesh placed(groom::Mesh mesh, const MeshSettings& settings);
 
+// Returns how much a mesh bends at each vertex, 1/m: the mean over its edges of the magnitude of
+// normal curvature, (n_b - n_a) . (p_b - p_a) / |p_b - p_a|^2 for normals n and positions p, which
+// is exactly 1 / r on a sphere of radius r. It is then averaged over neighbours three times,
+// because skin scatters light farther than its finest folds are wide. Vertices at one place count
+// as one.
+std::vector<float> curvatures(const groom::Mesh& mesh);
+
+// Returns the table of gpu::MeshPush::responses: for spheres that scatter light, what they show of
+// a distant light, as a ratio to the irradiance of a surface that faces it. Skin's profile is a sum
+// of Gaussians (d'Eon and Luebke 2007, Efficient Rendering of Human Skin, GPU Gems 3, chapter 14,
+// table of the three-layer model). A Gaussian of variance v on a sphere of radius r multiplies the
+// Legendre terms of the clamped cosine by exp(-l (l + 1) v / (2 r^2)), as the diffusion of heat
+// does. Term 0 stays, so no energy is lost. Penner 2011 integrates over a ring instead, which is
+// not exact for a sphere. Errors: below 4e-4, from the 1,024th term on.
+std::vector<glm::vec3> scatteringResponses();
+
 // A mesh's triangles on the device, sorted by material.
 struct MeshGeometry {
     // The triangles of one material.
@@ -35,14 +51,20 @@ struct MeshGeometry {
         std::uint32_t index_count;  // above 0
     };
 
-    MeshGeometry(const engine::Device& device, const Settings& settings, const groom::Mesh& mesh);
+    enum class Scattering { none, skin };  // whether light scatters in it, if at all
 
-    static engine::MemoryRows rows(const Settings& settings, const groom::Mesh& mesh);
+    MeshGeometry(
+        const engine::Device& device, const Settings& settings, const groom::Mesh& mesh,
+        Scattering scattering);
+
+    static engine::MemoryRows
+    rows(const Settings& settings, const groom::Mesh& mesh, Scattering scattering);
 
     std::uint32_t vertices = 0;
     engine::Buffer positions;  // vec3
     engine::Buffer normals;  // vec3
     engine::Buffer indirect;  // vec3, gpu::IndirectPush; empty if there is no indirect light
+    engine::Buffer curvatures;  // float; empty if it scatters no light
     engine::Buffer texture_coordinates;  // vec2; empty if the mesh has none
     engine::Buffer indices;
     std::vector<Part> parts;
@@ -105,6 +127,9 @@ public:
 
     bool empty() const { return meshes_.empty(); }
 
+    // Tables that all meshes share.
+    static engine::MemoryRows rows(const Settings& settings);
+
     // Draws the head from these buffers from now on: vec3 [vertex] each, in the world.
     void deform(const engine::Buffer& positions, const engine::Buffer& normals);
 
@@ -155,6 +180,8 @@ private:
 
     std::uint64_t deformed_positions_ = 0;  // addresses; 0: the head keeps its shape
     std::uint64_t deformed_normals_ = 0;
+    float scattering_;  // /shading/skin_scattering
+    engine::Buffer responses_;  // scatteringResponses(); empty if no light scatters
     engine::Texture blank_;
     engine::Sampler blank_sampler_;
     std::vector<SceneMesh> meshes_;

@@ -8,6 +8,9 @@
 
 layout(buffer_reference, scalar) readonly buffer Vectors { vec3 values[]; };
 layout(buffer_reference, scalar) readonly buffer Coordinates { vec2 values[]; };
+#ifdef HAIRBENCH_SCATTERING
+layout(buffer_reference, scalar) readonly buffer Curvatures { float values[]; };
+#endif
 layout(push_constant, scalar) uniform Push { MeshPush push; };
 
 layout(location = 0) out vec3 position;
@@ -15,6 +18,9 @@ layout(location = 1) out vec3 normal;
 layout(location = 2) out vec2 coordinates;
 #ifdef HAIRBENCH_INDIRECT
 layout(location = 3) out vec3 indirect;
+#endif
+#ifdef HAIRBENCH_SCATTERING
+layout(location = 4) out float curvature;
 #endif
 invariant gl_Position;  // the same in every pass
 
@@ -30,6 +36,11 @@ void main() {
     if (kTextured) coordinates = Coordinates(push.texture_coordinates).values[gl_VertexIndex];
 #ifdef HAIRBENCH_INDIRECT
     indirect = Vectors(push.indirect).values[gl_VertexIndex];
+#endif
+#ifdef HAIRBENCH_SCATTERING
+    curvature = 0.0;
+    if (push.curvatures != Address(0))
+        curvature = Curvatures(push.curvatures).values[gl_VertexIndex];
 #endif
     gl_Position = picture.view_projection * vec4(position, 1.0);
 }

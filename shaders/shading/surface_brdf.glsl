@@ -29,6 +29,14 @@ float smithVisibility(float cosine, float alpha_squared) {
     return 1.0 / (cosine + sqrt(alpha_squared + (1.0 - alpha_squared) * cosine * cosine));
 }
 
+// The matt part of surfaceBrdf(), also for light that scatters to the point from elsewhere.
+vec3 mattBrdf(Surface surface, vec3 to_eye, vec3 to_light) {
+    vec3 middle = to_eye + to_light;
+    middle *= inversesqrt(max(dot(middle, middle), 1e-12));
+    float grazing = pow(1.0 - clamp(dot(to_eye, middle), 0.0, 1.0), 5.0);
+    return (1.0 - kDielectric) * (1.0 - grazing) * scattered(surface) / kSurfacePi;
+}
+
 // f, 1/sr. All directions are unit vectors away from the surface. 0 for light from behind it.
 vec3 surfaceBrdf(Surface surface, vec3 normal, vec3 to_eye, vec3 to_light) {
     float n_dot_l = dot(normal, to_light);

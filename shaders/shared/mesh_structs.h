@@ -15,7 +15,17 @@ struct MeshPush {
     float normal_scale;
     float cutoff;  // of opacity; read if the material is a mask
     uint is_moving;  // 1: moves with the head
+    // Read if light scatters in skin:
+    float scattering;  // factor of the profile's lengths
+    Address curvatures;  // float [vertex], 1/m; 0: the mesh scatters no light
+    Address responses;  // vec3 [curvature][cosine], as scatteringResponses() has it
 };
+
+// The table of responses of spheres that scatter light: cosines of the light go from -1 to 1, and
+// curvatures from 0 on, as multiples of kScatteringStep over the factor of the profile's lengths.
+const uint kScatteringCosines = 129u;
+const uint kScatteringCurvatures = 32u;
+const float kScatteringStep = 8.0;  // 1/m
 
 // A part of a lit surface that lights other surfaces.
 struct IndirectSource {

@@ -50,7 +50,8 @@ double tipsMoved(const hair::groom::Groom& groom, std::span<const glm::vec3> poi
 // latter after the first second leaves room for nine more.
 TEST_F(GrownHair, HangsAsItIsGroomedAndKeepsItsLength) {
     for (const char* name : {"short_straight", "long_straight", "wavy_bob", "tight_curls"}) {
-        const fs::path path = fs::path(HAIRBENCH_SCENES_DIR) / (std::string(name) + ".json");
+        const fs::path path =
+            fs::path(HAIRBENCH_SCENES_DIR) / "root_triangles" / (std::string(name) + ".json");
         hair::Settings settings = scene::loadScene(path).settings;
         scene::AssetStore assets;
         const hair::groom::Groom& groom = assets.groom(settings, path.parent_path());
@@ -76,7 +77,7 @@ TEST_F(GrownHair, HangsAsItIsGroomedAndKeepsItsLength) {
 
 // Wind moves the hair, and it still keeps its length.
 TEST_F(GrownHair, KeepsItsLengthInWind) {
-    const fs::path path = fs::path(HAIRBENCH_SCENES_DIR) / "wavy_bob.json";
+    const fs::path path = fs::path(HAIRBENCH_SCENES_DIR) / "root_triangles/wavy_bob.json";
     hair::Settings settings = scene::loadScene(path).settings;
     settings.simulation.wind.strength = 15.0f;
     scene::AssetStore assets;

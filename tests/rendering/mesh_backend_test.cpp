@@ -329,11 +329,11 @@ TEST_F(MeshBackendPicture, IsNearThatOfTessellationWhereStrandsAreBlended) {
 TEST_F(MeshBackendPicture, IsThatOfTessellationInScenes) {
     if (pythonInterpreter().empty()) return skipWithout(Need::python, kNoPython);
     std::vector<std::pair<fs::path, fs::path>> pairs;
-    for (const char* scene : {"rest", "strong_wind", "curly", "tight_curls", "lod_path"}) {
+    for (const char* scene :
+         {"rest", "strong_wind", "curly", "root_triangles/tight_curls", "lod_path"}) {
+        const fs::path file = fs::path(HAIRBENCH_SCENES_DIR) / (std::string(scene) + ".json");
         for (const std::uint32_t samples : {1u, 4u}) {
-            Settings settings = benchmarks::scene::loadScene(
-                                    fs::path(HAIRBENCH_SCENES_DIR) / (std::string(scene) + ".json"))
-                                    .settings;
+            Settings settings = benchmarks::scene::loadScene(file).settings;
             settings.simulation.settle_steps = 10;
             settings.render.width = 480;
             settings.render.height = 270;
@@ -341,12 +341,14 @@ TEST_F(MeshBackendPicture, IsThatOfTessellationInScenes) {
             settings.render.msaa = samples;
             const auto draw = [&](Backend backend, const char* kind) {
                 benchmarks::measure::Case picture(
-                    device(), with(settings, backend), HAIRBENCH_SCENES_DIR);
+                    device(), with(settings, backend), file.parent_path());
                 engine::FrameLoop loop(device(), engine::Timing::overlapped);
                 for (int i = 0; i < 2; ++i)
                     loop.frame([&](engine::Passes& passes) { picture.frame(passes); });
                 loop.finish();
-                return write(scene + std::to_string(samples) + kind, settings, picture.picture());
+                return write(
+                    file.stem().string() + std::to_string(samples) + kind, settings,
+                    picture.picture());
             };
             const fs::path expected = draw(Backend::tessellation, "t");
             pairs.emplace_back(expected, draw(Backend::mesh, "m"));

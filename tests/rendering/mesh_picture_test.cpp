@@ -1,7 +1,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <numbers>
+#include <utility>
 #include <vector>
 
 #include <glm/geometric.hpp>
@@ -341,6 +343,237 @@ TEST_F(IndirectLightTest, IsNoneWhereNothingIsLit) {
     off.shading.indirect = false;
     const std::vector<float> light = draw(off, floorAndWall());
     for (std::size_t i = 0; i < std::size_t{3} * kPixels; ++i) EXPECT_EQ(light[i], 0.0f);
+}
+
+// ---- Light that scatters in skin ----
+
+constexpr double kBall = 0.01;  // m, radius
+
+// A ball with the normals of a true sphere.
+groom::Mesh ball() {
+    constexpr std::uint32_t kRings = 64;
+    constexpr std::uint32_t kSides = 128;
+    groom::Mesh mesh{.materials = {{.base_color = {1, 1, 1}, .roughness = 1.0f}}};
+    for (std::uint32_t ring = 0; ring <= kRings; ++ring) {
+        for (std::uint32_t side = 0; side < kSides; ++side) {
+            const double polar = std::numbers::pi * ring / kRings;
+            const double azimuth = 2.0 * std::numbers::pi * side / kSides;
+            const glm::dvec3 normal(
+                std::sin(polar) * std::sin(azimuth), std::cos(polar),
+                std::sin(polar) * std::cos(azimuth));
+            mesh.normals.push_back(normal);
+            mesh.positions.push_back(kBall * normal);
+            if (ring == kRings) continue;
+            const std::uint32_t a = ring * kSides + side;
+            const std::uint32_t b = ring * kSides + (side + 1) % kSides;
+            mesh.triangles.push_back({a, a + kSides, b});
+            mesh.triangles.push_back({b, a + kSides, b + kSides});
+            mesh.triangle_materials.insert(mesh.triangle_materials.end(), {0, 0});
+        }
+    }
+    return mesh;
+}
+
+// The light that a sphere shows where the light has this cosine, if its profile is a Gaussian of
+// `variance`, in units of its radius squared: the clamped cosine, convolved with the heat kernel.
+// The kernel is sqrt(x / sin x) exp(-x^2 / (4 t)) for the time t = variance / 2, up to a factor of
+// 1 + O(t^2) (Minakshisundaram and Pleijel 1949); t is up to 0.037 here.
+double convolved(double variance, double cosine) {
+    constexpr int kParts = 200;
+    const double sine = std::sqrt(1.0 - cosine * cosine);
+    const double reach = std::min(8.0 * std::sqrt(variance), 0.99 * std::numbers::pi);
+    double sum = 0.0;
+    double whole = 0.0;
+    for (int i = 0; i < kParts; ++i) {
+        const double x = (i + 0.5) / kParts * reach;
+        // times sin x for the ring's length
+        const double weight = std::sqrt(x * std::sin(x)) * std::exp(-x * x / (2.0 * variance));
+        for (int k = 0; k < kParts; ++k) {
+            const double azimuth = 2.0 * std::numbers::pi * (k + 0.5) / kParts;
+            sum += weight *
+                   std::max(cosine * std::cos(x) + sine * std::sin(x) * std::cos(azimuth), 0.0);
+            whole += weight;
+        }
+    }
+    return sum / whole;
+}
+
+// The three-layer model of skin, d'Eon and Luebke 2007: variances in mm^2.
+glm::dvec3 skinResponse(double cosine) {
+    constexpr std::array<std::array<double, 4>, 6> kTerms{
+        {{0.0064, 0.233, 0.455, 0.649},
+         {0.0484, 0.100, 0.336, 0.344},
+         {0.187, 0.118, 0.198, 0.0},
+         {0.567, 0.113, 0.007, 0.007},
+         {1.99, 0.358, 0.004, 0.0},
+         {7.41, 0.078, 0.0, 0.0}}};
+    glm::dvec3 sum(0.0);
+    for (const auto& [variance, red, green, blue] : kTerms)
+        sum += glm::dvec3(red, green, blue) * convolved(variance * 1e-6 / (kBall * kBall), cosine);
+    return sum;
+}
+
+class SkinScatteringTest : public GpuTest {
+protected:
+    static constexpr std::uint32_t kPixels = 101;
+    static constexpr double kDistance = 1.0;  // m
+    static constexpr double kHalfView = 0.0103;  // m, at the ball
+
+    // The ball from +z, under light from this direction alone.
+    static Settings settings(const glm::vec3& to_light) {
+        Settings settings = linearSettings(kPixels);
+        lightFrom(settings, to_light);
+        settings.render.background = glm::vec3(0.0f);
+        settings.camera.position = {0.0f, 0.0f, static_cast<float>(kDistance)};
+        settings.camera.field_of_view =
+            static_cast<float>(2.0 * std::atan(kHalfView / kDistance) * 180.0 / std::numbers::pi);
+        settings.shading.skin_scattering = 1.0f;
+        return settings;
+    }
+
+    // Linear light, [row][column] RGB. The strands, which are not drawn, are within the ball, so
+    // that the lights' maps show little more than that.
+    static std::vector<float> draw(const Settings& settings, const RenderAssets& assets) {
+        const DeviceHair hair(
+            device(), oneTriangle(std::vector{glm::vec3(0, 0, 0), glm::vec3(0, 0.001, 0)}),
+            settings);
+        Renderer renderer(device(), settings, hair.view(), assets);
+        engine::FrameLoop loop(device(), engine::Timing::overlapped);
+        loop.frame([&](engine::Passes& passes) { renderer.record(passes, hair.view()); });
+        loop.finish();
+        return engine::readRadiance(device(), renderer.target());
+    }
+
+    // The cosine of the light from +x at the columns of the middle row.
+    static double cosineAt(std::uint32_t column) {
+        const double x = (2.0 * (column + 0.5) / kPixels - 1.0) * kHalfView;
+        // The ray from (0, 0, d) by (x, 0, 0) to the ball: |d + t (x, 0, -d)| = r.
+        const double a = x * x + kDistance * kDistance;
+        const double b = -kDistance * kDistance;
+        const double root = b * b - a * (kDistance * kDistance - kBall * kBall);
+        return root < 0.0 ? std::numeric_limits<double>::quiet_NaN()
+                          : x * (-b - std::sqrt(root)) / a / kBall;
+    }
+
+    static std::vector<glm::dvec3> middleRow(const std::vector<float>& light) {
+        std::vector<glm::dvec3> row;
+        for (std::size_t i = 0; i < kPixels; ++i) {
+            const std::size_t at = 3 * (std::size_t{kPixels} * (kPixels / 2) + i);
+            row.emplace_back(light[at], light[at + 1], light[at + 2]);
+        }
+        return row;
+    }
+};
+
+TEST(SkinScattering, KeepsTheEnergyOfEverySphere) {
+    const std::vector<glm::vec3> table = scatteringResponses();
+    ASSERT_EQ(table.size(), std::size_t{gpu::kScatteringCosines} * gpu::kScatteringCurvatures);
+    for (std::uint32_t row = 0; row < gpu::kScatteringCurvatures; ++row) {
+        glm::dvec3 sum(0.0);
+        for (std::uint32_t i = 0; i < gpu::kScatteringCosines; ++i) {
+            const bool is_end = i == 0 || i + 1 == gpu::kScatteringCosines;
+            sum += (is_end ? 0.5 : 1.0) * glm::dvec3(table[row * gpu::kScatteringCosines + i]);
+        }
+        sum *= 2.0 / (gpu::kScatteringCosines - 1.0);
+        // The integral of max(x, 0) over -1 to 1; the sum's error is h^2 / 12 times the change of
+        // the slope, 2e-5.
+        for (int c = 0; c < 3; ++c) EXPECT_NEAR(sum[c], 0.5, 5e-5) << row << ' ' << c;
+    }
+    // A flat surface shows the clamped cosine.
+    for (std::uint32_t i = 0; i < gpu::kScatteringCosines; ++i)
+        EXPECT_NEAR(
+            table[i].x, std::max(2.0 * i / (gpu::kScatteringCosines - 1.0) - 1.0, 0.0), 1e-6);
+}
+
+TEST(SkinScattering, KnowsTheCurvatureOfSpheresAndPlanes) {
+    for (const float curvature : curvatures(ball()))
+        EXPECT_NEAR(curvature * kBall, 1.0, 1e-4);  // normals and positions are floats
+    for (const float curvature : curvatures(quad())) EXPECT_EQ(curvature, 0.0f);
+}
+
+TEST_F(SkinScatteringTest, IsTheConvolutionOverTheSphere) {
+    const groom::Mesh mesh = ball();
+    Settings lit = settings({1.0f, 0.0f, 0.0f});
+    const std::vector<glm::dvec3> scattered = middleRow(draw(lit, {.head = &mesh}));
+    lit.shading.skin_scattering = 0.0f;
+    const std::vector<glm::dvec3> sharp = middleRow(draw(lit, {.head = &mesh}));
+    lit.shading.skin_scattering = 1.0f;
+    lit.shading.shadows.meshes = true;
+    const std::vector<glm::dvec3> shadowed = middleRow(draw(lit, {.head = &mesh}));
+    // The eye is at a right angle to the light, so its grazing factor is the same everywhere.
+    const double matt = 0.96 * (1.0 - std::pow(1.0 - std::sqrt(0.5), 5.0));
+    glm::dvec3 energy(0.0);
+    double last_cosine = -1.0;
+    glm::dvec3 last = skinResponse(-1.0);
+    for (std::uint32_t i = 0; i < kPixels; ++i) {
+        const double cosine = cosineAt(i);
+        if (std::isnan(cosine)) continue;
+        const glm::dvec3 expected = skinResponse(cosine);
+        const glm::dvec3 glossy = sharp[i] - matt * std::max(cosine, 0.0);
+        const glm::dvec3 found = (scattered[i] - glossy) / matt;
+        // Interpolation between rows and columns of the table, the kernel's series, and half floats
+        for (int c = 0; c < 3; ++c) EXPECT_NEAR(found[c], expected[c], 0.004) << cosine << ' ' << c;
+        // The ball throws no shadow on what it scatters to.
+        for (int c = 0; c < 3; ++c) EXPECT_NEAR(shadowed[i][c], scattered[i][c], 0.004) << cosine;
+        energy += 0.5 * (found + last) * (cosine - last_cosine);
+        last = found;
+        last_cosine = cosine;
+    }
+    energy += 0.5 * (last + skinResponse(1.0)) * (1.0 - last_cosine);
+    // Lambert's sphere has 1/2. The sum over 101 pixels is off by up to 0.2 %.
+    for (int c = 0; c < 3; ++c) EXPECT_NEAR(energy[c], 0.5, 0.002) << c;
+    EXPECT_GT(skinResponse(0.0).x, 0.03);  // so a response without scattering fails
+}
+
+// Light from all directions: 16 lights at the nodes of Gauss and Legendre's rule in their cosine
+// at the ball's middle.
+TEST_F(SkinScatteringTest, LeavesTheFurnaceTrue) {
+    constexpr std::array<std::pair<double, double>, 8> kNodes{
+        {{0.0950125098376374, 0.1894506104550685},
+         {0.2816035507792589, 0.1826034150449236},
+         {0.4580167776572274, 0.1691565193950025},
+         {0.6178762444026438, 0.1495959888165767},
+         {0.7554044083550030, 0.1246289712555339},
+         {0.8656312023878318, 0.0951585116824928},
+         {0.9445750230732326, 0.0622535239386479},
+         {0.9894009349916499, 0.0271524594117541}}};
+    const groom::Mesh mesh = ball();
+    Settings around = settings({0.0f, 0.0f, 1.0f});
+    around.shading.lights.clear();
+    for (const auto& [node, weight] : kNodes) {
+        for (const double cosine : {node, -node}) {
+            const double sine = std::sqrt(1.0 - cosine * cosine);
+            around.shading.lights.push_back(
+                {.type = LightType::directional,
+                 .direction = -glm::vec3(sine, 0.0, cosine),
+                 .strength = static_cast<float>(2.0 * weight)});
+        }
+    }
+    const glm::dvec3 scattered = middleRow(draw(around, {.head = &mesh}))[kPixels / 2];
+    around.shading.skin_scattering = 0.0f;
+    const glm::dvec3 sharp = middleRow(draw(around, {.head = &mesh}))[kPixels / 2];
+    // Fresnel's factor takes 0.2 % of the matt light at 90 degrees, and more beyond. The rule's
+    // error at the clamped cosine's edge is 0.1 %.
+    for (int c = 0; c < 3; ++c) EXPECT_NEAR(scattered[c] / sharp[c], 1.0, 0.005) << c;
+    EXPECT_NEAR(sharp.y, 1.0, 0.05);  // a white sphere; the rough reflection misses some light
+}
+
+TEST_F(SkinScatteringTest, IsOnlyWhereHairGrowsAndTheSurfaceBends) {
+    const groom::Mesh mesh = ball();
+    Settings lit = settings({1.0f, 0.0f, 0.0f});
+    lit.render.meshes = {{}};
+    const std::vector<float> beside = draw(lit, {.meshes = {mesh}});
+    Settings flat = linearSettings(9);
+    lightFrom(flat, glm::normalize(glm::vec3(0.4f, 0.3f, 1.0f)));
+    flat.shading.skin_scattering = 1.0f;
+    const groom::Mesh square = quad({.base_color = {1, 1, 1}});
+    const std::vector<float> plane = draw(flat, {.head = &square});
+    lit.shading.skin_scattering = flat.shading.skin_scattering = 0.0f;
+    const std::vector<float> beside_sharp = draw(lit, {.meshes = {mesh}});
+    const std::vector<float> plane_sharp = draw(flat, {.head = &square});
+    for (std::size_t i = 0; i < beside.size(); ++i)
+        ASSERT_NEAR(beside[i], beside_sharp[i], 1e-3) << i;  // a step of half floats
+    for (std::size_t i = 0; i < plane.size(); ++i) ASSERT_NEAR(plane[i], plane_sharp[i], 1e-3) << i;
 }
 
 }  // namespace

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numbers>
 #include <set>
 #include <vector>
 
@@ -247,6 +248,53 @@ TEST_F(OwnColorTest, StrandsDiffer) {
           Backend::software}) {
         lit.strands.backend = backend;
         EXPECT_EQ(differingPixels(draw(lit), all), 0u) << backendName(backend);
+    }
+}
+
+// The power a of a strand is evenly distributed over 1 - v to 1 + v. So its mean is 1, its variance
+// v^2 / 3, and the mean of c^a is c sinh(v l) / (v l) with l = -ln c: hair with variation is a
+// little lighter than its colour. Tolerances are four standard errors of as many strands as are
+// seen.
+TEST_F(OwnColorTest, PowersAreEvenlyDistributed) {
+    constexpr double kVariation = 0.8;
+    Settings lit = OwnColorTest::lit();
+    lit.shading.strand_variation = static_cast<float>(kVariation);
+    lit.strands.density = 4096;
+    lit.strands.root_width = lit.strands.tip_width = 0.0001f;
+    lit.camera.field_of_view = 1.1f;  // 0.15 m from side to side
+    lit.render.width = 1024;
+    lit.render.height = 64;
+    const Pixels pixels = draw(lit);
+    double strands = 0.0;
+    double sum = 0.0;
+    double squares = 0.0;
+    std::array<double, 3> colors{};
+    const std::size_t row = std::size_t{4} * lit.render.width * (lit.render.height / 2);
+    for (std::size_t i = row + 4; i < row + std::size_t{4} * lit.render.width; i += 4) {
+        if (std::equal(&pixels[i], &pixels[i] + 3, &pixels[i - 4])) continue;  // the same strand
+        if (pixels[i] == 64 && pixels[i + 1] == 38) continue;  // the background
+        const double a = -std::log2(pixels[i] / 255.0);
+        ++strands;
+        sum += a;
+        squares += a * a;
+        for (std::size_t c = 0; c < 3; ++c) colors[c] += pixels[i + c] / 255.0;
+    }
+    ASSERT_GT(strands, 300.0);
+    const double variance = kVariation * kVariation / 3.0;
+    const double mean = sum / strands;
+    EXPECT_NEAR(mean, 1.0, 4.0 * std::sqrt(variance / strands));
+    // The fourth moment of an even distribution is 9/5 of the variance squared.
+    EXPECT_NEAR(
+        squares / strands - mean * mean, variance, 4.0 * variance * std::sqrt(0.8 / strands));
+    for (std::size_t c = 0; c < 3; ++c) {
+        const double log = std::numbers::ln2 * static_cast<double>(c + 1);
+        const auto moment = [&](double power) {  // of the colour
+            const double of = kVariation * power * log;
+            return std::exp(-power * log) * std::sinh(of) / of;
+        };
+        const double error = std::sqrt((moment(2.0) - moment(1.0) * moment(1.0)) / strands);
+        EXPECT_NEAR(colors[c] / strands, moment(1.0), 4.0 * error) << c;
+        EXPECT_GT(moment(1.0) - std::exp(-log), c == 0 ? 0.0 : 4.0 * error) << c;  // it is seen
     }
 }
 
