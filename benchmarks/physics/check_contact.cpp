@@ -512,17 +512,6 @@ double quinticSlope(double t) {
 }
 constexpr double kQuinticTop = 0.55;
 
-// The length over which a pair that begins `distance` apart joins: twice the arc length at which
-// half of the distance is left. `apart`: of each pair of vertices, m.
-double joiningLength(std::span<const double> apart, double distance, double segment) {
-    for (std::size_t i = 1; i < apart.size(); ++i)
-        if (apart[i] < distance / 2.0)
-            return 2.0 * segment *
-                   (static_cast<double>(i) - 1.0 +
-                    (apart[i - 1] - distance / 2.0) / (apart[i - 1] - apart[i]));
-    return std::numeric_limits<double>::quiet_NaN();
-}
-
 double bicoLength(const hair::MaterialSettings& material, const WetPair& pair) {
     return std::pow(
         9.0 * bendingStiffness(material) * pair.distance * pair.distance /
