@@ -992,4 +992,75 @@ void checkNaturalTwist(
     if (solver == hair::Solver::rod) compareSections(device, settings, findings);
 }
 
+namespace {
+
+// ---- Torque of a twisted rod --------------------------------------------------------------------
+
+// A straight shaft along +x ends in a level arm along +z. The arm's weight twists the shaft, so the
+// shaft bears the torque G J (angle / length - twist), where the angle is that of the arm round the
+// shaft and the twist is the natural one. The torque is measured as the weight's moment. One of the
+// natural twists holds the arm level against its weight. The joint at the corner turns the arm
+// round the line between both: its half on the shaft twists, its half on the arm bends, and its
+// natural twist is about the arm.
+
+constexpr std::uint32_t kShaftSegments = 16;
+constexpr std::uint32_t kArmSegments = 8;
+constexpr double kShaftLength = 0.04;  // m
+constexpr double kArmLength = 0.02;  // m
+// The weight turns the arm by 1.4 degrees and bends the shaft as much, so angles are small.
+constexpr double kShaftGravity = kGravity / 10.0;
+constexpr double kShaftFriction = 60.0;  // 1/s, about the frequencies of the arm
+// Natural twist of the shaft's length over the angle by which the weight turns the arm.
+constexpr double kShaftTwists[] = {0.0, -1.0, 1.0, -4.0};
+// Angles of 0.1 rad change the moment's arms by their squares.
+constexpr double kShaftTolerance = 0.01;
+
+hair::groom::Groom shaftWithArm() {
+    const double segment = kShaftLength / kShaftSegments;
+    hair::groom::Groom groom = straightStrand(kShaftSegments, kShaftLength, {1.0, 0.0, 0.0});
+    groom.vertices_per_strand += kArmSegments;
+    for (std::uint32_t i = 1; i <= kArmSegments; ++i)
+        groom.points.emplace_back(kShaftLength, 0.0, segment * i);
+    return groom;
+}
+
+}  // namespace
+
+void checkTwistTorque(
+    const engine::Device& device, const CheckedSolver& solver, Findings& findings) {
+    if (const auto why = lack(solver, Need::material))
+        return findings.skip("it bears no torque: " + *why);
+    hair::SimulationSettings settings = freeHair(solver);
+    settings.gravity = {0.0f, static_cast<float>(-kShaftGravity), 0.0f};
+    settings.friction = frictionOf(kShaftFriction);
+    const SectionStiffness section = sectionStiffness(settings.material);
+    const double weight = lineDensity(settings.material) * kShaftGravity;
+    const double turn = weight * kArmLength * kArmLength / 2.0 * kShaftLength / section.twisting;
+    const double segment = kArmLength / kArmSegments;
+    for (const double part : kShaftTwists) {
+        const double twist = part * turn / kShaftLength;
+        settings.material.twist = static_cast<float>(twist);
+        Experiment experiment(device, shaftWithArm(), settings);
+        const bool still = experiment.settle(1e-7, 10.0);
+        const std::vector<glm::dvec3> points = experiment.positions();
+        double moment = 0.0;
+        for (std::uint32_t i = 1; i <= kArmSegments; ++i)
+            moment += weight * segment * (i < kArmSegments ? 1.0 : 0.5) *
+                      (points[kShaftSegments + i].z - points[kShaftSegments].z);
+        const glm::dvec3 edge = points[kShaftSegments + 1] - points[kShaftSegments];
+        const double angle = std::atan2(-edge.y, edge.z);
+        Outcome& outcome = findings.compare(
+            {"torque of a twisted straight rod",
+             "N m",
+             {{"natural twist * length", twist * kShaftLength, "rad"},
+              {"angle of its end", angle, "rad"}}},
+            moment,
+            (angle - twist * (kShaftLength - segment / 2.0)) /
+                (kShaftLength / section.twisting + segment / 2.0 / section.strong),
+            solver == hair::Solver::position_based_rod ? std::nullopt
+                                                       : std::optional(kShaftTolerance));
+        if (!still && outcome.reason.empty()) outcome.reason = "still moving after 10 s";
+    }
+}
+
 }  // namespace benchmarks::physics
