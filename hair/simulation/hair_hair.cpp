@@ -159,12 +159,11 @@ double lengthOf(const groom::Groom& groom) {
     return length;
 }
 
-// Returns the attraction's potential in crowded hair for an attraction of 1.
-double potentialPerAttraction(
-    const groom::Groom& groom, const HairHairSettings& contact, const VolumeGrid& grid) {
+// Returns the number of strands through a cell's face in crowded hair.
+double
+crowdedStrands(const groom::Groom& groom, const HairHairSettings& contact, const VolumeGrid& grid) {
     const double crowded = double{contact.crowding} * meanRestDensity(groom, grid);
-    const double strands = crowded * lengthOf(groom) / grid.cell;  // through a cell's face
-    return strands / kPairOverlap;
+    return crowded * lengthOf(groom) / grid.cell;
 }
 
 // Returns the attraction's potential in crowded hair in use, m^2/s^2.
@@ -173,7 +172,7 @@ double attractionIn(
     double step) {
     if (!attracts(contact)) return 0.0;
     return std::min(
-        double{contact.attraction} * potentialPerAttraction(groom, contact, grid),
+        double{contact.attraction} * crowdedStrands(groom, contact, grid) / kPairOverlap,
         greatestRepulsion(contact, grid.cell, step));
 }
 
@@ -269,7 +268,7 @@ limitedBySteps(const groom::Groom& groom, const SimulationSettings& settings) {
     if (attracts(contact))
         compare(
             "/simulation/hair_hair/attraction", double{contact.attraction},
-            potentialPerAttraction(groom, contact, grid));
+            crowdedStrands(groom, contact, grid) / kPairOverlap);
     return limits;
 }
 
