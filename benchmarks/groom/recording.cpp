@@ -1,8 +1,10 @@
 #include "benchmarks/groom/recording.h"
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <iterator>
 #include <optional>
 #include <ostream>
 #include <span>
@@ -10,6 +12,7 @@
 #include <vector>
 
 #include "benchmarks/measure/case.h"
+#include "benchmarks/measure/measure.h"
 #include "benchmarks/measure/progress.h"
 #include "engine/error.h"
 #include "engine/files.h"
@@ -40,7 +43,11 @@ public:
     Recorded array();
     Recorded lastFrame();
     Recorded onlyProbes();
-    std::vector<std::string> warnings() const { return case_.warnings(); }
+    std::vector<std::string> warnings() const {
+        std::vector<std::string> warnings = case_.warnings();
+        std::ranges::move(measure::contactWarnings(case_), std::back_inserter(warnings));
+        return warnings;
+    }
     std::optional<measure::PlayedProbes> takeProbes() {
         return probes_ ? std::optional(probes_->take()) : std::nullopt;
     }

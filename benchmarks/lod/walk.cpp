@@ -251,6 +251,17 @@ hair::rendering::DistanceLod FrozenView::clusters() const {
     return state;
 }
 
+std::uint64_t FrozenView::clusterSegments() const {
+    const hair::rendering::StrandPlan& plan = renderer_.plan();
+    std::uint64_t segments = 0;
+    for (const hair::gpu::ClusterLevel& level : renderer_.clusterLevels(device_))
+        segments += static_cast<std::uint64_t>(std::ceil(level.strands)) * plan.segments *
+                    hair::rendering::drawnPieces(
+                        plan.tessellation, level.pieces / static_cast<float>(plan.tessellation))
+                        .count;
+    return segments;
+}
+
 Picture FrozenView::picture() {
     loop_.finish();
     return engine::readOutput(device_, renderer_.target());
@@ -343,6 +354,7 @@ scene::Json toJson(const LodDrawn& drawn) {
         {"coverage", drawn.coverage},
         {"time", toJson(drawn.time)}};
     if (drawn.strands) object["strands"] = *drawn.strands;
+    if (drawn.segments) object["segments"] = *drawn.segments;
     if (drawn.popping) object["popping"] = *drawn.popping;
     return object;
 }
@@ -351,6 +363,7 @@ scene::Json toJson(const LodStep& step) {
     scene::Json object = toJson(step.drawn);
     object["distance"] = step.distance;
     object["full_strands"] = step.full_strands;
+    object["full_segments"] = step.full_segments;
     object["full_coverage"] = step.full_coverage;
     object["full_time"] = toJson(step.full_time);
     if (step.clusters) object["clusters"] = toJson(*step.clusters);
@@ -442,16 +455,22 @@ std::string thousandths(std::optional<double> value) {
 }
 
 std::string stepsTable(const std::vector<LodStep>& steps, LodKind kind) {
-    std::vector<report::Column> all{{"distance, m"},   {"level"},        {"strands"},
-                                    {"error, 1/1000"}, {"FLIP, 1/1000"}, {"popping, 1/1000"},
-                                    {"coverage, %"},   {"change, %"},    {"strands, ms"},
-                                    {"full, ms"},      {"frame, ms"},    {"full, ms"}};
+    std::vector<report::Column> all{
+        {"distance, m"},  {"level"},           {"strands"},     {"segments, %"}, {"error, 1/1000"},
+        {"FLIP, 1/1000"}, {"popping, 1/1000"}, {"coverage, %"}, {"change, %"},   {"strands, ms"},
+        {"full, ms"},     {"frame, ms"},       {"full, ms"}};
     for (const LodStep& step : steps) {
         const LodDrawn& drawn = drawnOf(step, kind);
         const std::array cells{
             fixed(step.distance, "%.3f"),
             fixed(drawn.mean_level, "%.2f"),
             drawn.strands ? std::to_string(*drawn.strands) : "-",
+            drawn.segments && step.full_segments > 0
+                ? fixed(
+                      100.0 * static_cast<double>(*drawn.segments) /
+                          static_cast<double>(step.full_segments),
+                      "%.1f")
+                : "-",
             thousandths(drawn.error),
             thousandths(drawn.flip),
             thousandths(drawn.popping),
@@ -606,6 +625,7 @@ void walk(
             .distance = distance,
             .drawn = lod.comparedWith(full, settings.render),
             .full_strands = full.view().strands(),
+            .full_segments = full.view().segments(),
             .full_coverage = coverages[1],
             .full_time = full.times()};
         const auto say = [&](LodDrawn& drawn, const hair::rendering::DistanceLod& state) {
@@ -619,6 +639,7 @@ void walk(
             step.clusters = clusters->comparedWith(full, settings.render);
             step.clusters->coverage = coverages[2];
             say(*step.clusters, clusters->view().clusters());
+            step.clusters->segments = clusters->view().clusterSegments();
         }
         const engine::HeldMessages held;
         steps.push_back(step);

@@ -132,6 +132,7 @@ public:
     void setCamera(const hair::CameraSettings& camera) { renderer_.setCamera(camera); }
     void setLodError(float pixels) { renderer_.setLodError(pixels); }
     std::uint64_t strands() const { return renderer_.plan().strands(); }
+    std::uint64_t segments() const { return renderer_.plan().drawnSegments(); }
 
     // Throws Interrupted.
     void draw();
@@ -141,6 +142,8 @@ public:
 
     // Level of the frame before, over root triangles, and its strands; only for levels by cluster.
     hair::rendering::DistanceLod clusters() const;
+    // The drawn segments of the same strands.
+    std::uint64_t clusterSegments() const;
 
     Picture picture();
 
@@ -157,12 +160,13 @@ private:
 // Costs and savings of level of detail along a camera path, and their report, which
 // results/lod.schema.json describes.
 
-inline constexpr const char* kLodSchema = "hairbench-lod/1.1.0";
+inline constexpr const char* kLodSchema = "hairbench-lod/1.2.0";
 
 // Levels of detail at one camera position, compared with level 0.
 struct LodDrawn {
     double mean_level = 0.0;  // over root triangles
     std::optional<std::uint64_t> strands;  // drawn
+    std::optional<std::uint64_t> segments;  // drawn; known by cluster
     double error = 0.0;  // rootMeanSquare of the two pictures
     double flip = 0.0;  // mean FLIP between them
     std::optional<double> popping;  // since the previous step
@@ -176,6 +180,7 @@ struct LodStep {
     LodDrawn drawn;  // by distance
     std::optional<LodDrawn> clusters;  // if requested
     std::uint64_t full_strands = 0;
+    std::uint64_t full_segments = 0;
     double full_coverage = 0.0;
     LodTimes full_time;
 };

@@ -1,6 +1,7 @@
 #include "benchmarks/measure/measure.h"
 
 #include <algorithm>
+#include <cmath>
 #include <iterator>
 #include <optional>
 #include <span>
@@ -12,6 +13,7 @@
 #include "benchmarks/measure/sampling.h"
 #include "benchmarks/measure/trust.h"
 #include "benchmarks/report/statistics.h"
+#include "hair/simulation/hair_hair.h"
 #include "hair/simulation/probes.h"
 #include "hair/simulation/solvers.h"
 
@@ -39,6 +41,18 @@ std::string number(double value) {
 }
 
 std::string millimetres(double metres) { return number(1e3 * metres) + " mm"; }
+
+// Limits above this share of what is set are not told: they change nothing that can be seen.
+constexpr double kTold = 0.95;
+
+// The step is rounded down to three digits, so that it lets the field act in full.
+std::string limitText(const hair::simulation::StepLimit& limit) {
+    const double digit = std::pow(10.0, std::floor(std::log10(limit.longest_step)) - 2.0);
+    const double step = digit * std::floor(limit.longest_step / digit);
+    return std::string(limit.field) + ": " + number(limit.set) + " acts as " + number(limit.used) +
+           " m^2/s^2, as much as the time step bears; steps of " + number(step) +
+           " s or less bear all of it";
+}
 
 const char* originOf(const hair::Settings& settings) {
     if (settings.simulation.settle_steps > 0 && settings.simulation.solver != hair::Solver::none)
@@ -98,9 +112,18 @@ StartInspection judgeStart(
     return start;
 }
 
+std::vector<std::string> contactWarnings(const Case& test_case) {
+    std::vector<std::string> warnings;
+    for (const hair::simulation::StepLimit& limit :
+         hair::simulation::limitedBySteps(test_case.groom(), test_case.settings().simulation))
+        if (limit.used < kTold * limit.set) warnings.push_back(limitText(limit));
+    return warnings;
+}
+
 StartInspection inspectStart(const Case& test_case) {
     StartInspection start =
         judgeStart(test_case.condition(), test_case.balance(), test_case.settings());
+    std::ranges::move(contactWarnings(test_case), std::back_inserter(start.warnings));
     const std::vector<std::string>& of_file = test_case.groom().warnings;
     start.warnings.insert(start.warnings.end(), of_file.begin(), of_file.end());
     return start;

@@ -21,6 +21,10 @@ struct StartInspection {
     std::vector<std::string> warnings;
 };
 
+// Names the forces of hair-hair contact that the time step limits by more than a twentieth, with
+// the values in use and the step that would not.
+std::vector<std::string> contactWarnings(const Case& test_case);
+
 // For a case that has played no frame. Waits for the device.
 StartInspection inspectStart(const Case& test_case);
 

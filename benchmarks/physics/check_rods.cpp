@@ -12,7 +12,6 @@
 #include "benchmarks/physics/experiment.h"
 #include "benchmarks/physics/kirchhoff.h"
 #include "benchmarks/physics/theory.h"
-#include "hair/simulation/solvers.h"
 
 namespace benchmarks::physics {
 namespace {
@@ -250,173 +249,6 @@ void checkLateralBuckling(
 
 namespace {
 
-// ---- Bending frequency --------------------------------------------------------------------------
-
-constexpr std::uint32_t kBendingSegments = 32;
-constexpr double kBendingLength = 0.1;  // m
-constexpr float kBendingTimeStep = 0.0005f;  // s; implicit steps damp by w h / 2 = 0.3 % per radian
-constexpr double kBendingTolerance = 0.02;  // promised for rods that are solved, not corrected
-
-constexpr glm::dvec3 kBendingAlong{1.0, 0.0, 0.0};
-constexpr glm::dvec3 kBendingSideways{0.0, 1.0, 0.0};
-
-}  // namespace
-
-void checkBendingFrequency(
-    const engine::Device& device, const CheckedSolver& solver, Findings& findings) {
-    if (const auto why = lack(solver, Need::bending)) return findings.skip(*why);
-    hair::SimulationSettings settings = freeHair(solver);
-    settings.gravity = {};
-    settings.time_step = kBendingTimeStep;
-    settings.substeps = 1;
-    const double expected = cantileverFrequency(
-        bendingStiffness(settings.material), lineDensity(settings.material), kBendingLength);
-    std::vector<double> shape;
-    for (std::uint32_t i = 0; i <= kBendingSegments; ++i)
-        shape.push_back(cantileverShape(static_cast<double>(i) / kBendingSegments));
-
-    Experiment experiment(
-        device, straightStrand(kBendingSegments, kBendingLength, kBendingAlong), settings);
-    const auto frequency = measureFrequency(
-        experiment, {.shape = shape,
-                     .segment = kBendingLength / kBendingSegments,
-                     .direction = kBendingAlong,
-                     .sideways = kBendingSideways,
-                     .expected_frequency = expected});
-    std::optional<double> tolerance;
-    if (solver == hair::Solver::rod || solver == hair::Solver::stable_cosserat)
-        tolerance = kBendingTolerance;
-    Outcome& outcome = findings.compare(
-        {"first frequency",
-         "Hz",
-         {{"segments", double{kBendingSegments}, "count"}, {"length", kBendingLength, "m"}}},
-        frequency.value_or(std::numeric_limits<double>::quiet_NaN()), expected, tolerance);
-    if (!frequency) outcome.reason = "it does not swing";
-}
-
-namespace {
-
-// ---- Bending decay ------------------------------------------------------------------------------
-
-// Kelvin-Voigt damping takes w^2 damping / 2 per second from a mode of w rad/s. A substep changes
-// that by at most w^2 substep damping / 4, 0.8 %, and 32 segments swing 0.1 % too slowly.
-constexpr double kDecayTolerance = 0.03;
-constexpr double kHalfLives[] = {0.25, 2.0};  // s
-constexpr float kDecayRates[] = {60.0f, 240.0f, 480.0f};  // steps per second
-constexpr double kDecaySpeed = 0.02;  // of the tip, m/s
-constexpr int kDecaySamples = 12;  // a quarter of a period apart
-
-// Decay rate of a free oscillation, 1/s, by least squares of y[k + 1] = s y[k] - d y[k - 1], where
-// d is exp(-2 rate interval).
-double decayRateOf(std::span<const double> samples, double interval) {
-    double yy = 0.0;
-    double yz = 0.0;
-    double zz = 0.0;
-    double yx = 0.0;
-    double zx = 0.0;
-    for (std::size_t i = 1; i + 1 < samples.size(); ++i) {
-        const double z = -samples[i - 1];
-        yy += samples[i] * samples[i];
-        yz += samples[i] * z;
-        zz += z * z;
-        yx += samples[i] * samples[i + 1];
-        zx += z * samples[i + 1];
-    }
-    return -std::log((yy * zx - yz * yx) / (yy * zz - yz * yz)) / (2.0 * interval);
-}
-
-}  // namespace
-
-namespace {
-
-// The rate of a clamped hair of this length in its first mode, rad/s, without weight.
-double firstMode(const hair::MaterialSettings& material, double length) {
-    return 2.0 * kPi *
-           cantileverFrequency(bendingStiffness(material), lineDensity(material), length);
-}
-
-// Decay rate of its vibration on the device, 1/s.
-double vibrationsDecay(
-    const engine::Device& device, const hair::SimulationSettings& settings, double length) {
-    std::vector<glm::dvec3> velocities;
-    for (std::uint32_t i = 0; i <= kBendingSegments; ++i)
-        velocities.push_back(
-            kDecaySpeed * cantileverShape(static_cast<double>(i) / kBendingSegments) *
-            kBendingSideways);
-    Experiment experiment(
-        device, straightStrand(kBendingSegments, length, kBendingAlong), settings);
-    experiment.launch(experiment.positions(), velocities);
-    const std::uint32_t every =
-        experiment.stepsIn(0.5 * kPi / firstMode(settings.material, length));
-    std::vector<double> samples;
-    for (int i = 0; i < kDecaySamples; ++i) {
-        experiment.advance(every);
-        samples.push_back(experiment.positions().back().y);
-    }
-    return decayRateOf(samples, every * experiment.timeStep());
-}
-
-// The integrators themselves damp a short hair. Implicit Euler multiplies a mode of w by
-// 1 / (1 - i w h) in a substep, so it decays with ln(1 + w^2 h^2) / 2 h. The second-order method
-// leaves only the material's damping.
-constexpr double kShortLength = 0.07;  // m
-constexpr double kShortDamping = 0.002;  // s, of the material, for the second-order method
-
-void checkNumericalDecay(
-    const engine::Device& device, hair::SimulationSettings settings, Findings& findings) {
-    const double rate = firstMode(settings.material, kShortLength);
-    settings.time_step = 1.0f / 480.0f;
-    settings.material.damping = 0.0f;
-    settings.rod.integrator = hair::RodIntegrator::implicit_euler;
-    const double phase = rate * double{settings.time_step};
-    findings.compare(
-        {"decay with implicit_euler without damping",
-         "1/s",
-         {{"length", kShortLength, "m"}, {"time_step", settings.time_step, "s"}}},
-        vibrationsDecay(device, settings, kShortLength),
-        std::log1p(phase * phase) / (2.0 * double{settings.time_step}), kDecayTolerance);
-    settings.material.damping = static_cast<float>(kShortDamping);
-    settings.rod.integrator = hair::RodIntegrator::generalized_alpha;
-    findings.compare(
-        {"decay with generalized_alpha",
-         "1/s",
-         {{"length", kShortLength, "m"},
-          {"damping", kShortDamping, "s"},
-          {"time_step", settings.time_step, "s"}}},
-        vibrationsDecay(device, settings, kShortLength), rate * rate * kShortDamping / 2.0,
-        kDecayTolerance);
-}
-
-}  // namespace
-
-void checkBendingDecay(
-    const engine::Device& device, const CheckedSolver& solver, Findings& findings) {
-    if (solver != hair::Solver::rod) return findings.skip("it has no damping of its material");
-    hair::SimulationSettings settings = freeHair(solver);
-    settings.gravity = {};
-    const double rate_of_mode = firstMode(settings.material, kBendingLength);
-    for (const auto& [integrator, name] :
-         {std::pair{hair::RodIntegrator::implicit_euler, "half-life with implicit_euler"},
-          std::pair{hair::RodIntegrator::generalized_alpha, "half-life with generalized_alpha"}})
-        for (const double half_life : kHalfLives)
-            for (const float rate : kDecayRates) {
-                settings.rod.integrator = integrator;
-                settings.time_step = 1.0f / rate;
-                settings.material.damping = static_cast<float>(
-                    2.0 * std::log(2.0) / (rate_of_mode * rate_of_mode * half_life));
-                findings.compare(
-                    {name,
-                     "s",
-                     {{"damping", settings.material.damping, "s"},
-                      {"time_step", settings.time_step, "s"}}},
-                    std::log(2.0) / vibrationsDecay(device, settings, kBendingLength), half_life,
-                    kDecayTolerance);
-            }
-    checkNumericalDecay(device, settings, findings);
-}
-
-namespace {
-
 // ---- Set ----------------------------------------------------------------------------------------
 
 // Hair that yields to a share s of its stiffness in the time tau (Zener's standard linear solid).
@@ -529,130 +361,6 @@ void checkBendingSet(
             checkCreep(device, settings, length, with, findings);
             checkRelease(device, settings, length, with, findings);
         }
-}
-
-namespace {
-
-// ---- A turning head -----------------------------------------------------------------------------
-
-// Hair hangs from a head that turns steadily about the vertical. In the turning frame it is a rod
-// under its weight and an acceleration away from the axis, in a plane. It starts in that rod's
-// state at rest, moving with the head, and should stay there. Nothing damps it.
-
-constexpr double kTurningRate = 8.0;  // rad/s
-constexpr double kTurningRadius = 0.09;  // m, of the root from the axis
-constexpr double kTurningLengths[] = {0.07, 0.1, 0.15};  // m
-constexpr std::uint32_t kTurningSegments = 32;
-constexpr double kTurningInterval = 0.1;  // s between keyframes; the head starts during the first
-constexpr double kTurningStart = 0.2;  // s
-constexpr double kTurningTime = 2.0;  // s
-constexpr float kTurningRates[] = {60.0f, 240.0f, 1920.0f};  // steps per second
-// A part of the length. Segments are off by their square, 1e-3. Implicit Euler takes forces at the
-// end of a substep h, so hair lags as if the acceleration w^2 r were turned by the angle w h: by
-// 0.017 at 1/480 s. As the acceleration is about that of the weight, the tip lags by about as much
-// of the length. Hair that starts without lag swings about it.
-constexpr double kTurningTolerance = 0.005;  // promised for `rod` with generalized_alpha
-
-glm::dvec3 turned(const glm::dvec3& point, double angle) {
-    return {
-        point.x * std::cos(angle) + point.z * std::sin(angle), point.y,
-        point.z * std::cos(angle) - point.x * std::sin(angle)};
-}
-
-// The greatest and the mean distance of the tip from where it started, m, in the head's frame.
-struct Strayed {
-    double farthest;
-    double mean;
-};
-
-Strayed strayOnTurningHead(
-    const engine::Device& device, hair::SimulationSettings settings,
-    std::span<const glm::dvec2> rest, double length) {
-    for (int i = 0; i * kTurningInterval < kTurningStart + kTurningTime + 1.0; ++i)
-        settings.motion.keyframes.push_back(
-            {.time = static_cast<float>(i * kTurningInterval),
-             .rotation =
-                 {0.0f, static_cast<float>(i * kTurningInterval * kTurningRate * 180.0 / kPi),
-                  0.0f},
-             .translation = {}});
-    hair::groom::Groom groom = straightStrand(kTurningSegments, length, {0.0, -1.0, 0.0});
-    for (glm::vec3& point : groom.points) point.x += static_cast<float>(kTurningRadius);
-    Experiment experiment(device, groom, settings);
-    std::uint32_t steps = experiment.stepsIn(kTurningStart);
-    experiment.advance(steps);
-    const auto angle = [&] { return kTurningRate * steps * experiment.timeStep(); };
-    std::vector<glm::dvec3> points, velocities;
-    for (const glm::dvec2& point : rest) {
-        points.push_back(turned({point, 0.0}, angle()));
-        velocities.push_back(kTurningRate * glm::cross(glm::dvec3(0.0, 1.0, 0.0), points.back()));
-    }
-    experiment.launch(points, velocities);
-    Strayed strayed{.farthest = 0.0, .mean = 0.0};
-    const glm::dvec3 start(rest.back(), 0.0);
-    glm::dvec3 sum(0.0);
-    const std::uint32_t every = experiment.stepsIn(1.0 / 60.0);
-    const std::uint32_t samples = experiment.stepsIn(kTurningTime) / every;
-    for (std::uint32_t i = 0; i < samples; ++i) {
-        experiment.advance(every);
-        steps += every;
-        const glm::dvec3 tip = turned(experiment.positions().back(), -angle());
-        strayed.farthest = worst(strayed.farthest, glm::distance(tip, start));
-        sum += tip;
-    }
-    strayed.mean = glm::distance(sum / static_cast<double>(samples), start);
-    return strayed;
-}
-
-double substepOf(const hair::SimulationSettings& settings) {
-    return double{settings.time_step} / hair::simulation::stepOf(settings).count;
-}
-
-void compareTurning(
-    const engine::Device& device, hair::SimulationSettings settings, const std::string& prefix,
-    Findings& findings) {
-    for (const double length : kTurningLengths) {
-        PlanarRod rod = planarHair(settings, kTurningSegments, length);
-        if (lack(settings.solver, Need::bending)) rod.stiffness = 0.0;
-        rod.root = {kTurningRadius, 0.0};
-        rod.field = [](const glm::dvec2& point) {
-            return glm::dvec2(kTurningRate * kTurningRate * point.x, -kGravity);
-        };
-        const auto rest = planarRest(rod, std::vector<double>(kTurningSegments, 0.3));
-        if (!rest) {
-            findings.fail("the rod's state at rest is not found");
-            continue;
-        }
-        for (const float rate : kTurningRates) {
-            settings.time_step = 1.0f / rate;
-            const Strayed strayed =
-                strayOnTurningHead(device, settings, planarPoints(rod, *rest), length);
-            const std::vector<Parameter> parameters{
-                {"length", length, "m"}, {"time_step", settings.time_step, "s"}};
-            findings.deviation(
-                {prefix + "tip's greatest distance from the turning rod / length", "1", parameters},
-                strayed.farthest / length);
-            findings.deviation(
-                {prefix + "tip's mean distance from the turning rod / length", "1", parameters},
-                strayed.mean / length,
-                settings.solver != hair::Solver::rod ? std::nullopt
-                : settings.rod.integrator == hair::RodIntegrator::generalized_alpha
-                    ? std::optional(kTurningTolerance)
-                    : std::optional(kTurningTolerance + kTurningRate * substepOf(settings)));
-        }
-    }
-}
-
-}  // namespace
-
-void checkTurningHead(
-    const engine::Device& device, const CheckedSolver& solver, Findings& findings) {
-    hair::SimulationSettings settings = freeHair(solver);
-    compareTurning(device, settings, "", findings);
-    if (solver == hair::Solver::shape)
-        compareTurning(device, withEnergy(settings), "with an energy, ", findings);
-    if (solver != hair::Solver::rod) return;
-    settings.rod.integrator = hair::RodIntegrator::generalized_alpha;
-    compareTurning(device, settings, "with generalized_alpha, ", findings);
 }
 
 namespace {
@@ -990,6 +698,77 @@ void checkNaturalTwist(
     for (const Winding& winding : kWindings)
         compareHelix(device, settings, winding, tolerance, findings);
     if (solver == hair::Solver::rod) compareSections(device, settings, findings);
+}
+
+namespace {
+
+// ---- Torque of a twisted rod --------------------------------------------------------------------
+
+// A straight shaft along +x ends in a level arm along +z. The arm's weight twists the shaft, so the
+// shaft bears the torque G J (angle / length - twist), where the angle is that of the arm round the
+// shaft and the twist is the natural one. The torque is measured as the weight's moment. One of the
+// natural twists holds the arm level against its weight. The joint at the corner turns the arm
+// round the line between both: its half on the shaft twists, its half on the arm bends, and its
+// natural twist is about the arm.
+
+constexpr std::uint32_t kShaftSegments = 16;
+constexpr std::uint32_t kArmSegments = 8;
+constexpr double kShaftLength = 0.04;  // m
+constexpr double kArmLength = 0.02;  // m
+// The weight turns the arm by 1.4 degrees and bends the shaft as much, so angles are small.
+constexpr double kShaftGravity = kGravity / 10.0;
+constexpr double kShaftFriction = 60.0;  // 1/s, about the frequencies of the arm
+// Natural twist of the shaft's length over the angle by which the weight turns the arm.
+constexpr double kShaftTwists[] = {0.0, -1.0, 1.0, -4.0};
+// Angles of 0.1 rad change the moment's arms by their squares.
+constexpr double kShaftTolerance = 0.01;
+
+hair::groom::Groom shaftWithArm() {
+    const double segment = kShaftLength / kShaftSegments;
+    hair::groom::Groom groom = straightStrand(kShaftSegments, kShaftLength, {1.0, 0.0, 0.0});
+    groom.vertices_per_strand += kArmSegments;
+    for (std::uint32_t i = 1; i <= kArmSegments; ++i)
+        groom.points.emplace_back(kShaftLength, 0.0, segment * i);
+    return groom;
+}
+
+}  // namespace
+
+void checkTwistTorque(
+    const engine::Device& device, const CheckedSolver& solver, Findings& findings) {
+    if (const auto why = lack(solver, Need::material))
+        return findings.skip("it bears no torque: " + *why);
+    hair::SimulationSettings settings = freeHair(solver);
+    settings.gravity = {0.0f, static_cast<float>(-kShaftGravity), 0.0f};
+    settings.friction = frictionOf(kShaftFriction);
+    const SectionStiffness section = sectionStiffness(settings.material);
+    const double weight = lineDensity(settings.material) * kShaftGravity;
+    const double turn = weight * kArmLength * kArmLength / 2.0 * kShaftLength / section.twisting;
+    const double segment = kArmLength / kArmSegments;
+    for (const double part : kShaftTwists) {
+        const double twist = part * turn / kShaftLength;
+        settings.material.twist = static_cast<float>(twist);
+        Experiment experiment(device, shaftWithArm(), settings);
+        const bool still = experiment.settle(1e-7, 10.0);
+        const std::vector<glm::dvec3> points = experiment.positions();
+        double moment = 0.0;
+        for (std::uint32_t i = 1; i <= kArmSegments; ++i)
+            moment += weight * segment * (i < kArmSegments ? 1.0 : 0.5) *
+                      (points[kShaftSegments + i].z - points[kShaftSegments].z);
+        const glm::dvec3 edge = points[kShaftSegments + 1] - points[kShaftSegments];
+        const double angle = std::atan2(-edge.y, edge.z);
+        Outcome& outcome = findings.compare(
+            {"torque of a twisted straight rod",
+             "N m",
+             {{"natural twist * length", twist * kShaftLength, "rad"},
+              {"angle of its end", angle, "rad"}}},
+            moment,
+            (angle - twist * (kShaftLength - segment / 2.0)) /
+                (kShaftLength / section.twisting + segment / 2.0 / section.strong),
+            solver == hair::Solver::position_based_rod ? std::nullopt
+                                                       : std::optional(kShaftTolerance));
+        if (!still && outcome.reason.empty()) outcome.reason = "still moving after 10 s";
+    }
 }
 
 }  // namespace benchmarks::physics

@@ -296,6 +296,7 @@ constexpr Check kChecks[] = {
     {"turning_head", checkTurningHead},
     {"clamp_twist", checkClampTwist},
     {"natural_twist", checkNaturalTwist},
+    {"twist_torque", checkTwistTorque},
     {"bend_twist", checkBendTwist},
     {"lateral_buckling", checkLateralBuckling},
     {"drag_deflection", checkDragDeflection},

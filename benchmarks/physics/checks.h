@@ -211,6 +211,9 @@ void checkCurledCantilever(const engine::Device&, const CheckedSolver&, Findings
 void checkTurningHead(const engine::Device&, const CheckedSolver&, Findings&);
 // Hair with a natural twist: a curl that winds to a helix, and level hair with twisted sections.
 void checkNaturalTwist(const engine::Device&, const CheckedSolver&, Findings&);
+// Torque of a straight rod that the weight of an arm at its end twists, also against a natural
+// twist.
+void checkTwistTorque(const engine::Device&, const CheckedSolver&, Findings&);
 // Checks that a curl follows its root's rotation about its own axis.
 void checkClampTwist(const engine::Device&, const CheckedSolver&, Findings&);
 // Distance of a hanging curl from its plane, and the curvature at which it leaves the plane.

@@ -363,6 +363,15 @@ double slideDistance(double gravity, double angle, double radius, double frictio
     return s;
 }
 
+double joiningLength(std::span<const double> apart, double distance, double segment) {
+    for (std::size_t i = 1; i < apart.size(); ++i)
+        if (apart[i] < distance / 2.0)
+            return 2.0 * segment *
+                   (static_cast<double>(i) - 1.0 +
+                    (apart[i - 1] - distance / 2.0) / (apart[i - 1] - apart[i]));
+    return std::numeric_limits<double>::quiet_NaN();
+}
+
 std::optional<double> measureFrequency(Experiment& experiment, const Vibration& vibration) {
     experiment.place(
         deflected(vibration.shape, vibration.segment, vibration.direction, vibration.sideways));

@@ -90,6 +90,11 @@ glm::dvec2 draggedTip(const hair::SimulationSettings& settings, double speed, do
 // It does not start if friction exceeds tan(angle).
 double slideDistance(double gravity, double angle, double radius, double friction, double time);
 
+// The length over which two hairs that begin `distance` apart join, m: twice the arc length at
+// which half of the distance is left. `apart`: of each pair of vertices, root first, m. NaN if they
+// stay apart.
+double joiningLength(std::span<const double> apart, double distance, double segment);
+
 // Releases a strand that is deflected along `sideways` and measures its frequency over five
 // expected periods. Absent if it does not swing.
 struct Vibration {

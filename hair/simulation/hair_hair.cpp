@@ -12,6 +12,7 @@
 
 #include "engine/error.h"
 #include "engine/transfer.h"
+#include "hair/simulation/solvers.h"
 #include "hair/simulation/stiffness.h"
 
 namespace hair::simulation {
@@ -158,15 +159,20 @@ double lengthOf(const groom::Groom& groom) {
     return length;
 }
 
+// Returns the number of strands through a cell's face in crowded hair.
+double
+crowdedStrands(const groom::Groom& groom, const HairHairSettings& contact, const VolumeGrid& grid) {
+    const double crowded = double{contact.crowding} * meanRestDensity(groom, grid);
+    return crowded * lengthOf(groom) / grid.cell;
+}
+
 // Returns the attraction's potential in crowded hair in use, m^2/s^2.
 double attractionIn(
     const groom::Groom& groom, const HairHairSettings& contact, const VolumeGrid& grid,
     double step) {
     if (!attracts(contact)) return 0.0;
-    const double crowded = double{contact.crowding} * meanRestDensity(groom, grid);
-    const double strands = crowded * lengthOf(groom) / grid.cell;  // through a cell's face
     return std::min(
-        double{contact.attraction} * strands / kPairOverlap,
+        double{contact.attraction} * crowdedStrands(groom, contact, grid) / kPairOverlap,
         greatestRepulsion(contact, grid.cell, step));
 }
 
@@ -240,6 +246,30 @@ engine::ComputePipeline forcePipeline(
 bool hairActsOnHair(const SimulationSettings& settings) {
     return settings.solver != Solver::none &&
            (touches(settings.hair_hair) || settings.hair_hair.shelter > 0.0f);
+}
+
+std::vector<StepLimit>
+limitedBySteps(const groom::Groom& groom, const SimulationSettings& settings) {
+    const HairHairSettings& contact = settings.hair_hair;
+    std::vector<StepLimit> limits;
+    if (settings.solver == Solver::none) return limits;
+    const double step = stepOf(settings).whole;
+    const VolumeGrid grid = volumeGrid(groom, contact.resolution);
+    const double greatest = greatestRepulsion(contact, grid.cell, step);
+    const auto compare = [&](const char* field, double set, double potential) {
+        if (set * potential > greatest)
+            limits.push_back(
+                {.field = field,
+                 .set = set,
+                 .used = greatest / potential,
+                 .longest_step = step * std::sqrt(greatest / (set * potential))});
+    };
+    compare("/simulation/hair_hair/repulsion", double{contact.repulsion}, 1.0);
+    if (attracts(contact))
+        compare(
+            "/simulation/hair_hair/attraction", double{contact.attraction},
+            crowdedStrands(groom, contact, grid) / kPairOverlap);
+    return limits;
 }
 
 VolumeGrid volumeGrid(const groom::Groom& groom, std::uint32_t resolution) {

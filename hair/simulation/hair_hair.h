@@ -40,6 +40,19 @@ double meanRestDensity(const groom::Groom& groom, const VolumeGrid& grid);
 // Whether the settings ask for contact or shelter of moving hair.
 bool hairActsOnHair(const SimulationSettings& settings);
 
+// A stiffness of hair-hair contact that acts weaker than it is set, because the time step is too
+// long for it (see HairHair).
+struct StepLimit {
+    const char* field;  // JSON pointer
+    double set;  // m^2/s^2
+    double used;  // m^2/s^2
+    double longest_step;  // s, in which it would act in full
+};
+
+// Returns repulsion and attraction if the settings' time step limits them for this groom.
+std::vector<StepLimit>
+limitedBySteps(const groom::Groom& groom, const SimulationSettings& settings);
+
 // Contact of hair with hair as in a fluid, on grids that move with the head (Petrovic, Henne and
 // Anderson 2005, Volumetric methods for simulation and rendering of hair).
 //

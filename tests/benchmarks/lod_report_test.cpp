@@ -30,6 +30,7 @@ lod::LodReport sampleLod() {
               .drawn = {.error = 0.0, .coverage = 0.3, .time = {10.0, 20.0}},
               .clusters = lod::LodDrawn{.strands = 8704, .coverage = 0.3, .time = {11.0, 21.0}},
               .full_strands = 8704,
+              .full_segments = 487424,
               .full_coverage = 0.3,
               .full_time = {10.0, 20.0}},
              {.distance = 20.0,
@@ -45,12 +46,14 @@ lod::LodReport sampleLod() {
                   lod::LodDrawn{
                       .mean_level = 5.0,
                       .strands = 500,
+                      .segments = 24371,
                       .error = 0.02,
                       .flip = 0.03,
                       .popping = 0.004,
                       .coverage = 0.12,
                       .time = {1.0, 9.0}},
               .full_strands = 8704,
+              .full_segments = 487424,
               .full_coverage = 0.1,
               .full_time = {14.0, 20.0}}},
         .truth = lod::LodTruth{
@@ -92,6 +95,9 @@ TEST(LodReport, LeavesOutWhatIsNotKnown) {
     EXPECT_EQ(report["steps"][1]["strands"], 1000);
     EXPECT_EQ(report["steps"][1]["full_time"]["strands"], 14.0);
     EXPECT_EQ(report["steps"][1]["clusters"]["strands"], 500);
+    EXPECT_EQ(report["steps"][1]["clusters"]["segments"], 24371);
+    EXPECT_EQ(report["steps"][1]["full_segments"], 487424);
+    EXPECT_FALSE(report["steps"][1].contains("segments"));
     EXPECT_EQ(report["cluster_totals"]["worst_popping"], 0.004);
     lod::LodReport interrupted = sampleLod();
     interrupted.steps.clear();
@@ -136,6 +142,7 @@ TEST(LodTable, HasALinePerStepAndTheTotals) {
     const std::string table = lod::lodTable(sampleLod());
     EXPECT_THAT(table, HasSubstr("0.500"));
     EXPECT_THAT(table, HasSubstr("20.000"));
+    EXPECT_THAT(table, HasSubstr("  5.0  ")) << "segments of clusters, in hundredths";
     EXPECT_THAT(table, HasSubstr("-10.00"));
     EXPECT_THAT(table, HasSubstr("coverage change: mean -5.00 %, worst -10.00 %"));
     EXPECT_THAT(table, HasSubstr("against level 0 path-traced with 64 samples per pixel"));

@@ -1,8 +1,11 @@
 #include "benchmarks/lod/walk.h"
 
+#include <filesystem>
+
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
+#include "benchmarks/scene/scene.h"
 #include "tests/gpu_fixture.h"
 
 namespace benchmarks {
@@ -130,6 +133,46 @@ TEST_F(LodWalkTest, ComparesWithFullDetail) {
     EXPECT_GT(steps[1].clusters->flip, 0.0);
     // Levels are those of the picture, not of the one that measures coverage, so it changes.
     EXPECT_NE(steps[1].clusters->coverage, steps[1].full_coverage);
+}
+
+// The scene of Huang et al. 2025, with a sixteenth of its strands in a small picture. Their hair
+// has 1050 K segments, of which they draw 418 K in their far view. docs/rendering.md has both in
+// full.
+TEST_F(LodWalkTest, DrawsThePapersHairWithFewerSegmentsFromAfar) {
+    const std::filesystem::path path =
+        std::filesystem::path(HAIRBENCH_SOURCE_DIR) / "scenes/papers/level_of_detail.json";
+    hair::Settings settings = scene::loadScene(path).settings;
+    ASSERT_EQ(settings.lod.mode, hair::LodMode::cluster);
+    constexpr std::uint32_t kPart = 16;
+    ASSERT_EQ(settings.strands.density % kPart, 0u);
+    settings.strands.density /= kPart;
+    settings.simulation.settle_steps = 60;
+    constexpr std::uint32_t kWidth = 160;
+    settings.lod.error *= static_cast<float>(kWidth) / static_cast<float>(settings.render.width);
+    settings.render.width = kWidth;
+    settings.render.height = 90;
+    measure::Case hair(device(), settings, path.parent_path());
+    std::vector<lod::LodStep> steps;
+    lod::walk(
+        device(), hair, settings, {.from = 0.5, .to = 16.0, .steps = 3}, lod::LodKind::cluster,
+        [](double) {}, steps);
+    ASSERT_EQ(steps.size(), 3u);
+    double before = 2.0;
+    for (const lod::LodStep& step : steps) {
+        EXPECT_NEAR(static_cast<double>(step.full_segments * kPart), 1.05e6, 0.002 * 1.05e6);
+        ASSERT_TRUE(step.clusters && step.clusters->segments);
+        const double share =
+            static_cast<double>(*step.clusters->segments) / static_cast<double>(step.full_segments);
+        EXPECT_LE(share, before) << step.distance;
+        before = share;
+        // No strand has fewer than a segment for each of its guide's.
+        EXPECT_GE(
+            share, static_cast<double>(*step.clusters->strands) /
+                       static_cast<double>(step.full_strands) / settings.strands.tessellation);
+    }
+    EXPECT_EQ(steps[0].clusters->segments, steps[0].full_segments);
+    EXPECT_LT(steps[0].clusters->flip, 1e-4);
+    EXPECT_LT(before, 418.0 / 1050.0);
 }
 
 }  // namespace

@@ -1,7 +1,11 @@
 #include "benchmarks/measure/measure.h"
 
+#include <string>
+
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+
+#include "tests/gpu_fixture.h"
 
 namespace benchmarks::measure {
 namespace {
@@ -90,6 +94,32 @@ TEST(Start, SaysWhatBalanceTook) {
         judgeStart({}, &balance, settings).warnings,
         ElementsAre("hair sags: guide 4 can't be balanced if nothing pulls it to its place "
                     "(/simulation/global/stiffness is 0); 2 guides in all"));
+}
+
+using StartOnDevice = GpuTest;
+
+// tests/simulation/hair_hair_test.cpp compares the numbers with theory.
+TEST_F(StartOnDevice, WarnsOnceOfAnAttractionThatTheStepLimits) {
+    hair::Settings settings;
+    settings.groom.guides = 24;
+    settings.strands.density = 1;
+    settings.render.width = 16;
+    settings.render.height = 16;
+    settings.simulation.hair_hair = {.attraction = 100.0f};
+    const auto warnings = [&] {
+        return inspectStart(Case(device(), settings, HAIRBENCH_SOURCE_DIR "/scenes", nullptr))
+            .warnings;
+    };
+    const std::vector<std::string> limited = warnings();
+    ASSERT_EQ(limited.size(), 1u);
+    EXPECT_THAT(
+        limited[0], testing::MatchesRegex(
+                        "/simulation/hair_hair/attraction: 100 acts as [0-9.]+ m.2/s.2, as much as "
+                        "the time step bears; steps of [0-9.]+ s or less bear all of it"));
+    const std::string before = "steps of ";
+    settings.simulation.time_step =
+        std::stof(limited[0].substr(limited[0].find(before) + before.size()));
+    EXPECT_THAT(warnings(), IsEmpty());
 }
 
 }  // namespace

@@ -239,6 +239,12 @@ TEST_F(Physics, TwistedHairWindsToAHelix) {
     expectPass(findings);
 }
 
+TEST_F(Physics, ATwistedRodBearsTorque) {
+    Findings findings("twist_torque", hair::Solver::rod);
+    checkTwistTorque(device(), hair::Solver::rod, findings);
+    expectPass(findings);
+}
+
 TEST_F(Physics, WetHairSagsAndJoins) {
     Findings findings("wet_hair", hair::Solver::rod);
     checkWetHair(device(), hair::Solver::rod, findings);

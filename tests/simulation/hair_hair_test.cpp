@@ -527,6 +527,52 @@ TEST_F(HairOnHair, AttractsToMoreHairUnlessItIsCrowded) {
         [](double) { return 0.0; });
 }
 
+// In hair with N strands through a cell's face where it is crowded, the step bears an attraction of
+// 0.3025 / 2 (cell / step)^2 / N, half of that beside cohesion.
+TEST_F(HairOnHair, SaysWhereTheStepLimitsAttraction) {
+    const groom::Groom groom = denserAlongX();
+    SimulationSettings settings = wet(0.0f, 3.0f);
+    settings.hair_hair.resolution = kLatticeResolution;
+    const VolumeGrid grid = volumeGrid(groom, kLatticeResolution);
+    double length = 0.0;
+    for (std::uint32_t strand = 0; strand < groom.strand_count; ++strand)
+        for (std::size_t i = 1; i < groom.vertices_per_strand; ++i)
+            length += double{glm::distance(groom.strand(strand)[i], groom.strand(strand)[i - 1])};
+    const double strands = 3.0 * meanRestDensity(groom, grid) * length / grid.cell;
+    const double speed = grid.cell / double{settings.time_step};
+    const double theory = 0.3025 / 2.0 * speed * speed / strands;
+    const auto limit = [&] {
+        const std::vector<StepLimit> limits = limitedBySteps(groom, settings);
+        EXPECT_EQ(limits.size(), 1u);
+        return limits.empty() ? StepLimit{} : limits[0];
+    };
+    settings.hair_hair.attraction = static_cast<float>(4.0 * theory);
+    const StepLimit found = limit();
+    EXPECT_STREQ(found.field, "/simulation/hair_hair/attraction");
+    EXPECT_EQ(found.set, double{settings.hair_hair.attraction});
+    EXPECT_NEAR(found.used / theory, 1.0, 1e-5);
+    EXPECT_NEAR(found.longest_step / double{settings.time_step}, 0.5, 1e-5);
+
+    // The device uses what it says, except for the rounding of the number.
+    const auto accelerations = [&] {
+        VolumeRig rig(device(), groom, settings);
+        return rig.accelerations(groom.points, groom.points);
+    };
+    const auto limited = accelerations();
+    EXPECT_GT(greatestLength(limited), 0.0);
+    settings.hair_hair.attraction = static_cast<float>(found.used);
+    EXPECT_LT(largestDifference(accelerations(), limited), 1e-5 * greatestLength(limited));
+
+    settings.hair_hair.attraction = static_cast<float>(4.0 * theory);
+    settings.hair_hair.cohesion = 0.1f;
+    EXPECT_NEAR(limit().used / theory, 0.5, 1e-5);
+    settings.hair_hair.cohesion = 0.0f;
+    settings.time_step = static_cast<float>(0.999 * found.longest_step);
+    EXPECT_TRUE(limitedBySteps(groom, settings).empty());
+    settings.hair_hair.repulsion = static_cast<float>(2.04 * speed * speed);
+    EXPECT_STREQ(limit().field, "/simulation/hair_hair/repulsion");
+}
+
 TEST_F(HairOnHair, IsLikeTheReference) {
     for (const std::uint32_t vertices : {2u, 9u, 33u})
         for (const SimulationSettings& settings :
