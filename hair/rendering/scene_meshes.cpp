@@ -176,8 +176,7 @@ MeshGeometry::MeshGeometry(
     }
 }
 
-// ---- Light that scatters in skin
-// ------------------------------------------------------------------
+// ---- Light that scatters in skin ----------------------------------------------------------------
 
 std::vector<float> curvatures(const groom::Mesh& mesh) {
     std::map<std::array<float, 3>, std::uint32_t> places;
