@@ -342,7 +342,7 @@ const fs::path& sceneFolder() {
         // scene.schema.json marks the topmost folder from which scenes may name files, so the inner
         // folder has none.
         copyScenes(shipped, own, "scene.schema.json");
-        copyScenes(shipped / "portraits", own);
+        for (const char* inner : {"portraits", "truth"}) copyScenes(shipped / inner, own);
         return own;
     }();
     return folder;
