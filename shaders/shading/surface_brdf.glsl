@@ -29,12 +29,20 @@ float smithVisibility(float cosine, float alpha_squared) {
     return 1.0 / (cosine + sqrt(alpha_squared + (1.0 - alpha_squared) * cosine * cosine));
 }
 
-// The matt part of surfaceBrdf(), also for light that scatters to the point from elsewhere.
+// Schlick 1994: how far reflection has grown to that of grazing light.
+float grazingPart(float v_dot_h) { return pow(1.0 - v_dot_h, 5.0); }
+
+// The matt part of surfaceBrdf(). A dielectric scatters the light that it does not reflect.
+vec3 mattPart(Surface surface, float grazing) {
+    return (1.0 - kDielectric) * (1.0 - grazing) * scattered(surface) / kSurfacePi;
+}
+
+// The same, also for light that scatters to the point from elsewhere: the directions may be
+// opposite.
 vec3 mattBrdf(Surface surface, vec3 to_eye, vec3 to_light) {
     vec3 middle = to_eye + to_light;
     middle *= inversesqrt(max(dot(middle, middle), 1e-12));
-    float grazing = pow(1.0 - clamp(dot(to_eye, middle), 0.0, 1.0), 5.0);
-    return (1.0 - kDielectric) * (1.0 - grazing) * scattered(surface) / kSurfacePi;
+    return mattPart(surface, grazingPart(clamp(dot(to_eye, middle), 0.0, 1.0)));
 }
 
 // f, 1/sr. All directions are unit vectors away from the surface. 0 for light from behind it.
@@ -51,12 +59,10 @@ vec3 surfaceBrdf(Surface surface, vec3 normal, vec3 to_eye, vec3 to_light) {
     float distribution = alpha_squared / (kSurfacePi * spread * spread);
     float visible = smithVisibility(n_dot_l, alpha_squared) *
                     smithVisibility(abs(dot(normal, to_eye)), alpha_squared);
-    // Schlick 1994. A dielectric scatters the light that it does not reflect.
-    float grazing = pow(1.0 - v_dot_h, 5.0);
+    float grazing = grazingPart(v_dot_h);
     vec3 straight = reflectance(surface);
     vec3 fresnel = straight + (1.0 - straight) * grazing;
-    vec3 diffuse = (1.0 - kDielectric) * (1.0 - grazing) * scattered(surface) / kSurfacePi;
-    return diffuse + fresnel * distribution * visible;
+    return mattPart(surface, grazing) + fresnel * distribution * visible;
 }
 
 // The light that a surface sends to the eye from a rectangle of radiance 1.
@@ -101,10 +107,8 @@ RectangleReflection rectangleBrdf(Surface surface, vec3 normal, vec3 to_eye, vec
     }
     float along = dot(seen, normal);
     vec3 straight = reflectance(surface);
-    vec3 middle = normalize(to_eye + to_light);
-    float matt_grazing = pow(1.0 - clamp(dot(to_eye, middle), 0.0, 1.0), 5.0);
-    RectangleReflection result = RectangleReflection(
-        (1.0 - kDielectric) * (1.0 - matt_grazing) * scattered(surface) / kSurfacePi, vec3(0.0));
+    RectangleReflection result =
+        RectangleReflection(mattBrdf(surface, to_eye, to_light), vec3(0.0));
     if (along <= 1e-9) return result;
 
     vec3 facet = normalize(alpha * (seen - along * normal) + along * normal);
@@ -112,7 +116,7 @@ RectangleReflection rectangleBrdf(Surface surface, vec3 normal, vec3 to_eye, vec
     float n_dot_l = max(dot(normal, 2.0 * v_dot_h * facet - to_eye), 1e-3);
     float visible = smithVisibility(n_dot_l, alpha * alpha) *
                     smithVisibility(abs(dot(normal, to_eye)), alpha * alpha);
-    vec3 fresnel = straight + (1.0 - straight) * pow(1.0 - v_dot_h, 5.0);
+    vec3 fresnel = straight + (1.0 - straight) * grazingPart(v_dot_h);
     // The integral of D cos(h) dh is along / pi, and dl = 4 (v.h) dh.
     result.glossy = fresnel * (along / kSurfacePi) * visible * 4.0 * v_dot_h * n_dot_l /
                     max(dot(normal, facet), 1e-3);
